@@ -1,0 +1,883 @@
+#!/usr/bin/env python3
+"""The checker: rebuilds every statement from its text and takes a certificate as a hint.
+
+This file is all that must be believed.  It uses the standard library only, exact integers only, and runs alone:
+
+    python -I -S certificates/checker.py [DIR]
+
+DIR holds `statements.txt`, which an auditor reads, and one `ID.json` of certificates for each claim.  The statement
+`ID/part` is settled by the entry of that name in `ID.json`.  Exit 0: nothing rejected; 1: a certificate rejected or
+missing; 2: unusable input.  PROOF RULES and STATEMENT RULES below state every rule in full where it is applied.
+"""
+
+import ast
+import json
+import os
+import re
+import sys
+from fractions import Fraction
+from math import gcd, lcm
+
+MAX_DEGREE, MAX_VARIABLES, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 40000, 10**8, 64 << 20
+BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
+
+
+class Rejected(Exception):
+    """A certificate does not prove its statement, or a statement says nothing: the reason, then the offending object."""
+
+    def __init__(self, reason, offender=""):
+        text = str(offender)
+        super().__init__(reason + (": " if text else "") + (text if len(text) < 300 else text[:300] + "..."))
+
+
+class Work:
+    """Counts elementary products, so that a hostile file ends as a rejection instead of a hang."""
+
+    left = MAX_WORK
+
+    @classmethod
+    def spend(cls, amount):
+        cls.left -= amount
+        if cls.left < 0:
+            raise Rejected("too much work")
+
+
+# ------------------------------------------------------------ polynomials: {packed exponents: integer} over one denominator
+
+
+class Poly:
+    """A polynomial with rational coefficients, and a bound on its total degree."""
+
+    __slots__ = ("terms", "den", "deg")
+
+    def __init__(self, terms, den, deg):
+        if deg > MAX_DEGREE or den.bit_length() > MAX_BITS:
+            raise Rejected("a polynomial is too large", f"degree {deg}")
+        self.terms, self.den, self.deg = terms, den, deg
+
+    def __add__(self, other):
+        den = lcm(self.den, other.den)
+        a, b = den // self.den, den // other.den
+        terms = {m: c * a for m, c in self.terms.items()} if a > 1 else dict(self.terms)
+        for m, c in other.terms.items():
+            total = terms.get(m, 0) + c * b
+            if total:
+                terms[m] = total
+            else:
+                del terms[m]
+        return Poly(terms, den, max(self.deg, other.deg))
+
+    def __mul__(self, other):
+        Work.spend(len(self.terms) * len(other.terms) + 1)
+        terms = {}
+        for m, c in self.terms.items():
+            for n, d in other.terms.items():
+                terms[m + n] = terms.get(m + n, 0) + c * d
+        if any(c.bit_length() > MAX_BITS for c in terms.values()):
+            raise Rejected("a coefficient is too large")
+        return Poly({m: c for m, c in terms.items() if c}, self.den * other.den, self.deg + other.deg)
+
+    def __neg__(self):
+        return Poly({m: -c for m, c in self.terms.items()}, self.den, self.deg)
+
+    def __sub__(self, other):
+        return self + -other
+
+    def __pow__(self, exponent):
+        result = ONE
+        for _ in range(exponent):
+            result = result * self
+        return result
+
+    def constant(self):
+        """The value of a constant polynomial; None for any other."""
+        return Fraction(self.terms.get(0, 0), self.den) if self.terms.keys() <= {0} else None
+
+    def primitive(self):
+        """(content, primitive part): coprime integer coefficients, that of the largest monomial positive."""
+        content = gcd(*self.terms.values()) * (-1 if self.terms[max(self.terms)] < 0 else 1)
+        return Fraction(content, self.den), Poly({m: c // content for m, c in self.terms.items()}, 1, self.deg)
+
+
+def number(value):
+    value = Fraction(value)
+    return Poly({0: value.numerator} if value else {}, value.denominator, 0)
+
+
+ONE, ZERO = number(1), number(0)
+
+
+class Ratio:
+    """num / product of licensed polynomials: den maps the number of a polynomial known to be nonzero to its exponent."""
+
+    __slots__ = ("num", "den")
+
+    def __init__(self, num, den=None):
+        self.num, self.den = num, den or {}
+
+
+# ------------------------------------------------------------ text: Python's expression syntax, with ^ and = as in mathematics
+
+
+def parse(text):
+    """The syntax tree of a term or formula: integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,), iff(,)."""
+    if not isinstance(text, str) or len(text) > 1 << 20 or re.search(r"[^\w +\-*/^()<>=!,]|\*\*|//|<<|>>|==|<>", text, re.ASCII):
+        raise Rejected("unreadable text", text)
+    try:
+        return ast.parse(re.sub(r"(?<![<>!])=", "==", text.replace("^", "**")).strip(), mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise Rejected("unreadable text", text) from None
+
+
+def name_in(node):
+    if not isinstance(node, ast.Name) or node.id in ("implies", "iff", "sqrt", "root"):
+        raise Rejected("expected a name", ast.unparse(node))
+    return node.id
+
+
+def parts(node):
+    return node.elts if isinstance(node, ast.Tuple) else [node]
+
+
+OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
+OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "=": "!=", "!=": "="}
+
+
+def fold(poly, relation):
+    """The atom poly relation 0; True or False where the polynomial is constant."""
+    value = poly.constant()
+    if value is None:
+        return ("atom", poly, relation)
+    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
+
+
+def join(op, formulas):
+    """The conjunction or disjunction, without constants and without joins of the same kind inside."""
+    flat = []
+    for formula in formulas:
+        if formula is (op == "or"):
+            return formula
+        if not isinstance(formula, bool):
+            flat.extend(formula[1] if formula[0] == op else [formula])
+    return op == "and" if not flat else flat[0] if len(flat) == 1 else (op, flat)
+
+
+class Context:
+    """What has been declared so far: variables, the values of names, and the polynomials that a strict line made nonzero."""
+
+    def __init__(self, outer=None, values=None):
+        self.index, self.integers = (dict(outer.index), set(outer.integers)) if outer else ({}, set())
+        self.licensed, self.licence = (list(outer.licensed), dict(outer.licence)) if outer else ([], {})
+        self.values = dict(values if values is not None else outer.values if outer else {})
+
+    def plain(self):
+        """The same context with the keys of its variables as the only names: certificates speak of variables in this way."""
+        values = {key: Ratio(Poly({1 << (BITS * i): 1}, 1, 1)) for key, i in self.index.items()}
+        return self if self.values.keys() == values.keys() else Context(self, values)
+
+    def declare(self, name, integral=False):
+        """A fresh variable; where another scope has one of this name, its key grows by underscores, so that the two stay apart."""
+        key = name
+        while key in self.index:
+            key += "_"
+        if len(self.index) >= MAX_VARIABLES:
+            raise Rejected("too many variables", name)
+        self.define(name, Ratio(Poly({1 << (BITS * len(self.index)): 1}, 1, 1)))
+        self.index[key] = len(self.index)
+        if integral:
+            self.integers.add(key)
+
+    def define(self, name, ratio):
+        if name in self.values or not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
+            raise Rejected("a name is declared twice, or is none", name)
+        self.values[name] = ratio
+
+    def license(self, formula):
+        """A strict line, at top level or inside a top-level `and`, makes its polynomial nonzero (and tells its sign)."""
+        if isinstance(formula, bool):
+            return
+        if formula[0] == "and":
+            for part in formula[1]:
+                self.license(part)
+        if formula[0] == "atom" and formula[2] in (">", "!="):
+            content, key = formula[1].primitive()
+            mark, positive = frozenset(key.terms.items()), formula[2] == ">"
+            if mark not in self.licence or positive and not self.licensed[self.licence[mark]][1]:
+                self.licence[mark] = len(self.licensed)
+                self.licensed.append((key if content > 0 else -key, positive))
+
+    def over(self, ratio, den):
+        """The numerator of the ratio over the larger denominator den."""
+        num = ratio.num
+        for i in sorted(den):
+            num = num * self.licensed[i][0] ** (den[i] - ratio.den.get(i, 0))
+        return num
+
+    def subtract(self, a, b):
+        den = {i: max(a.den.get(i, 0), b.den.get(i, 0)) for i in {*a.den, *b.den}}
+        return Ratio(self.over(a, den) - self.over(b, den), den)
+
+    def multiply(self, a, b):
+        return Ratio(a.num * b.num, {i: a.den.get(i, 0) + b.den.get(i, 0) for i in {*a.den, *b.den}})
+
+    def reciprocal(self, node):
+        """1 / node, where node is nonzero: a number, licensed as a whole, or a product, quotient or power of such."""
+        ratio = self.value(node)
+        constant = ratio.num.constant()
+        if constant == 0:
+            raise Rejected("division by zero", ast.unparse(node))
+        content, key = ratio.num.primitive()
+        found = self.licence.get(frozenset(key.terms.items()))
+        if constant is not None or found is not None:
+            if constant is None and self.licensed[found][0].terms != key.terms:
+                content = -content
+            upper = self.over(Ratio(ONE), ratio.den)
+            return Ratio(upper * number(1 / (constant or content)), {found: 1} if constant is None else {})
+        if isinstance(node, ast.UnaryOp):
+            return self.multiply(self.reciprocal(node.operand), Ratio(number(-1)))
+        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
+            right = self.reciprocal(node.right) if isinstance(node.op, ast.Mult) else self.value(node.right)
+            return self.multiply(self.reciprocal(node.left), right)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            inner = self.reciprocal(node.left)
+            exponent = node.right.value
+            return Ratio(inner.num ** exponent, {i: e * exponent for i, e in inner.den.items()})
+        raise Rejected("division by what may vanish; no strict line before it makes this nonzero", self.show(ratio.num))
+
+    def value(self, node):
+        """The value of a term, as a Ratio."""
+        if isinstance(node, ast.Constant) and type(node.value) is int:
+            return Ratio(number(node.value))
+        if isinstance(node, ast.Name):
+            if node.id not in self.values:
+                raise Rejected("an undeclared name", node.id)
+            return self.values[node.id]
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            return self.multiply(self.value(node.operand), Ratio(number(-1)))
+        if isinstance(node, ast.BinOp):
+            left, op = self.value(node.left), node.op
+            if isinstance(op, ast.Pow) and isinstance(node.right, ast.Constant) and type(node.right.value) is int:
+                exponent = node.right.value
+                if not 0 <= exponent <= MAX_DEGREE:
+                    raise Rejected("an exponent is too large", exponent)
+                return Ratio(left.num**exponent, {i: e * exponent for i, e in left.den.items() if exponent})
+            if isinstance(op, ast.Add):
+                return self.subtract(left, self.multiply(self.value(node.right), Ratio(number(-1))))
+            if isinstance(op, ast.Sub):
+                return self.subtract(left, self.value(node.right))
+            if isinstance(op, (ast.Mult, ast.Div)):
+                return self.multiply(left, self.value(node.right) if isinstance(op, ast.Mult) else self.reciprocal(node.right))
+        raise Rejected("not a term", ast.unparse(node))
+
+    def polynomial(self, text):
+        ratio = self.value(parse(text))
+        if ratio.den:
+            raise Rejected("expected a polynomial", text)
+        return ratio.num
+
+    def atom(self, left, relation, right):
+        """left relation right as p > 0, p >= 0, p = 0 or p != 0: the difference times what is positive wherever it is defined."""
+        ratio = self.subtract(right, left) if relation in ("<", "<=") else self.subtract(left, right)
+        for i, exponent in sorted(ratio.den.items()):
+            if exponent % 2 and relation not in ("=", "!=") and not self.licensed[i][1]:
+                ratio = Ratio(ratio.num * self.licensed[i][0], ratio.den)
+        return fold(ratio.num, {"<": ">", "<=": ">="}.get(relation, relation))
+
+    def formula(self, node, truth=True):
+        """The formula, or its negation, with `not` driven down to atoms: ("atom", p, relation), ("and", ..), ("or", ..) or a bool."""
+        both, either = ("and", "or") if truth else ("or", "and")
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+            return self.formula(node.operand, not truth)
+        if isinstance(node, ast.BoolOp):
+            return join(both if isinstance(node.op, ast.And) else either, [self.formula(part, truth) for part in node.values])
+        if isinstance(node, ast.Compare) and all(type(op) in OPERATORS for op in node.ops):
+            sides, signs = [self.value(side) for side in (node.left, *node.comparators)], [OPERATORS[type(op)] for op in node.ops]
+            return join(both, [self.atom(a, s if truth else OPPOSITE[s], b) for a, s, b in zip(sides, signs, sides[1:])])
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and len(node.args) == 2 and not node.keywords:
+            left, right = node.args
+            if node.func.id == "implies":
+                return join(either, [self.formula(left, not truth), self.formula(right, truth)])
+            if node.func.id == "iff":
+                return join("and", [join("or", [self.formula(left, False), self.formula(right, truth)]),
+                                    join("or", [self.formula(left, True), self.formula(right, not truth)])])
+        raise Rejected("not a formula", ast.unparse(node))
+
+    def show(self, poly):
+        """A polynomial as text, for messages and searches."""
+        text = ""
+        for m in sorted(poly.terms, reverse=True):
+            c = Fraction(poly.terms[m], poly.den)
+            powers = [(n, (m >> (BITS * i)) % (1 << BITS)) for n, i in self.index.items()]
+            factors = [n if e == 1 else f"{n}^{e}" for n, e in powers if e]
+            factors = ([str(abs(c))] if abs(c) != 1 or not factors else []) + factors
+            text += (" - " if c < 0 else " + ") + "*".join(factors)
+        return (text[3:] if text[:3] == " + " else "-" + text[3:]) if text else "0"
+
+
+def variables_of(context, poly):
+    return {n for n, i in context.index.items() if any((m >> (BITS * i)) % (1 << BITS) for m in poly.terms)}
+
+
+# ------------------------------------------------------------ polynomials in one variable: lists of Fractions from the constant up
+
+
+def univariate(context, poly, name):
+    if variables_of(context, poly) != {name}:
+        raise Rejected(f"expected a polynomial in {name} alone", context.show(poly))
+    shift = BITS * context.index[name]
+    return [Fraction(poly.terms.get(k << shift, 0), poly.den) for k in range((max(poly.terms) >> shift) + 1)]
+
+
+def evaluate(p, at):
+    value = Fraction(0)
+    for c in reversed(p):
+        value = value * at + c
+    return value
+
+
+def remainder(p, q):
+    rest = list(p)
+    while len(rest) >= len(q):
+        factor, shift = rest[-1] / q[-1], len(rest) - len(q)
+        Work.spend(len(q))
+        rest = [c - factor * q[k - shift] if k >= shift else c for k, c in enumerate(rest)][:-1]
+        while rest and rest[-1] == 0:
+            rest.pop()
+    return rest
+
+
+def count_roots(p, low, high):
+    """The number of distinct real roots in the half-open interval (low, high], by Sturm's theorem; p is not 0 at the ends."""
+    chain = [p, [k * c for k, c in enumerate(p)][1:]]
+    while chain[-1]:
+        chain.append([-c for c in remainder(chain[-2], chain[-1])])
+    signs = [[value > 0 for value in (evaluate(q, at) for q in chain if q) if value] for at in (low, high)]
+    changes = [sum(a != b for a, b in zip(s, s[1:])) for s in signs]
+    if evaluate(p, low) == 0 or evaluate(p, high) == 0:
+        raise Rejected("a polynomial vanishes at an end of the interval")
+    return changes[0] - changes[1]
+
+
+# ------------------------------------------------------------ states
+
+
+class State:
+    """What is assumed on one branch of a proof: facts (polynomial, relation) that all hold, and disjunctions still open."""
+
+    def __init__(self, context, facts=(), choices=(), closed=False):
+        self.context, self.facts, self.choices, self.closed = context.plain(), list(facts), list(choices), closed
+
+    def assume(self, formula):
+        if isinstance(formula, bool):
+            self.closed = self.closed or not formula
+        elif formula[0] == "atom":
+            self.facts.append(formula[1:])
+        elif formula[0] == "and":
+            for part in formula[1]:
+                self.assume(part)
+        else:
+            self.choices.append(formula[1])
+        return self
+
+    def branch(self, formula=True, context=None):
+        return State(context or self.context, self.facts, self.choices, self.closed).assume(formula)
+
+    def by_sign(self, text):
+        """The three states in which the polynomial is < 0, = 0 and > 0."""
+        poly = self.context.polynomial(text)
+        return [self.branch(fold(p, relation)) for p, relation in ((-poly, ">"), (poly, "="), (poly, ">"))]
+
+
+def at(sequence, index):
+    if type(index) is not int or not 0 <= index < len(sequence):
+        raise Rejected("nothing has this number", index)
+    return sequence[index]
+
+
+def rational(value):
+    """An exact rational: an int, or the text p or p/q."""
+    if type(value) is int or isinstance(value, str) and re.fullmatch(r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?", value, re.ASCII):
+        return Fraction(value)
+    raise Rejected("expected an exact rational", value)
+
+
+# ------------------------------------------------------------ PROOF RULES: each closes a state, that is, shows that it has no point
+
+
+def close_at_once(state, known):
+    """["close"]: the state assumes a false constant, such as 1 < 0."""
+    if not state.closed:
+        raise Rejected("nothing false is assumed", "; ".join(f"{state.context.show(p)} {r} 0" for p, r in state.facts))
+
+
+def close_by_positivstellensatz(state, known, products, equations):
+    """["psatz", [[c, [[i, e], ...], q], ...], [[j, m], ...]]:
+
+    sum c * prod fact_i^e * q^2  +  sum m * fact_j  =  0 identically, where every c is a rational > 0, every fact_i is > 0 or >= 0
+    (or != 0, with e even), every fact_j is an equation, and one term at least is > 0: its facts are all strict and q is
+    a constant other than 0.  So 0 > 0.  Identities, cofactors of equations, Handelman and Bernstein forms are special cases.
+    """
+    total, strict, powers = ZERO, False, {}
+    for coefficient, factors, root in products:
+        coefficient, square = rational(coefficient), state.context.polynomial(root)
+        product, positive = number(coefficient), bool(square.constant())
+        if coefficient <= 0:
+            raise Rejected("a coefficient is not positive", coefficient)
+        for index, exponent in factors:
+            poly, relation = at(state.facts, index)
+            if type(exponent) is not int or not 0 < exponent <= MAX_DEGREE or relation == "=" or relation == "!=" and exponent % 2:
+                raise Rejected("a factor of unknown sign", f"({state.context.show(poly)} {relation} 0)^{exponent}")
+            if (index, exponent) not in powers:
+                powers[index, exponent] = poly**exponent
+            product, positive = product * powers[index, exponent], positive and relation != ">="
+        total, strict = total + (product if root == "1" else product * square * square), strict or positive
+    for index, cofactor in equations:
+        poly, relation = at(state.facts, index)
+        if relation != "=":
+            raise Rejected("not an equation", state.context.show(poly))
+        total = total + poly * state.context.polynomial(cofactor)
+    if total.terms:
+        raise Rejected("the certificate's sum is not zero", state.context.show(total))
+    if not strict:
+        raise Rejected("no term of the certificate is strictly positive")
+
+
+def close_by_cases(state, known, index, nodes):
+    """["cases", k, [node, ...]]: one node for each alternative of the k-th open disjunction."""
+    alternatives, rest = at(state.choices, index), state.branch()
+    del rest.choices[index]
+    if len(nodes) != len(alternatives):
+        raise Rejected("a disjunction needs one node for each alternative", len(alternatives))
+    for alternative, node in zip(alternatives, nodes):
+        close(rest.branch(alternative), node, known)
+
+
+def close_by_sign(state, known, text, below, zero, above):
+    """["sign", p, node, node, node]: p < 0, p = 0 or p > 0."""
+    for case, node in zip(state.by_sign(text), (below, zero, above)):
+        close(case, node, known)
+
+
+def close_by_interval(state, known, index, low, high):
+    """["interval", i, j, k]: fact i is p > 0 or p >= 0 in one variable; facts j and k say low <= it and it <= high (or strictly).
+
+    p is not 0 at low and high, has no root between them (Sturm), and is negative at low: so fact i fails on all of [low, high].
+    """
+    (poly, relation), ends = at(state.facts, index), []
+    (name,) = variables_of(state.context, poly)
+    for side, bound in ((1, low), (-1, high)):
+        line, sense = at(state.facts, bound)
+        coefficients = univariate(state.context, line, name)
+        if len(coefficients) != 2 or sense not in (">", ">=") or coefficients[1] * side <= 0:
+            raise Rejected("not a bound of the right sense", state.context.show(line))
+        ends.append(-coefficients[0] / coefficients[1])
+    p = univariate(state.context, poly, name)
+    if relation not in (">", ">=") or ends[0] <= ends[1] and (evaluate(p, ends[0]) >= 0 or ends[0] < ends[1] and count_roots(p, *ends)):
+        raise Rejected("the fact does not fail on the whole interval", state.context.show(poly))
+
+
+def close_by_integrality(state, known, index, node):
+    """["integral", i, node]: fact i is p > 0 with integer coefficients in integer variables only, so p - 1 >= 0."""
+    poly, relation = at(state.facts, index)
+    if relation != ">" or not variables_of(state.context, poly) <= state.context.integers or any(c % poly.den for c in poly.terms.values()):
+        raise Rejected("not a strict fact with integer coefficients in integers", state.context.show(poly))
+    close(state.branch(fold(poly - ONE, ">=")), node, known)
+
+
+def close_by_use(state, known, name, arguments, fresh, node):
+    """["use", name, {variable: term}, {variable: fresh name}, node]: an instance of an earlier certified statement.
+
+    The instance is the formula (its range, givens and haves => what it shows) for any terms in place of its variables, an integer
+    variable standing for an integer one or a numeral; what it says to exist is named by variables that do not yet occur.
+    """
+    if name not in known:
+        raise Rejected("no earlier certified statement of this name", name)
+    context = Context(state.context)
+    values = {variable: state.context.value(parse(text)) for variable, text in arguments.items()}
+    for variable, new in sorted(fresh.items()):
+        context.declare(new)
+        values[variable] = context.values[new]
+    story = Unfolding(known[name], Context(context, values))
+    if set(values) != story.variables or set(arguments) != set(story.universal) or not all(
+            is_integral(state.context, arguments[variable]) for variable in story.integers):
+        raise Rejected("an instance gives every variable one value, an integer one an integer", name)
+    close(state.branch(join("or", [story.negated(story.premises), story.goal(True)]), context), node, known)
+
+
+def is_integral(context, text):
+    return text in context.integers or re.fullmatch(r"-?\d+", text, re.ASCII) is not None
+
+
+RULES = {"close": close_at_once, "psatz": close_by_positivstellensatz, "cases": close_by_cases, "sign": close_by_sign,
+         "interval": close_by_interval, "integral": close_by_integrality, "use": close_by_use}
+
+
+def close(state, node, known):
+    """Shows that the state has no point, by the rule that the node names."""
+    if not isinstance(node, list) or not node or not isinstance(node[0], str) or node[0] not in RULES:
+        raise Rejected("an unknown rule", node)
+    RULES[node[0]](state, known, *node[1:])
+
+
+# ------------------------------------------------------------ statements
+
+LINES = {  # what follows each keyword
+    "forall": "names", "integer": "names", "exists": "names", "over": "names", "sharp": "words", "let": "definition",
+    "root": "call", "number": "call", "range": "tree", "given": "tree", "have": "tree", "with": "tree", "show": "tree",
+    "domain": "tree", "holds": "tree", "iterates": "map", "after": "power"}
+ORDERS = {  # the lines that each kind of statement has, in this order, so that none can be overlooked
+    "universal": r"(forall )?(integer )?((range|given|have|let|root) )*(exists ((with|let) )*)?show ",
+    "sharp": r"sharp over domain (number )*holds ",
+    "iterates": r"forall integer (let )*iterates after "}
+
+
+class Statement:
+    """One statement as text: its name, its kind, and its lines in order as (keyword, what it says)."""
+
+    def __init__(self, name):
+        self.name, self.kind, self.lines = name, "universal", []
+
+    def add(self, keyword, text):
+        form = LINES.get(keyword)
+        if form == "names":
+            said = text.split()
+        elif form == "words":
+            self.kind, said = keyword, text.split()
+        elif form == "tree":
+            said = parse(text)
+        elif form in ("definition", "call"):
+            name, _, rest = text.partition(" = ")
+            said = (name, parse(rest))
+            if form == "call":
+                call = said[1]
+                if not isinstance(call, ast.Call) or ast.unparse(call.func) != {"root": "sqrt", "number": "root"}[keyword] or call.keywords:
+                    raise Rejected("expected sqrt(term), or root(polynomial, low, high)", text)
+                said = (name, call.args)
+        elif form in ("map", "power"):
+            left, _, right = text.partition(" -> ")
+            said = ([name_in(node) for node in parts(parse(left))], parts(parse(right)))
+            self.kind = "iterates"
+        else:
+            raise Rejected("an unknown kind of line", keyword)
+        self.lines.append((keyword, said))
+
+    def get(self, keyword):
+        return [said for key, said in self.lines if key == keyword]
+
+    def check(self):
+        line = "".join(keyword + " " for keyword, _ in self.lines)
+        if not re.fullmatch(ORDERS[self.kind], line):
+            raise Rejected("the lines of a statement are missing or out of order", f"{self.name}: {line}")
+
+
+def read_statements(text):
+    """The statements of a file in order; a blank line or a line that starts with # says nothing."""
+    statements, current = {}, None
+    for count, line in enumerate(text.split("\n"), 1):
+        keyword, _, rest = line.strip().partition(" ")
+        try:
+            if keyword == "statement":
+                if not re.fullmatch(r"[\w.\-]+/[\w.\-]+", rest, re.ASCII) or rest in statements:
+                    raise Rejected("a statement's name is not ID/part, or stands twice", rest)
+                current = statements[rest] = Statement(rest)
+            elif keyword and not keyword.startswith("#"):
+                if current is None:
+                    raise Rejected("a line before the first statement", line)
+                current.add(keyword, rest)
+        except Rejected as reason:
+            raise Rejected(f"statements, line {count}: {reason}") from None
+    for statement in statements.values():
+        statement.check()
+    return statements
+
+
+class Unfolding:
+    """A statement's lines in order, as variables, premises, obligations and goals over polynomials; each formula with its negation.
+
+    A variable whose value the context knows keeps it; any other is declared.  `sharp`: the domain and the condition of a sharp
+    range take the place of the statement's own range lines.
+    """
+
+    def __init__(self, statement, context, sharp=None):
+        self.context, self.premises, self.obligations, self.goals = context, [], [], []
+        self.variables, self.universal, self.integers = set(), [], {n for line in statement.get("integer") for n in line}
+        if set(context.values) - {n for k, said in statement.lines if k in ("forall", "exists") for n in said} - {
+                said[0] for said in statement.get("root")}:
+            raise Rejected("a value for what is not a variable", statement.name)
+        for keyword, said in statement.lines:
+            if keyword in ("forall", "exists"):
+                for name in said:
+                    self.variable(name, keyword == "forall")
+            if keyword == "forall":
+                for node in sharp or []:
+                    self.assume(node)
+            elif keyword == "given" or keyword == "range" and sharp is None:
+                self.assume(said)
+            elif keyword == "have":
+                self.obligations.append((len(self.premises), context.formula(said, False)))
+                self.assume(said)
+            elif keyword == "let":
+                context.define(said[0], context.value(said[1]))
+            elif keyword == "root":
+                name, (under,) = said
+                self.obligations.append((len(self.premises), context.atom(context.value(under), "<", Ratio(ZERO))))
+                self.variable(name, True)
+                root, value = context.values[name], context.value(under)
+                square = context.multiply(root, root)
+                for left, relation, right in ((root, ">=", Ratio(ZERO)), (square, "=", value)):
+                    self.premises.append((context.atom(left, relation, right), context.atom(left, OPPOSITE[relation], right)))
+            elif keyword in ("with", "show"):
+                self.goals.append((context.formula(said), context.formula(said, False)))
+                context.license(self.goals[-1][0])
+        if not self.integers <= self.variables:
+            raise Rejected("an integer is not among the variables", statement.name)
+
+    def variable(self, name, universal):
+        if name in self.variables:
+            raise Rejected("a variable is declared twice", name)
+        self.variables.add(name)
+        self.universal += [name] if universal else []
+        if name not in self.context.values:
+            self.context.declare(name, name in self.integers)
+
+    def assume(self, node):
+        self.premises.append((self.context.formula(node), self.context.formula(node, False)))
+        self.context.license(self.premises[-1][0])
+
+    def negated(self, pairs):
+        return join("or", [negation for _, negation in pairs])
+
+    def goal(self, truth):
+        return join("and", [formula for formula, _ in self.goals]) if truth else self.negated(self.goals)
+
+    def state(self, count=None):
+        """The state that assumes the premises, or the first `count` of them."""
+        return State(self.context).assume(join("and", [formula for formula, _ in self.premises[:count]]))
+
+
+# ------------------------------------------------------------ STATEMENT RULES: what settles a statement
+
+
+def prove(statement, certificate, known, sharp=None):
+    """For all variables: premises => goals.  ["proof", [node, ...], node] or ["witness", [node, ...], found].
+
+    The first nodes show, from the premises before it, every `have` line and that the term under every `root` is >= 0.  Then
+    either the state "premises and not goals" is closed, or terms are found for the `exists` variables that make the goals hold.
+    """
+    way, steps, last = certificate
+    story = Unfolding(statement, Context(), sharp)
+    for (count, negation), node in zip(story.obligations, steps, strict=True):
+        close(story.state(count).assume(negation), node, known)
+    if way != ("witness" if statement.get("exists") else "proof"):
+        raise Rejected("a statement with exists needs a witness, any other a proof", way)
+    if way == "proof":
+        close(story.state().assume(story.goal(False)), last, known)
+    else:
+        base = {name: story.context.values[name] for name in story.universal}
+        find(story.state(), last, known, "witness", {statement.name: statement}, base, sharp)
+
+
+def find(state, found, known, purpose, statements, base, sharp=None):
+    """Values for variables of a statement, given all that the state assumes, with nodes that show what they are for.
+
+    [name, [adjoined, ...], {variable: term}, node] for the purposes "point" (the premises hold) and "witness" (the goals hold);
+    [name, [adjoined, ...], {variable: term}, node, node] for "counterexample": the first node shows that the premises hold, the second that the
+    goals fail, whatever the `exists` variables are.  Adjoined: [new name, p, low, high, node, node] names a root of the polynomial p
+    in the new name between the terms low and high; the nodes show low <= high and p(low) <= 0, and p(high) >= 0 (intermediate value).
+    ["sign", p, found, found, found] tells p < 0, p = 0 and p > 0 apart first; ["empty", node] closes such a case.
+    """
+    if found[0] == "sign":
+        for case, part in zip(state.by_sign(found[1]), found[2:], strict=True):
+            find(case, part, known, purpose, statements, base, sharp)
+        return
+    if found[0] == "empty":
+        close(state, *found[1:], known)
+        return
+    name, adjoined, terms, node, *rest = found
+    if name not in statements or len(rest) != (purpose == "counterexample"):
+        raise Rejected("a witness of the wrong shape, or for another statement", name)
+    statement, state = statements[name], state.branch(context=Context(state.context))
+    for entry in adjoined:
+        adjoin(state, known, *entry)
+    values = {variable: state.context.value(parse(text)) for variable, text in terms.items()}
+    story = Unfolding(statement, Context(state.context, {**values, **base}), sharp)
+    needed = story.variables if purpose == "witness" else set(story.universal)
+    if set(values) & set(base) or set(values) | set(base) != needed:
+        raise Rejected("a witness gives every variable one value", sorted(needed ^ set(values) ^ set(base)))
+    if not all(is_integral(state.context, terms[n]) for n in story.integers if n in terms):
+        raise Rejected("an integer variable needs an integer value", sorted(story.integers))
+    close(state.branch(story.negated(story.goals if purpose == "witness" else story.premises)), node, known)
+    for last in rest:
+        close(state.branch(story.goal(True), story.context), last, known)
+
+
+def adjoin(state, known, name, text, low, high, below, above):
+    """Adds a variable with p = 0 and low <= it <= high, after showing that low <= high and p(low) <= 0, and that p(high) >= 0."""
+    context, zero, tree = state.context, Ratio(ZERO), parse(text)
+    ends = [context.value(parse(end)) for end in (low, high)]
+    first, second = (Context(context, {**context.values, name: end}).value(tree) for end in ends)
+    close(state.branch(join("or", [context.atom(ends[0], ">", ends[1]), context.atom(first, ">", zero)])), below, known)
+    close(state.branch(context.atom(second, "<", zero)), above, known)
+    context.declare(name)
+    root = context.values[name]
+    for left, relation, right in ((root, ">=", ends[0]), (root, "<=", ends[1]), (context.value(tree), "=", zero)):
+        state.assume(context.atom(left, relation, right))
+
+
+def check_sharp(statement, certificate, known, statements):
+    """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).  [{name: prove}, found].
+
+    A statement's own range lines give way to the domain and the condition.  Inside, each statement is proved; outside, counterexamples to
+    one of them are found.  Each `number` line: its polynomial has exactly one root between its ends, where it changes its sign.
+    """
+    (names,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
+    inside, outside = certificate
+    state = State(Context())
+    for parameter in over:
+        state.context.declare(parameter)
+    for name, (tree, *ends) in statement.get("number"):
+        poly, low, high = state.context.value(tree).num, *(state.context.value(end).num.constant() for end in ends)
+        p = univariate(state.context, poly, *variables_of(state.context, poly))
+        if low >= high or count_roots(p, low, high) != 1 or evaluate(p, low) * evaluate(p, high) >= 0:
+            raise Rejected("not one root, with a change of sign, between the ends of a number", name)
+    if not names or set(inside) != set(names) or not all(n in statements and statements[n].kind == "universal" for n in names):
+        raise Rejected("a sharp range proves each of its earlier statements", names)
+    for name in names:
+        prove(statements[name], inside[name], known, [domain, condition])
+    state.assume(state.context.formula(domain)).assume(state.context.formula(condition, False))
+    state.context.license(state.context.formula(domain))
+    base = {parameter: state.context.values[parameter] for parameter in over}
+    find(state, outside, known, "counterexample", {name: statements[name] for name in names}, base, [domain])
+
+
+def check_iterates(statement, certificate, known, statements):
+    """The K-th iterate of the map, for every integer K >= 0: P(0) is the identity and map(P(K)) = P(K + 1), as identities.  []"""
+    (variables,), (integers,), ((arguments, images),), ((count, powers),) = (
+        statement.get(keyword) for keyword in ("forall", "integer", "iterates", "after"))
+    if certificate != [] or arguments != variables[:len(arguments)] or not len(arguments) == len(images) == len(powers) or count != integers or (
+            set(count) & set(arguments)):
+        raise Rejected("a map names its variables first, an image for each, and one integer apart", statement.name)
+    context = Context()
+    for name in variables:
+        context.declare(name)
+    plain, (k,) = dict(context.values), count
+
+    def image(trees, changes):
+        inner = Context(context, {**plain, **changes})
+        for name, tree in statement.get("let"):
+            inner.define(name, inner.value(tree))
+        return [inner.value(tree) for tree in trees]
+
+    pairs = [*zip(image(powers, {k: Ratio(ZERO)}), (plain[name] for name in arguments)),
+             *zip(image(images, dict(zip(arguments, image(powers, {})))), image(powers, {k: context.value(parse(k + " + 1"))}))]
+    for left, right in pairs:
+        if context.subtract(left, right).num.terms:
+            raise Rejected("an iterate does not satisfy its recurrence", statement.name)
+
+
+def settle(statement, certificate, known, statements):
+    """The outcome: {"unknown": why}, {"refuted": found}, {"certified": proof} or, for what has variables, also {"point": found}.
+
+    A certified statement with variables carries a point that meets its premises, so that it says something.  Refuted: a counterexample.
+    """
+    kind = sorted(certificate)
+    if kind == ["unknown"]:
+        return "unknown"
+    if statement.kind != "universal" and kind == ["certified"]:
+        check = check_sharp if statement.kind == "sharp" else check_iterates
+        check(statement, certificate["certified"], known, statements)
+        return "certified"
+    named = {statement.name: statement}
+    if statement.kind == "universal" and kind == ["refuted"]:
+        find(State(Context()), certificate["refuted"], known, "counterexample", named, {})
+        return "refuted"
+    if statement.kind == "universal" and kind == (["certified", "point"] if statement.get("forall") else ["certified"]):
+        prove(statement, certificate["certified"], known)
+        if "point" in certificate:
+            find(State(Context()), certificate["point"], known, "point", named, {})
+        return "certified"
+    raise Rejected("a certificate with missing or left over keys", kind)
+
+
+# ------------------------------------------------------------ files
+
+
+def unique(pairs):
+    if len(dict(pairs)) != len(pairs):
+        raise Rejected("a key stands twice", sorted(key for key, _ in pairs))
+    return dict(pairs)
+
+
+def refuse(text):
+    raise Rejected("not an exact integer", text)
+
+
+def load(path):
+    try:
+        if os.path.getsize(path) > MAX_FILE:
+            raise Rejected("a file is too large", path)
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+    except (OSError, UnicodeDecodeError) as error:
+        raise Rejected("a file cannot be read", f"{path} ({type(error).__name__})") from None
+
+
+def read_certificates(text):
+    try:
+        data = json.loads(text, object_pairs_hook=unique, parse_float=refuse, parse_constant=refuse)
+    except (ValueError, RecursionError) as error:
+        raise Rejected("not a certificate file", error) from None
+    if not isinstance(data, dict):
+        raise Rejected("not a certificate file")
+    return data
+
+
+def check_one(statement, certificate, known, earlier):
+    """(outcome, reason) of one statement; whatever is wrong with the certificate is a rejection, never a crash."""
+    Work.left = MAX_WORK
+    try:
+        return settle(statement, certificate, known, earlier), ""
+    except Rejected as reason:
+        return "rejected", str(reason)
+    except (RecursionError, MemoryError, ValueError, TypeError, KeyError, AttributeError, IndexError, OverflowError) as error:
+        return "rejected", f"malformed certificate ({type(error).__name__})"
+
+
+def check_folder(folder):
+    """[(name, outcome, reason)] for every statement of a folder in order, and for every certificate that has no statement."""
+    statements, files, results, known, earlier = read_statements(load(os.path.join(folder, "statements.txt"))), {}, [], {}, {}
+    for name, statement in statements.items():
+        claim = name.split("/")[0]
+        if claim not in files:
+            try:
+                files[claim] = read_certificates(load(os.path.join(folder, claim + ".json")))
+            except Rejected as reason:
+                files[claim] = {}
+                results.append((claim, "rejected", str(reason)))
+        certificate = files[claim].pop(name, None)
+        outcome, reason = check_one(statement, certificate, known, earlier) if certificate is not None else ("rejected", "no certificate")
+        results.append((name, outcome, reason))
+        earlier[name] = statement
+        if outcome == "certified" and statement.kind == "universal":
+            known[name] = statement
+    left = [name for rest in files.values() for name in rest]
+    left += sorted(f for f in os.listdir(folder) if f.endswith(".json") and f[:-5] not in files)
+    return results + [(name, "rejected", "a certificate without a statement") for name in left]
+
+
+def main(arguments):
+    try:
+        results = check_folder(arguments[0] if arguments else os.path.join(os.path.dirname(os.path.abspath(__file__)), "store"))
+    except Rejected as reason:
+        print(f"checker: {reason}", file=sys.stderr)
+        return 2
+    for name, outcome, reason in results:
+        if outcome == "rejected":
+            print(f"rejected  {name}: {reason}")
+    counts = [f"{sum(o == kind for _, o, _ in results)} {kind}" for kind in ("certified", "refuted", "unknown", "rejected")]
+    print(f"{len(results)} statements: " + ", ".join(counts))
+    return int(not results or any(outcome == "rejected" for _, outcome, _ in results))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

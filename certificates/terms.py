@@ -1,0 +1,280 @@
+"""Terms and formulas: exact rational expressions and relations, written out as the text that the checker reads.
+
+No floats: a `float` anywhere raises `ClaimError`.  `==` compares structure; a claimed equality is `equal(a, b)`.
+"""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
+from typing import Any, Union
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
+RESERVED = frozenset({"implies", "iff", "sqrt", "root", *keyword.kwlist})
+Number = Union[int, Fraction, "Term"]
+
+
+class ClaimError(ValueError):
+    """A claim cannot be stated as written; the message is one line that says what is wrong and how to mend it."""
+
+
+class Term:
+    """A rational expression over named reals, kept as it was written.
+
+    >>> x, w = reals("x w")
+    >>> str((x - w) / 2 + x**2 * Fraction(1, 3))
+    '(x - w)/2 + x^2*(1/3)'
+    """
+
+    __slots__ = ("op", "args", "_hash")
+
+    def __init__(self, op: str, *args: Any) -> None:
+        self.op, self.args = op, args
+        self._hash = hash((op, args))
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Term) and self._hash == other._hash and (self.op, self.args) == (other.op, other.args)
+
+    def __bool__(self) -> bool:
+        raise ClaimError("a term has no truth value; compare it with <, <=, >, >=, equal() or different()")
+
+    def __add__(self, other: Number) -> Term:
+        return Term("+", self, term(other))
+
+    def __radd__(self, other: Number) -> Term:
+        return Term("+", term(other), self)
+
+    def __sub__(self, other: Number) -> Term:
+        return Term("-", self, term(other))
+
+    def __rsub__(self, other: Number) -> Term:
+        return Term("-", term(other), self)
+
+    def __mul__(self, other: Number) -> Term:
+        return Term("*", self, term(other))
+
+    def __rmul__(self, other: Number) -> Term:
+        return Term("*", term(other), self)
+
+    def __truediv__(self, other: Number) -> Term:
+        return Term("/", self, term(other))
+
+    def __rtruediv__(self, other: Number) -> Term:
+        return Term("/", term(other), self)
+
+    def __neg__(self) -> Term:
+        return Term("neg", self)
+
+    def __pow__(self, exponent: int) -> Term:
+        if not isinstance(exponent, int) or isinstance(exponent, bool):
+            raise ClaimError(f"the exponent {exponent!r} is not an integer; only integer powers are rational")
+        return Term("^", self, exponent) if exponent >= 0 else Term("/", term(1), Term("^", self, -exponent))
+
+    def __lt__(self, other: Number) -> Formula:
+        return Formula("<", self, term(other))
+
+    def __le__(self, other: Number) -> Formula:
+        return Formula("<=", self, term(other))
+
+    def __gt__(self, other: Number) -> Formula:
+        return Formula(">", self, term(other))
+
+    def __ge__(self, other: Number) -> Formula:
+        return Formula(">=", self, term(other))
+
+    def __str__(self) -> str:
+        return _write(self, 0)
+
+    def __repr__(self) -> str:
+        return f"Term({str(self)!r})"
+
+
+def term(value: Number) -> Term:
+    """The term for an int, a Fraction or a term.
+
+    >>> str(term(Fraction(-1, 3)))
+    '-1/3'
+
+    Raises ClaimError for a float, which is never exact.
+    """
+    if isinstance(value, Term):
+        return value
+    if isinstance(value, bool) or not isinstance(value, (int, Fraction)):
+        raise ClaimError(f"{value!r} is not exact; write it as an int or as Fraction(p, q)")
+    return Term("num", Fraction(value))
+
+
+def reals(names: str) -> tuple[Term, ...]:
+    """The named real variables, in order.
+
+    >>> [str(name) for name in reals("alpha x")]
+    ['alpha', 'x']
+    """
+    return tuple(real(name) for name in names.replace(",", " ").split())
+
+
+def real(name: str) -> Term:
+    """The real variable of this name."""
+    if not NAME.match(name) or name in RESERVED:
+        raise ClaimError(f"{name!r} is not a name; use a letter followed by letters, digits or _")
+    return Term("var", name)
+
+
+_LEVEL = {"+": 1, "-": 1, "*": 2, "/": 2, "neg": 2, "^": 4, "var": 5, "num": 5}
+
+
+def _write(expr: Term, level: int) -> str:
+    own = _LEVEL[expr.op]
+    if expr.op == "var":
+        return str(expr.args[0])
+    if expr.op == "num":
+        value: Fraction = expr.args[0]
+        own = 5 if value.denominator == 1 and value >= 0 else 2 if level <= 2 and value >= 0 else 1
+        text = str(value)
+    elif expr.op == "neg":
+        own, text = 1, "-" + _write(expr.args[0], 2)
+    elif expr.op == "^":
+        text = f"{_write(expr.args[0], 5)}^{expr.args[1]}"
+    else:
+        gap = " " if own == 1 else ""
+        left = _write(expr.args[0], own)
+        text = f"{left}{gap}{expr.op}{gap}{_write(expr.args[1], own + 1)}"
+    return f"({text})" if own < level else text
+
+
+class Formula:
+    """A relation between terms, or a boolean combination of such; `str` gives the text that the checker reads.
+
+    >>> x, w = reals("x w")
+    >>> str((x >= 0) & ~(x < w))
+    'x >= 0 and not x < w'
+    """
+
+    __slots__ = ("op", "args", "_hash")
+
+    def __init__(self, op: str, *args: Any) -> None:
+        self.op, self.args = op, args
+        self._hash = hash((op, args))
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Formula) and (self.op, self.args) == (other.op, other.args)
+
+    def __bool__(self) -> bool:
+        raise ClaimError("a formula has no truth value here; join formulas with &, | and ~, and write a < b, b < c apart")
+
+    def __and__(self, other: Formula) -> Formula:
+        return conjunction([self, other])
+
+    def __or__(self, other: Formula) -> Formula:
+        return disjunction([self, other])
+
+    def __invert__(self) -> Formula:
+        return Formula("not", self)
+
+    def __str__(self) -> str:
+        return _write_formula(self, 0)
+
+    def __repr__(self) -> str:
+        return f"Formula({str(self)!r})"
+
+
+RELATIONS = frozenset({"<", "<=", "=", "!=", ">=", ">"})
+_FORMULA_LEVEL = {"or": 3, "and": 4, "not": 5}
+
+
+def _write_formula(formula: Formula, level: int) -> str:
+    if formula.op in RELATIONS:
+        return f"{formula.args[0]} {formula.op} {formula.args[1]}"
+    if formula.op in ("true", "false"):
+        return "0 = 0" if formula.op == "true" else "0 = 1"
+    if formula.op in ("implies", "iff"):
+        return f"{formula.op}({formula.args[0]}, {formula.args[1]})"
+    own = _FORMULA_LEVEL[formula.op]
+    if formula.op == "not":
+        text = "not " + _write_formula(formula.args[0], 5)
+    else:
+        text = f" {formula.op} ".join(_write_formula(part, own + 1) for part in formula.args)
+    return f"({text})" if own < level else text
+
+
+def equal(left: Number, right: Number) -> Formula:
+    """The formula left = right."""
+    return Formula("=", term(left), term(right))
+
+
+def different(left: Number, right: Number) -> Formula:
+    """The formula left != right."""
+    return Formula("!=", term(left), term(right))
+
+
+def conjunction(parts: Iterable[Formula]) -> Formula:
+    """All of the parts hold; true when there are none."""
+    return _join("and", parts, "true")
+
+
+def disjunction(parts: Iterable[Formula]) -> Formula:
+    """One of the parts holds at least; false when there are none."""
+    return _join("or", parts, "false")
+
+
+def _join(op: str, parts: Iterable[Formula], empty: str) -> Formula:
+    flat: list[Formula] = []
+    for part in parts:
+        if not isinstance(part, Formula):
+            raise ClaimError(f"{part!r} is not a formula; compare two terms first")
+        for piece in part.args if part.op == op else (part,):
+            if piece.op != empty and piece not in flat:
+                flat.append(piece)
+    return flat[0] if len(flat) == 1 else Formula(op, *flat) if flat else Formula(empty)
+
+
+def implies(premise: Formula, conclusion: Formula) -> Formula:
+    """The formula premise => conclusion."""
+    return Formula("implies", premise, conclusion)
+
+
+def iff(left: Formula, right: Formula) -> Formula:
+    """The formula left <=> right."""
+    return Formula("iff", left, right)
+
+
+def transform(thing: Any, leaf: Callable[[Term], Term]) -> Any:
+    """The same term or formula with `leaf` applied to every variable."""
+    if isinstance(thing, Term):
+        if thing.op == "var":
+            return leaf(thing)
+        if thing.op == "num":
+            return thing
+    if isinstance(thing, (Term, Formula)):
+        return type(thing)(thing.op, *(transform(part, leaf) if isinstance(part, (Term, Formula)) else part for part in thing.args))
+    raise ClaimError(f"{thing!r} is neither a term nor a formula")
+
+
+def substitute(thing: Any, values: Mapping[str, Number]) -> Any:
+    """The same term or formula with values in place of the named variables, all at once.
+
+    >>> x, w = reals("x w")
+    >>> str(substitute(x < w, {"x": w + 1}))
+    'w + 1 < w'
+    """
+    return transform(thing, lambda name: term(values[name.args[0]]) if name.args[0] in values else name)
+
+
+def names_in(thing: Any) -> set[str]:
+    """The names of the variables that occur."""
+    found: set[str] = set()
+
+    def note(name: Term) -> Term:
+        found.add(name.args[0])
+        return name
+
+    transform(thing, note)
+    return found

@@ -1,0 +1,179 @@
+"""The return maps: one table period with an impact (f1) and without (f2) (sections 3.2 and 3.3)."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from sympy import Expr, ImmutableMatrix, Symbol
+
+from symbolic.algebra import (
+    DerivationError,
+    State,
+    affine_parts,
+    apply,
+    eigenvalues_of,
+    lowest_terms,
+    root_of,
+    state,
+    unipotent_power,
+)
+from symbolic.collision import collision_time, time_after_collision
+from symbolic.flight import flight_matrix, fly
+from symbolic.impact import collide
+from symbolic.symbols import K, alpha, beta, n, v
+from symbolic.table import launch_state, period, table_at
+
+
+def controlled_step(table_speed: Expr, flight_time: Expr) -> State:
+    """The ball from one impact to the next: F^u1 o C_u2, u2 the table's speed and u1 the time of flight (equation 4).
+
+    >>> from symbolic.symbols import t, u
+    >>> controlled_step(u, t)[1]
+    alpha*u - alpha*v - g*t + u
+    """
+    # The height of the table does not enter: position is continuous at an impact.
+    return fly(collide(state(beta, v), state(beta, table_speed)), flight_time)
+
+
+@cache
+def ball_after_collision() -> State:
+    """The ball just after it has met the table: flight to tau_c, then impact (section 3.2, before equation 8).
+
+    >>> from symbolic.symbols import g, r
+    >>> ball_after_collision().xreplace({beta: 3, v: 0, r: 2, g: 1}).T
+    Matrix([[15/8, 2*alpha + 1/2]])
+    """
+    start = state(beta, v)
+    return collide(fly(start, collision_time()), table_at(collision_time()))
+
+
+@cache
+def folded_impact() -> State:
+    """Impact carried back to the start of the period: F^-tau o C o F^tau, which is -alpha (b - r_0) + r_0 (8, 9).
+
+    >>> folded_impact().T
+    Matrix([[-alpha*beta, alpha*r - alpha*v + r]])
+    """
+    return fly(ball_after_collision(), -collision_time())
+
+
+@cache
+def f1() -> State:
+    """One period with an impact: flight to tau_c, impact, flight for T - tau_c (equation 10).
+
+    >>> f1().T
+    Matrix([[(-alpha*beta*g + 2*alpha*r**2 - 2*alpha*r*v)/g, alpha*r - alpha*v - r]])
+    """
+    return fly(ball_after_collision(), time_after_collision())
+
+
+@cache
+def f2() -> State:
+    """One period without an impact: F^T (equation 12).
+
+    >>> f2().T
+    Matrix([[(beta*g - 2*r**2 + 2*r*v)/g, -2*r + v]])
+    """
+    return fly(state(beta, v), period())
+
+
+@cache
+def f1_parts() -> tuple[State, State]:
+    """The matrix -alpha A_T and the offset of f1, which is affine (equation 10).
+
+    >>> f1_parts()[0], f1_parts()[1].T
+    (Matrix([
+    [-alpha, -2*alpha*r/g],
+    [     0,       -alpha]]), Matrix([[2*alpha*r**2/g, alpha*r - r]]))
+    """
+    return affine_parts(f1())
+
+
+@cache
+def f2_parts() -> tuple[State, State]:
+    """The matrix A_T and the offset -a_T of f2, which is affine (equation 12).
+
+    >>> f2_parts()[1].T
+    Matrix([[-2*r**2/g, -2*r]])
+    """
+    return affine_parts(f2())
+
+
+def time_shift(column: State, scale: Expr) -> Expr:
+    """The time s with column = scale A_-s r_0; DerivationError if there is none.
+
+    >>> from symbolic.symbols import r
+    >>> time_shift(state(-3 * r, r), 1)
+    3
+    """
+    unknown = Symbol("s")
+    difference = scale * flight_matrix(-unknown) * launch_state() - column
+    found = root_of(difference[0], unknown)
+    if lowest_terms(difference[1].xreplace({unknown: found})) != 0:
+        raise DerivationError(f"not a multiple of a shifted r_0: {column}")
+    return found
+
+
+@cache
+def xi_1() -> Expr:
+    """The time xi_1 for which the offset of f1 is (alpha - 1) A_-xi r_0: alpha T / (1 - alpha) (equation 10).
+
+    >>> xi_1()
+    -2*alpha*r/(alpha*g - g)
+    """
+    return time_shift(f1_parts()[1], alpha - 1)
+
+
+def flight_power(periods: Expr = K) -> State:
+    """A symbolic number of periods without impact: the power f2^K, by its recurrence (section 3.5.1).
+
+    >>> flight_power().T
+    Matrix([[(-2*K**2*r**2 + 2*K*r*v + beta*g)/g, -2*K*r + v]])
+    """
+    matrix, offset = f2_parts()
+    homogeneous = ImmutableMatrix(matrix.row_join(offset).col_join(ImmutableMatrix([[0, 0, 1]])))
+    return state(*(unipotent_power(homogeneous, periods) * ImmutableMatrix([beta, v, 1]))[:2])
+
+
+def impact_power_matrix(iterations: Expr = n) -> State:
+    """The matrix of f1^n: (-alpha)^n A_T^n, A_T^n being A_(n T) (sections 3.3 and 4.3).
+
+    >>> impact_power_matrix() / (-alpha) ** n
+    Matrix([
+    [1, 2*n*r/g],
+    [0,       1]])
+    """
+    shear = ImmutableMatrix((f1_parts()[0] / -alpha).applyfunc(lowest_terms))
+    return (-alpha) ** iterations * unipotent_power(shear, iterations)
+
+
+@cache
+def return_map() -> State:
+    """K periods of which only the last has an impact: f1 o f2^(K - 1) (section 3.5.1).
+
+    >>> return_map()[1]
+    2*K*alpha*r - alpha*r - alpha*v - r
+    """
+    return apply(f1(), flight_power(K - 1))
+
+
+@cache
+def return_jacobian() -> State:
+    """The Jacobian of f1 o f2^(K - 1): -alpha A_T^K, with upper right entry -alpha K T (section 3.5.3).
+
+    >>> return_jacobian()
+    Matrix([
+    [-alpha, -2*K*alpha*r/g],
+    [     0,         -alpha]])
+    """
+    return affine_parts(return_map())[0]
+
+
+@cache
+def return_eigenvalues() -> tuple[Expr, ...]:
+    """The eigenvalues of f1 o f2^(K - 1), for every K: -alpha twice (sections 3.3 and 3.5.3).
+
+    >>> return_eigenvalues()
+    (-alpha, -alpha)
+    """
+    return eigenvalues_of(return_jacobian())

@@ -1,0 +1,62 @@
+"""The package loads nothing until a derivation is asked for, and says so where a derivation fails."""
+
+from __future__ import annotations
+
+import doctest
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+from sympy import ImmutableMatrix, sqrt
+
+import symbolic as s
+
+MODULES = sorted(path.stem for path in Path(s.__file__).parent.glob("*.py") if path.stem != "__init__")
+
+
+def test_importing_the_package_loads_no_sympy_holds() -> None:
+    code = "import symbolic, sys; sys.exit('sympy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], cwd=Path(s.__file__).parents[1], check=False).returncode == 0
+
+
+def test_every_listed_name_resolves_to_its_module_holds() -> None:
+    names = [name for name in dir(s) if name in s._PLACE]
+    assert names == sorted(s._PLACE)
+    for name in names:
+        assert getattr(s, name) is getattr(import_module(f"symbolic.{s._PLACE[name]}"), name)
+    # A function named like a module would be hidden by the module once that is loaded.
+    assert not set(names) & set(MODULES)
+
+
+def test_unknown_name_is_refused_holds() -> None:
+    with pytest.raises(AttributeError, match="no_such_name"):
+        s.no_such_name  # noqa: B018
+
+
+@pytest.mark.parametrize("module", ["", *(f".{name}" for name in MODULES)])
+def test_examples_in_docstrings_hold(module: str) -> None:
+    assert doctest.testmod(import_module(f"symbolic{module}")).failed == 0
+
+
+def test_every_public_function_has_an_example_holds() -> None:
+    for name, module in s._PLACE.items():
+        found = getattr(s, name)
+        if module != "symbols" and callable(found) and not isinstance(found, type):
+            assert ">>>" in (found.__doc__ or ""), name
+
+
+def test_broken_shapes_are_refused_holds() -> None:
+    with pytest.raises(s.DerivationError, match="not affine"):
+        s.affine_parts(s.state(s.beta**2, s.v))
+    with pytest.raises(s.DerivationError, match="not linear"):
+        s.root_of(s.v**2 - 1, s.v)
+    with pytest.raises(s.DerivationError, match="not one solution"):
+        s.solution_of([s.beta + s.v], [s.beta, s.v])
+    with pytest.raises(s.DerivationError, match="not unipotent"):
+        s.unipotent_power(ImmutableMatrix([[2, 0], [0, 1]]), s.n)
+    with pytest.raises(s.DerivationError, match="not a rational"):
+        s.lowest_terms(sqrt(s.alpha))
+    with pytest.raises(s.DerivationError, match="shifted"):
+        s.time_shift(s.state(s.r, s.v), s.alpha)
