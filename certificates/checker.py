@@ -18,7 +18,7 @@ import sys
 from fractions import Fraction
 from math import gcd, lcm
 
-MAX_DEGREE, MAX_VARIABLES, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 40000, 10**8, 64 << 20
+MAX_DEGREE, MAX_VARIABLES, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 40000, 2 * 10**7, 64 << 20
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
 
 
@@ -169,11 +169,6 @@ class Context:
         self.index, self.integers = (dict(outer.index), set(outer.integers)) if outer else ({}, set())
         self.licensed, self.licence = (list(outer.licensed), dict(outer.licence)) if outer else ([], {})
         self.values = dict(values if values is not None else outer.values if outer else {})
-
-    def plain(self):
-        """The same context with the keys of its variables as the only names: certificates speak of variables in this way."""
-        values = {key: Ratio(Poly({1 << (BITS * i): 1}, 1, 1)) for key, i in self.index.items()}
-        return self if self.values.keys() == values.keys() else Context(self, values)
 
     def declare(self, name, integral=False):
         """A fresh variable; where another scope has one of this name, its key grows by underscores, so that the two stay apart."""
@@ -362,16 +357,24 @@ def count_roots(p, low, high):
 
 
 class State:
-    """What is assumed on one branch of a proof: facts (polynomial, relation) that all hold, and disjunctions still open."""
+    """What is assumed on one branch of a proof: facts (polynomial, relation) that all hold, and disjunctions still open.
 
-    def __init__(self, context, facts=(), choices=(), closed=False):
-        self.context, self.facts, self.choices, self.closed = context.plain(), list(facts), list(choices), closed
+    Certificates name variables by their keys.  Only what the facts say licenses a division here: nothing that is yet to be shown.
+    """
+
+    def __init__(self, variables, parent=None):
+        self.context = Context(parent.context if parent else None)
+        self.context.index, self.context.integers = dict(variables.index), set(variables.integers)
+        self.context.values = {key: Ratio(Poly({1 << (BITS * i): 1}, 1, 1)) for key, i in variables.index.items()}
+        self.facts, self.choices = (list(parent.facts), list(parent.choices)) if parent else ([], [])
+        self.closed = parent.closed if parent else False
 
     def assume(self, formula):
         if isinstance(formula, bool):
             self.closed = self.closed or not formula
         elif formula[0] == "atom":
             self.facts.append(formula[1:])
+            self.context.license(formula)
         elif formula[0] == "and":
             for part in formula[1]:
                 self.assume(part)
@@ -379,8 +382,8 @@ class State:
             self.choices.append(formula[1])
         return self
 
-    def branch(self, formula=True, context=None):
-        return State(context or self.context, self.facts, self.choices, self.closed).assume(formula)
+    def branch(self, formula=True, variables=None):
+        return State(variables or self.context, self).assume(formula)
 
     def by_sign(self, text):
         """The three states in which the polynomial is < 0, = 0 and > 0."""
@@ -600,10 +603,11 @@ class Unfolding:
 
     def __init__(self, statement, context, sharp=None):
         self.context, self.premises, self.obligations, self.goals = context, [], [], []
-        self.variables, self.universal, self.integers = set(), [], {n for line in statement.get("integer") for n in line}
-        if set(context.values) - {n for k, said in statement.lines if k in ("forall", "exists") for n in said} - {
-                said[0] for said in statement.get("root")}:
-            raise Rejected("a value for what is not a variable", statement.name)
+        self.variables, self.universal, self.given = set(), [], set(context.values)
+        self.integers = {name for line in statement.get("integer") for name in line}
+        quantified = {name for keyword in ("forall", "exists") for line in statement.get(keyword) for name in line}
+        if not self.integers <= quantified or not self.given <= quantified | {said[0] for said in statement.get("root")}:
+            raise Rejected("an integer, or a value, for what is not a variable", statement.name)
         for keyword, said in statement.lines:
             if keyword in ("forall", "exists"):
                 for name in said:
@@ -629,15 +633,13 @@ class Unfolding:
             elif keyword in ("with", "show"):
                 self.goals.append((context.formula(said), context.formula(said, False)))
                 context.license(self.goals[-1][0])
-        if not self.integers <= self.variables:
-            raise Rejected("an integer is not among the variables", statement.name)
 
     def variable(self, name, universal):
         if name in self.variables:
             raise Rejected("a variable is declared twice", name)
         self.variables.add(name)
         self.universal += [name] if universal else []
-        if name not in self.context.values:
+        if name not in self.given:
             self.context.declare(name, name in self.integers)
 
     def assume(self, node):
@@ -696,7 +698,7 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     name, adjoined, terms, node, *rest = found
     if name not in statements or len(rest) != (purpose == "counterexample"):
         raise Rejected("a witness of the wrong shape, or for another statement", name)
-    statement, state = statements[name], state.branch(context=Context(state.context))
+    statement, state = statements[name], state.branch()
     for entry in adjoined:
         adjoin(state, known, *entry)
     values = {variable: state.context.value(parse(text)) for variable, text in terms.items()}
@@ -744,8 +746,8 @@ def check_sharp(statement, certificate, known, statements):
         raise Rejected("a sharp range proves each of its earlier statements", names)
     for name in names:
         prove(statements[name], inside[name], known, [domain, condition])
-    state.assume(state.context.formula(domain)).assume(state.context.formula(condition, False))
-    state.context.license(state.context.formula(domain))
+    state.assume(state.context.formula(domain))
+    state.assume(state.context.formula(condition, False))
     base = {parameter: state.context.values[parameter] for parameter in over}
     find(state, outside, known, "counterexample", {name: statements[name] for name in names}, base, [domain])
 
@@ -754,8 +756,8 @@ def check_iterates(statement, certificate, known, statements):
     """The K-th iterate of the map, for every integer K >= 0: P(0) is the identity and map(P(K)) = P(K + 1), as identities.  []"""
     (variables,), (integers,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "integer", "iterates", "after"))
-    if certificate != [] or arguments != variables[:len(arguments)] or not len(arguments) == len(images) == len(powers) or count != integers or (
-            set(count) & set(arguments)):
+    if certificate != [] or arguments != variables[:len(arguments)] or not 0 < len(arguments) == len(images) == len(powers) or (
+            count != integers or set(count) & set(arguments)):
         raise Rejected("a map names its variables first, an image for each, and one integer apart", statement.name)
     context = Context()
     for name in variables:
@@ -768,6 +770,8 @@ def check_iterates(statement, certificate, known, statements):
             inner.define(name, inner.value(tree))
         return [inner.value(tree) for tree in trees]
 
+    if any(k in variables_of(context, ratio.num) for ratio in image(images, {})):
+        raise Rejected("a map that is iterated cannot depend on the number of iterations", statement.name)
     pairs = [*zip(image(powers, {k: Ratio(ZERO)}), (plain[name] for name in arguments)),
              *zip(image(images, dict(zip(arguments, image(powers, {})))), image(powers, {k: context.value(parse(k + " + 1"))}))]
     for left, right in pairs:
@@ -776,9 +780,9 @@ def check_iterates(statement, certificate, known, statements):
 
 
 def settle(statement, certificate, known, statements):
-    """The outcome: {"unknown": why}, {"refuted": found}, {"certified": proof} or, for what has variables, also {"point": found}.
+    """The outcome: {"unknown": why}, {"refuted": found}, {"certified": proof} or, for all but sharp and iterates, {.., "point": found}.
 
-    A certified statement with variables carries a point that meets its premises, so that it says something.  Refuted: a counterexample.
+    A certified statement carries a point that meets its premises, so that it says something.  A refuted one has a counterexample.
     """
     kind = sorted(certificate)
     if kind == ["unknown"]:
@@ -791,10 +795,9 @@ def settle(statement, certificate, known, statements):
     if statement.kind == "universal" and kind == ["refuted"]:
         find(State(Context()), certificate["refuted"], known, "counterexample", named, {})
         return "refuted"
-    if statement.kind == "universal" and kind == (["certified", "point"] if statement.get("forall") else ["certified"]):
+    if statement.kind == "universal" and kind == ["certified", "point"]:
         prove(statement, certificate["certified"], known)
-        if "point" in certificate:
-            find(State(Context()), certificate["point"], known, "point", named, {})
+        find(State(Context()), certificate["point"], known, "point", named, {})
         return "certified"
     raise Rejected("a certificate with missing or left over keys", kind)
 

@@ -120,9 +120,9 @@ def always(show: Formula, *, given: Sequence[Formula] = (), in_range: Sequence[F
     >>> always(x * y <= (x**2 + y**2) / 2).forall
     ('x', 'y')
     """
-    lines: list[Line] = [("range", f) for f in in_range] + [("given", f) for f in given]
-    names = set().union(*(names_in(said) for _, said in lines if isinstance(said, Formula)), names_in(show))
-    return Statement(name, tuple(sorted(names)), tuple(lines), show)
+    lines: tuple[Line, ...] = (*(("range", f) for f in in_range), *(("given", f) for f in given))
+    names = set().union(*(names_in(f) for f in (*in_range, *given, show)))
+    return Statement(name, tuple(sorted(names)), lines, show)
 
 
 def write_statements(statements: Sequence[AnyStatement], title: str) -> str:

@@ -44,28 +44,28 @@ class Term:
         raise ClaimError("a term has no truth value; compare it with <, <=, >, >=, equal() or different()")
 
     def __add__(self, other: Number) -> Term:
-        return Term("+", self, term(other))
+        return Term("+", self, term(other)) if _is_operand(other) else NotImplemented
 
     def __radd__(self, other: Number) -> Term:
-        return Term("+", term(other), self)
+        return Term("+", term(other), self) if _is_operand(other) else NotImplemented
 
     def __sub__(self, other: Number) -> Term:
-        return Term("-", self, term(other))
+        return Term("-", self, term(other)) if _is_operand(other) else NotImplemented
 
     def __rsub__(self, other: Number) -> Term:
-        return Term("-", term(other), self)
+        return Term("-", term(other), self) if _is_operand(other) else NotImplemented
 
     def __mul__(self, other: Number) -> Term:
-        return Term("*", self, term(other))
+        return Term("*", self, term(other)) if _is_operand(other) else NotImplemented
 
     def __rmul__(self, other: Number) -> Term:
-        return Term("*", term(other), self)
+        return Term("*", term(other), self) if _is_operand(other) else NotImplemented
 
     def __truediv__(self, other: Number) -> Term:
-        return Term("/", self, term(other))
+        return Term("/", self, term(other)) if _is_operand(other) else NotImplemented
 
     def __rtruediv__(self, other: Number) -> Term:
-        return Term("/", term(other), self)
+        return Term("/", term(other), self) if _is_operand(other) else NotImplemented
 
     def __neg__(self) -> Term:
         return Term("neg", self)
@@ -92,6 +92,11 @@ class Term:
 
     def __repr__(self) -> str:
         return f"Term({str(self)!r})"
+
+
+def _is_operand(value: object) -> bool:
+    """Whether the term answers for the operation: numbers, also those that it refuses; other classes may know better."""
+    return isinstance(value, (Term, int, Fraction, float, complex, str)) or value is None
 
 
 def term(value: Number) -> Term:

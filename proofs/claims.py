@@ -1,0 +1,165 @@
+"""Claims: an assertion with its place and print, and the formal reading that is judged.
+
+A claim is a function from its parsed print to statements.  What it returns is an assertion (all its statements hold), readings
+(a sentence that can be read in several ways), an argument (steps and a conclusion), or a limit that awaits a theorem.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Union
+
+from certificates.statements import AnyStatement, Iterates, SharpRange, Statement
+from certificates.terms import ClaimError, Formula
+
+
+@dataclass(frozen=True)
+class Assertion:
+    """All of the statements hold."""
+
+    parts: tuple[AnyStatement, ...]
+
+
+@dataclass(frozen=True)
+class Readings:
+    """What is written can be read in these ways, each with its own verdict."""
+
+    of: Mapping[str, Assertion]
+
+
+@dataclass(frozen=True)
+class Argument:
+    """Steps, each with its label, that are said to give the conclusion; `rescue` names the claim by which it stands if a step fails."""
+
+    steps: Mapping[str, Assertion]
+    conclusion: Assertion | None = None
+    rescue: str = ""
+
+
+@dataclass(frozen=True)
+class Awaiting:
+    """A limit or a stability statement that needs a theorem which is not there yet; what can be said before it is asserted."""
+
+    theorem: str
+    meanwhile: Assertion | None = None
+
+
+Body = Union[Assertion, Readings, Argument, Awaiting]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One assertion: id, place, what is printed, and the function that reads it."""
+
+    id: str
+    section: str
+    place: str
+    says: str
+    read: Callable[..., Any]
+    printed: str = ""
+    as_it_stands: str = ""
+    repeats: str = ""
+    parameters: tuple[str, ...] = ("alpha",)
+    derived: Callable[[], Any] | None = None
+    hints: Mapping[str, Any] = field(default_factory=dict)
+    source: str = ""
+
+    def body(self, printed: Any = None) -> Body:
+        """What the claim asserts, with its own print or with another one in its place.
+
+        Raises ClaimError, naming the claim, where what it returns is not a claim.
+        """
+        if not self.printed:
+            return as_body(self.read(), self.id)
+        return as_body(self.read(self.read_print() if printed is None else printed), self.id)
+
+    def read_print(self, latex: str = "") -> Any:
+        """The print, or another LaTeX text, as the reader reads it."""
+        from proofs.reading.printed import read
+
+        return read(latex or self.printed)
+
+
+def as_body(returned: Any, claim_id: str) -> Body:
+    """What a claim function returned, as a body."""
+    if isinstance(returned, (Assertion, Readings, Argument, Awaiting)):
+        return returned
+    if isinstance(returned, (Statement, Iterates)):
+        return Assertion((returned,))
+    if isinstance(returned, Iterable) and not isinstance(returned, (str, Formula)):
+        parts = [part for item in returned for part in (as_body(item, claim_id).parts if not isinstance(item, Statement) else (item,))]  # type: ignore[union-attr]
+        if parts:
+            return Assertion(tuple(parts))
+    raise ClaimError(f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such, Readings, Argument or Awaiting")
+
+
+def assertions(body: Body) -> list[tuple[str, Assertion]]:
+    """The assertions of a body with the prefix of their statements' names."""
+    if isinstance(body, Assertion):
+        return [("", body)]
+    if isinstance(body, Readings):
+        return [(f"{name}.", assertion) for name, assertion in body.of.items()]
+    if isinstance(body, Awaiting):
+        return [("meanwhile.", body.meanwhile)] if body.meanwhile else []
+    steps = [(f"{name}.", assertion) for name, assertion in body.steps.items()]
+    return steps + ([("conclusion.", body.conclusion)] if body.conclusion else [])
+
+
+def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[AnyStatement]:
+    """The statements of an assertion under their full names ID/label; two of one label are numbered."""
+    count: dict[str, int] = {}
+    named: list[AnyStatement] = []
+    for part in assertion.parts:
+        label = part.name or "main"
+        count[label] = count.get(label, 0) + 1
+        label = label if count[label] == 1 else f"{label}-{count[label]}"
+        if isinstance(part, SharpRange):
+            raise ClaimError(f"{claim_id}: a sharp range is found by the program, not stated by a claim")
+        if isinstance(part, Statement) and part.undeclared():
+            raise ClaimError(f"{claim_id}: undeclared symbol {sorted(part.undeclared())[0]}; add it to the statement's variables")
+        full = f"{claim_id}/{prefix}{label}"
+        if not re.fullmatch(r"[\w.\-]+/[\w.\-]+", full, re.ASCII):
+            raise ClaimError(f"{claim_id}: {full!r} is no name for a statement; use letters, digits, - and .")
+        named.append(part.named(full) if isinstance(part, Statement) else Iterates(full, *[getattr(part, f) for f in _ITERATES]))
+    return named
+
+
+_ITERATES = ("state", "images", "count", "powers", "parameters")
+_registry: list[Claim] = []
+
+
+def claim(
+    id: str, section: str = "", place: str = "", *, printed: str = "", as_it_stands: str = "", repeats: str = "",
+    parameters: Sequence[str] = ("alpha",), derived: Callable[[], Any] | None = None, hints: Mapping[str, Any] | None = None,
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Registers a function as a claim; its docstring, in our own words, is what the claim says.
+
+    `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription has where it mangles the print.
+    Raises ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, - and dots.
+    """
+    def register(read: Callable[..., Any]) -> Callable[..., Any]:
+        if not re.fullmatch(r"[A-Za-z0-9.\-]+", id):
+            raise ClaimError(f"{id!r} is no name for a claim; use letters, digits, - and .")
+        if any(known.id == id for known in _registry):
+            raise ClaimError(f"{id} is the name of two claims; rename one")
+        says = " ".join((inspect.getdoc(read) or "").split())
+        if not says:
+            raise ClaimError(f"{id} has no docstring; say in a sentence what it asserts")
+        _registry.append(Claim(id, section, place, says, read, printed, as_it_stands, repeats, tuple(parameters), derived,
+                               dict(hints or {}), f"{read.__module__}.{read.__qualname__}"))
+        return read
+
+    return register
+
+
+def claims_of(load: Callable[[], object]) -> list[Claim]:
+    """The claims that are registered while `load` runs, in order."""
+    held, _registry[:] = list(_registry), []
+    try:
+        load()
+        return list(_registry)
+    finally:
+        _registry[:] = held

@@ -1,0 +1,185 @@
+"""`juggleproof certify`: judge every claim, store what was found, let the checker read the whole store, compare with the register."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from certificates import checker
+from certificates.statements import Iterates, Statement
+from certificates.store import DEFAULT, STATEMENTS, Store, canonical, write_file, write_store
+from certificates.terms import ClaimError
+from proofs.claims import Claim, assertions, named_statements
+from proofs.command import table
+from proofs.judging import DEFAULT_BUDGET, Judgement, Options
+from proofs.loading import claims_of_file, paper_claims
+from proofs.register import changes, load_register, write_register
+from proofs.running import judge_all
+
+FINDINGS = "findings"
+TITLE = "Every statement that the claims come to; certificates/checker.py reads this file and believes nothing else."
+
+
+def certify(options: argparse.Namespace) -> int:
+    """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where every claim holds), else 1."""
+    from rich.console import Console
+
+    routes = _routes(options.routes)
+    console = Console(highlight=False)
+    own = bool(options.files)
+    everything = [claim for path in options.files for claim in claims_of_file(path)] if own else paper_claims()
+    _refuse_duplicates(everything)
+    claims = _selected(everything, options.only)
+    folder = options.store or (options.files[0].with_suffix(".certificates") if own else DEFAULT)
+    store = Store(folder)
+    known = Store(folder) if not options.fresh else Store(Path(os.devnull))
+    judged = Options(routes, options.budget or DEFAULT_BUDGET, known, {} if options.fresh else _findings(folder), _lemmas(everything, claims))
+    judgements, seconds = _with_progress(claims, judged, options.jobs, console)
+    _write(folder, store, everything, claims, judgements)
+    problems = [f"{name}: {reason}" for name, outcome, reason in checker.check_folder(str(folder)) if outcome == "rejected"]
+    table.draw(claims, judgements, console)
+    print(table.summary(judgements))
+    for problem in problems:
+        print(f"rejected by the checker: {problem}")
+    code = 1 if problems else _own_result(judgements) if own else _against_register(claims, judgements, options)
+    _write_reports(options, claims, judgements, seconds)
+    return code
+
+
+def _routes(text: str) -> tuple[str, ...]:
+    from proofs.command.main import ROUTES
+
+    chosen = tuple(text.split(","))
+    unknown = [route for route in chosen if route not in ROUTES]
+    if unknown or "exact" not in chosen:
+        raise ClaimError(f"--routes {text}: choose from {', '.join(ROUTES)}; exact is always among them, since only a certificate certifies")
+    return chosen
+
+
+def _refuse_duplicates(claims: Sequence[Claim]) -> None:
+    seen: set[str] = set()
+    for claim in claims:
+        if claim.id in seen:
+            raise ClaimError(f"{claim.id} is the name of two claims; rename one")
+        seen.add(claim.id)
+
+
+def _selected(claims: list[Claim], only: list[str] | None) -> list[Claim]:
+    if not only:
+        return claims
+    missing = set(only) - {claim.id for claim in claims}
+    if missing:
+        raise ClaimError(f"--only {sorted(missing)[0]}: no such claim; `juggleproof list` names them")
+    return [claim for claim in claims if claim.id in only]
+
+
+def _findings(folder: Path) -> dict[str, Any]:
+    path = folder / FINDINGS
+    if not path.exists():
+        return {}
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return data if isinstance(data, dict) else {}
+
+
+def _lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, str]:
+    """The texts of the statements that the selected claims use from other claims."""
+    used = {name for claim in claims for name in claim.hints.get("uses", ())}
+    texts: dict[str, str] = {}
+    for claim in everything:
+        if any(name.split("/")[0] == claim.id for name in used):
+            for prefix, assertion in assertions(claim.body()):
+                for part in named_statements(claim.id, prefix, assertion):
+                    if isinstance(part, (Statement, Iterates)):
+                        texts[part.name] = part.text()
+    return {name: texts[name] for name in used if name in texts}
+
+
+def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console: Any) -> tuple[list[Judgement], dict[str, float]]:
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    count = jobs if jobs > 0 else os.cpu_count() or 1
+    if not console.is_terminal:
+        return judge_all(claims, judged, count, lambda claim, judgement: None)
+    columns = (TextColumn("{task.description:24}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        task = progress.add_task("judging", total=len(claims))
+
+        def step(claim: Claim, judgement: Judgement) -> None:
+            progress.update(task, advance=1, description=f"{claim.id} {judgement.verdict.word}")
+
+        return judge_all(claims, judged, count, step)
+
+
+def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequence[Claim], judgements: Sequence[Judgement]) -> None:
+    """Writes statements, certificates and findings; claims that were not selected keep what is stored of them."""
+    fresh = {judgement.id: judgement for judgement in judgements}
+    texts: list[str] = []
+    certificates: dict[str, Mapping[str, Any]] = {}
+    findings = _findings(folder)
+    for claim in everything:
+        if claim.id in fresh:
+            judgement = fresh[claim.id]
+            texts += [text for _, text in judgement.statements]
+            if judgement.statements:
+                certificates[claim.id] = judgement.certificates
+            findings[claim.id] = judgement.finding()
+        else:
+            held = {name: text for name, text in store.texts.items() if name.split("/")[0] == claim.id}
+            texts += held.values()
+            if held:
+                certificates[claim.id] = {name: store.certificate(name, text) for name, text in held.items()}
+    findings = {claim.id: findings[claim.id] for claim in everything if claim.id in findings}
+    write_store(folder, "\n\n".join([f"# {TITLE}", *texts]) + "\n", certificates)
+    write_file(folder / FINDINGS, canonical(findings))
+
+
+def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
+    """What the register keeps of a judgement."""
+    data: dict[str, Any] = {"verdict": judgement.verdict.word}
+    if judgement.verdict.detail:
+        data["detail"] = judgement.verdict.detail
+    if judgement.correction:
+        data["correction"] = judgement.correction["text"]
+    if judgement.sharp:
+        data["sharp"] = table.sharp_range(judgement)
+    return data
+
+
+def _against_register(claims: Sequence[Claim], judgements: Sequence[Judgement], options: argparse.Namespace) -> int:
+    before = load_register()
+    after = {claim.id: entry(claim, judgement) for claim, judgement in zip(claims, judgements)}
+    lines = changes(before, after, partial=bool(options.only))
+    for line in lines:
+        print(("accepted  " if options.accept else "differs from the register  ") + line)
+    if options.accept:
+        write_register({**before, **after} if options.only else after)
+        return 0
+    return 1 if lines else 0
+
+
+def _own_result(judgements: Sequence[Judgement]) -> int:
+    return 0 if all(judgement.verdict.word == "holds" for judgement in judgements) else 1
+
+
+def _write_reports(options: argparse.Namespace, claims: Sequence[Claim], judgements: Sequence[Judgement], seconds: dict[str, float]) -> None:
+    if options.json:
+        from proofs.command.reports import as_json
+
+        write_file(options.json, as_json(claims, judgements))
+    if options.junit:
+        from proofs.command.reports import as_junit
+
+        write_file(options.junit, as_junit(claims, judgements))
+    if options.timings:
+        lines = [f"{seconds[judgement.id]:9.3f}  {judgement.id}" for judgement in judgements]
+        write_file(options.timings, ("\n".join(lines) + "\n").encode())
+
+
+__all__ = ["STATEMENTS", "certify", "entry"]

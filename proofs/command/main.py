@@ -1,0 +1,87 @@
+"""The command line: what each command takes, and one clear line for whatever goes wrong."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+ROUTES = ("exact", "z3", "boxes")
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The commands and their options."""
+    parser = argparse.ArgumentParser(
+        prog="juggleproof", description="Derives, proves or refutes, and independently checks what one paper on juggling prints.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    certify = commands.add_parser("certify", help="derive, prove and check every claim; ends with a table")
+    certify.add_argument("files", nargs="*", type=Path, metavar="FILE.py", help="claims of your own instead of the paper's")
+    certify.add_argument("--only", action="append", metavar="ID", help="only this claim (may be given several times)")
+    certify.add_argument("--routes", default=",".join(ROUTES), help="exact,z3,boxes (default: all)")
+    certify.add_argument("--fresh", action="store_true", help="search again, ignoring stored certificates")
+    certify.add_argument("--jobs", type=int, default=0, metavar="N", help="processes (default: one a core); results do not depend on it")
+    certify.add_argument("--budget", type=int, default=0, metavar="N", help="counted work for each statement (default: enough for the paper)")
+    certify.add_argument("--accept", action="store_true", help="write the verdicts into the register, showing before and after")
+    certify.add_argument("--store", type=Path, metavar="DIR", help="where certificates are kept (default: certificates/store)")
+    certify.add_argument("--json", type=Path, metavar="F", help="write the verdicts as JSON")
+    certify.add_argument("--junit", type=Path, metavar="F", help="write the verdicts as a JUnit report")
+    certify.add_argument("--timings", type=Path, metavar="F", help="write the seconds that each claim took")
+
+    check = commands.add_parser("check", help="the bare checker over the stored certificates")
+    check.add_argument("folder", nargs="?", type=Path, metavar="DIR")
+    commands.add_parser("list", help="the claims, with place and registered verdict")
+    explain = commands.add_parser("explain", help="one claim whole")
+    explain.add_argument("id", metavar="ID")
+    commands.add_parser("errata", help="what the paper prints wrongly, with correction and exact counterexample")
+    export = commands.add_parser("export", help="statements for other tools")
+    export.add_argument("format", choices=["smt2"])
+    export.add_argument("ids", nargs="*", metavar="ID")
+    export.add_argument("-o", "--output", type=Path, metavar="DIR", help="one file a statement there, instead of standard output")
+    return parser
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns its exit code: 0 as registered, 1 not, 2 bad input, 130 interrupted."""
+    parsed = build_parser().parse_args(arguments)
+    from certificates.terms import ClaimError
+
+    try:
+        return _dispatch(parsed)
+    except ClaimError as problem:
+        print(f"juggleproof: {problem}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("juggleproof: interrupted; stored certificates are as they were", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _dispatch(parsed: argparse.Namespace) -> int:
+    if parsed.command == "certify":
+        from proofs.command.certify import certify
+
+        return certify(parsed)
+    if parsed.command == "check":
+        from certificates import checker
+
+        return int(checker.main([str(parsed.folder)] if parsed.folder else []))
+    if parsed.command == "export":
+        from proofs.command.export import export_smt2
+
+        return export_smt2(parsed.ids, parsed.output)
+    from proofs.command import show
+
+    if parsed.command == "list":
+        return show.list_claims()
+    if parsed.command == "errata":
+        return show.errata()
+    return show.explain(parsed.id)
+
+
+if __name__ == "__main__":
+    sys.exit(run())

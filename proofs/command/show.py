@@ -1,0 +1,138 @@
+"""`juggleproof list`, `explain ID` and `errata`: what is stored, told without searching again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from certificates import checker
+from certificates.store import DEFAULT, Store
+from certificates.terms import ClaimError
+from proofs.claims import Argument, Assertion, Awaiting, Body, Claim, Readings
+from proofs.command.certify import FINDINGS
+from proofs.loading import paper_claims
+from proofs.register import load_register
+
+
+def list_claims() -> int:
+    """One line a claim: id, place, registered verdict, what it says."""
+    register = load_register()
+    for claim in paper_claims():
+        verdict = register.get(claim.id, {}).get("verdict", "not judged")
+        print(f"{claim.id:32} {claim.section + ' ' + claim.place:24} {verdict:12} {claim.says}")
+    return 0
+
+
+def explain(claim_id: str) -> int:
+    """One claim whole: print, derivation, reading, statements, certificates or counterexamples, sharp range, verdict."""
+    claims = {claim.id: claim for claim in paper_claims()}
+    if claim_id not in claims:
+        near = [name for name in claims if claim_id in name][:5]
+        raise ClaimError(f"{claim_id}: no such claim" + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them"))
+    claim = claims[claim_id]
+    from proofs.paper import vocabulary
+
+    vocabulary.derivations_used.clear()
+    body = claim.body()
+    print(f"{claim.id}   section {claim.section} {claim.place}")
+    print(f"  {claim.says}")
+    _print_of(claim)
+    for name in dict.fromkeys(vocabulary.derivations_used):
+        print(f"derived     symbolic.{name}: {vocabulary.derivation(name)}")
+    print(f"reading     {_reading(body)}")
+    store = Store(DEFAULT)
+    known: dict[str, checker.Statement] = {}
+    statements = checker.read_statements("\n\n".join(store.texts.values())) if store.texts else {}
+    for name, text in store.texts.items():
+        if name.split("/")[0] == claim_id:
+            _statement(name, text, store, statements, known)
+    entry = load_register().get(claim_id, {})
+    print(f"sharp range {entry.get('sharp', 'does not depend on alpha')}")
+    if "correction" in entry:
+        print(f"correction  {entry['correction']}")
+    print(f"verdict     {entry.get('verdict', 'not judged')}" + (f"; {entry['detail']}" if "detail" in entry else ""))
+    return 0
+
+
+def _print_of(claim: Claim) -> None:
+    if claim.as_it_stands:
+        print(f"stands      {claim.as_it_stands}")
+        print(f"restored    {claim.printed}")
+    elif claim.printed:
+        print(f"printed     {claim.printed}")
+    if claim.repeats:
+        print(f"repeats     {claim.repeats}")
+
+
+def _reading(body: Body) -> str:
+    if isinstance(body, Assertion):
+        return f"all of {len(body.parts)} statement{'s' if len(body.parts) > 1 else ''} hold"
+    if isinstance(body, Readings):
+        return "can be read as " + ", or as ".join(body.of)
+    if isinstance(body, Awaiting):
+        return f"awaits {body.theorem}"
+    if isinstance(body, Argument):
+        return "argued from " + ", ".join(body.steps) + (f"; rescued by {body.rescue}" if body.rescue else "")
+    raise ClaimError("a body of unknown kind")
+
+
+def _statement(name: str, text: str, store: Store, statements: Mapping[str, checker.Statement], known: Mapping[str, Any]) -> None:
+    certificate = store.certificate(name, text)
+    print()
+    for line in text.splitlines():
+        print(f"    {line}")
+    if not isinstance(certificate, dict):
+        print("    -> no certificate is stored")
+    elif "unknown" in certificate:
+        print(f"    -> unknown: {certificate['unknown']}")
+    elif "refuted" in certificate:
+        print(f"    -> refuted at {counterexample(certificate['refuted'])}")
+    else:
+        shown = json.dumps(certificate["certified"], separators=(",", ":"))
+        print(f"    -> certified by {shown if len(shown) < 400 else shown[:400] + '... (' + str(len(shown)) + ' characters)'}")
+
+
+def counterexample(found: Any) -> str:
+    """The values of a counterexample as text."""
+    if found[0] == "sign":
+        return f"a family by the sign of {found[1]}"
+    values = ", ".join(f"{name} = {value}" for name, value in found[2].items())
+    adjoined = "".join(f" where {entry[0]} is a root of {entry[1]} between {entry[2]} and {entry[3]}" for entry in found[1])
+    return values + adjoined
+
+
+def errata() -> int:
+    """What is printed wrongly: place, print, correction, exact counterexample; possible transcription errors apart."""
+    register = load_register()
+    store = Store(DEFAULT)
+    findings = json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8")) if (DEFAULT / FINDINGS).exists() else {}
+    wrong = [claim for claim in paper_claims() if register.get(claim.id, {}).get("verdict") in ("misprint", "false", "gap")]
+    groups: dict[str, list[Claim]] = {"the paper's own": [], "repeats of these": [], "possible transcription errors": []}
+    for claim in wrong:
+        correction = findings.get(claim.id, {}).get("correction") or {}
+        lost = correction.get("possible transcription error") or bool(claim.as_it_stands)
+        groups["repeats of these" if claim.repeats else "possible transcription errors" if lost else "the paper's own"].append(claim)
+    for title, claims in groups.items():
+        print(f"{title} ({len(claims)})")
+        for claim in claims:
+            _erratum(claim, register[claim.id], findings.get(claim.id, {}).get("correction"), store)
+        print()
+    return 0
+
+
+def _erratum(claim: Claim, entry: Mapping[str, Any], correction: Mapping[str, Any] | None, store: Store) -> None:
+    print(f"  {claim.id}  section {claim.section} {claim.place}  {entry['verdict']}" + (f" (repeats {claim.repeats})" if claim.repeats else ""))
+    print(f"      says        {claim.says}")
+    if claim.printed:
+        print(f"      printed     {claim.printed}")
+    if correction:
+        print(f"      correction  {correction['text']}   ({correction['change']})")
+    if "detail" in entry:
+        print(f"      detail      {entry['detail']}")
+    if "sharp" in entry:
+        print(f"      holds for   {entry['sharp']}")
+    for name, text in store.texts.items():
+        certificate = store.certificate(name, text) if name.split("/")[0] == claim.id else None
+        if isinstance(certificate, dict) and "refuted" in certificate:
+            print(f"      refuted at  {counterexample(certificate['refuted'])}")

@@ -1,0 +1,77 @@
+"""The table of results, as rows of text and as it is drawn on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from proofs.claims import Claim
+from proofs.judging import Judgement
+
+COLUMNS = ("claim", "place", "verdict", "settled by", "sharp range of alpha")
+COLOURS = {"holds": "green", "misprint": "yellow", "false": "red", "gap": "magenta", "ambiguous": "cyan", "unknown": "bold red"}
+
+
+def settled_by(judgement: Judgement) -> str:
+    """How a claim was settled: certificates, counterexamples, and the votes of the other routes."""
+    own = {name: outcome for name, outcome in judgement.outcomes.items() if "/corrected." not in name}
+    counts = [(sum(o == word for o in own.values()), label) for word, label in
+              (("certified", "certificate"), ("refuted", "counterexample"), ("unknown", "open"))]
+    parts = [f"{count} {label}{'s' if count > 1 and label != 'open' else ''}" for count, label in counts if count]
+    votes = [vote for name, cast in judgement.votes.items() if name in own for vote in cast]
+    for route in ("z3", "boxes"):
+        cast = [vote for vote in votes if vote.route == route]
+        decided = sum(vote.answer in ("holds", "fails") for vote in cast)
+        parts += [f"{route} {decided}/{len(cast)}"] if cast and decided else []
+    return ", ".join(parts) or "no statement"
+
+
+def sharp_range(judgement: Judgement) -> str:
+    """The sharp range, or each reading's."""
+    if not judgement.sharp:
+        return "no alpha"
+    shown = [(f"{prefix.rstrip('.')}: " if prefix else "") + one["text"] for prefix, one in judgement.sharp.items()]
+    return "; ".join(dict.fromkeys(shown))
+
+
+def verdict_text(claim: Claim, judgement: Judgement) -> str:
+    """The verdict with what must be said beside it."""
+    word = judgement.verdict.word
+    notes = []
+    if claim.repeats and word in ("misprint", "false"):
+        notes.append(f"repeats {claim.repeats}")
+    if judgement.correction and judgement.correction["possible transcription error"] or (claim.as_it_stands and word == "holds"):
+        notes.append("possible transcription error")
+    return word + (f" ({'; '.join(notes)})" if notes else "")
+
+
+def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple[str, ...]]:
+    """The table's rows."""
+    return [(claim.id, f"{claim.section} {claim.place}".strip(), verdict_text(claim, judgement), settled_by(judgement), sharp_range(judgement))
+            for claim, judgement in zip(claims, judgements)]
+
+
+def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Any) -> None:
+    """Draws the table on a terminal; plain columns, one row a line, where there is none."""
+    from rich.table import Table
+
+    if not console.is_terminal:
+        table_rows = [COLUMNS, *rows(claims, judgements)]
+        widths = [max(len(row[i]) for row in table_rows) for i in range(len(COLUMNS))]
+        for row in table_rows:
+            print("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())
+        return
+    table = Table(*COLUMNS, header_style="bold")
+    for row, judgement in zip(rows(claims, judgements), judgements):
+        colour = COLOURS[judgement.verdict.word]
+        table.add_row(row[0], row[1], f"[{colour}]{row[2]}[/{colour}]", *(cell.replace("[", r"\[") for cell in row[3:]))
+    console.print(table)
+
+
+def summary(judgements: Sequence[Judgement]) -> str:
+    """One line that counts claims by verdict and statements by outcome."""
+    words = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
+    verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in words]
+    outcomes = [o for j in judgements for o in j.outcomes.values()]
+    counted = ", ".join(f"{outcomes.count(word)} {word}" for word in ("certified", "refuted", "unknown"))
+    return f"{len(judgements)} claims: {', '.join(verdicts)}; {len(outcomes)} statements: {counted}"

@@ -1,0 +1,83 @@
+"""The one encoder from SymPy expressions to exact terms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from certificates.terms import ClaimError, Term, real, term
+
+
+def from_sympy(expression: Any, roots: Mapping[Any, Term] | None = None) -> Term:
+    """The term of a SymPy expression that is rational in its symbols.
+
+    `roots` gives the term that stands for the square root of a SymPy radicand.  Raises ClaimError for floats and functions.
+
+    >>> from sympy import Rational, Symbol
+    >>> x, y = Symbol("x"), Symbol("y")
+    >>> str(from_sympy(Rational(1, 3) * x**2 / (y - 1)))
+    'x^2/(3*(y - 1))'
+    """
+    if expression.is_Symbol:
+        return real(expression.name)
+    if expression.is_Rational:
+        return term(Fraction(int(expression.p), int(expression.q)))
+    if expression.is_Add:
+        return _sum(expression, roots)
+    if expression.is_Mul:
+        return _product(expression, roots)
+    if expression.is_Pow:
+        base, exponent = expression.base, expression.exp
+        if exponent.is_Integer:
+            return from_sympy(base, roots) ** int(exponent)
+        twice = 2 * exponent
+        if twice.is_Integer:
+            return _root(base, roots) ** int(twice)
+    raise ClaimError(f"{expression} is not rational in its symbols; adjoin its roots and write the rest exactly")
+
+
+def _sum(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
+    total: Term | None = None
+    for part in expression.as_ordered_terms():
+        negative = part.could_extract_minus_sign()
+        piece = from_sympy(-part if negative else part, roots)
+        if total is None:
+            total = -piece if negative else piece
+        else:
+            total = total - piece if negative else total + piece
+    return term(0) if total is None else total
+
+
+def _product(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
+    """Factors with positive exponents above, those with negative ones below, as SymPy holds them: nothing is multiplied out."""
+    above: list[Term] = []
+    below: list[Term] = []
+    for factor in expression.as_ordered_factors():
+        if factor.is_Rational:
+            above += [term(int(factor.p))] if abs(factor.p) != 1 else []
+            below += [term(int(factor.q))] if factor.q != 1 else []
+            sign = factor.p < 0 and abs(factor.p) == 1
+            above += [term(-1)] if sign else []
+        elif factor.is_Pow and factor.exp.could_extract_minus_sign():
+            below.append(from_sympy(1 / factor, roots))
+        else:
+            above.append(from_sympy(factor, roots))
+    product = _multiplied(above)
+    return product / _multiplied(below) if below else product
+
+
+def _multiplied(factors: list[Term]) -> Term:
+    if not factors:
+        return term(1)
+    product = factors[0]
+    for factor in factors[1:]:
+        product = product * factor
+    return product
+
+
+def _root(base: Any, roots: Mapping[Any, Term] | None) -> Term:
+    for radicand, name in (roots or {}).items():
+        if (radicand - base).expand() == 0:
+            return name
+    raise ClaimError(f"the square root of {base} has no name here; adjoin it with a root line")

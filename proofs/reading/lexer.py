@@ -1,0 +1,136 @@
+r"""LaTeX to tokens with their positions; spacing, fonts and layout are dropped, an unknown command is refused.
+
+A line end counts as a join where the next line goes on with a relation or an infix operator (a leading minus goes on),
+and otherwise separates two parts of a display.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+
+from proofs.reading.errors import PrintError
+from proofs.reading.vocabulary import ACCENTS, BINARY, DROPPED, KNOWN, LAYOUT, LETTERS, RELATIONS, SAME, TABLES
+
+_PATTERN = re.compile(
+    r"""
+      (?P<space>  \s+ | ~ | \\[,;:!>\ ] | \\(?:tag|label)\*?\s*\{[^{}]*\} | \\hspace\*?\s*\{[^{}]*\} )
+    | (?P<sized>  \\(?:left|right|middle|[bB]igg?[lrm]?)(?![A-Za-z])\s*(?P<delimiter>
+                     \\[{}] | \\(?:lfloor|rfloor|lceil|rceil|mid|[lr]?vert|lbrace|rbrace)(?![A-Za-z]) | [()\[\]|./] ))
+    | (?P<line>   \\\\(?:\[[0-9.]+(?:pt|em|ex|mm)\])? )
+    | (?P<table>  \\(?P<edge>begin|end)\s*\{(?P<environment>[A-Za-z]+\*?)\}(?:(?<=array\})\s*\{[lcr|\s]*\})? )
+    | (?P<text>   \\(?:text|textrm|textit|mbox)\s*\{(?P<words>[^{}]*)\} )
+    | (?P<command>\\[A-Za-z]+ | \\[{}] )
+    | (?P<number> [0-9]+(?:\.[0-9]+)? )
+    | (?P<letter> [A-Za-z] )
+    | (?P<define> :\s*= )
+    | (?P<symbol> [-+*/^_{}()\[\]|,;.:'=<>&] )
+    """,
+    re.VERBOSE,
+)
+_ENDS = frozenset(BINARY) | RELATIONS | frozenset((",", "(", "["))
+_GOES_ON = frozenset(BINARY) | RELATIONS | frozenset((")", "]", r"\}", ",", "."))
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A piece of a print: its kind, its text in normal spelling, and where it starts and ends."""
+
+    kind: str  # number, letter, command, symbol, accent, begin, end, text, line, stop
+    text: str
+    start: int
+    end: int
+
+
+@lru_cache(maxsize=4096)
+def lex(latex: str) -> tuple[Token, ...]:
+    r"""The tokens of a print, closed by one of kind `stop`.
+
+    >>> [token.text for token in lex(r"\Delta_1\,E \leq \overline{\beta}.")][:6]
+    ['\\Delta', '_', '1', 'E', '\\le', '\\bar']
+    >>> lex(r"\alpha \foo")
+    Traceback (most recent call last):
+    proofs.reading.errors.PrintError: column 8: unknown command \foo
+    """
+    return tuple(_joined(_raw(latex)))
+
+
+def _raw(latex: str) -> list[Token]:
+    tokens: list[Token] = []
+    at, match_at = 0, _PATTERN.match
+    while at < len(latex):
+        match = match_at(latex, at)
+        if match is None:
+            word = latex[at : at + 2] if latex[at] == "\\" else latex[at]
+            raise PrintError(at, f"unknown character {word}")
+        kind, text, end = str(match.lastgroup), match.group(), match.end()
+        if match.group("sized"):
+            text = match.group("delimiter")
+            text = SAME.get(text, text)
+            if text != ".":
+                tokens.append(Token("command" if text[0] == "\\" else "symbol", text, at, end))
+        elif match.group("table"):
+            tokens.append(Token(match.group("edge"), _environment(match.group("environment"), at), at, end))
+        elif match.group("text"):
+            tokens.append(Token("text", match.group("words").strip(), at, end))
+        elif kind == "command":
+            text = SAME.get(text, text)
+            if text not in DROPPED:
+                tokens.append(Token(_kind_of(text, latex[at:end], at), text, at, end))
+        elif kind == "define":
+            tokens.append(Token("symbol", ":=", at, end))
+        elif kind != "space":
+            tokens.append(Token(kind, text, at, end))
+        at = end
+    tokens.append(Token("stop", "the end of the print", len(latex), len(latex)))
+    return tokens
+
+
+def _environment(name: str, at: int) -> str:
+    if name not in TABLES and name not in LAYOUT:
+        raise PrintError(at, f"unknown environment {name}")
+    return name
+
+
+def _kind_of(command: str, spelled: str, at: int) -> str:
+    if command in LETTERS:
+        return "letter"
+    if command in ACCENTS:
+        return "accent"
+    if command[0] != "\\":
+        return "symbol"
+    if command not in KNOWN:
+        raise PrintError(at, f"unknown command {spelled}")
+    return "command"
+
+
+def _joined(tokens: list[Token]) -> list[Token]:
+    """The tokens without layout environments, alignment marks, and line ends in the middle of a formula."""
+    kept: list[Token] = []
+    open_tables: list[Token] = []
+    for token in tokens:
+        if token.kind == "begin":
+            open_tables.append(token)
+        elif token.kind == "end":
+            if not open_tables or open_tables[-1].text != token.text:
+                raise PrintError(token.start, rf"\end{{{token.text}}} closes nothing")
+            open_tables.pop()
+        if token.kind in ("begin", "end") and token.text in LAYOUT:
+            continue
+        inside = any(table.text in TABLES for table in open_tables)
+        if token.text == "&" and not inside:
+            continue
+        if (
+            kept
+            and kept[-1].kind == "line"
+            and not inside
+            and (token.text in _GOES_ON or token.kind in ("line", "stop"))
+        ):
+            kept.pop()
+        if token.kind == "line" and not inside and (not kept or kept[-1].text in _ENDS):
+            continue
+        kept.append(token)
+    if open_tables:
+        raise PrintError(open_tables[-1].start, rf"\begin{{{open_tables[-1].text}}} is never closed")
+    return kept

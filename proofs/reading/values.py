@@ -1,0 +1,193 @@
+"""Exact values of prints: scalars are Terms (or rational numbers), vectors and matrices are tuples of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Union
+
+from certificates.terms import ClaimError, Term
+
+Scalar = Union[int, Fraction, Term]
+
+
+class ShapeError(ClaimError):
+    """Two values do not fit together: a vector and a scalar added, matrices of different sizes multiplied."""
+
+
+def is_scalar(value: object) -> bool:
+    """Whether the value is a term or an exact number."""
+    return isinstance(value, (Term, int, Fraction)) and not isinstance(value, bool)
+
+
+def _all_scalars(entries: tuple[object, ...]) -> None:
+    if not all(map(is_scalar, entries)):
+        raise ShapeError("an entry of a vector or matrix that is not a scalar")
+
+
+def plus(left: Scalar, right: Scalar) -> Scalar:
+    """left + right, where a literal zero leaves the other as it is."""
+    if not isinstance(left, Term) and left == 0:
+        return right
+    return left if not isinstance(right, Term) and right == 0 else left + right
+
+
+def times(left: Scalar, right: Scalar) -> Scalar:
+    """left * right, where a literal zero or one does what it does."""
+    for one, other in ((left, right), (right, left)):
+        if not isinstance(one, Term) and one in (0, 1):
+            return other if one == 1 else 0
+    return left * right
+
+
+def over(left: Scalar, right: Scalar) -> Scalar:
+    """left / right, exact; a literal zero below raises ShapeError."""
+    if isinstance(right, Term):
+        return left / right
+    if right == 0:
+        raise ShapeError("a division by zero")
+    return left / right if isinstance(left, Term) else Fraction(left) / right
+
+
+def _dot(left: tuple[Scalar, ...], right: tuple[Scalar, ...]) -> Scalar:
+    if len(left) != len(right):
+        raise ShapeError(f"a product of {len(left)} entries with {len(right)}")
+    total: Scalar = 0
+    for one, other in zip(left, right, strict=True):
+        total = plus(total, times(one, other))
+    return total
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    """A column of scalars.
+
+    >>> (Vector((1, 2)) - Vector((0, 5))) * 3
+    Vector(entries=(3, -9))
+    """
+
+    entries: tuple[Scalar, ...]
+
+    def __post_init__(self) -> None:
+        _all_scalars(self.entries)
+
+    def __iter__(self) -> Iterator[Scalar]:
+        return iter(self.entries)
+
+    def component(self, index: int) -> Scalar:
+        """The entry of this number, from 1."""
+        if not 1 <= index <= len(self.entries):
+            raise ShapeError(f"component {index} of a vector with {len(self.entries)} entries")
+        return self.entries[index - 1]
+
+    def __add__(self, other: Vector) -> Vector:
+        return Vector(tuple(a + b for a, b in self._pairs(other)))
+
+    def __sub__(self, other: Vector) -> Vector:
+        return Vector(tuple(a - b for a, b in self._pairs(other)))
+
+    def __neg__(self) -> Vector:
+        return Vector(tuple(-entry for entry in self.entries))
+
+    def scaled(self, scalar: Scalar) -> Vector:
+        """Every entry times the scalar, which stands on its left."""
+        if not is_scalar(scalar):
+            raise ShapeError("a product of a vector with something that is not a scalar")
+        return Vector(tuple(times(scalar, entry) for entry in self.entries))
+
+    __mul__ = scaled
+    __rmul__ = scaled
+
+    def __truediv__(self, scalar: Scalar) -> Vector:
+        return Vector(tuple(over(entry, scalar) for entry in self.entries))
+
+    def _pairs(self, other: Vector) -> Iterator[tuple[Scalar, Scalar]]:
+        if not isinstance(other, Vector) or len(other.entries) != len(self.entries):
+            raise ShapeError("a sum of a vector with something that is not a vector of its length")
+        return zip(self.entries, other.entries, strict=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Matrix:
+    """Rows of scalars; a single row times a vector is a scalar.
+
+    >>> Matrix(((1, 2), (3, 4))) * Vector((1, 1))
+    Vector(entries=(3, 7))
+    >>> Matrix(((1, 2), (3, 4))).inverse() * Matrix(((1, 2), (3, 4)))
+    Matrix(rows=((Fraction(1, 1), Fraction(0, 1)), (Fraction(0, 1), Fraction(1, 1))))
+    """
+
+    rows: tuple[tuple[Scalar, ...], ...]
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            _all_scalars(row)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """The numbers of rows and of columns."""
+        return len(self.rows), len(self.rows[0])
+
+    def __add__(self, other: Matrix) -> Matrix:
+        return self._entrywise(other, lambda a, b: a + b)
+
+    def __sub__(self, other: Matrix) -> Matrix:
+        return self._entrywise(other, lambda a, b: a - b)
+
+    def __neg__(self) -> Matrix:
+        return Matrix(tuple(tuple(-entry for entry in row) for row in self.rows))
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, Vector):
+            entries = tuple(_dot(row, other.entries) for row in self.rows)
+            return entries[0] if len(entries) == 1 else Vector(entries)
+        if isinstance(other, Matrix):
+            columns = tuple(zip(*other.rows, strict=True))
+            return Matrix(tuple(tuple(_dot(row, column) for column in columns) for row in self.rows))
+        return self.scaled(other)
+
+    def scaled(self, scalar: Scalar) -> Matrix:
+        """Every entry times the scalar, which stands on its left."""
+        if not is_scalar(scalar):
+            raise ShapeError("a product of a matrix with something that is neither matrix, vector nor scalar")
+        return Matrix(tuple(tuple(times(scalar, entry) for entry in row) for row in self.rows))
+
+    __rmul__ = scaled
+
+    def __truediv__(self, scalar: Scalar) -> Matrix:
+        return Matrix(tuple(tuple(over(entry, scalar) for entry in row) for row in self.rows))
+
+    def transpose(self) -> Matrix:
+        """Rows and columns exchanged."""
+        return Matrix(tuple(zip(*self.rows, strict=True)))
+
+    def determinant(self) -> Scalar:
+        """a d - b c, of a 2 by 2 matrix."""
+        if self.shape != (2, 2):
+            raise ShapeError("a determinant of a matrix that is not 2 by 2")
+        (a, b), (c, d) = self.rows
+        return a * d - b * c
+
+    def inverse(self) -> Matrix:
+        """The inverse of a 2 by 2 matrix, by its adjugate over its determinant."""
+        below = self.determinant()
+        (a, b), (c, d) = self.rows
+        return Matrix(((over(d, below), over(-b, below)), (over(-c, below), over(a, below))))
+
+    def power(self, exponent: int) -> Matrix:
+        """The integer power of a square matrix."""
+        rows, columns = self.shape
+        if rows != columns:
+            raise ShapeError("a power of a matrix that is not square")
+        base = self.inverse() if exponent < 0 else self
+        result = Matrix(tuple(tuple(int(i == j) for j in range(rows)) for i in range(rows)))
+        for _ in range(abs(exponent)):
+            result = result * base
+        return result
+
+    def _entrywise(self, other: Matrix, join: Callable[[Scalar, Scalar], Scalar]) -> Matrix:
+        if not isinstance(other, Matrix) or other.shape != self.shape:
+            raise ShapeError("a sum of a matrix with something that is not a matrix of its shape")
+        pairs = zip(self.rows, other.rows, strict=True)
+        return Matrix(tuple(tuple(join(a, b) for a, b in zip(*rows, strict=True)) for rows in pairs))

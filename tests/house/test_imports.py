@@ -1,0 +1,57 @@
+"""Imports run one way, every package is this tree's, and files stay short."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGES = ("symbolic", "certificates", "proofs")
+MAY_IMPORT = {"symbolic": {"symbolic"}, "certificates": {"certificates"}, "proofs": {"proofs", "certificates", "symbolic"}}
+FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"}, "proofs": {"sympy", "rich"}}
+
+
+def modules(package: str) -> list[Path]:
+    return sorted((ROOT / package).rglob("*.py"))
+
+
+def imported(path: Path) -> set[str]:
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            found.add(node.module.split(".")[0])
+    return found
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_imports_run_one_way_holds(package: str) -> None:
+    assert modules(package)
+    for path in modules(package):
+        assert imported(path) & set(PACKAGES) <= MAY_IMPORT[package], path
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_only_known_libraries_are_imported_holds(package: str) -> None:
+    import sys
+
+    for path in modules(package):
+        foreign = {name for name in imported(path) if name not in sys.stdlib_module_names and name not in PACKAGES}
+        assert foreign <= FOREIGN[package], (path, foreign)
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_packages_are_imported_from_this_tree_holds(package: str) -> None:
+    module = importlib.import_module(package)
+    assert Path(str(module.__file__)).resolve().parent == ROOT / package
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_files_stay_short_holds(package: str) -> None:
+    for path in modules(package):
+        limit = 800 if path.name == "checker.py" else 350
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= limit, path

@@ -1,0 +1,41 @@
+"""The judged content of a claim: its statements as formulas over polynomials, apart from how they are written."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from certificates import checker
+from certificates.statements import Statement
+from proofs.claims import Claim, assertions, named_statements
+from proofs.reading.printed import read
+
+
+def content(claim: Claim, latex: str) -> list[Any]:
+    """What would be judged if the claim's print were this LaTeX; equal lists mean the same statements.
+
+    Raises ClaimError where the print is refused and checker.Rejected where the statement is.
+    """
+    body = claim.body(read(latex))
+    found: list[Any] = [type(body).__name__, getattr(body, "rescue", "")]
+    for prefix, assertion in assertions(body):
+        for part in named_statements(claim.id, prefix, assertion):
+            statement = checker.read_statements(part.text())[part.name]
+            if isinstance(part, Statement):
+                story = checker.Unfolding(statement, checker.Context())
+                found.append((part.name, normal([p for p, _ in story.premises]), normal([p for p, _ in story.goals]), part.exists))
+            else:
+                found.append(part.text())
+    return found
+
+
+def normal(formula: Any) -> Any:
+    """A formula with each polynomial as its sorted integer coefficients, up to a positive factor (any factor for equations)."""
+    if isinstance(formula, bool):
+        return formula
+    if isinstance(formula, list):
+        return tuple(sorted(map(repr, map(normal, formula))))
+    if formula[0] == "atom":
+        content_, primitive = formula[1].primitive()
+        sign = 1 if content_ > 0 or formula[2] in ("=", "!=") else -1
+        return formula[2], tuple(sorted((m, sign * c) for m, c in primitive.terms.items()))
+    return formula[0], tuple(sorted(map(repr, map(normal, formula[1]))))
