@@ -16,9 +16,9 @@ import os
 import re
 import sys
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, lcm, prod
 
-MAX_DEGREE, MAX_VARIABLES, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 40000, 2 * 10**7, 64 << 20
+MAX_DEGREE, MAX_VARIABLES, MAX_TERMS, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 10**5, 40000, 2 * 10**7, 16 << 20
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
 
 
@@ -26,20 +26,18 @@ class Rejected(Exception):
     """A certificate does not prove its statement, or a statement says nothing: the reason, then the offending object."""
 
     def __init__(self, reason, offender=""):
-        text = str(offender)
-        super().__init__(reason + (": " if text else "") + (text if len(text) < 300 else text[:300] + "..."))
+        text = str(offender)[:300]
+        super().__init__(ascii(reason + (": " if text else "") + text)[1:-1])
 
 
-class Work:
+work_left = [MAX_WORK]
+
+
+def spend(amount):
     """Counts elementary products, so that a hostile file ends as a rejection instead of a hang."""
-
-    left = MAX_WORK
-
-    @classmethod
-    def spend(cls, amount):
-        cls.left -= amount
-        if cls.left < 0:
-            raise Rejected("too much work")
+    work_left[0] -= amount
+    if work_left[0] < 0:
+        raise Rejected("too much work")
 
 
 # ------------------------------------------------------------ polynomials: {packed exponents: integer} over one denominator
@@ -56,6 +54,7 @@ class Poly:
         self.terms, self.den, self.deg = terms, den, deg
 
     def __add__(self, other):
+        spend(len(self.terms) + len(other.terms) + 1)
         den = lcm(self.den, other.den)
         a, b = den // self.den, den // other.den
         terms = {m: c * a for m, c in self.terms.items()} if a > 1 else dict(self.terms)
@@ -68,11 +67,14 @@ class Poly:
         return Poly(terms, den, max(self.deg, other.deg))
 
     def __mul__(self, other):
-        Work.spend(len(self.terms) * len(other.terms) + 1)
+        sizes = [sum(c.bit_length() for c in poly.terms.values()) for poly in (self, other)]
+        spend(len(self.terms) * len(other.terms) + 1 + (sizes[0] * sizes[1] >> 16))
         terms = {}
         for m, c in self.terms.items():
             for n, d in other.terms.items():
                 terms[m + n] = terms.get(m + n, 0) + c * d
+            if len(terms) > MAX_TERMS:
+                raise Rejected("a polynomial is too large", f"{len(terms)} terms")
         if any(c.bit_length() > MAX_BITS for c in terms.values()):
             raise Rejected("a coefficient is too large")
         return Poly({m: c for m, c in terms.items() if c}, self.den * other.den, self.deg + other.deg)
@@ -84,10 +86,7 @@ class Poly:
         return self + -other
 
     def __pow__(self, exponent):
-        result = ONE
-        for _ in range(exponent):
-            result = result * self
-        return result
+        return prod([self] * exponent, start=ONE)
 
     def constant(self):
         """The value of a constant polynomial; None for any other."""
@@ -121,22 +120,12 @@ class Ratio:
 
 def parse(text):
     """The syntax tree of a term or formula: integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,), iff(,)."""
-    if not isinstance(text, str) or len(text) > 1 << 20 or re.search(r"[^\w +\-*/^()<>=!,]|\*\*|//|<<|>>|==|<>", text, re.ASCII):
+    if not isinstance(text, str) or len(text) > 1 << 20 or re.search(r"[^\w +\-*/^()<>=!,]|\*\*|//|<<|>>|==|<>|\b\d+[A-Za-z_]", text, re.ASCII):
         raise Rejected("unreadable text", text)
     try:
         return ast.parse(re.sub(r"(?<![<>!])=", "==", text.replace("^", "**")).strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise Rejected("unreadable text", text) from None
-
-
-def name_in(node):
-    if not isinstance(node, ast.Name) or node.id in ("implies", "iff", "sqrt", "root"):
-        raise Rejected("expected a name", ast.unparse(node))
-    return node.id
-
-
-def parts(node):
-    return node.elts if isinstance(node, ast.Tuple) else [node]
 
 
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
@@ -208,15 +197,18 @@ class Context:
             num = num * self.licensed[i][0] ** (den[i] - ratio.den.get(i, 0))
         return num
 
-    def subtract(self, a, b):
+    def add(self, a, b):
         den = {i: max(a.den.get(i, 0), b.den.get(i, 0)) for i in {*a.den, *b.den}}
-        return Ratio(self.over(a, den) - self.over(b, den), den)
+        return Ratio(self.over(a, den) + self.over(b, den), den)
+
+    def subtract(self, a, b):
+        return self.add(a, Ratio(-b.num, b.den))
 
     def multiply(self, a, b):
         return Ratio(a.num * b.num, {i: a.den.get(i, 0) + b.den.get(i, 0) for i in {*a.den, *b.den}})
 
     def reciprocal(self, node):
-        """1 / node, where node is nonzero: a number, licensed as a whole, or a product, quotient or power of such."""
+        """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of such."""
         ratio = self.value(node)
         constant = ratio.num.constant()
         if constant == 0:
@@ -228,11 +220,8 @@ class Context:
                 content = -content
             upper = self.over(Ratio(ONE), ratio.den)
             return Ratio(upper * number(1 / (constant or content)), {found: 1} if constant is None else {})
-        if isinstance(node, ast.UnaryOp):
-            return self.multiply(self.reciprocal(node.operand), Ratio(number(-1)))
-        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
-            right = self.reciprocal(node.right) if isinstance(node.op, ast.Mult) else self.value(node.right)
-            return self.multiply(self.reciprocal(node.left), right)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+            return self.multiply(self.reciprocal(node.left), self.reciprocal(node.right))
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
             inner = self.reciprocal(node.left)
             exponent = node.right.value
@@ -248,20 +237,17 @@ class Context:
                 raise Rejected("an undeclared name", node.id)
             return self.values[node.id]
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-            return self.multiply(self.value(node.operand), Ratio(number(-1)))
+            return self.subtract(Ratio(ZERO), self.value(node.operand))
         if isinstance(node, ast.BinOp):
-            left, op = self.value(node.left), node.op
-            if isinstance(op, ast.Pow) and isinstance(node.right, ast.Constant) and type(node.right.value) is int:
+            left, op = self.value(node.left), type(node.op)
+            if op is ast.Pow and isinstance(node.right, ast.Constant) and type(node.right.value) is int:
                 exponent = node.right.value
                 if not 0 <= exponent <= MAX_DEGREE:
                     raise Rejected("an exponent is too large", exponent)
                 return Ratio(left.num**exponent, {i: e * exponent for i, e in left.den.items() if exponent})
-            if isinstance(op, ast.Add):
-                return self.subtract(left, self.multiply(self.value(node.right), Ratio(number(-1))))
-            if isinstance(op, ast.Sub):
-                return self.subtract(left, self.value(node.right))
-            if isinstance(op, (ast.Mult, ast.Div)):
-                return self.multiply(left, self.value(node.right) if isinstance(op, ast.Mult) else self.reciprocal(node.right))
+            if op in (ast.Add, ast.Sub, ast.Mult, ast.Div):
+                right = self.reciprocal(node.right) if op is ast.Div else self.value(node.right)
+                return (self.add if op is ast.Add else self.subtract if op is ast.Sub else self.multiply)(left, right)
         raise Rejected("not a term", ast.unparse(node))
 
     def polynomial(self, text):
@@ -325,6 +311,7 @@ def univariate(context, poly, name):
 
 def evaluate(p, at):
     value = Fraction(0)
+    spend(len(p) ** 2 * (at.numerator.bit_length() + at.denominator.bit_length()) >> 6)
     for c in reversed(p):
         value = value * at + c
     return value
@@ -334,7 +321,7 @@ def remainder(p, q):
     rest = list(p)
     while len(rest) >= len(q):
         factor, shift = rest[-1] / q[-1], len(rest) - len(q)
-        Work.spend(len(q))
+        spend(len(q) * (8 + factor.numerator.bit_length() + factor.denominator.bit_length()) >> 3)
         rest = [c - factor * q[k - shift] if k >= shift else c for k, c in enumerate(rest)][:-1]
         while rest and rest[-1] == 0:
             rest.pop()
@@ -498,11 +485,11 @@ def close_by_use(state, known, name, arguments, fresh, node):
     context = Context(state.context)
     values = {variable: state.context.value(parse(text)) for variable, text in arguments.items()}
     for variable, new in sorted(fresh.items()):
-        context.declare(new)
+        context.declare(new, any(variable in line for line in known[name].get("integer")))
         values[variable] = context.values[new]
     story = Unfolding(known[name], Context(context, values))
-    if set(values) != story.variables or set(arguments) != set(story.universal) or not all(
-            is_integral(state.context, arguments[variable]) for variable in story.integers):
+    if set(values) != story.variables or set(arguments) != set(story.universal) or set(arguments) & set(fresh) or not all(
+            is_integral(state.context, arguments[variable]) for variable in story.integers & set(arguments)):
         raise Rejected("an instance gives every variable one value, an integer one an integer", name)
     close(state.branch(join("or", [story.negated(story.premises), story.goal(True)]), context), node, known)
 
@@ -524,10 +511,31 @@ def close(state, node, known):
 
 # ------------------------------------------------------------ statements
 
-LINES = {  # what follows each keyword
-    "forall": "names", "integer": "names", "exists": "names", "over": "names", "sharp": "words", "let": "definition",
-    "root": "call", "number": "call", "range": "tree", "given": "tree", "have": "tree", "with": "tree", "show": "tree",
-    "domain": "tree", "holds": "tree", "iterates": "map", "after": "power"}
+
+
+def definition(text):
+    name, _, said = text.partition(" = ")
+    return name, parse(said)
+
+
+def call(text):
+    """NAME = sqrt(term), or NAME = root(polynomial, low, high): the name and the arguments."""
+    name, node = definition(text)
+    if not isinstance(node, ast.Call) or (ast.unparse(node.func), len(node.args)) not in (("sqrt", 1), ("root", 3)) or node.keywords:
+        raise Rejected("expected sqrt(term) or root(polynomial, low, high)", text)
+    return name, node.args
+
+
+def mapping(text):
+    """NAMES -> TERMS, each a tuple or a single one."""
+    names, terms = (node.elts if isinstance(node, ast.Tuple) else [node] for node in map(parse, text.split(" -> ")))
+    return [ast.unparse(name) for name in names], terms
+
+
+LINES = {  # how what follows each keyword is read
+    "forall": str.split, "integer": str.split, "exists": str.split, "over": str.split, "sharp": str.split, "let": definition,
+    "root": call, "number": call, "range": parse, "given": parse, "have": parse, "with": parse, "show": parse, "domain": parse,
+    "holds": parse, "iterates": mapping, "after": mapping}
 ORDERS = {  # the lines that each kind of statement has, in this order, so that none can be overlooked
     "universal": r"(forall )?(integer )?((range|given|have|let|root) )*(exists ((with|let) )*)?show ",
     "sharp": r"sharp over domain (number )*holds ",
@@ -535,42 +543,13 @@ ORDERS = {  # the lines that each kind of statement has, in this order, so that 
 
 
 class Statement:
-    """One statement as text: its name, its kind, and its lines in order as (keyword, what it says)."""
+    """One statement as text: its name, its lines in order as (keyword, what it says), and its kind, which their order tells."""
 
     def __init__(self, name):
-        self.name, self.kind, self.lines = name, "universal", []
-
-    def add(self, keyword, text):
-        form = LINES.get(keyword)
-        if form == "names":
-            said = text.split()
-        elif form == "words":
-            self.kind, said = keyword, text.split()
-        elif form == "tree":
-            said = parse(text)
-        elif form in ("definition", "call"):
-            name, _, rest = text.partition(" = ")
-            said = (name, parse(rest))
-            if form == "call":
-                call = said[1]
-                if not isinstance(call, ast.Call) or ast.unparse(call.func) != {"root": "sqrt", "number": "root"}[keyword] or call.keywords:
-                    raise Rejected("expected sqrt(term), or root(polynomial, low, high)", text)
-                said = (name, call.args)
-        elif form in ("map", "power"):
-            left, _, right = text.partition(" -> ")
-            said = ([name_in(node) for node in parts(parse(left))], parts(parse(right)))
-            self.kind = "iterates"
-        else:
-            raise Rejected("an unknown kind of line", keyword)
-        self.lines.append((keyword, said))
+        self.name, self.lines, self.kind = name, [], ""
 
     def get(self, keyword):
         return [said for key, said in self.lines if key == keyword]
-
-    def check(self):
-        line = "".join(keyword + " " for keyword, _ in self.lines)
-        if not re.fullmatch(ORDERS[self.kind], line):
-            raise Rejected("the lines of a statement are missing or out of order", f"{self.name}: {line}")
 
 
 def read_statements(text):
@@ -584,13 +563,16 @@ def read_statements(text):
                     raise Rejected("a statement's name is not ID/part, or stands twice", rest)
                 current = statements[rest] = Statement(rest)
             elif keyword and not keyword.startswith("#"):
-                if current is None:
-                    raise Rejected("a line before the first statement", line)
-                current.add(keyword, rest)
-        except Rejected as reason:
+                if current is None or keyword not in LINES:
+                    raise Rejected("an unknown kind of line, or one before the first statement", line)
+                current.lines.append((keyword, LINES[keyword](rest)))
+        except (Rejected, ValueError, TypeError, RecursionError, MemoryError) as reason:
             raise Rejected(f"statements, line {count}: {reason}") from None
-    for statement in statements.values():
-        statement.check()
+    for name, statement in statements.items():
+        order = "".join(keyword + " " for keyword, _ in statement.lines)
+        statement.kind = next((kind for kind, pattern in ORDERS.items() if re.fullmatch(pattern, order)), "")
+        if not statement.kind:
+            raise Rejected("the lines of a statement are missing or out of order", f"{name}: {order}")
     return statements
 
 
@@ -727,16 +709,19 @@ def adjoin(state, known, name, text, low, high, below, above):
 
 
 def check_sharp(statement, certificate, known, statements):
-    """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).  [{name: prove}, found].
+    """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).  [{name: prove}, found, sample].
 
     A statement's own range lines give way to the domain and the condition.  Inside, each statement is proved; outside, counterexamples to
     one of them are found.  Each `number` line: its polynomial has exactly one root between its ends, where it changes its sign.
+    The sample {parameter: value} is a point of the domain.
     """
     (names,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
-    inside, outside = certificate
+    inside, outside, sample = certificate
     state = State(Context())
     for parameter in over:
         state.context.declare(parameter)
+    if Context(None, {name: Ratio(number(rational(value))) for name, value in sample.items()}).formula(domain) is not True:
+        raise Rejected("the sample is not in the domain of a sharp range", sample)
     for name, (tree, *ends) in statement.get("number"):
         poly, low, high = state.context.value(tree).num, *(state.context.value(end).num.constant() for end in ends)
         p = univariate(state.context, poly, *variables_of(state.context, poly))
@@ -784,7 +769,7 @@ def settle(statement, certificate, known, statements):
 
     A certified statement carries a point that meets its premises, so that it says something.  A refuted one has a counterexample.
     """
-    kind = sorted(certificate)
+    kind = sorted(certificate) if isinstance(certificate, dict) else []
     if kind == ["unknown"]:
         return "unknown"
     if statement.kind != "universal" and kind == ["certified"]:
@@ -817,10 +802,11 @@ def refuse(text):
 
 def load(path):
     try:
-        if os.path.getsize(path) > MAX_FILE:
-            raise Rejected("a file is too large", path)
-        with open(path, encoding="utf-8") as file:
-            return file.read()
+        with open(path, encoding="ascii") as file:
+            text = file.read(MAX_FILE + 1)
+        if len(text) > MAX_FILE or re.search(r"[^\x20-\x7e\n]", text):
+            raise Rejected("a file is too large, or holds other characters than printable ASCII", path)
+        return text
     except (OSError, UnicodeDecodeError) as error:
         raise Rejected("a file cannot be read", f"{path} ({type(error).__name__})") from None
 
@@ -837,29 +823,28 @@ def read_certificates(text):
 
 def check_one(statement, certificate, known, earlier):
     """(outcome, reason) of one statement; whatever is wrong with the certificate is a rejection, never a crash."""
-    Work.left = MAX_WORK
+    work_left[0] = MAX_WORK
     try:
         return settle(statement, certificate, known, earlier), ""
     except Rejected as reason:
         return "rejected", str(reason)
-    except (RecursionError, MemoryError, ValueError, TypeError, KeyError, AttributeError, IndexError, OverflowError) as error:
+    except Exception as error:
         return "rejected", f"malformed certificate ({type(error).__name__})"
 
 
 def check_folder(folder):
     """[(name, outcome, reason)] for every statement of a folder in order, and for every certificate that has no statement."""
     statements, files, results, known, earlier = read_statements(load(os.path.join(folder, "statements.txt"))), {}, [], {}, {}
+    for claim in dict.fromkeys(name.split("/")[0] for name in statements):
+        try:
+            files[claim] = read_certificates(load(os.path.join(folder, claim + ".json")))
+        except Rejected as reason:
+            files[claim] = {}
+            results.append((claim, "rejected", str(reason)))
     for name, statement in statements.items():
-        claim = name.split("/")[0]
-        if claim not in files:
-            try:
-                files[claim] = read_certificates(load(os.path.join(folder, claim + ".json")))
-            except Rejected as reason:
-                files[claim] = {}
-                results.append((claim, "rejected", str(reason)))
-        certificate = files[claim].pop(name, None)
-        outcome, reason = check_one(statement, certificate, known, earlier) if certificate is not None else ("rejected", "no certificate")
-        results.append((name, outcome, reason))
+        certificate = files[name.split("/")[0]].pop(name, {})
+        outcome, reason = check_one(statement, certificate, known, earlier)
+        results.append((name, outcome, reason if certificate else "no certificate"))
         earlier[name] = statement
         if outcome == "certified" and statement.kind == "universal":
             known[name] = statement
@@ -870,13 +855,13 @@ def check_folder(folder):
 
 def main(arguments):
     try:
-        results = check_folder(arguments[0] if arguments else os.path.join(os.path.dirname(os.path.abspath(__file__)), "store"))
-    except Rejected as reason:
+        results = check_folder(*arguments or [os.path.join(os.path.dirname(os.path.abspath(__file__)), "store")])
+    except (Rejected, TypeError) as reason:
         print(f"checker: {reason}", file=sys.stderr)
         return 2
     for name, outcome, reason in results:
         if outcome == "rejected":
-            print(f"rejected  {name}: {reason}")
+            print("rejected ", ascii(f"{name}: {reason}")[1:-1])
     counts = [f"{sum(o == kind for _, o, _ in results)} {kind}" for kind in ("certified", "refuted", "unknown", "rejected")]
     print(f"{len(results)} statements: " + ", ".join(counts))
     return int(not results or any(outcome == "rejected" for _, outcome, _ in results))

@@ -251,16 +251,20 @@ def iff(left: Formula, right: Formula) -> Formula:
     return Formula("iff", left, right)
 
 
-def transform(thing: Any, leaf: Callable[[Term], Term]) -> Any:
-    """The same term or formula with `leaf` applied to every variable."""
-    if isinstance(thing, Term):
+def transform(thing: Any, leaf: Callable[[Term], Term], done: dict[Any, Any] | None = None) -> Any:
+    """The same term or formula with `leaf` applied to every variable; parts that are shared are visited once."""
+    done = {} if done is None else done
+    if not isinstance(thing, (Term, Formula)):
+        raise ClaimError(f"{thing!r} is neither a term nor a formula")
+    if id(thing) not in done:
         if thing.op == "var":
-            return leaf(thing)
-        if thing.op == "num":
-            return thing
-    if isinstance(thing, (Term, Formula)):
-        return type(thing)(thing.op, *(transform(part, leaf) if isinstance(part, (Term, Formula)) else part for part in thing.args))
-    raise ClaimError(f"{thing!r} is neither a term nor a formula")
+            result: Any = leaf(thing)  # type: ignore[arg-type]
+        elif thing.op == "num":
+            result = thing
+        else:
+            result = type(thing)(thing.op, *(transform(p, leaf, done) if isinstance(p, (Term, Formula)) else p for p in thing.args))
+        done[id(thing)] = result
+    return done[id(thing)]
 
 
 def substitute(thing: Any, values: Mapping[str, Number]) -> Any:

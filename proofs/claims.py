@@ -10,6 +10,7 @@ import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Union
 
 from certificates.statements import AnyStatement, Iterates, SharpRange, Statement
@@ -64,8 +65,20 @@ class Claim:
     repeats: str = ""
     parameters: tuple[str, ...] = ("alpha",)
     derived: Callable[[], Any] | None = None
+    nearby: tuple[str, Callable[[], Any]] | None = None
     hints: Mapping[str, Any] = field(default_factory=dict)
     source: str = ""
+
+    @property
+    def where(self) -> str:
+        """File and line of the claim, the file as short as it can be told."""
+        code = self.read.__code__
+        path = Path(code.co_filename)
+        try:
+            shown = path.relative_to(Path.cwd())
+        except ValueError:
+            shown = path
+        return f"{shown}:{code.co_firstlineno}"
 
     def body(self, printed: Any = None) -> Body:
         """What the claim asserts, with its own print or with another one in its place.
@@ -133,12 +146,14 @@ _registry: list[Claim] = []
 
 def claim(
     id: str, section: str = "", place: str = "", *, printed: str = "", as_it_stands: str = "", repeats: str = "",
-    parameters: Sequence[str] = ("alpha",), derived: Callable[[], Any] | None = None, hints: Mapping[str, Any] | None = None,
+    parameters: Sequence[str] = ("alpha",), derived: Callable[[], Any] | None = None,
+    nearby: tuple[str, Callable[[], Any]] | None = None, hints: Mapping[str, Any] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription has where it mangles the print.
-    Raises ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, - and dots.
+    `derived` gives the true right-hand side, and `nearby` a true assertion near a false one, with its text: both are tried as corrections
+    where no change of one mark mends the print.  Raises ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, - and dots.
     """
     def register(read: Callable[..., Any]) -> Callable[..., Any]:
         if not re.fullmatch(r"[A-Za-z0-9.\-]+", id):
@@ -149,7 +164,7 @@ def claim(
         if not says:
             raise ClaimError(f"{id} has no docstring; say in a sentence what it asserts")
         _registry.append(Claim(id, section, place, says, read, printed, as_it_stands, repeats, tuple(parameters), derived,
-                               dict(hints or {}), f"{read.__module__}.{read.__qualname__}"))
+                               nearby, dict(hints or {}), f"{read.__module__}.{read.__qualname__}"))
         return read
 
     return register

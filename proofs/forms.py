@@ -77,7 +77,7 @@ class _Writer:
         if below.op in ("*", "/"):
             self.license(below.args[0])
             self.license(below.args[1])
-        elif below.op in ("^", "neg"):
+        elif below.op == "^":
             self.license(below.args[0])
         else:
             sign = _likely_sign(below, self.vocabulary)
@@ -194,9 +194,13 @@ def exists_some(
         writer.add("given", formula)
     count = len(writer.lines)
     if exists:
-        before = [thing for thing in (*within, show) if not names_in(thing) & set(exists)]
-        for thing in before:
-            writer.prepare(thing)
+        for thing in (*within, show):
+            for name in sorted(names_in(thing) - set(exists)):
+                writer.prepare(real(name))
+            for below in _denominators(thing):
+                if not names_in(below) & set(exists):
+                    writer.prepare(below)
+                    writer.license(below)
         count = len(writer.lines)
         writer.declare(exists)
         for formula in within:

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib.metadata import version
 from typing import Any
 
 from certificates import checker
-from certificates.routes.votes import Vote, cast_votes
-from certificates.search.budget import Budget
+from certificates.routes.votes import Vote, cast_votes, compare
+from certificates.search.budget import Budget, Exhausted
 from certificates.search.certificate import search_certificate
+from certificates.search.closing import search_closing
 from certificates.statements import AnyStatement, Iterates, SharpRange, Statement
 from certificates.store import Store
-from certificates.terms import ClaimError
-from proofs.claims import Assertion, Body, Claim, Readings, assertions, named_statements
+from certificates.terms import ClaimError, Formula
+from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions, named_statements
 from proofs.corrections import Candidate, candidates
 from proofs.verdicts import Verdict, outcome_of, verdict_of
 
 DEFAULT_BUDGET = 3_000_000
 QUICK_BUDGET = 150_000
+TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
+SHARP = 4  # a sharp range takes many proofs and families
 
 
 @dataclass(frozen=True)
@@ -45,6 +51,7 @@ class Judgement:
     verdict: Verdict = field(default_factory=lambda: Verdict("unknown"))
     correction: dict[str, Any] | None = None
     corrected_as: dict[str, Any] | None = None
+    recorded: dict[str, Any] = field(default_factory=dict)
     reused: int = 0
 
     def finding(self) -> dict[str, Any]:
@@ -52,6 +59,8 @@ class Judgement:
         data: dict[str, Any] = {"sharp": {prefix: one["text"] for prefix, one in self.sharp.items()}}
         if self.correction:
             data["correction"] = self.correction
+        if self.recorded:
+            data["votes"] = self.recorded
         return data
 
 
@@ -62,17 +71,16 @@ def judge(claim: Claim, options: Options) -> Judgement:
     """
     try:
         return _Judge(claim, options).run()
-    except checker.Rejected as problem:
-        raise ClaimError(f"{claim.id}: {problem}") from None
-    except ClaimError as problem:
+    except (checker.Rejected, ClaimError) as problem:
         text = str(problem)
-        raise ClaimError(text if text.startswith(claim.id) else f"{claim.id}: {text}") from None
+        raise ClaimError(f"{claim.where}: " + (text if text.startswith(claim.id) else f"{claim.id}: {text}")) from None
 
 
 class _Judge:
     def __init__(self, claim: Claim, options: Options) -> None:
         self.claim, self.options, self.found = claim, options, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
+        self.is_trial = False
 
     def run(self) -> Judgement:
         claim, found = self.claim, self.found
@@ -82,7 +90,7 @@ class _Judge:
         for prefix, assertion in assertions(body):
             self.settle_all(prefix, assertion)
         found.verdict = verdict_of(claim.id, body, found.outcomes)
-        if found.verdict.word == "false" and claim.printed and isinstance(body, (Assertion, Readings)):
+        if found.verdict.word == "false" and (claim.printed or claim.nearby) and isinstance(body, (Assertion, Readings)):
             self.correct()
             found.verdict = verdict_of(claim.id, body, found.outcomes, corrected=found.correction is not None)
         for prefix, assertion in assertions(body):
@@ -107,14 +115,34 @@ class _Judge:
                 certificate, outcome = {"unknown": "the search found no certificate"}, "unknown"
         self.keep(name, text, certificate, outcome)
         if isinstance(statement, Statement):
-            routes = [route for route in self.options.routes if route != "exact"]
-            self.found.votes[name] = cast_votes(parsed, outcome, routes, None) if routes else ()
+            self.found.votes[name] = self.votes(parsed, text, outcome)
         return outcome
+
+    def votes(self, parsed: checker.Statement, text: str, outcome: str) -> Sequence[Vote]:
+        """One vote a route; a vote that an earlier run recorded on this very text, with these tools, is not cast again."""
+        routes = [route for route in self.options.routes if route != "exact"]
+        earlier = (self.options.findings.get(self.claim.id) or {}).get("votes", {}).get(parsed.name)
+        if earlier and earlier.get("on") == _voted_on(text) and set(routes) <= {one["route"] for one in earlier["votes"]}:
+            recorded = [Vote(one["route"], one["answer"], one["detail"]) for one in earlier["votes"] if one["route"] in routes]
+            compare(parsed.name, outcome, recorded)
+            self.found.recorded[parsed.name] = earlier
+            return recorded
+        cast = cast_votes(parsed, outcome, routes, None) if routes else ()
+        if set(routes) == {"z3", "boxes"}:
+            self.found.recorded[parsed.name] = {"on": _voted_on(text), "votes": [
+                {"route": vote.route, "answer": vote.answer, "detail": str(vote)} for vote in cast]}
+        return cast
 
     def search(self, statement: AnyStatement, parsed: checker.Statement) -> Any:
         if isinstance(statement, Iterates):
             return {"certified": []}
-        return search_certificate(parsed, self.known, Budget(self.options.budget), self.claim.hints.get("search"))
+        try:
+            found = search_certificate(parsed, self.known, Budget(self.options.budget), self.claim.hints.get("search"))
+        except Exhausted:
+            found = {"unknown": f"the budget of {self.options.budget} units ran out"}
+        if "certified" not in found and isinstance(statement, Statement) and not self.is_trial:
+            refuse_what_says_nothing(statement, next(iter(found)), self.known, self.options.budget // TRIAL)
+        return found
 
     def check(self, statement: checker.Statement, certificate: Any) -> str:
         outcome, _ = checker.check_one(statement, certificate, self.known, {})
@@ -130,34 +158,48 @@ class _Judge:
     def correct(self) -> None:
         """The first candidate print that the same claim certifies; an earlier finding is tried first."""
         remembered = (self.options.findings.get(self.claim.id) or {}).get("correction")
-        tries = sorted(candidates(self.claim), key=lambda one: remembered is None or one.text != remembered["text"])
+        tries = sorted(candidates(self.claim) if self.claim.printed else (), key=lambda one: remembered is None or one.text != remembered["text"])
         for candidate in tries:
             if self.certifies(candidate):
                 self.found.correction = {"kind": candidate.kind, "change": candidate.change, "text": candidate.text,
                                          "possible transcription error": candidate.possible_transcription_error}
                 return
+        if self.claim.nearby is not None:
+            text, state = self.claim.nearby
+            if self.certifies_body(as_body(state(), self.claim.id)):
+                self.found.correction = {"kind": "nearby", "change": "a true assertion nearby", "text": text,
+                                         "possible transcription error": False}
 
     def certifies(self, candidate: Candidate) -> bool:
         """Whether the claim, read with this print, is certified; if so its statements are kept as ID/corrected..."""
         try:
-            body = self.claim.body(candidate.printed)
+            return self.certifies_body(self.claim.body(candidate.printed))
+        except (ClaimError, checker.Rejected):
+            return False
+
+    def certifies_body(self, body: Body) -> bool:
+        """Whether every statement of a corrected body is certified; if so they are kept."""
+        try:
             statements = [part for _, assertion in _with_prefix(body) for part in assertion]
             parsed = [read(part.text(), part.name) for part in statements]
             if any(self.is_refuted_by_sampling(one) for one in parsed):
                 return False
         except (ClaimError, checker.Rejected):
             return False
-        trial = _Judge(replace(self.claim, printed=""), self.options)
-        trial.known = self.known
-        for part in statements:
-            renamed = _renamed(part, f"{self.claim.id}/corrected.{part.name.split('/')[1]}")
-            if trial.settle(renamed) != "certified":
-                return False
+        trial = _Judge(self.claim, replace(self.options, routes=("exact",), budget=self.options.budget // TRIAL))
+        trial.known, trial.is_trial = self.known, True
+        try:
+            for part in statements:
+                if trial.settle(_renamed(part, f"{self.claim.id}/corrected.{part.name.split('/')[1]}")) != "certified":
+                    return False
+        except ClaimError:  # a candidate that contradicts itself, or divides by what may vanish, corrects nothing
+            return False
         found, tried = self.found, trial.found
         found.statements += tried.statements
         found.certificates.update(tried.certificates)
         found.outcomes.update(tried.outcomes)
-        found.votes.update(tried.votes)
+        for name, text in tried.statements:
+            found.votes[name] = self.votes(read(text, name), text, tried.outcomes[name])
         found.reused += tried.reused
         return True
 
@@ -196,19 +238,58 @@ class _Judge:
                 self.found.sharp[prefix] = {"text": remembered, "by": [name]}
                 self.found.reused += 1
                 return
-        from certificates.search.sharp import find_sharp_range
+        from proofs.ranges import search_sharp_range
 
-        result = find_sharp_range(name, ranged, over, self.known, Budget(4 * self.options.budget), self.claim.hints.get("sharp"))
+        result = search_sharp_range(name, ranged, over[0], self.known, SHARP * self.options.budget) if len(over) == 1 else None
         if result is None:
             self.found.sharp[prefix] = {"text": "not found", "by": []}
             return
-        sharp, certificate, shown = result
+        sharp, found, shown = result
+        certificate = {"certified": found}
         outcome, reason = checker.check_one(read(sharp.text(), name), certificate, self.known, earlier)
         if outcome == "certified":
             self.keep(name, sharp.text(), certificate, outcome)
             self.found.sharp[prefix] = {"text": shown, "by": [name]}
         else:
             self.found.sharp[prefix] = {"text": f"not found ({reason})", "by": []}
+
+
+def refuse_what_says_nothing(statement: Statement, outcome: str, known: Mapping[str, checker.Statement], budget: int) -> None:
+    """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep a denominator from vanishing."""
+    from certificates.terms import disjunction
+
+    def settles(part: Statement, outcome: str) -> bool:
+        try:
+            return outcome in search_certificate(read(part.text(), part.name), known, Budget(budget))
+        except Exhausted:
+            return False
+
+    for index, (keyword, said) in enumerate(statement.lines):
+        if keyword == "have" and isinstance(said, Formula):
+            before = Statement(statement.name, statement.forall, statement.lines[:index], said, statement.integer)
+            if settles(before, "refuted"):
+                raise ClaimError(f"{statement.name}: division by what may vanish ({said} does not follow); "
+                                 "add a given that keeps it from 0")
+    if outcome == "refuted":
+        return
+    impossible = Statement(statement.name, statement.forall, statement.lines, disjunction([]), statement.integer)
+    story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
+    try:
+        impossible_for_all = search_closing(story.state(), known, Budget(budget)) is not None
+    except Exhausted:
+        impossible_for_all = False
+    if impossible_for_all:
+        raise ClaimError(f"{statement.name}: its hypotheses contradict one another, so it would say nothing; drop or mend a given")
+
+
+@cache
+def _tools() -> str:
+    return " ".join(version(tool) for tool in ("z3-solver", "python-flint", "mpmath"))
+
+
+def _voted_on(text: str) -> str:
+    """What a vote is about: the text of the statement, and the versions of the tools that voted."""
+    return hashlib.sha256(f"{_tools()}\n{text}".encode()).hexdigest()[:16]
 
 
 def _with_prefix(body: Body) -> list[tuple[str, list[AnyStatement]]]:
@@ -222,7 +303,27 @@ def _renamed(statement: AnyStatement, name: str) -> AnyStatement:
 
 
 def _has_whole_range(statement: Statement) -> bool:
-    return {str(said) for keyword, said in statement.lines if keyword == "range"} == {"alpha > 0", "alpha < 1"}
+    """Whether the range lines say 0 < alpha < 1 and nothing else, however they are written."""
+    context = checker.Context()
+    for name in statement.forall:
+        context.declare(name)
+    said = [checker.parse(str(formula)) for keyword, formula in statement.lines if keyword == "range"]
+    whole = [checker.parse("alpha > 0"), checker.parse("alpha < 1")] if "alpha" in statement.forall else []
+    return _atoms(context, said) == _atoms(context, whole)
+
+
+def _atoms(context: checker.Context, trees: list[Any]) -> set[Any]:
+    """The atoms of a conjunction, each as its primitive polynomial and relation; anything else as itself."""
+    joined = checker.join("and", [context.formula(tree) for tree in trees])
+    parts = [joined] if isinstance(joined, bool) or joined[0] != "and" else joined[1]
+    found = set()
+    for part in parts:
+        if isinstance(part, bool) or part[0] != "atom":
+            found.add(repr(part))
+        else:
+            content, primitive = part[1].primitive()
+            found.add((tuple(sorted(primitive.terms.items())), content > 0, part[2]))
+    return found
 
 
 def read(text: str, name: str) -> checker.Statement:

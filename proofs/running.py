@@ -56,9 +56,9 @@ def judge_all(
                 except ClaimError as problem:
                     problems[futures[future]] = problem
         except BaseException:
+            for process in list((pool._processes or {}).values()):
+                process.kill()
             pool.shutdown(wait=False, cancel_futures=True)
-            for process in list(getattr(pool, "_processes", {}).values()):
-                process.terminate()
             raise
     if problems:
         raise problems[min(problems)]

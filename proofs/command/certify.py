@@ -159,7 +159,11 @@ def _against_register(claims: Sequence[Claim], judgements: Sequence[Judgement], 
     for line in lines:
         print(("accepted  " if options.accept else "differs from the register  ") + line)
     if options.accept:
+        from proofs.command import readme
+
         write_register({**before, **after} if options.only else after)
+        if options.store is None:
+            readme.update()
         return 0
     return 1 if lines else 0
 

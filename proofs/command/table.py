@@ -69,9 +69,16 @@ def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Any)
 
 
 def summary(judgements: Sequence[Judgement]) -> str:
-    """One line that counts claims by verdict and statements by outcome."""
+    """Counts of claims by verdict, of statements by outcome, and of decided votes by route."""
     words = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
     verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in words]
     outcomes = [o for j in judgements for o in j.outcomes.values()]
     counted = ", ".join(f"{outcomes.count(word)} {word}" for word in ("certified", "refuted", "unknown"))
-    return f"{len(judgements)} claims: {', '.join(verdicts)}; {len(outcomes)} statements: {counted}"
+    lines = [f"{len(judgements)} claims: {', '.join(verdicts)}", f"{len(outcomes)} statements: {counted}"]
+    for route in ("z3", "boxes"):
+        cast = [vote for j in judgements for votes in j.votes.values() for vote in votes if vote.route == route]
+        asked = [vote for vote in cast if vote.answer != "not applicable"]
+        decided, enclosed = (sum(vote.answer in words for vote in asked) for words in (("holds", "fails"), ("enclosed",)))
+        if cast:
+            lines.append(f"{route} votes: {decided} decided of {len(asked)} asked" + (f", {enclosed} enclosed" if enclosed else ""))
+    return "\n".join(lines)

@@ -7,7 +7,7 @@ Formulas come from `symbolic`, which derives them; none is typed here.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cache, partial
 from typing import Any
 
@@ -18,6 +18,7 @@ from proofs.encoding import from_sympy
 from proofs.forms import Vocabulary
 from proofs.reading.environment import Environment
 from proofs.reading.notions import Region, StateFunction
+from proofs.reading.relations import relate
 from proofs.reading.values import Matrix, Scalar, Vector
 
 alpha, beta, v, r, g, t, T, K, eps, s = reals("alpha beta v r g t T K eps s")
@@ -98,7 +99,8 @@ collision_time = StateFunction(lambda state: at(derived("collision_time"), state
 
 def flight(time: Scalar) -> StateFunction:
     """F^t: the derived flight for this time."""
-    return StateFunction(lambda state: at(at(derived("flight_map"), state), {"t": term(time)}))
+    # All three at once: the state may itself contain a time.
+    return StateFunction(lambda state: at(derived("flight_map"), {"beta": state.component(1), "v": state.component(2), "t": time}))
 
 
 def flight_matrix(time: Scalar) -> Matrix:
@@ -119,7 +121,8 @@ def collide(table: Vector) -> StateFunction:
         names = sympy.symbols("ball_height ball_speed table_height table_speed")
         image = encoded(symbolic.collide(sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:])))
         values = dict(zip((str(name) for name in names), (term(entry) for entry in (*ball.entries, *table.entries))))
-        return at(image, values)
+        struck: Vector = at(image, values)
+        return struck
 
     return StateFunction(after)
 
@@ -145,10 +148,7 @@ def next_states(state: Vector, image: Vector) -> Formula:
 
 def equals(left: Vector | Matrix, right: Vector | Matrix) -> Formula:
     """The vectors or matrices are equal entry by entry."""
-    def entries(value: Vector | Matrix) -> Sequence[Scalar]:
-        return value.entries if isinstance(value, Vector) else [entry for row in value.rows for entry in row]
-
-    return forms.all_equal([(term(a), term(c)) for a, c in zip(entries(left), entries(right), strict=True)])
+    return relate(left, "=", right)
 
 
 NAMES: dict[str, Any] = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from certificates import checker
@@ -22,10 +23,17 @@ def content(claim: Claim, latex: str) -> list[Any]:
             statement = checker.read_statements(part.text())[part.name]
             if isinstance(part, Statement):
                 story = checker.Unfolding(statement, checker.Context())
-                found.append((part.name, normal([p for p, _ in story.premises]), normal([p for p, _ in story.goals]), part.exists))
+                goals = normal([p for p, _ in story.goals])
+                said = str(part.show) if goals in (("True",), ("False",)) else ""  # an identity folds to a constant, its relation with it
+                found.append((part.name, normal([p for p, _ in story.premises]), goals, relations(said), part.exists))
             else:
                 found.append(part.text())
     return found
+
+
+def relations(text: str) -> list[str]:
+    """The relation signs of a formula's text, in order."""
+    return re.findall(r"<=|>=|!=|[<>=]", text)
 
 
 def normal(formula: Any) -> Any:

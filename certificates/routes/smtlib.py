@@ -1,0 +1,126 @@
+"""Statements as SMT-LIB 2 text for other solvers: `unsat` everywhere means that the statement holds.
+
+Denominators are cleared before anything is written, so that a solver's own x/0 never enters; the text is the same from run to run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from certificates.routes.polynomials import Atom, Formula, Polynomial
+from certificates.routes.questions import Denial, Question, questions
+
+# words that a solver reads as its own: an underscored spelling keeps the variable apart from them
+TAKEN = frozenset("abs div mod ite let forall exists par as xor distinct true false pi euler e exp log sin cos tan to_real to_int is_int "
+                  "is match select store assert push pop reset exit model".split())
+
+
+def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
+    """The whole statement as one script: a check for each of its questions, apart by push and pop.
+
+    Formula: the statement holds <=> every check answers unsat.
+    Source: SMT-LIB 2.6, logics QF_NRA, NRA, QF_NIA, QF_NIRA, UFNIRA.
+
+    >>> from certificates.routes.questions import read_statement
+    >>> print(script(read_statement("statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2/2 >= x - 1/2")))
+    ; statement demo/square: it holds if and only if every check below answers unsat
+    (set-logic QF_NRA)
+    ; goal: a solution refutes the statement
+    (push 1)
+    (declare-const x Real)
+    (assert (> (+ x (- 1)) 0))
+    (assert (> (+ (* (- 1) x x) (* 2 x) (- 1)) 0))
+    (check-sat)
+    (pop 1)
+    <BLANKLINE>
+    """
+    asked = questions(statement, earlier)
+    rows = [f"; statement {statement.name}: it holds if and only if every check below answers unsat"]
+    if statement.kind == "sharp" and not any(question.part == "outside" for question in asked):
+        rows.append("; only the part inside the range is written: outside, some named statement fails at every parameter, "
+                    "which asks for one more alternation of quantifiers")
+    rows.append(f"(set-logic {_widest([logic(question) for question in asked])})")
+    for question in asked:
+        rows += [f"; {question.part}: {_meaning(question)}", "(push 1)", *declarations(question), *assertions(question), "(check-sat)", "(pop 1)"]
+    return "\n".join(rows) + "\n"
+
+
+def question_text(question: Question) -> str:
+    """One question as declarations and assertions, without a check: what is sent to a solver."""
+    return "\n".join([*declarations(question), *assertions(question)]) + "\n"
+
+
+def _meaning(question: Question) -> str:
+    if question.part == "outside":
+        return "a solution is a parameter outside the range at which all the named statements hold"
+    return "a solution refutes the statement" if question.refutes else "a solution shows that this line does not follow from those before it"
+
+
+def logic(question: Question) -> str:
+    """The SMT-LIB logic that the question belongs to."""
+    arithmetic = "NRA" if not question.integers else "NIA" if question.integers >= set(question.names) else "NIRA"
+    return ("" if question.quantified else "QF_") + arithmetic
+
+
+def _widest(logics: Sequence[str]) -> str:
+    quantified = any(not name.startswith("QF_") for name in logics)
+    kinds = {name.removeprefix("QF_") for name in logics}
+    kind = kinds.pop() if len(kinds) == 1 else "NIRA"
+    return ("UF" if kind == "NIRA" else "") + kind if quantified else f"QF_{kind}"
+
+
+def symbol(name: str) -> str:
+    """The name as an SMT-LIB symbol that no theory has taken; names of statements hold no `!`."""
+    return name + "!" if name in TAKEN else name
+
+
+def declarations(question: Question) -> list[str]:
+    """A constant for every variable that occurs and that no denial binds."""
+    return [f"(declare-const {symbol(name)} {_sort(question, name)})" for name in question.occurring() if name not in question.bound]
+
+
+def assertions(question: Question) -> list[str]:
+    """Everything assumed, then every denial, one to a line."""
+    rows = [f"(assert {write_formula(formula, question.integers)})" for formula in question.assumed]
+    return rows + [f"(assert {_denial(question, denial)})" for denial in question.denials]
+
+
+def _denial(question: Question, denial: Denial) -> str:
+    body = write_formula(denial.formula, question.integers)
+    if not denial.bound:
+        return body
+    return f"(forall ({' '.join(f'({symbol(name)} {_sort(question, name)})' for name in denial.bound)}) {body})"
+
+
+def _sort(question: Question, name: str) -> str:
+    return "Int" if name in question.integers else "Real"
+
+
+def write_formula(formula: Formula, integers: frozenset[str] = frozenset()) -> str:
+    """The formula as an s-expression."""
+    if isinstance(formula, bool):
+        return "true" if formula else "false"
+    if isinstance(formula, Atom):
+        text = f"({'=' if formula.relation == '!=' else formula.relation} {write_polynomial(formula.poly, integers)} 0)"
+        return f"(not {text})" if formula.relation == "!=" else text
+    return f"({formula.op} {' '.join(write_formula(part, integers) for part in formula.parts)})"
+
+
+def write_polynomial(poly: Polynomial, integers: frozenset[str] = frozenset()) -> str:
+    """The polynomial times its denominator as a sum of monomials; a relation to 0 is the same for it.
+
+    A variable that is an integer is read as a real wherever a real variable stands beside it in the polynomial.
+    """
+    mixed = any(poly.names[i] not in integers for i in poly.used)
+    terms = []
+    for exponents, c in poly.terms:
+        factors = [_variable(n, n in integers and mixed) for n, e in zip(poly.names, exponents) for _ in range(e)]
+        number = str(c) if c >= 0 else f"(- {-c})"
+        factors = factors if c == 1 and factors else [number, *factors]
+        terms.append(factors[0] if len(factors) == 1 else f"(* {' '.join(factors)})")
+    return terms[0] if len(terms) == 1 else f"(+ {' '.join(terms)})" if terms else "0"
+
+
+def _variable(name: str, lifted: bool) -> str:
+    return f"(to_real {symbol(name)})" if lifted else symbol(name)

@@ -1,0 +1,251 @@
+"""Conditions over polynomials: a checker's formula held as flint polynomials, substituted, folded and evaluated fast."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
+
+from certificates import checker
+
+from .algebraic import AlgebraicNumber, fraction, sign
+
+Tree = Any  # bool, (index of a polynomial, relation), or ("and" | "or", [Tree, ...])
+HOLDS = {
+    ">": lambda s: s > 0, ">=": lambda s: s >= 0, "=": lambda s: s == 0, "!=": lambda s: s != 0,
+}
+
+
+def ring_of(context: checker.Context, *more: str) -> fmpq_mpoly_ctx:
+    """The polynomial ring in the variables of a context, in their order, and in further ones."""
+    return fmpq_mpoly_ctx.get([*context.index, *more] or ["none"], Ordering.lex)
+
+
+def to_flint(poly: checker.Poly, ring: fmpq_mpoly_ctx, size: int) -> fmpq_mpoly:
+    """The same polynomial over flint."""
+    mask = (1 << checker.BITS) - 1
+    spread, rest = [checker.BITS * i for i in range(size)], [0] * (ring.nvars() - size)
+    den = poly.den
+    return ring.from_dict({tuple([(m >> shift) & mask for shift in spread] + rest): fmpq(c, den) for m, c in poly.terms.items()})
+
+
+def to_text(poly: fmpq_mpoly) -> str:
+    """A polynomial as text of the statement language."""
+    names = poly.context().names()
+    text = ""
+    for powers, c in poly.to_dict().items():
+        factors = [n if e == 1 else f"{n}^{e}" for n, e in zip(names, powers) if e]
+        value = fraction(c)
+        size = [str(abs(value))] if abs(value) != 1 or not factors else []
+        if len(size) and value.denominator != 1 and factors:
+            size = [f"({abs(value)})"]
+        part = "*".join(size + factors)
+        text += ("-" if value < 0 else "") + part if not text else (" - " if value < 0 else " + ") + part
+    return text or "0"
+
+
+class Condition:
+    """A boolean combination of polynomial relations to 0."""
+
+    __slots__ = ("ring", "polys", "tree")
+
+    def __init__(self, ring: fmpq_mpoly_ctx, polys: Sequence[fmpq_mpoly], tree: Tree) -> None:
+        self.ring, self.polys, self.tree = ring, list(polys), tree
+
+    @staticmethod
+    def of(context: checker.Context, formula: Any, ring: fmpq_mpoly_ctx | None = None) -> Condition:
+        """The condition that a formula of the checker states."""
+        ring = ring or ring_of(context)
+        polys: list[fmpq_mpoly] = []
+        numbers: dict[frozenset[tuple[int, int]], tuple[int, int]] = {}
+        size = len(context.index)
+
+        def convert(node: Any) -> Tree:
+            if isinstance(node, bool):
+                return node
+            if node[0] != "atom":
+                return (node[0], [convert(part) for part in node[1]])
+            mark = frozenset(node[1].terms.items()) | {(-1, node[1].den)}
+            if mark not in numbers:
+                numbers[mark] = (len(polys), 0)
+                polys.append(to_flint(node[1], ring, size))
+            return (numbers[mark][0], node[2])
+
+        tree = convert(formula)
+        return Condition(ring, polys, tree)
+
+    def conjoined(self, other: Condition) -> Condition:
+        """Both conditions."""
+        shift = len(self.polys)
+
+        def moved(tree: Tree) -> Tree:
+            if isinstance(tree, bool):
+                return tree
+            if isinstance(tree[0], int):
+                return (tree[0] + shift, tree[1])
+            return (tree[0], [moved(part) for part in tree[1]])
+
+        return Condition(self.ring, self.polys + other.polys, _join("and", [self.tree, moved(other.tree)]))
+
+    def substituted(self, values: Mapping[str, fmpq]) -> Condition:
+        """The condition with numbers in place of variables, folded."""
+        given = dict(values)
+        return self.mapped(lambda p: p.subs(given))
+
+    def replaced(self, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Condition:
+        """The condition with top/bottom in place of a variable, every polynomial times a positive power of the bottom."""
+        return self.mapped(lambda p: replace(p, name, top, bottom))
+
+    def mapped(self, change: Any) -> Condition:
+        """The condition with polynomials changed by a function that keeps their signs; those that no longer matter are left as they are."""
+        polys, done = list(self.polys), set()
+
+        def changed(k: int) -> fmpq_mpoly:
+            if k not in done:
+                done.add(k)
+                if not polys[k].is_constant():
+                    polys[k] = change(polys[k])
+            return polys[k]
+
+        tree = fold(self.tree, changed)
+        return Condition(self.ring, polys, tree)
+
+    def used(self) -> list[int]:
+        """The numbers of the polynomials that the tree still speaks of."""
+        return sorted(set(_indices(self.tree)))
+
+    def variables(self) -> set[str]:
+        """The variables that still occur."""
+        names = self.ring.names()
+        return {names[i] for k in self.used() for i, e in enumerate(self.polys[k].degrees()) if e}
+
+    def facts(self) -> list[tuple[fmpq_mpoly, str]]:
+        """The relations that hold on their own: those at top level or in a top-level `and`."""
+        return [(self.polys[k], relation) for k, relation in top_atoms(self.tree)]
+
+    def univariate_truth(self, name: str, at: fmpq | AlgebraicNumber, polys: Mapping[int, fmpq_poly]) -> bool:
+        """Whether a condition in one variable holds at a number; `polys` are its polynomials in that variable."""
+        signs = {
+            k: at.sign_of(p) if isinstance(at, AlgebraicNumber) else sign(p(at)) for k, p in polys.items()
+        }
+        return evaluate(self.tree, signs)
+
+    def in_one_variable(self, name: str) -> dict[int, fmpq_poly]:
+        """The polynomials of a condition in one variable."""
+        return {k: univariate(self.polys[k], name) for k in self.used()}
+
+
+def _indices(tree: Tree) -> Iterator[int]:
+    if isinstance(tree, bool):
+        return
+    if isinstance(tree[0], int):
+        yield tree[0]
+    else:
+        for part in tree[1]:
+            yield from _indices(part)
+
+
+def top_atoms(tree: Tree) -> list[tuple[int, str]]:
+    """(number, relation) of the relations that a tree asserts on their own."""
+    if isinstance(tree, bool):
+        return []
+    if isinstance(tree[0], int):
+        return [tree]
+    return [part for part in tree[1] if not isinstance(part, bool) and isinstance(part[0], int)] if tree[0] == "and" else []
+
+
+def _join(op: str, parts: Sequence[Tree]) -> Tree:
+    flat: list[Tree] = []
+    for part in parts:
+        if isinstance(part, bool):
+            if part is (op == "or"):
+                return part
+        elif part[0] == op:
+            flat.extend(part[1])
+        else:
+            flat.append(part)
+    return op == "and" if not flat else flat[0] if len(flat) == 1 else (op, flat)
+
+
+def fold(tree: Tree, poly_of: Callable[[int], fmpq_mpoly]) -> Tree:
+    """The tree with relations between constants decided; polynomials are asked for only as long as they matter."""
+    if isinstance(tree, bool):
+        return tree
+    if isinstance(tree[0], int):
+        poly = poly_of(tree[0])
+        if not poly.is_constant():
+            return tree
+        value = poly.leading_coefficient() if poly != 0 else fmpq(0)
+        return HOLDS[tree[1]](sign(value))
+    parts = []
+    for part in tree[1]:
+        folded = fold(part, poly_of)
+        if folded is (tree[0] == "or"):
+            return folded
+        parts.append(folded)
+    return _join(tree[0], parts)
+
+
+def evaluate(tree: Tree, signs: Any) -> bool:
+    """The truth of a tree where the polynomials have these signs."""
+    if isinstance(tree, bool):
+        return tree
+    if isinstance(tree[0], int):
+        return bool(HOLDS[tree[1]](signs[tree[0]]))
+    if tree[0] == "and":
+        return all(evaluate(part, signs) for part in tree[1])
+    return any(evaluate(part, signs) for part in tree[1])
+
+
+def univariate(poly: fmpq_mpoly, name: str) -> fmpq_poly:
+    """A polynomial in one variable of its ring, as a dense one."""
+    place = poly.context().variable_to_index(name)
+    coefficients: dict[int, fmpq] = {powers[place]: c for powers, c in poly.to_dict().items()}
+    return fmpq_poly([coefficients.get(k, 0) for k in range(max(coefficients, default=0) + 1)])
+
+
+def multivariate(poly: fmpq_poly, ring: fmpq_mpoly_ctx, name: str) -> fmpq_mpoly:
+    """A dense polynomial as one of the ring."""
+    place, size = ring.variable_to_index(name), ring.nvars()
+    return ring.from_dict({tuple(k if i == place else 0 for i in range(size)): c for k, c in enumerate(poly.coeffs()) if c})
+
+
+def coefficients_in(poly: fmpq_mpoly, name: str) -> list[fmpq_mpoly]:
+    """The coefficients of a polynomial as one in this variable, from the constant up."""
+    ring = poly.context()
+    place = ring.variable_to_index(name)
+    parts: dict[int, dict[tuple[int, ...], fmpq]] = {}
+    for powers, c in poly.to_dict().items():
+        rest = tuple(0 if i == place else e for i, e in enumerate(powers))
+        parts.setdefault(powers[place], {})[rest] = c
+    return [ring.from_dict(parts.get(k, {})) for k in range(max(parts, default=0) + 1)]
+
+
+def replace(poly: fmpq_mpoly, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> fmpq_mpoly:
+    """The polynomial at top/bottom, times the least even power of the bottom that clears it."""
+    coefficients = coefficients_in(poly, name)
+    degree = len(coefficients) - 1
+    if degree == 0:
+        return poly
+    if bottom == 1:
+        result = coefficients[-1]
+        for c in reversed(coefficients[:-1]):
+            result = result * top + c
+        return result
+    degree += degree % 2
+    powers = [bottom ** 0]
+    for _ in range(degree):
+        powers.append(powers[-1] * bottom)
+    result, power = poly.context().constant(0), bottom ** 0
+    for k, c in enumerate(coefficients):
+        result += c * power * powers[degree - k]
+        power *= top
+    return result
+
+
+def constant_of(poly: fmpq_mpoly) -> fmpq | None:
+    """The value of a constant polynomial; None for any other."""
+    if not poly.is_constant():
+        return None
+    return poly.leading_coefficient() if poly != 0 else fmpq(0)

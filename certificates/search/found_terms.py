@@ -1,0 +1,190 @@
+"""Terms as the checker takes them: quotients written with divisions that are licensed, roots adjoined, nodes found and confirmed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+
+from certificates import checker
+
+from .budget import Budget, accepted
+from .closing import search_closing
+from .condition import coefficients_in, constant_of, to_flint, to_text
+from .quotients import Choice, Quotient, Root, Sample
+
+Node = list[Any]
+Known = dict[str, checker.Statement]
+
+
+class Renamed:
+    """Which variables of the ring stand under which names in the checker's context of the state."""
+
+    def __init__(self, ring: fmpq_mpoly_ctx) -> None:
+        self.ring, self.names = ring, {name: name for name in ring.names()}
+
+    def text(self, poly: fmpq_mpoly) -> str:
+        """A polynomial as text, under the names of the context."""
+        names = self.ring.names()
+        if all(self.names[n] == n for n in names):
+            return to_text(poly)
+        new = fmpq_mpoly_ctx.get([self.names[n] for n in names], self.ring.ordering())
+        return to_text(new.from_dict(poly.to_dict()))
+
+
+class TermWriter:
+    """Writes quotients in a context; a bottom that is not licensed is adjoined as the root of a linear polynomial."""
+
+    def __init__(self, context: checker.Context, renamed: Renamed, taken: Sequence[str]) -> None:
+        self.context, self.renamed, self.taken = context, renamed, set(taken)
+        ring = renamed.ring
+        size = len(context.index)
+        keys = list(context.index)
+        self.licensed: list[fmpq_mpoly] = []
+        for poly, _ in context.licensed:
+            small = to_flint(poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size)
+            if set(keys) <= set(ring.names()):
+                self.licensed.append(small.project_to_context(ring))
+        self.inverses: dict[str, tuple[str, fmpq_mpoly]] = {}
+
+    def fresh(self, name: str) -> str:
+        """A name that the context does not have."""
+        while name in self.context.values or name in self.context.index or name in self.taken:
+            name += "_root" if not name.endswith("_root") else "_"
+        self.taken.add(name)
+        return name
+
+    def text(self, value: Quotient) -> str:
+        """The quotient as text; `inverses` grows by what has to be adjoined for it."""
+        top, bottoms, inverses = value.top, [], []
+        scale, factors = value.bottom.factor()
+        top = top / scale
+        for factor, power in factors:
+            licence = next((p for p in self.licensed if (p % factor) == 0), None) if not factor.is_constant() else None
+            if licence is not None:
+                top = top * (licence / factor) ** power
+                bottoms += [(self.renamed.text(licence), power)]
+            else:
+                mark = self.renamed.text(factor)
+                if mark not in self.inverses:
+                    self.inverses[mark] = (self.fresh("inverse"), factor)
+                inverses += [(self.inverses[mark][0], power)]
+        text = self.renamed.text(top)
+        if inverses:
+            text = "*".join([_whole(text), *(n if e == 1 else f"{n}^{e}" for n, e in inverses)])
+        if bottoms:
+            below = "*".join(_whole(b) if e == 1 else f"{_whole(b)}^{e}" for b, e in bottoms)
+            text = f"{_whole(text)}/" + (below if len(bottoms) == 1 else f"({below})")
+        return text
+
+
+def _whole(text: str) -> str:
+    return text if text.isalnum() else f"({text})"
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What `checker.find` is asked to accept a found for."""
+
+    statement: checker.Statement
+    purpose: str
+    base: dict[str, checker.Ratio]
+    sharp: list[Any] | None = None
+
+
+def confirmed(wanted: Wanted, state: checker.State, choice: Choice, keys: dict[str, str], known: Known, budget: Budget,
+              samples: Sequence[Sample], effort: int) -> Node | None:
+    """The choice as a found with all nodes, accepted by the checker; None where a node is missing."""
+    statement, purpose, base, sharp = wanted.statement, wanted.purpose, wanted.base, wanted.sharp
+    own = state.branch()
+    renamed = Renamed(choice.ring)
+    writer = TermWriter(own.context, renamed, [])
+    adjoined: list[Node] = []
+    try:
+        for root in choice.roots:
+            entry = _adjoined_root(own, root, renamed, writer, known, budget, samples, effort)
+            if entry is None:
+                return None
+            adjoined.append(entry)
+        terms: dict[str, str] = {}
+        for variable, key in sorted(keys.items()):
+            terms[variable] = writer.text(choice.values[key]) if key in choice.values else renamed.names[key]
+        for name, factor in list(writer.inverses.values()):
+            entry = _adjoined_inverse(own, name, factor, renamed, known, budget, samples, effort)
+            if entry is None:
+                return None
+            adjoined.append(entry)
+        values = {variable: own.context.value(checker.parse(text)) for variable, text in terms.items()}
+        story = checker.Unfolding(statement, checker.Context(own.context, {**values, **base}), sharp)
+        aims = [own.branch(story.negated(story.goals if purpose == "witness" else story.premises))]
+        aims += [own.branch(story.goal(True), story.context)] if purpose == "counterexample" else []
+    except checker.Rejected:
+        return None
+    nodes = []
+    for aim in aims:
+        node = search_closing(aim, known, budget, effort)
+        if node is None:
+            return None
+        nodes.append(node)
+    found = [statement.name, adjoined, terms, *nodes]
+    fresh = state.branch()
+    return found if accepted(checker.find, fresh, found, known, purpose, {statement.name: statement}, base, sharp) else None
+
+
+def _adjoined_root(state: checker.State, root: Root, renamed: Renamed, writer: TermWriter, known: Known, budget: Budget,
+                   samples: Sequence[Sample], effort: int) -> Node | None:
+    """The larger root of a polynomial of degree 2 with leading coefficient 1, between 0 or its vertex and a bound."""
+    name = writer.fresh(root.name)
+    renamed.names[root.name] = name
+    parts = coefficients_in(root.poly, root.name)
+    half = parts[1] * fmpq(-1, 2)
+    under = half * half - parts[0]  # root = half + sqrt(under)
+    low = renamed.text(half)
+    highs = [str(k) for k in range(1, 5)] + [renamed.text(half + 1 + under)]
+    for high in highs:
+        entry = _entry(state, name, renamed.text(root.poly), low, high, known, budget, effort)
+        if entry is not None:
+            return entry
+    return None
+
+
+def _adjoined_inverse(state: checker.State, name: str, factor: fmpq_mpoly, renamed: Renamed, known: Known, budget: Budget,
+                      samples: Sequence[Sample], effort: int) -> Node | None:
+    values = [constant_of(factor.subs(dict(s))) for s in samples]
+    known_values = [v for v in values if v]
+    if not known_values or len({v > 0 for v in known_values}) > 1:
+        return None
+    least = min(abs(v) for v in known_values)
+    sign = 1 if known_values[0] > 0 else -1
+    for bound in (1, 2, 4, 10, 100):
+        if fmpq(1, bound) <= least:
+            text, low, high = f"({renamed.text(factor)})*{name} - 1", "0", str(bound)
+            if sign < 0:
+                # factor < 0: its inverse lies in [-bound, 0]; the polynomial 1 - factor * inverse rises there.
+                text, low, high = f"1 - ({renamed.text(factor)})*{name}", str(-bound), "0"
+            entry = _entry(state, name, text, low, high, known, budget, effort)
+            if entry is not None:
+                return entry
+    return None
+
+
+def _entry(state: checker.State, name: str, text: str, low: str, high: str, known: Known, budget: Budget, effort: int) -> Node | None:
+    """The adjoined entry with its nodes; the state then has the new variable."""
+    context, zero, tree = state.context, checker.Ratio(checker.ZERO), checker.parse(text)
+    ends = [context.value(checker.parse(end)) for end in (low, high)]
+    first, second = (checker.Context(context, {**context.values, name: end}).value(tree) for end in ends)
+    wrong = checker.join("or", [context.atom(ends[0], ">", ends[1]), context.atom(first, ">", zero)])
+    below = search_closing(state.branch(wrong), known, budget, min(effort, 1))
+    if below is None:
+        return None
+    above = search_closing(state.branch(context.atom(second, "<", zero)), known, budget, min(effort, 1))
+    if above is None:
+        return None
+    entry = [name, text, low, high, below, above]
+    try:
+        checker.adjoin(state, known, *entry)
+    except checker.Rejected:
+        return None
+    return entry

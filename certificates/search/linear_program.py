@@ -1,0 +1,184 @@
+"""Positive combinations of polynomials that vanish identically: floating HiGHS for the support, exact rationals on it."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import highspy
+import numpy as np
+from flint import fmpz_mat
+
+from .budget import Budget
+
+Matrix = np.ndarray[Any, np.dtype[np.float64]]
+Mask = np.ndarray[Any, np.dtype[np.bool_]]
+EXACT = float(1 << 53)
+TINY = 1e-9
+
+
+class Program:
+    """Find c >= 0 for the columns and any m for the free ones with sum c * column + sum m * free = 0, and a strict c > 0."""
+
+    def __init__(self) -> None:
+        self.keys: list[Any] = []
+        self.values: list[Any] = []
+        self.shapes: list[tuple[int, int]] = []  # columns, and entries of each, of every block
+        self.strict: list[bool] = []
+        self.costs: list[float] = []
+        self.count = 0  # of the columns that are not free; they come first
+
+    def add(self, keys: Any, values: Any, strict: list[bool], costs: list[float]) -> None:
+        """Columns that may be used with positive coefficients, one a row of the arrays; a zero value says nothing."""
+        self.keys.append(keys)
+        self.values.append(values)
+        self.shapes.append(keys.shape)
+        self.strict += strict
+        self.costs += costs
+        self.count += len(keys)
+
+    def add_free(self, keys: Any, values: Any) -> None:
+        """Columns that may be used with any coefficients, one a row of the arrays; these come last."""
+        self.keys.append(keys)
+        self.values.append(values)
+        self.shapes.append(keys.shape)
+
+
+Solution = tuple[dict[int, Fraction], dict[int, Fraction]]
+
+
+def solve(program: Program, budget: Budget) -> Solution | None:
+    """The positive coefficients of the columns used and the coefficients of the free ones used, exactly; None where none were found.
+
+    >>> from .polynomials import Ring
+    >>> ring = Ring(("x",))
+    >>> x, = ring.gens
+    >>> program = Program()
+    >>> for p, strict in ((x - 2, False), (1 - x, False), (ring.one, True)):
+    ...     program.add(*(part[None, :] for part in ring.row(p)), [strict], [1.0])
+    >>> solve(program, Budget(1000))
+    ({0: Fraction(1, 1), 1: Fraction(1, 1), 2: Fraction(1, 1)}, {})
+    """
+    count, columns = program.count, sum(shape[0] for shape in program.shapes)
+    matrix = assemble(program, budget)
+    if matrix is None:
+        return None
+    strict = np.zeros(columns, dtype=bool)
+    strict[:count] = program.strict
+    costs = np.zeros(columns)
+    costs[:count] = program.costs
+    alive = presolve(matrix, count, strict[:count])
+    if alive is None:
+        return None
+    work = matrix[:, alive]
+    work = work[work.any(axis=1)]
+    size = np.abs(work).max(axis=0)
+    size[size == 0] = 1.0
+    inequality, strict, costs = alive < count, strict[alive], costs[alive]
+    budget.spend(100 + work.size // 8)
+    for jitter in JITTER:
+        values, basic = optimum(work / size, inequality, strict, costs * (1 + jitter * NOISE[: len(costs)]))
+        if values is None or basic is None:
+            return None
+        for support in (np.flatnonzero(np.abs(values) > TINY), basic):
+            found = exact(work[:, support], inequality[support], strict[support], values[support] / size[support], budget)
+            if found is not None:
+                chosen = [(int(alive[k]), c) for k, c in zip(support, found) if c]
+                return {k: c for k, c in chosen if k < count}, {k - count: c for k, c in chosen if k >= count}
+    return None
+
+
+JITTER = (0.0, 0.7)
+NOISE = np.random.default_rng(7).random(20000)
+
+
+def assemble(program: Program, budget: Budget) -> Matrix | None:
+    """The coefficients as a matrix, one row for each monomial; None if it is too large."""
+    columns = sum(shape[0] for shape in program.shapes)
+    values = np.concatenate([block.ravel() for block in program.values])
+    used = np.flatnonzero(values)
+    keys, inverse = np.unique(np.concatenate([block.ravel() for block in program.keys])[used], return_inverse=True)
+    rows = len(keys)
+    budget.spend(20 + len(used) // 4 + rows * columns // 50)
+    if rows * columns > 6_000_000 or columns > len(NOISE):
+        return None
+    lengths = np.repeat([shape[1] for shape in program.shapes], [shape[0] for shape in program.shapes])
+    where = inverse * columns + np.repeat(np.arange(columns), lengths)[used]
+    return np.bincount(where, values[used], rows * columns).reshape(rows, columns)
+
+
+def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
+    """The columns that may be positive: where all of a row has one sign, its columns are zero.  None if no strict one is left."""
+    positive, negative = matrix > 0, matrix < 0
+    fixed = positive[:, count:].any(axis=1) | negative[:, count:].any(axis=1)
+    alive = np.ones(matrix.shape[1], dtype=bool)
+    while True:
+        up, down = positive[:, alive].any(axis=1), negative[:, alive].any(axis=1)
+        rows = (up != down) & ~fixed
+        if not rows.any():
+            return np.flatnonzero(alive)
+        alive[:count] &= ~(positive[rows, :count] | negative[rows, :count]).any(axis=0)
+        if not (alive[:count] & strict).any():
+            return None
+        # a row that only dead columns reach says nothing any more
+        positive, negative, fixed = positive[~rows], negative[~rows], fixed[~rows]
+
+
+def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple[Any, Any]:
+    """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in floats, and its basic columns."""
+    rows, columns = matrix.shape
+    whole = np.vstack([matrix, strict.astype(float)])
+    model = highspy.HighsLp()
+    model.num_col_, model.num_row_ = columns, rows + 1
+    model.col_cost_ = costs
+    model.col_lower_ = np.where(inequality, 0.0, -highspy.kHighsInf)
+    model.col_upper_ = np.full(columns, highspy.kHighsInf)
+    right = np.zeros(rows + 1)
+    right[rows] = 1.0
+    model.row_lower_ = model.row_upper_ = right
+    at_column, at_row = np.nonzero(whole.T)
+    model.a_matrix_.format_ = highspy.MatrixFormat.kColwise
+    model.a_matrix_.start_ = np.searchsorted(at_column, np.arange(columns + 1)).astype(np.int32)
+    model.a_matrix_.index_ = at_row.astype(np.int32)
+    model.a_matrix_.value_ = whole[at_row, at_column]
+    solver = highspy.Highs()
+    for option, value in OPTIONS:
+        solver.setOptionValue(option, value)
+    solver.passModel(model)
+    solver.run()
+    if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+        return None, None
+    status = solver.getBasis().col_status
+    basic = [k for k, s in enumerate(status) if s == highspy.HighsBasisStatus.kBasic]
+    return np.array(solver.getSolution().col_value), np.array(basic, dtype=np.int64)
+
+
+# iterations, not seconds, bound a run; one thread and a fixed seed make it the same every time
+OPTIONS = (("output_flag", False), ("presolve", "off"), ("threads", 1), ("random_seed", 1), ("solver", "simplex"),
+           ("simplex_iteration_limit", 5000))
+
+
+def exact(matrix: Matrix, inequality: Mask, strict: Mask, near: Any, budget: Budget) -> list[Fraction] | None:
+    """Exact coefficients of the columns near the floating ones, or None where the columns allow none."""
+    count = matrix.shape[1]
+    kept = matrix[matrix.any(axis=1)]
+    if not count or kept.size and np.abs(kept).max() >= EXACT or not strict.any():
+        return None
+    budget.spend(20 + kept.shape[0] * count * min(kept.shape[0], count) // 30)
+    ints = np.hstack([kept, np.zeros((len(kept), 1))]).astype(np.int64).tolist()
+    ints.append([*strict.astype(int).tolist(), 1])
+    reduced, den, rank = fmpz_mat(ints).rref()
+    den = int(den)
+    table, pivots = reduced.tolist()[:rank], []
+    for line in table:
+        pivots.append(next(k for k, c in enumerate(line) if c))
+    if pivots and pivots[-1] == count:
+        return None
+    values = [Fraction(float(v)).limit_denominator(64) if k not in pivots else Fraction(0) for k, v in enumerate(near)]
+    values = [max(v, Fraction(0)) if inequality[k] else v for k, v in enumerate(values)]
+    free = [k for k in range(count) if k not in pivots and values[k]]
+    for pivot, line in zip(pivots, table):
+        values[pivot] = (Fraction(int(line[count])) - sum(int(line[k]) * values[k] for k in free)) / den
+    if any(v < 0 for v, needed in zip(values, inequality) if needed) or not any(v for v, s in zip(values, strict) if s):
+        return None
+    return values

@@ -1,0 +1,321 @@
+"""The facts of a state made ready for a search: units set to 1, equations used up, each fact once and primitive."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from math import comb
+
+from flint import fmpz_mpoly
+
+from certificates import checker
+
+from .lifting import Source
+from .polynomials import Ring, Row, constant_of, total_degree
+from .reduction import Factors, Reduction, Signed
+from .scaling import Scaling
+from .squares import Pool, factors, resultants, squares
+from .sturm import bernstein, positive_between, univariate
+
+Sum = list[tuple[Fraction, Factors]]  # of products of facts of the problem, each with a positive coefficient
+
+
+@dataclass
+class Fact:
+    """product of leads^counts * facts of the state^factors = scale * multiplier * poly modulo the equations; poly is primitive, scale > 0."""
+
+    poly: fmpz_mpoly
+    strict: bool
+    factors: Factors
+    counts: tuple[int, ...]
+    scale: Fraction
+    row: Row
+    multiplier: Sum | None = None  # a positive sum over other facts; None stands for 1
+
+    def degree(self, variable: int) -> int:
+        """The degree in one variable."""
+        return int(self.poly.degrees()[variable])
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """A variable with a fact low = a*z + b that bounds it below, a > 0, and a fact high = d - c*z that bounds it above."""
+
+    variable: int
+    low: int
+    high: int
+
+
+class Problem:
+    """What a leaf of a proof has to contradict.
+
+    >>> context = checker.Context()
+    >>> for name in ("r", "x", "y"):
+    ...     context.declare(name)
+    >>> formula = context.formula(checker.parse("r > 0 and x >= r and 2*y = x + r and y < r"))
+    >>> problem = Problem(checker.State(context).assume(formula), Ring(("r", "x", "y")))
+    >>> [(str(fact.poly), fact.strict) for fact in problem.facts]
+    [('x - 1', False), ('-x + 1', True)]
+    """
+
+    def __init__(self, state: checker.State, ring: Ring) -> None:
+        self.ring = ring
+        polys = [ring.read(poly) for poly, _ in state.facts]
+        relations = [relation for _, relation in state.facts]
+        unit_facts: dict[int, tuple[int, int]] = {}
+        for index, (poly, relation) in enumerate(zip(polys, relations)):
+            if relation == ">" and len(poly) == 1 and poly.total_degree() == 1 and poly.leading_coefficient() > 0:
+                unit_facts.setdefault(poly.degrees().index(1), (index, int(poly.leading_coefficient())))
+        scaling = Scaling(ring, [p for p in polys if p], sorted(unit_facts))
+        lowered = [scaling.lower(poly) for poly in polys]
+        self.source = Source(ring, scaling, polys, lowered, [poly.den for poly, _ in state.facts], relations, unit_facts)
+        self.idle = idle_facts(lowered, relations)
+        equations = [(k, p) for k, p in enumerate(lowered) if relations[k] == "=" and p and k not in self.idle]
+        signed = [Signed(k, p, relations[k] == ">") for k, p in enumerate(lowered) if relations[k] in (">", "!=")]
+        integers = frozenset(k for k, name in enumerate(ring.names) if name in state.context.integers)
+        self.reduction = Reduction(ring, equations, signed if equations else [], integers)
+        self.facts: list[Fact] = []
+        self.contradiction: Fact | None = None
+        for index, (poly, relation) in enumerate(zip(lowered, relations)):
+            if relation != "=" and index not in self.idle:
+                self._take(index, poly, relation)
+        self.bounded = self._most_common_bounded()
+
+    def _take(self, index: int, poly: fmpz_mpoly, relation: str) -> None:
+        """Adds the fact as it stands after the eliminations, unless it is there already or says nothing."""
+        counts, rest = self.reduction.reduce(poly)
+        own: Factors = ((index, 1),)
+        if relation == "!=":
+            rest, own, counts = rest * rest, ((index, 2),), tuple(2 * n for n in counts)
+        strict, value = relation != ">=", constant_of(rest)
+        if value is not None:
+            if value < 0 or value == 0 and strict:
+                self.contradiction = Fact(rest, strict, own, counts, Fraction(1), self.ring.row(rest))
+            return
+        content = abs(int(rest.content()))
+        self.add(Fact(rest / content if content > 1 else rest, strict, own, counts, Fraction(content), (EMPTY)))
+
+    def add(self, fact: Fact) -> None:
+        """Adds a fact unless the same polynomial is there already, at least as strict."""
+        for place, known in enumerate(self.facts):
+            if known.poly == fact.poly:
+                if fact.strict and not known.strict:
+                    fact.row = known.row
+                    self.facts[place] = fact
+                return
+        fact.row = self.ring.row(fact.poly)
+        self.facts.append(fact)
+
+    def polys(self) -> list[fmpz_mpoly]:
+        """The polynomials of the equations left and of the facts."""
+        return [equation.poly for equation in self.reduction.left] + [fact.poly for fact in self.facts]
+
+    # -------------------------------------------------------- bounded variables
+
+    def _most_common_bounded(self) -> Bounded | None:
+        """The variable bounded on both sides that occurs in most facts."""
+        low: dict[int, int] = {}
+        high: dict[int, int] = {}
+        occurs: dict[int, int] = {}
+        for k, fact in enumerate(self.facts):
+            degrees = [int(d) for d in fact.poly.degrees()]
+            for variable, degree in enumerate(degrees):
+                occurs[variable] = occurs.get(variable, 0) + bool(degree)
+            if sum(degrees) == 1:
+                variable = degrees.index(1)
+                side = low if (constant_of(fact.poly.derivative(variable)) or 0) > 0 else high
+                side[variable] = self._tighter(side.get(variable, k), k, variable)
+        both = [v for v in low if v in high]
+        best = max(both, key=lambda v: (occurs[v], -v), default=None)
+        return None if best is None else Bounded(best, low[best], high[best])
+
+    def end(self, index: int, variable: int) -> Fraction:
+        """Where a bound a*z + b vanishes."""
+        poly = self.facts[index].poly
+        slope = constant_of(poly.derivative(variable)) or 1
+        return Fraction(-(constant_of(poly - slope * self.ring.gens[variable]) or 0), slope)
+
+    def _tighter(self, i: int, j: int, variable: int) -> int:
+        """Of two bounds of one sense the one that implies the other."""
+        if i == j:
+            return i
+        below = (constant_of(self.facts[i].poly.derivative(variable)) or 0) > 0
+        ends = self.end(i, variable), self.end(j, variable)
+        if ends[0] == ends[1]:
+            return i if self.facts[i].strict else j
+        return j if (ends[1] > ends[0]) == below else i
+
+    def said_by_bounds(self, index: int, bounded: Bounded) -> bool:
+        """Whether a fact is one of the bounds, or in the bounded variable alone and implied by them."""
+        if index in (bounded.low, bounded.high):
+            return True
+        poly = self.facts[index].poly
+        return self.facts[index].degree(bounded.variable) == sum(map(int, poly.degrees())) == total_degree(poly) and positive_between(
+            univariate(poly, bounded.variable), self.end(bounded.low, bounded.variable), self.end(bounded.high, bounded.variable))
+
+    # -------------------------------------------------------- candidates and divided facts
+
+    def candidates(self, kind: str) -> list[fmpz_mpoly]:
+        """Polynomials worth squaring: read off the facts before and after the eliminations, and reduced."""
+        parameter = self.bounded.variable if self.bounded else -1
+        find = {"squares": squares, "resultants": resultants}[kind]
+        pool = Pool()
+        if self.reduction.steps:
+            before = [p for k, p in enumerate(self.source.lowered) if p and not p.is_constant() and k not in self.idle]
+            for poly in find(self.ring, before, parameter):
+                pool.add(self.reduction.reduce(poly)[1])
+        for poly in find(self.ring, self.polys(), parameter):
+            pool.add(poly)
+        return pool.polys
+
+    def unsigned_factors(self) -> list[fmpz_mpoly]:
+        """The irreducible factors of equations left, and those of facts that have no sign at sight, smallest first."""
+        signs, pool = Signs(self), Pool()
+        for equation in self.reduction.left:
+            found = factors(equation.poly)
+            for factor, _ in found if len(found) > 1 else ():
+                pool.add(factor)
+        count = len(pool.polys)
+        for fact in self.facts:
+            if total_degree(fact.poly) > 1:
+                for factor, _ in factors(fact.poly):
+                    if factor != fact.poly and factor != -fact.poly and not signs.of(factor)[0]:
+                        pool.add(factor)
+        return sorted(pool.polys[:count], key=size) + sorted(pool.polys[count:], key=size)
+
+    def variables_and_differences(self) -> list[fmpz_mpoly]:
+        """Variables of no known sign, and differences of two variables of one weight, but for the bounded variable."""
+        used = [v for v in range(self.ring.size) if any(poly.degrees()[v] for poly in self.polys())]
+        used = [v for v in used if self.bounded is None or v != self.bounded.variable]
+        signs, weights, gens = Signs(self), self.source.scaling.weights, self.ring.gens
+        alone = [gens[v] for v in used if not signs.of(gens[v])[0]]
+        return alone + [gens[v] - gens[w] for v, w in combinations(used, 2) if not weights or weights[v] == weights[w]]
+
+    def in_units(self, poly: fmpz_mpoly) -> str:
+        """The text of a polynomial in the state's own units."""
+        scaling = self.source.scaling
+        return str(scaling.lift(poly, scaling.largest(poly)) if scaling.units else poly)
+
+    def divide(self) -> bool:
+        """Replaces facts that have a positive factor by what is left without it; whether there were any."""
+        signs = Signs(self)
+        changed = []
+        for place, fact in enumerate(self.facts):
+            if total_degree(fact.poly) < 2 or fact.multiplier is not None:
+                continue
+            rest, multiplier, positive = fact.poly, [(Fraction(1), ())], 1
+            for factor, exponent in factors(fact.poly):
+                sign, found = signs.of(factor)
+                for _ in range(exponent if found else 0):
+                    rest, positive, multiplier = rest / factor, positive * sign, times(multiplier, found)
+            if len(multiplier) == 1 and multiplier[0][1] == () or rest.is_constant() and positive * int(rest.leading_coefficient()) > 0:
+                continue
+            rest = rest * positive
+            content = abs(int(rest.content()))
+            changed.append((place, Fact(rest / content, fact.strict, fact.factors, fact.counts, fact.scale * content, fact.row, multiplier)))
+        for place, fact in changed:
+            fact.row = self.ring.row(fact.poly)
+            self.facts[place] = fact
+        self.bounded = self._most_common_bounded()
+        return bool(changed)
+
+
+def size(poly: fmpz_mpoly) -> tuple[int, int]:
+    """Small polynomials first."""
+    return total_degree(poly), len(poly)
+
+
+EMPTY = Ring(()).row(Ring(()).zero)
+
+
+def times(a: Sum, b: Sum) -> Sum:
+    """The product of two sums of products."""
+    total: dict[Factors, Fraction] = {}
+    for c, f in a:
+        for d, g in b:
+            powers = dict(f)
+            for k, e in g:
+                powers[k] = powers.get(k, 0) + e
+            key = tuple(sorted(powers.items()))
+            total[key] = total.get(key, Fraction(0)) + c * d
+    return [(c, f) for f, c in sorted(total.items())]
+
+
+class Signs:
+    """Polynomials whose sign the facts show at sight, as positive sums of products of facts."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.at_least_zero: dict[int, int] = {}  # variable -> fact
+        for k, fact in enumerate(problem.facts):
+            degrees = [int(d) for d in fact.poly.degrees()]
+            if len(fact.poly) == 1 and sum(degrees) == 1 and fact.poly.leading_coefficient() > 0:
+                self.at_least_zero[degrees.index(1)] = k
+
+    def of(self, poly: fmpz_mpoly) -> tuple[int, Sum]:
+        """(sign, positive sum equal to sign * poly) with a strict term; (0, []) where none is seen."""
+        for k, fact in enumerate(self.problem.facts):
+            if fact.strict and fact.multiplier is None and (fact.poly == poly or fact.poly == -poly):
+                return (1 if fact.poly == poly else -1), [(Fraction(1), ((k, 1),))]
+        for sign in (1, -1):
+            found = self._termwise(poly * sign) or self._between(poly * sign)
+            if found:
+                return sign, found
+        return 0, []
+
+    def _termwise(self, poly: fmpz_mpoly) -> Sum:
+        """All coefficients positive in variables that are at least 0."""
+        found: Sum = []
+        strict = False
+        for monomial, coefficient in zip(poly.monoms(), poly.coeffs()):
+            used = [(v, int(e)) for v, e in enumerate(monomial) if e]
+            if coefficient < 0 or any(v not in self.at_least_zero for v, _ in used):
+                return []
+            own = tuple(sorted((self.at_least_zero[v], e) for v, e in used))
+            strict = strict or all(self.problem.facts[k].strict for k, _ in own)
+            found.append((Fraction(int(coefficient)), own))
+        return found if strict else []
+
+    def _between(self, poly: fmpz_mpoly) -> Sum:
+        """Positive Bernstein coefficients in the bounded variable alone."""
+        bounded = self.problem.bounded
+        if bounded is None:
+            return []
+        degree = int(poly.degrees()[bounded.variable])
+        if not degree or degree != sum(map(int, poly.degrees())):
+            return []
+        facts, ends = self.problem.facts, [self.problem.end(k, bounded.variable) for k in (bounded.low, bounded.high)]
+        width = ends[1] - ends[0]
+        slopes = [abs(constant_of(facts[k].poly.derivative(bounded.variable)) or 1) for k in (bounded.low, bounded.high)]
+        if width <= 0:
+            return []
+        found: Sum = []
+        strict = False
+        for k, b in enumerate(bernstein(univariate(poly, bounded.variable), ends[0], ends[1], degree)):
+            if b < 0:
+                return []
+            own = tuple((i, e) for i, e in sorted(((bounded.low, k), (bounded.high, degree - k))) if e)
+            if b:
+                strict = strict or all(facts[i].strict for i, _ in own)
+                value = Fraction(int(b.p), int(b.q)) * comb(degree, k) / width**degree
+                found.append((value / slopes[0] ** k / slopes[1] ** (degree - k), own))
+        return found if strict else []
+
+
+def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int]:
+    """The facts that only say what a root is, where the root occurs nowhere else: root >= 0 and root^2 = term."""
+    idle: set[int] = set()
+    while True:
+        degrees = {k: [int(d) for d in p.degrees()] for k, p in enumerate(polys) if p and k not in idle}
+        found: set[int] = set()
+        for k, own in degrees.items():
+            for variable, degree in enumerate(own):
+                if relations[k] == "=" and degree == 2 and not found:
+                    others = [i for i, d in degrees.items() if d[variable] and i != k]
+                    if others and all(sum(degrees[i]) == 1 and relations[i] == ">=" and polys[i].leading_coefficient() > 0 for i in others):
+                        found = {k, *others}
+        if not found:
+            return idle
+        idle |= found

@@ -1,0 +1,143 @@
+"""The certificate of a sharp range: proofs inside, and outside counterexamples on every interval on which one statement fails."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from flint import fmpq_poly
+
+from certificates import checker
+
+from .algebraic import AlgebraicNumber, fraction, real_roots, simplest_between
+from .base_samples import base_samples
+from .budget import Budget, Exhausted
+from .certificate import search_proof
+from .closing import search_closing
+from .condition import Condition
+from .families import cover
+from .ranges import Line
+from .sampler import Sampler
+from .setting import Task
+
+Node = list[Any]
+
+
+def sharp_certificate(statement: checker.Statement, statements: Sequence[checker.Statement], parameter: str, line: Line,
+                      verdicts: Mapping[str, Sequence[bool]], known: Mapping[str, checker.Statement], budget: Budget
+                      ) -> tuple[Node | None, str]:
+    """([{name: proof}, found, sample], "") or (None, what could not be certified)."""
+    (domain,) = statement.get("domain")
+    named = {each.name: each for each in statements}
+    try:
+        inside, failure = proofs_inside(statement, statements, known, budget)
+        if inside is None:
+            return None, failure
+        outside = _outside(outside_state(statement), named, parameter, line, verdicts, domain, dict(known), budget)
+        sample = sample_of(statement, budget)
+    except Exhausted:
+        return None, "the budget ran out"
+    if outside is None or sample is None:
+        return None, "no family of counterexamples outside the range"
+    return [inside, outside, sample], ""
+
+
+def proofs_inside(statement: checker.Statement, statements: Sequence[checker.Statement], known: Mapping[str, checker.Statement],
+                  budget: Budget) -> tuple[dict[str, Any] | None, str]:
+    """({name: proof}, "") where the condition holds, or (None, which proof is missing)."""
+    (domain,), (condition,) = statement.get("domain"), statement.get("holds")
+    inside: dict[str, Any] = {}
+    for each in statements:
+        proof = search_proof(each, dict(known), budget, sharp=[domain, condition])
+        if proof is None:
+            return None, f"no proof of {each.name} inside the range"
+        inside[each.name] = proof
+    return inside, ""
+
+
+def outside_state(statement: checker.Statement) -> checker.State:
+    """The state that assumes the domain and not the condition."""
+    (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("over", "domain", "holds"))
+    state: checker.State = checker.State(checker.Context())
+    for parameter in over:
+        state.context.declare(parameter)
+    state.assume(state.context.formula(domain))
+    state.assume(state.context.formula(condition, False))
+    return state
+
+
+def sample_of(statement: checker.Statement, budget: Budget) -> dict[str, str] | None:
+    """A simple point of the domain."""
+    (over,), (domain,) = statement.get("over"), statement.get("domain")
+    context = checker.Context()
+    for parameter in over:
+        context.declare(parameter)
+    condition = Condition.of(context, context.formula(domain))
+    for assignment in Sampler(budget, width=8, nodes=400).search(condition, over):
+        return {name: str(fraction(assignment.values[name][0])) for name in over}
+    return None
+
+
+def _outside(state: checker.State, named: Mapping[str, checker.Statement], parameter: str, line: Line,
+             verdicts: Mapping[str, Sequence[bool]], domain: Any, known: dict[str, checker.Statement], budget: Budget) -> Node | None:
+    base = {parameter: state.context.values[parameter]}
+    failing = [k for k, verdict in enumerate(line.verdicts) if not verdict]
+    if not failing:
+        node = search_closing(state, known, budget, 2)
+        return None if node is None else ["empty", node]
+    whole = [name for name in sorted(named) if not any(verdicts[name][k] for k in failing)]
+    if failing[-1] - failing[0] + 1 == len(failing):
+        for name in whole:
+            task = Task(named[name], "counterexample", base, known, budget, [domain])
+            found = cover(task, state, base_samples(state, budget), depth=4)
+            if found is not None:
+                return found
+    cut = _cut(line, failing, verdicts, parameter)
+    if cut is None:
+        return None
+    text, pieces = cut
+    founds = []
+    for branch, piece in zip(state.by_sign(text), pieces):
+        part = Line(line.numbers, tuple(verdict or k not in piece for k, verdict in enumerate(line.verdicts)))
+        found = _outside(branch, named, parameter, part, verdicts, domain, known, budget)
+        if found is None:
+            return None
+        founds.append(found)
+    return ["sign", text, *founds]
+
+
+def _cut(line: Line, failing: Sequence[int], verdicts: Mapping[str, Sequence[bool]], parameter: str) -> tuple[str, list[set[int]]] | None:
+    """A polynomial of degree 1 or that of a number, and which cells and numbers lie below, on and above its sign change."""
+    cells = set(range(len(line.verdicts)))
+    gaps = [k for k in cells if failing[0] < k < failing[-1] and line.verdicts[k]]
+    opened = [k for k in gaps if k % 2 == 0]
+    if opened:
+        # A rational inside an open cell on which all statements hold.
+        k = opened[len(opened) // 2]
+        value = simplest_between(line.numbers[k // 2 - 1]._high, line.numbers[k // 2]._low)
+        text = f"{int(value.q)}*{parameter} - {int(value.p)}" if value.q != 1 else f"{parameter} - {int(value.p)}"
+        return text, [{i for i in cells if i < k}, set(), {i for i in cells if i > k}]
+    changes = [k for k in failing if k % 2 and failing[0] < k < failing[-1]] or gaps
+    if not changes:
+        changes = [k for k in failing if k % 2] if len(failing) > 1 else []
+    if not changes:
+        return None
+    k = changes[len(changes) // 2]
+    number = line.numbers[k // 2]
+    if not _separates(number, line, failing):
+        return None
+    rising = number.sign_of(_derivative(number)) > 0
+    below, above = {i for i in cells if i < k}, {i for i in cells if i > k}
+    return number.polynomial_text(parameter), [below if rising else above, {k}, above if rising else below]
+
+
+def _separates(number: AlgebraicNumber, line: Line, failing: Sequence[int]) -> bool:
+    """Whether the number's polynomial has no other root among the failing cells and numbers."""
+    low = line.numbers[failing[0] // 2 - 1] if failing[0] >= 2 else None
+    high = line.numbers[failing[-1] // 2] if failing[-1] // 2 < len(line.numbers) else None
+    others = [r for r in real_roots(fmpq_poly(number.poly)) if r != number]
+    return not any((low is None or low < r) and (high is None or r < high) for r in others)
+
+
+def _derivative(number: AlgebraicNumber) -> Any:
+    return fmpq_poly(number.poly).derivative()

@@ -1,0 +1,171 @@
+"""Sharp ranges in several parameters: one polynomial border, or two, whose signs tell where statements hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+from math import lcm
+from typing import Any
+
+from flint import fmpq, fmpq_mpoly
+
+from certificates import checker
+from certificates.statements import SharpRange
+from certificates.terms import Formula, Term, conjunction, disjunction, real, term
+
+from .algebraic import fraction, sign
+from .base_samples import base_samples
+from .budget import Budget, Exhausted, accepted
+from .closing import search_closing
+from .condition import HOLDS, Condition, coefficients_in, constant_of
+from .elimination import border_polynomials
+from .families import cover
+from .quotients import Sample
+from .setting import Task
+from .sharp import Known, Range, Violation, read
+from .sharp_certificate import outside_state, proofs_inside, sample_of
+from .solver import ask
+
+RELATIONS = (">", ">=", "=", "!=")
+Guess = tuple[str, list[tuple[fmpq_mpoly, str]]]  # "and" or "or", and relations of border polynomials to 0
+
+
+def find_sharp_region(statements: Sequence[checker.Statement], parameters: Sequence[str], domain: Formula, name: str, known: Known,
+                      budget: Budget, borders: Sequence[str] = ()) -> Range:
+    """The set of several parameters on which all the statements hold, as at most two relations of border polynomials to 0.
+
+    `borders` are polynomials in the parameters to try, as text; without any they come from resultants.
+    """
+    tree = checker.parse(str(domain))
+    state: checker.State = checker.State(checker.Context())
+    for parameter in parameters:
+        state.context.declare(parameter)
+    state.assume(state.context.formula(tree))
+    try:
+        violations = [Violation.of(s, tree, units=True) for s in statements]
+        polys = _borders(state, violations, parameters, borders, budget)
+        samples = _samples(state, polys, parameters, budget)
+        verdicts = []
+        for sample in samples:
+            verdict = _verdict(violations, sample, budget)
+            if verdict is None:
+                return Range(failure=f"no verdict at {_shown(sample)}")
+            verdicts.append(verdict)
+        for guess in _guesses(polys, samples, verdicts):
+            condition = _formula(guess)
+            statement = SharpRange(name, tuple(s.name for s in statements), tuple(parameters), domain, condition)
+            certificate, failure = _certified(read(statement), statements, samples, known, budget)
+            return Range(statement, [], certificate, failure)
+    except Exhausted:
+        return Range(failure="the budget ran out")
+    return Range(failure="no two borders tell the samples apart")
+
+
+def _borders(state: checker.State, violations: Sequence[Violation], parameters: Sequence[str], borders: Sequence[str], budget: Budget
+             ) -> list[fmpq_mpoly]:
+    empty = Condition.of(state.context, True)
+    if borders:
+        given = [Condition.of(state.context, ("atom", state.context.polynomial(text), ">"), empty.ring).polys[0] for text in borders]
+        return [factor for poly in given for factor, _ in poly.factor()[1]]
+    found = border_polynomials([(v.condition, v.goal) for v in violations], parameters, budget)
+    return [p.project_to_context(empty.ring) for p in found][:12]
+
+
+def _samples(state: checker.State, polys: Sequence[fmpq_mpoly], parameters: Sequence[str], budget: Budget) -> list[Sample]:
+    """Points of the domain on both sides of the borders, and on them where a border is linear in a parameter."""
+    found = base_samples(state, budget, 24)
+    inside = [Condition.of(state.context, checker.join("and", [("atom", poly, relation) for poly, relation in state.facts]))]
+    for sample in list(found):
+        for poly in polys:
+            for name in parameters:
+                parts = coefficients_in(poly.subs({n: v for n, v in sample.items() if n != name}), name)
+                slope = constant_of(parts[1]) if len(parts) == 2 else None
+                rest = constant_of(parts[0])
+                if slope and rest is not None:
+                    for shift in (fmpq(0), fmpq(1, 50), fmpq(-1, 50)):
+                        moved = {**sample, name: -rest / slope + shift}
+                        if moved not in found and inside[0].substituted(moved).tree is True:
+                            found.append(moved)
+    return found[:150]
+
+
+def _verdict(violations: Sequence[Violation], sample: Sample, budget: Budget) -> bool | None:
+    for violation in violations:
+        goal = violation.goal.substituted(sample) if violation.goal is not None else None
+        unreachable = (goal, violation.bound) if goal is not None else None
+        verdict = ask(violation.condition.substituted(sample), budget, violation.integers, unreachable=unreachable).verdict
+        if verdict == "sat":
+            return False
+        if verdict != "unsat":
+            return None
+    return True
+
+
+def _guesses(polys: Sequence[fmpq_mpoly], samples: Sequence[Sample], verdicts: Sequence[bool]) -> Iterator[Guess]:
+    """Conditions that agree with every verdict, the shortest first."""
+    atoms: list[tuple[tuple[fmpq_mpoly, str], list[bool]]] = []
+    if all(verdicts):
+        yield "and", []
+    if not any(verdicts):
+        yield "or", []
+    for poly in polys:
+        signs = [sign(constant_of(poly.subs(dict(s))) or fmpq(0)) for s in samples]
+        for factor, oriented in ((poly, signs), (-poly, [-s for s in signs])):
+            for relation in RELATIONS:
+                truths = [HOLDS[relation](s) for s in oriented]
+                if truths == list(verdicts):
+                    yield "and", [(factor, relation)]
+                atoms.append(((factor, relation), truths))
+    for (left, a), (right, b) in combinations(atoms, 2):
+        if [p and q for p, q in zip(a, b)] == list(verdicts):
+            yield "and", [left, right]
+        if [p or q for p, q in zip(a, b)] == list(verdicts):
+            yield "or", [left, right]
+
+
+def _formula(guess: Guess) -> Formula:
+    op, atoms = guess
+    return (conjunction if op == "and" else disjunction)([Formula(relation, _term(poly), term(0)) for poly, relation in atoms])
+
+
+def _term(poly: fmpq_mpoly) -> Term:
+    names = poly.context().names()
+    scale = lcm(*(int(c.q) for c in poly.coeffs()))
+    total: Term | None = None
+    for powers, c in (poly * scale).to_dict().items():
+        value = fraction(c)
+        part: Term | None = None
+        for name, e in zip(names, powers):
+            if e:
+                factor: Term = real(name) if e == 1 else real(name) ** int(e)
+                part = factor if part is None else part * factor
+        size: Term = term(abs(value)) if part is None else part if abs(value) == 1 else abs(value) * part
+        total = (size if value > 0 else -size) if total is None else total + size if value > 0 else total - size
+    return term(0) if total is None else total
+
+
+def _certified(statement: checker.Statement, statements: Sequence[checker.Statement], samples: Sequence[Sample], known: Mapping[str, Any],
+               budget: Budget) -> tuple[list[Any] | None, str]:
+    inside, failure = proofs_inside(statement, statements, known, budget)
+    if inside is None:
+        return None, failure
+    state = outside_state(statement)
+    (domain,) = statement.get("domain")
+    base = {name: state.context.values[name] for name in state.context.index}
+    node = search_closing(state, dict(known), budget, 1)
+    outside: list[Any] | None = None if node is None else ["empty", node]
+    for each in statements if outside is None else ():
+        outside = cover(Task(each, "counterexample", base, dict(known), budget, [domain]), state, base_samples(state, budget), depth=3)
+        if outside is not None:
+            break
+    sample = sample_of(statement, budget)
+    if outside is None or sample is None:
+        return None, "no family of counterexamples outside the range"
+    certificate = [inside, outside, sample]
+    if not accepted(checker.check_sharp, statement, certificate, dict(known), {s.name: s for s in statements}):
+        return None, "the checker does not accept the certificate"
+    return certificate, ""
+
+
+def _shown(sample: Sample) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in sorted(sample.items()))

@@ -1,0 +1,174 @@
+"""The region inclusions that the argument of section 4 rests on, for alpha < 1/3, and the change to the normal form.
+
+Each is stated for the range (21) of the paper; how far it really goes is found by the program.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from certificates.statements import Statement
+from certificates.terms import equal, iff, term
+from proofs.claims import Assertion, Readings, claim
+from proofs.paper.events import height, speed, vector
+from proofs.paper.outside import B1_OUTSIDE, OUTSIDE
+from proofs.paper.relative_motion import RANGE_21, band, c, from_e_1, image, leaves_R_at, on_the_line
+from proofs.paper.vocabulary import (
+    B1,
+    B1_MINUS,
+    B1_PLUS,
+    B1_ZERO,
+    B2,
+    H,
+    R,
+    T,
+    alpha,
+    always,
+    at,
+    b,
+    collision_time,
+    derived,
+    e_1,
+    energy,
+    eps,
+    equals,
+    f1,
+    f2,
+    impact_energy_change,
+    is_supremum,
+    next_states,
+    r,
+    v,
+)
+from proofs.reading.notions import Region
+from proofs.reading.values import Vector
+
+TRAP = B1 & Region(lambda state: alpha * (r - speed(state)) < r)
+
+
+def scaled(state: Vector) -> Vector:
+    """The state in the coordinates of the normal form."""
+    return vector(at(derived("scaling"), state))
+
+
+def in_normal_form(name: str, state: Vector) -> Any:
+    """A derived function of the normal form at a state (x, w): a state, or a term."""
+    return at(derived(name), {"x": height(state), "w": speed(state)})
+
+
+@claim("region-scaling", "inclusions", "normal form")
+def normal_form_is_conjugate() -> list[Statement]:
+    """With heights in units of r T and closing speeds in units of r, maps and regions no longer depend on r and g, only on alpha."""
+    there = scaled(b)
+    x, w = height(there), speed(there)
+    return [
+        always(equals(scaled(vector(f1(b))), in_normal_form("normal_f1", there)), label="f1"),
+        always(equals(scaled(vector(f2(b))), in_normal_form("normal_f2", there)), label="f2"),
+        always(iff(H(b), x >= 0) & iff(B1(b), (0 <= x) & (x < w)) & iff(B2(b), (0 <= x) & (x >= w)), label="regions"),
+        always(equal(term(energy(b)), r**2 * in_normal_form("normal_energy", there)), label="energy"),
+        always(equals(in_normal_form("unscaling", there), b), label="one-to-one"),
+    ]
+
+
+@claim("region-f-H", "inclusions", "line 327")
+def states_stay_in_h() -> list[Statement]:
+    """f maps H into itself."""
+    return [
+        always(H(f1(b)), given=[B1(b)], in_range=RANGE_21, label="with-impact"),
+        always(H(f2(b)), given=[B2(b)], label="without-impact"),
+    ]
+
+
+@claim("region-B-partition", "inclusions", "line 315")
+def b1_and_b2_part_h() -> list[Statement]:
+    """Each state of H is in exactly one of B1 and B2; the time to collision tells which, where the ball is slower than the launch."""
+    in_time = term(collision_time(b)) < T
+    return [
+        always((B1(b) | B2(b)) & ~(B1(b) & B2(b)), given=[H(b)], label="exactly-one"),
+        always(iff(B1(b), in_time) & iff(B2(b), ~in_time), given=[v < r, H(b)], label="slower"),
+        always(B2(b), given=[v >= r, H(b)], label="not-slower"),
+    ]
+
+
+@claim("region-B1-plus-E", "inclusions", "line 494")
+def states_that_do_not_lose_have_little_energy() -> Statement:
+    """The states of B1 whose impact gains or keeps energy have at most the energy E_max."""
+    return always(energy(b) <= derived("E_max"), given=[(B1_PLUS | B1_ZERO)(b)], in_range=RANGE_21)
+
+
+@claim("region-outside", "inclusions", "line 478")
+def outside_impacts_lose() -> Statement:
+    """The states of H outside R have no impact in the period, or one that loses energy."""
+    return always((B2 | B1_MINUS)(b), given=[OUTSIDE(b)], in_range=RANGE_21)
+
+
+@claim("region-f-R", "inclusions", "line 494")
+def states_stay_in_the_region() -> list[Statement]:
+    """f maps R into itself."""
+    return [
+        always(R(f1(b)), given=[B1(b), R(b)], in_range=RANGE_21, label="with-impact"),
+        always(R(f2(b)), given=[B2(b), R(b)], in_range=RANGE_21, label="without-impact"),
+    ]
+
+
+@claim("region-DE-max", "inclusions", "line 451")
+def no_period_gains_more() -> list[Statement]:
+    """On H the energy rises in a period by Delta E_max at most."""
+    gain = derived("delta_E_max")
+    return [
+        always(energy(f1(b)) - energy(b) <= gain, given=[B1(b)], in_range=RANGE_21, label="with-impact"),
+        always(energy(f2(b)) - energy(b) <= gain, given=[B2(b)], in_range=RANGE_21, label="without-impact"),
+    ]
+
+
+@claim("region-DE-sup", "inclusions", "line 712")
+def impacts_outside_lose_at_least() -> list[Statement]:
+    """Delta E_sup is the supremum of the energy change on B1 outside R, and is not attained there."""
+    return is_supremum(derived("delta_E_sup"), term(impact_energy_change(b)), ["beta", "v"], B1_OUTSIDE(b), strict=True, in_range=RANGE_21)
+
+
+@claim("region-p", "inclusions", "line 559")
+def point_p_lies_outside() -> Statement:
+    """The state that has the velocity of e_1 and meets the table just at its next bounce does not belong to R."""
+    return always(~R(on_the_line(speed(e_1))), in_range=RANGE_21)
+
+
+@claim("region-near", "inclusions", "line 559", parameters=("alpha", "eps"))
+def states_of_the_region_near_e_1_lie_in_b1() -> Readings:
+    """The states of R whose kinetic energy relative to e_1 is small enough lie in B1: so small that they are slower than where R leaves B1.
+
+    No larger band will do, as that very state is in R and in B2; with eps in units of r^2 the sharp range says how small is small enough.
+    """
+    edge = on_the_line(c)
+    return Readings({
+        "exactly-how-near": Assertion((
+            always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=RANGE_21, label="slower"),
+            always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=RANGE_21, label="e_1-is-slower"),
+            always(B2(edge) & R(edge), given=[leaves_R_at(c)], in_range=RANGE_21, label="no-further"),
+        )),
+        "every-size": Assertion((always(B1(b), given=[eps > 0, R(b), from_e_1(b) <= eps * r**2], in_range=RANGE_21),)),
+    })
+
+
+@claim("region-e1-R", "inclusions", "line 561")
+def fixed_point_lies_in_both() -> Statement:
+    """The fixed point of f1 lies in B1 and in R."""
+    return always(B1(b) & R(b), given=[equals(f1(b), b)], in_range=RANGE_21)
+
+
+@claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"))
+def bands_are_mapped_into_themselves() -> Readings:
+    """f maps the band around e_1 into itself, if it does not reach to where R leaves B1, or whatever its size, eps r^2."""
+    size = eps * r**2
+    stays = [eps > 0, band(size)(b), next_states(b, image)]
+    narrow = [leaves_R_at(c), from_e_1(on_the_line(c)) > size]
+    return Readings({
+        "narrow": Assertion((always(band(size)(image), given=[*narrow, *stays], in_range=RANGE_21),)),
+        "every-size": Assertion((always(band(size)(image), given=stays, in_range=RANGE_21),)),
+    })
+
+
+@claim("region-trap", "inclusions", "not printed")
+def trap_is_mapped_into_itself() -> Statement:
+    """The states of B1 whose closing speed is below r/alpha are mapped to such states."""
+    return always(TRAP(image), given=[TRAP(b), next_states(b, image)], in_range=RANGE_21)

@@ -1,0 +1,75 @@
+r"""Motion relative to e_1: the coordinates z = b - e_1, the kinetic energy K in them, and the states where it is small.
+
+K is a function here, the kinetic energy of section 4.3, and not the integer K of section 3.5.
+"""
+
+from __future__ import annotations
+
+from certificates.terms import Formula, Term, conjunction, disjunction, equal, reals, term
+from proofs.paper.events import height, only_at, speed, vector
+from proofs.paper.vocabulary import B1, NAMES, POINTS, R, alpha, at, b, derived, e_1, energy, eps, f1, r
+from proofs.reading.environment import Environment
+from proofs.reading.notions import Region, StateFunction
+from proofs.reading.values import Matrix, Vector
+
+z1, z2, c, change = reals("z1 z2 c change")
+z = Vector((z1, z2))
+image = Vector(reals("beta_next v_next"))  # a state that follows b, for whichever branch of f applies
+STABILITY = "global asymptotic stability of e_1 for alpha < 1/3"
+RANGE_21 = (alpha > 0, alpha < derived("restitution_threshold", 2))  # (21): e_1 is the only fixed point
+
+
+def _of_z(name: str) -> StateFunction:
+    return StateFunction(lambda state: at(derived(name), {"z1": height(state), "z2": speed(state)}))
+
+
+kinetic_energy = _of_z("relative_kinetic_energy")
+kinetic_energy_change = _of_z("relative_kinetic_energy_change")
+relative_step = _of_z("relative_map")
+
+
+def from_e_1(state: Vector) -> Term:
+    """K(b - e_1): the kinetic energy of the motion relative to e_1."""
+    return term(kinetic_energy(state - e_1))
+
+
+def on_the_line(velocity: Term) -> Vector:
+    """The state of this velocity from which ball and table meet just when the table bounces next."""
+    return Vector((at(derived("boundary_height"), {"v": velocity}), velocity))
+
+
+def leaves_R_at(velocity: Term) -> Formula:
+    """The line between B1 and B2 meets the boundary of R at this velocity, below the table's launch speed."""
+    return conjunction([velocity < r, equal(term(energy(on_the_line(velocity))), derived("region_energy"))])
+
+
+def band(size: Term) -> Region:
+    """The states of B1 and R whose kinetic energy relative to e_1 is at most `size`."""
+    return B1 & R & Region(lambda state: from_e_1(state) <= size)
+
+
+NEAR = (leaves_R_at(c), from_e_1(on_the_line(c)) > eps)  # the band of size eps does not reach to where R leaves B1
+
+
+def boundary_of_band(size: Term) -> Region:
+    """What bounds the band: its closure, at height 0, on the line between B1 and B2, at the energy of R, or at `size`."""
+    def holds(state: Vector) -> Formula:
+        margins = (height(state), at(derived("collision_margin"), state), at(derived("region_margin"), state), size - from_e_1(state))
+        return conjunction([margin >= 0 for margin in margins]) & disjunction([equal(margin, 0) for margin in margins])
+
+    return Region(holds)
+
+
+BOUNDARY_OF_R = R & Region(lambda state: equal(at(derived("region_margin"), state), 0) | equal(height(state), 0))
+
+AT_Z = Environment({**NAMES, r"K": kinetic_energy, r"z": z, r"b": b, r"u_2'": Matrix(((0, 1),))}, state=r"z")
+STEP = Environment(
+    {**NAMES, r"K": kinetic_energy, r"f": relative_step, r"z_k": z, r"z_{k+1}": relative_step(z), r"b_k": z + e_1,
+     r"b_{k+1}": vector(f1(z + e_1)), r"u_2'": Matrix(((0, 1),)), r"\xi": derived("xi_1")},
+    state=r"z_k",
+)
+AROUND_E1 = Environment(
+    {**NAMES, r"K": kinetic_energy, r"B_1": B1, r"R": R, r"\mathcal{K}": band(eps), r"\partial\mathcal{K}": boundary_of_band(eps),
+     r"\overline f": only_at(b, image)},
+    points=POINTS, state=r"\overline b",
+)

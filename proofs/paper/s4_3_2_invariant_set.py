@@ -1,0 +1,198 @@
+"""Section 4.3.2: the point p, the band of states whose kinetic energy is close to that of e_1, and whether f maps it into itself."""
+
+from __future__ import annotations
+
+from certificates.statements import Statement
+from certificates.terms import Formula, Term, different, equal, iff, reals, term
+from proofs.claims import Argument, Assertion, Readings, claim
+from proofs.paper.events import height, speed, vector
+from proofs.paper.relative_motion import (
+    AROUND_E1,
+    BOUNDARY_OF_R,
+    NEAR,
+    RANGE_21,
+    band,
+    c,
+    from_e_1,
+    image,
+    kinetic_energy,
+    leaves_R_at,
+    on_the_line,
+)
+from proofs.paper.vocabulary import (
+    B1,
+    B2,
+    PAPER,
+    R,
+    T,
+    always,
+    b,
+    collision_time,
+    derived,
+    e_1,
+    eps,
+    equals,
+    f1,
+    f2,
+    next_states,
+    r,
+    v,
+)
+from proofs.reading.printed import Printed
+from proofs.reading.values import Vector
+
+d, p0, p1, p2, y = reals("d p0 p1 p2 y")
+JUST_AT_THE_BOUNCE = equal(term(collision_time(b)), T)  # what the line between B1 and B2 is
+
+
+@claim("eq-29", "4.3.2", "(29)",
+       printed=r"\begin{bmatrix} \overline\beta \\ \dot{\overline\beta} \end{bmatrix} = "
+               r"\begin{bmatrix} 1 \\ -\frac{1}{T} \end{bmatrix} \overline{\beta} + r_0",
+       as_it_stands=r"\frac{\dot{\overline{\beta}}}{\overline{\beta}} = "
+                    r"\begin{bmatrix} 1 \\ -\frac{1}{T} \end{bmatrix} \overline{\beta} + \dot{\rho}_0")
+def line_between_b1_and_b2(printed: Printed) -> Statement:
+    """The states that would meet the table just at its next bounce are those of this line, with the height as its parameter."""
+    return always(iff(JUST_AT_THE_BOUNCE, printed.formula(PAPER)), given=[different(v, r)])
+
+
+@claim("eq-30", "4.3.2", "(30)",
+       printed=r"p := \begin{bmatrix} \frac{2T}{1+\alpha} \dot{\rho}_0 \\ -\frac{1-\alpha}{1+\alpha} \dot{\rho}_0 \end{bmatrix}")
+def point_p_is_the_intersection(printed: Printed) -> Readings:
+    """p is where that line meets the states with the kinetic energy of e_1: those of its velocity, or those of its kinetic energy."""
+    is_p = printed.formula(PAPER.extended({"p": b}))
+    same_energy = equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
+    return Readings({
+        "of-its-velocity": Assertion((always(iff(JUST_AT_THE_BOUNCE & equal(v, speed(e_1)), is_p), given=[different(v, r)]),)),
+        "of-its-kinetic-energy": Assertion((always(iff(JUST_AT_THE_BOUNCE & same_energy, is_p), given=[different(v, r)]),)),
+    })
+
+
+AT_P = PAPER.extended({"p": derived("point_p")})
+
+
+@claim("eq-31a", "4.3.2", "(31), first line",
+       printed=r"E(p) = \frac{2T}{1+\alpha} \dot{\rho}_0 \gamma + \frac{1}{2} \left(-\frac{1-\alpha}{1+\alpha} \dot{\rho}_0 \right)^2")
+def energy_of_the_point_p(printed: Printed) -> Statement:
+    """A number is the energy of p exactly if it is what is printed."""
+    return always(iff(equal(d, derived("energy_of_p")), printed.formula(AT_P.extended({r"E(p)": d}))))
+
+
+@claim("eq-31b", "4.3.2", "(31), second line", printed=r"E(p) > E_{max} + \Delta E_{max}")
+def point_p_has_more_energy_than_the_region(printed: Printed) -> Statement:
+    """The energy of p is above the level of R."""
+    return always(printed.formula(AT_P), in_range=RANGE_21)
+
+
+@claim("s4.3.2-p-not-R", "4.3.2", "line 559", printed=r"p \notin \mathcal{R}")
+def point_p_is_outside_the_region(printed: Printed) -> Statement:
+    """p does not belong to R."""
+    return always(printed.formula(AT_P), in_range=RANGE_21)
+
+
+def slower_states_are_in_b1(in_range: tuple[Formula, ...] | None = RANGE_21) -> tuple[Statement, Statement]:
+    """The states of R that are slower than where R leaves B1 are in B1, and e_1 is slower than that."""
+    return (
+        always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=in_range, label="slower-in-B1"),
+        always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=in_range, label="e_1-is-slower"),
+    )
+
+
+@claim("s4.3.2-near-in-B1", "4.3.2", "line 559")
+def states_near_e_1_in_kinetic_energy_are_in_b1() -> Readings:
+    """The states of R whose kinetic energy is near that of e_1 lie in B1: of the motion relative to e_1, or of the ball itself.
+
+    The velocity c is the one at which the boundary of R meets the line between B1 and B2.
+    """
+    same_energy = equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
+    return Readings({
+        "relative": Assertion(slower_states_are_in_b1()),
+        "of-the-ball": Assertion((always(B1(b), given=[R(b), same_energy], in_range=RANGE_21),)),
+    })
+
+
+@claim("s4.3.2-f1-applies", "4.3.2", "line 559", repeats="s4.3.2-near-in-B1")
+def map_of_an_impact_applies_there() -> Statement:
+    """The states of R whose kinetic energy relative to e_1 is small enough for that go where f1 leads."""
+    near = [leaves_R_at(c), from_e_1(b) < from_e_1(on_the_line(c))]
+    return always(equals(image, f1(b)), given=[*near, R(b), next_states(b, image)], in_range=RANGE_21)
+
+
+@claim("eq-32", "4.3.2", "(32)",
+       printed=r"\mathcal{K} := \left\{ \overline{b} \in B_1 \middle| K(\overline{b} - e_1) \le \epsilon \right\} \cap R,")
+def band_around_the_fixed_point(printed: Printed) -> list[Statement]:
+    """The set consists of the states of B1 and R whose velocity differs from that of e_1 by at most the root of 2 epsilon; e_1 is one."""
+    region = printed.set_predicate(AROUND_E1, r"\mathcal{K}")
+    close = (speed(e_1) - d <= v) & (v <= speed(e_1) + d)
+    return [
+        always(iff(region(b), B1(b) & R(b) & close), given=[d >= 0, equal(d**2, 2 * eps)], label="band"),
+        always(region(e_1), given=[eps >= 0], label="contains-e_1"),
+    ]
+
+
+def both_sizes(show: Formula, given: list[Formula]) -> Readings:
+    """What is shown, for bands of every size, and for those that do not reach to where R leaves B1."""
+    return Readings({
+        "every-size": Assertion((always(show, given=[eps > 0, *given], in_range=RANGE_21),)),
+        "near-e_1": Assertion((always(show, given=[eps > 0, *NEAR, *given], in_range=RANGE_21),)),
+    })
+
+
+@claim("s4.3.2-f1-boundary", "4.3.2", "line 565", printed=r"\overline{f}_1(\partial \mathcal{K}) \subset \mathcal{K}")
+def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
+    """f1 maps the boundary of the band into the band: of a band of every size, or of one so narrow that its part of R lies in B1."""
+    return both_sizes(printed.formula(AROUND_E1), [])
+
+
+@claim("s4.3.2-f1-boundary-R", "4.3.2", "line 565", printed=r"\overline{f}_1(\partial \mathcal{R} \cap \mathcal{B}_1) \subset \mathcal{R}",
+       as_it_stands=r"\overline{f}_1(\partial \mathcal{K} \cap \mathcal{B}_1) \subset \mathcal{K}")
+def boundary_of_the_region_is_mapped_into_it(printed: Printed) -> Statement:
+    """f1 maps those boundary states of R that are in B1 into R."""
+    return always(printed.formula(PAPER.extended({r"\partial\mathcal{R}": BOUNDARY_OF_R})))
+
+
+@claim("s4.3.2-f-K-continuous", "4.3.2", "line 565", printed=r"\overline{f}|_{\mathcal{K}} = \overline{f}_1")
+def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
+    """On the band f is f1, which is continuous: images differ in each component by no more than a multiple of what the states differ by."""
+    other = Vector(reals("beta0 v0"))
+    change = vector(f1(b)) - vector(f1(other))
+    near = (height(b - other), T * speed(b - other))
+    within = [-d <= near[0], near[0] <= d, -d <= near[1], near[1] <= d]
+    far = (height(change), T * speed(change))
+    return [
+        always(printed.formula(AROUND_E1), given=[next_states(b, image)], label="agrees"),
+        always((-2 * d <= far[0]) & (far[0] <= 2 * d) & (-2 * d <= far[1]) & (far[1] <= 2 * d), given=within, label="continuous"),
+    ]
+
+
+@claim("s4.3.2-K-invariant", "4.3.2", "line 565", printed=r"\overline{f}(\mathcal{K}) \subseteq \mathcal{K}")
+def band_is_mapped_into_itself(printed: Printed) -> Argument:
+    """Since f is continuous on the band and its boundary is mapped into it, the band is mapped into itself.
+
+    For continuous maps in general this does not follow: a quadratic map can keep the ends of an interval in it
+    and lead a point between them out of it.
+    """
+    def quadratic(at: Term | int) -> Term:
+        return p0 + p1 * at + p2 * at**2
+
+    def inside(value: Term) -> Formula:
+        return (-1 <= value) & (value <= 1)
+
+    is_enough = always(inside(quadratic(y)), given=[inside(quadratic(-1)), inside(quadratic(1)), inside(y)])
+    boundary = always(band(eps)(vector(f1(b))), given=[eps > 0, *NEAR, band(eps)(b)], in_range=RANGE_21)
+    return Argument(
+        steps={
+            "boundary": Assertion((boundary,)),
+            "boundary-is-enough": Assertion((is_enough,)),
+        },
+        conclusion=Assertion((always(printed.formula(AROUND_E1), given=[eps > 0, *NEAR, next_states(b, image)], in_range=RANGE_21),)),
+    )
+
+
+@claim("s4.3.2-K-attracts", "4.3.2", "line 565")
+def band_attracts_the_region() -> Argument:
+    """The band attracts all of R, since the kinetic energy relative to e_1 decreases on R, at impacts and in flight, outside the band."""
+    outside = [R(b), eps > 0, from_e_1(b) > eps]
+    return Argument(steps={
+        "falls-at-impacts": Assertion((always(from_e_1(vector(f1(b))) < from_e_1(b), given=[B1(b), *outside], in_range=RANGE_21),)),
+        "falls-in-flight": Assertion((always(from_e_1(vector(f2(b))) < from_e_1(b), given=[B2(b), *outside], in_range=RANGE_21),)),
+    })

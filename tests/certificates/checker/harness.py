@@ -1,0 +1,76 @@
+"""Cases for the checker: a statement, a certificate, and the outcome, or how the reason of the rejection begins."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import Any
+
+from certificates import checker
+
+Json = Any
+OPEN = ["psatz", [], []]  # a node that closes nothing: whatever reaches it is rejected
+CLOSE = ["close"]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One certificate for the last statement of a text; `earlier` holds the certificates of those before it."""
+
+    defect: str
+    text: str
+    certificate: Json
+    expected: str = "certified"
+    earlier: dict[str, Json] = field(default_factory=dict)
+
+
+def lines(*rows: str, name: str = "rule/case") -> str:
+    """The text of one statement."""
+    return "\n".join([f"statement {name}", *rows, ""])
+
+
+def proof(node: Json, *steps: Json, at: dict[str, str] | None = None, name: str = "rule/case") -> Json:
+    """A certificate: `node` closes "premises and not goals", `steps` the obligations; the point's terms meet the premises at once."""
+    return {"certified": ["proof", list(steps), node], "point": [name, [], at or {}, CLOSE]}
+
+
+def witness(found: Json, *steps: Json, at: dict[str, str] | None = None, name: str = "rule/case") -> Json:
+    """A certificate for a statement with `exists`."""
+    return {"certified": ["witness", list(steps), found], "point": [name, [], at or {}, CLOSE]}
+
+
+def refuted(
+    at: dict[str, str], premises: Json = CLOSE, goals: Json = CLOSE, adjoined: Json = (), name: str = "rule/case"
+) -> Json:
+    """A counterexample."""
+    return {"refuted": [name, list(adjoined), at, premises, goals]}
+
+
+def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, str]]:
+    """{name: (outcome, reason)} for every statement of a text, each checked after those before it."""
+    known: dict[str, Any] = {}
+    earlier: dict[str, Any] = {}
+    found: dict[str, tuple[str, str]] = {}
+    for name, statement in checker.read_statements(text).items():
+        certificate = json.loads(json.dumps(certificates[name]), object_pairs_hook=checker.unique)
+        found[name] = checker.check_one(statement, certificate, known, earlier)
+        earlier[name] = statement
+        if found[name][0] == "certified" and statement.kind == "universal":
+            known[name] = statement
+    return found
+
+
+def judge(case: Case) -> tuple[str, str]:
+    """(outcome, reason) of the last statement of a case; none of those before it may be rejected."""
+    try:
+        found = verdict(case.text, case.earlier | {_last(case.text): case.certificate})
+    except checker.Rejected as reason:
+        return "unreadable", str(reason)
+    *before, last = found.values()
+    if any(outcome == "rejected" for outcome, _ in before):
+        raise ValueError(f"{case.defect}: an earlier statement is rejected: {before}")
+    return last
+
+
+def _last(text: str) -> str:
+    return [row for row in text.splitlines() if row.startswith("statement ")][-1].removeprefix("statement ")

@@ -1,0 +1,36 @@
+"""The tables of cases, one file for each rule of the checker."""
+
+from tests.certificates.checker.rules import (
+    cases_and_signs,
+    close,
+    counterexample,
+    division,
+    have_and_root,
+    integral,
+    interval,
+    iterates,
+    point,
+    psatz,
+    sharp,
+    text,
+    use,
+    witness,
+)
+
+MODULES = (
+    close,
+    psatz,
+    cases_and_signs,
+    interval,
+    integral,
+    use,
+    have_and_root,
+    witness,
+    point,
+    counterexample,
+    division,
+    sharp,
+    iterates,
+    text,
+)
+TABLES = {module.__name__.rsplit(".", 1)[1]: module for module in MODULES}

@@ -1,0 +1,146 @@
+"""Iterates: P(0) is the identity and map(P(K)) = P(K + 1), for all K, as identities."""
+
+from tests.certificates.checker.harness import Case, Json, lines
+
+DONE: Json = {"certified": []}
+SHIFT = ("forall x w K", "integer K", "iterates (x, w) -> (x - w, w + 2)", "after K -> (x - K*w - K*(K - 1), w + 2*K)")
+
+
+def case(defect: str, *rows: str, expected: str = "certified", certificate: Json = None) -> Case:
+    return Case(defect, lines(*rows), DONE if certificate is None else certificate, expected)
+
+
+ACCEPTED = [
+    case("a triangular map", *SHIFT),
+    case("one variable", "forall x K", "integer K", "iterates x -> x + 2", "after K -> x + 2*K"),
+    case("a parameter", "forall x a K", "integer K", "iterates x -> x + a", "after K -> x + K*a"),
+    case("an abbreviation", "forall x a K", "integer K", "let b = a^2", "iterates x -> x + b", "after K -> x + K*b"),
+    case(
+        "an involution of two", "forall x y K", "integer K", "iterates (x, y) -> (x, y + x)", "after K -> (x, y + K*x)"
+    ),
+]
+
+WRONG = "an iterate does not satisfy its recurrence"
+NAMES = "a map names its variables first, an image for each, and one integer apart"
+ORDER = "the lines of a statement are missing or out of order"
+REJECTED = [
+    case("a wrong step", *SHIFT[:3], "after K -> (x - K*w - K*(K + 1), w + 2*K)", expected=WRONG),
+    case("a wrong start", *SHIFT[:3], "after K -> (x - K*w - K*(K - 1), w + 2*K + 1)", expected=WRONG),
+    case("the right start only", *SHIFT[:3], "after K -> (x - K*w, w + 2*K)", expected=WRONG),
+    case(
+        "the right step only", "forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K + 1", expected=WRONG
+    ),
+    case("images swapped", "forall x w K", "integer K", "iterates (x, w) -> (w + 2, x - w)", SHIFT[3], expected=WRONG),
+    case(
+        "a map that depends on the number of iterations",
+        "forall x K",
+        "integer K",
+        "iterates x -> x + K",
+        "after K -> x + K*(K - 1)/2",
+        expected="a map that is iterated cannot depend on the number of iterations",
+    ),
+    case(
+        "a map that depends on it through an abbreviation",
+        "forall x K",
+        "integer K",
+        "let s = K",
+        "iterates x -> x + s",
+        "after K -> x + K*(K - 1)/2",
+        expected="a map that is iterated cannot depend on the number of iterations",
+    ),
+    case("no variable", "forall K", "integer K", "iterates () -> ()", "after K -> ()", expected=NAMES),
+    case(
+        "an image left out", "forall x w K", "integer K", "iterates (x, w) -> (x,)", "after K -> (x, w)", expected=NAMES
+    ),
+    case(
+        "a power left out", "forall x w K", "integer K", "iterates (x, w) -> (x, w)", "after K -> (x,)", expected=NAMES
+    ),
+    case(
+        "a variable left out",
+        "forall x w K",
+        "integer K",
+        "iterates (x,) -> (x, w)",
+        "after K -> (x, w)",
+        expected=NAMES,
+    ),
+    case(
+        "variables in another order",
+        "forall w x K",
+        "integer K",
+        "iterates (x, w) -> (x, w)",
+        "after K -> (x, w)",
+        expected=NAMES,
+    ),
+    case(
+        "a count that is no integer",
+        "forall x K n",
+        "integer n",
+        "iterates x -> x + 1",
+        "after K -> x + K",
+        expected=NAMES,
+    ),
+    case("a count that is a state", "forall x K", "integer x", "iterates x -> x", "after x -> x", expected=NAMES),
+    case("a count that is a number", "forall x K", "integer 2", "iterates x -> x", "after 2 -> x", expected=NAMES),
+    case("a count that is a term", "forall x K", "integer -K", "iterates x -> x", "after -K -> x", expected=NAMES),
+    case(
+        "two counts",
+        "forall x K n",
+        "integer K n",
+        "iterates x -> x",
+        "after (K, n) -> x",
+        expected="malformed certificate (ValueError)",
+    ),
+    case(
+        "a variable twice",
+        "forall x x K",
+        "integer K",
+        "iterates (x, x) -> (x, x)",
+        "after K -> (x, x)",
+        expected="a name is declared twice",
+    ),
+    case(
+        "an abbreviation named like a variable",
+        "forall x K",
+        "integer K",
+        "let x = 0",
+        "iterates x -> x",
+        "after K -> x",
+        expected="a name is declared twice",
+    ),
+    case(
+        "a quotient",
+        "forall x K",
+        "integer K",
+        "iterates x -> x/x",
+        "after K -> x",
+        expected="division by what may vanish",
+    ),
+    case(
+        "a relation for an image",
+        "forall x K",
+        "integer K",
+        "iterates x -> x > 0",
+        "after K -> x",
+        expected="not a term",
+    ),
+    case("a starred image", "forall x K", "integer K", "iterates x -> (*x,)", "after K -> x", expected="not a term"),
+    case(
+        "an arrow too many",
+        "forall x K",
+        "integer K",
+        "iterates x -> x -> x",
+        "after K -> x",
+        expected="statements, line 4",
+    ),
+    case("no arrow", "forall x K", "integer K", "iterates x", "after K -> x", expected="statements, line 4"),
+    case("something left over", *SHIFT, expected=NAMES, certificate={"certified": [1]}),
+    case(
+        "a point",
+        *SHIFT,
+        expected="a certificate with missing or left over keys",
+        certificate={"certified": [], "point": []},
+    ),
+    case("a refutation", *SHIFT, expected="a certificate with missing or left over keys", certificate={"refuted": []}),
+    case("a given line", *SHIFT, "given x > 0", expected=ORDER),
+    case("no count", "forall x K", "integer K", "iterates x -> x", expected=ORDER),
+]

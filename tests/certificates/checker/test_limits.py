@@ -1,0 +1,89 @@
+"""Hostile sizes end as rejections within counted work: no hang, and no memory without bound."""
+
+from __future__ import annotations
+
+import json
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.certificates.checker.harness import CLOSE, OPEN, Json, lines, proof
+
+ROOT = Path(__file__).resolve().parents[3]
+PROGRAM = f"""
+import json, resource, sys
+resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+resource.setrlimit(resource.RLIMIT_CPU, (10, 10))
+sys.path.insert(0, {str(ROOT)!r})
+from certificates import checker
+checker.MAX_WORK //= 8
+for text, certificate in json.load(sys.stdin):
+    (statement,) = checker.read_statements(text).values()
+    print(*checker.check_one(statement, certificate, {{}}, {{}}))
+"""
+AT = {"x": "0", "y": "0", "z": "0"}
+ROWS = ("forall x y z", "given x >= 0", "given x <= 1", "show x < 2")
+BIG = str(10**4000)
+
+
+def sampled(bits: int, degree: int) -> str:
+    source = random.Random(degree)
+    return " + ".join(f"{source.getrandbits(bits)}*x^{k}" for k in range(degree + 1))
+
+
+def power_sum(name: str, step: int = 1, count: int = 60) -> str:
+    return "(" + " + ".join(f"{name}^{step * k}" for k in range(count)) + ")"
+
+
+def summand(term: str) -> Json:
+    return ["psatz", [[1, [], term]], []]
+
+
+def nested(depth: int) -> str:
+    return "x < y" if depth == 0 else f"iff({nested(depth - 1)}, x < {depth})"
+
+
+def negated(p: str, node: Json) -> Json:
+    return ["sign", f"-({p})", node, OPEN, OPEN]
+
+
+NODES: dict[str, Json] = {
+    "a power of a power": summand("((x + y + z)^40)^40"),
+    "a tower of powers": summand("(((x^60)^60)^60)^60"),
+    "terms without number": summand("*".join(power_sum(name, step) for name in "xyz" for step in (1, 60))),
+    "huge coefficients": summand(power_sum(f"{BIG}*x") + "*" + power_sum(f"{BIG}*y") + "*" + power_sum(f"{BIG}*z")),
+    "a huge number": summand(f"{BIG}^4000"),
+    "many summands after a long one": ["psatz", [[1, [], "(x + y + z + 1)^12"], *[[1, [], "1"]] * 200_000], []],
+    "a root count of degree 150": negated(sampled(60, 150), ["interval", 3, 0, 1]),
+    "a root count of degree 40, long coefficients": negated(sampled(4000, 40), ["interval", 3, 0, 1]),
+    "ends of an interval with 4000 digits": negated(
+        f"-{BIG}*x - {BIG[:-1]}7", negated("x^3000 - 3", ["interval", 4, 3, 1])
+    ),
+    "denominators without bound": ["psatz", [[f"1/{10**300 + k}", [], "1"] for k in range(300)], []],
+    "a power of a fact": ["psatz", [[1, [[0, 4000], [1, 4000], [2, 4000]], "1"]], []],
+}
+SHOWS: dict[str, str] = {
+    "equivalences of equivalences": nested(60),
+    "a denominator to a power of a power": "(((1/z)^4000)^4000)^4000 + 1 > 0",
+    "a product of quotients": "*".join(f"((x + {k})/z^{k})" for k in range(80)) + " + 1/z >= 0",
+}
+CASES: dict[str, tuple[str, Json]] = {
+    **{name: (lines(*ROWS), proof(node, at=AT)) for name, node in NODES.items()},
+    **{
+        name: (lines("forall x y z", "given z > 0", f"show {text}"), proof(CLOSE, at=AT))
+        for name, text in SHOWS.items()
+    },
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_ends_in_a_rejection(name: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM], input=json.dumps([CASES[name]]), capture_output=True, text=True, timeout=60
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("rejected ")
+    assert done.stdout.count("\n") == 1

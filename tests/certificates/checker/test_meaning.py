@@ -1,0 +1,161 @@
+"""The checker's reading of a formula agrees with a second one, at random rational points, in both directions."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from tests.certificates.checker.evaluator import formula_at, holds_at, term_at
+from tests.certificates.checker.harness import CLOSE, lines, proof, refuted, verdict
+
+NAMES = ("x", "y", "z")
+FEW = settings(max_examples=40, deadline=None, derandomize=True)
+small = st.fractions(min_value=-3, max_value=3, max_denominator=4)
+points = st.fixed_dictionaries(dict.fromkeys(NAMES, small))
+
+
+def grown(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
+    pairs = st.tuples(inner, inner)
+    return st.one_of(
+        st.tuples(pairs, st.sampled_from(["{} + {}", "({}) - ({})", "({})*({})", "{} - {}", "({})*({}) + 1"])).map(
+            lambda p: p[1].format(*p[0])
+        ),
+        st.tuples(inner, st.sampled_from(["-({})", "({})^2", "({})^3", "({})/3", "-({})^2", "({})^0"])).map(
+            lambda p: p[1].format(p[0])
+        ),
+    )
+
+
+atoms = st.one_of(st.sampled_from(NAMES), st.integers(0, 5).map(str))
+terms = st.recursive(atoms, grown, max_leaves=5)
+relations = st.tuples(terms, st.sampled_from(["<", "<=", "=", "!=", ">=", ">"]), terms).map(" ".join)
+chains = st.tuples(relations, st.sampled_from(["<", "<=", "=", "!=", ">=", ">"]), terms).map(" ".join)
+
+
+def joined(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
+    shapes = [
+        "({}) and ({})",
+        "({}) or ({})",
+        "implies({}, {})",
+        "iff({}, {})",
+        "not ({} or {})",
+        "not implies({}, {})",
+        "not iff({}, {})",
+        "{} or {}",
+    ]
+    return st.tuples(inner, inner, st.sampled_from(shapes)).map(lambda p: p[2].format(p[0], p[1]))
+
+
+formulas = st.recursive(st.one_of(relations, chains), joined, max_leaves=4)
+
+
+def numeral(value: Fraction) -> str:
+    return f"({value})"
+
+
+def outcome(text: str, certificate: object) -> str:
+    return verdict(text, {"rule/case": certificate})["rule/case"][0]
+
+
+@FEW
+@given(terms, points)
+def test_a_term_has_the_value_that_a_second_reading_gives_it(term: str, point: dict[str, Fraction]) -> None:
+    rows = [*(f"let {name} = {value}" for name, value in point.items())]
+    value = term_at(term, point)
+    assert outcome(lines(*rows, f"show {term} = {value}"), proof(CLOSE)) == "certified"
+    assert outcome(lines(*rows, f"show {term} = {value} + 1/7"), proof(CLOSE)) == "rejected"
+
+
+@FEW
+@given(formulas, points)
+def test_a_formula_is_true_at_a_point_in_both_readings_or_in_none(formula: str, point: dict[str, Fraction]) -> None:
+    truth = formula_at(formula, point)
+    rows = [f"let {name} = {value}" for name, value in point.items()]
+    assert outcome(lines(*rows, f"show {formula}"), proof(CLOSE)) == ("certified" if truth else "rejected")
+    assert outcome(lines(*rows, f"show not ({formula})"), proof(CLOSE)) == ("rejected" if truth else "certified")
+
+
+@FEW
+@given(formulas, points)
+def test_a_point_refutes_exactly_what_fails_there(formula: str, point: dict[str, Fraction]) -> None:
+    text = lines("forall x y z", f"show {formula}")
+    at = {name: str(value) for name, value in point.items()}
+    assert outcome(text, refuted(at)) == ("rejected" if formula_at(formula, point) else "refuted")
+
+
+quotients = st.tuples(terms, st.sampled_from(["x", "y^2", "x*y", "-2*x^3", "x^2*y/5"])).map(
+    lambda p: f"({p[0]})/({p[1]})"
+)
+
+
+@FEW
+@given(
+    quotients,
+    quotients,
+    st.sampled_from(["<", "<=", "=", "!=", ">=", ">"]),
+    st.sampled_from(["x > 0", "x < 0", "x != 0"]),
+    st.sampled_from(["y != 0", "y > 0", "y < 0"]),
+    points,
+)
+def test_quotients_compare_by_the_sign_of_their_denominators(
+    left: str, right: str, relation: str, first: str, second: str, point: dict[str, Fraction]
+) -> None:
+    rows = ["forall x y z", f"given {first}", f"given {second}", f"let q = {left}", f"show q {relation} {right} + z*q"]
+    at = {name: str(value) for name, value in point.items()}
+    holds = holds_at(rows, point)
+    assert outcome(lines(*rows), refuted(at)) == ("refuted" if holds is False else "rejected")
+
+
+@FEW
+@given(terms, terms, points)
+def test_an_identity_holds_everywhere(left: str, right: str, point: dict[str, Fraction]) -> None:
+    for one, other in (
+        (left, right),
+        (f"({left})*({right})", f"({right})*({left})"),
+        (f"({left} - ({right}))^2", f"({right} - ({left}))^2"),
+    ):
+        if (
+            outcome(lines("forall x y z", f"show {one} = {other}"), proof(CLOSE, at=dict.fromkeys(NAMES, "0")))
+            == "certified"
+        ):
+            assert term_at(one, point) == term_at(other, point)
+
+
+@FEW
+@given(
+    st.lists(st.tuples(st.integers(1, 4), st.sets(st.integers(0, 1), max_size=2), terms), min_size=1, max_size=3),
+    points,
+)
+def test_a_sum_of_products_of_what_is_not_negative_is_not_negative(
+    parts: list[tuple[int, set[int], str]], point: dict[str, Fraction]
+) -> None:
+    facts = ["x", "y - z"]
+    total = " + ".join("*".join([str(c), *(f"({facts[i]})" for i in sorted(used)), f"({q})^2"]) for c, used, q in parts)
+    rows = ["forall x y z", *(f"given {fact} >= 0" for fact in facts)]
+    products = [[c, [[i, 1] for i in sorted(used)], q] for c, used, q in parts]
+    at = {"x": "1", "y": "1", "z": "0"}
+    true, false = lines(*rows, f"show {total} > -1"), lines(*rows, f"show {total} > 0 or {total} < -1")
+    node = ["psatz", [[1, [[2, 1]], "1"], *products, [1, [], "1"]], []]
+    constant = formula_at(f"{total} = {term_at(total, dict.fromkeys(NAMES, Fraction(0)))}", point)
+    if not constant:
+        assert outcome(true, proof(node, at=at)) == "certified"
+        assert holds_at(true.splitlines(), point) is not False
+        assert outcome(false, proof(node, at=at)) == "rejected"
+
+
+@FEW
+@given(st.lists(st.tuples(small, st.integers(1, 3)), min_size=1, max_size=3), small, small, st.sampled_from(["", "-"]))
+def test_the_interval_rule_decides_by_the_roots(
+    roots: list[tuple[Fraction, int]], low: Fraction, high: Fraction, sign: str
+) -> None:
+    assume(low < high)
+    p = f"{sign}(x^2 + 1)*" + "*".join(f"(x - {numeral(root)})^{k}" for root, k in roots)
+    text = lines(
+        "forall x", f"given x >= {low}", f"given x <= {high}", f"show {p} < 0"
+    )  # the negation, p >= 0, is fact 2
+    negative = all(formula_at(f"{p} < 0", {"x": at}) for at in (low, high)) and not any(
+        low <= root <= high for root, _ in roots
+    )
+    assert outcome(text, proof(["interval", 2, 0, 1], at={"x": str(low)})) == ("certified" if negative else "rejected")

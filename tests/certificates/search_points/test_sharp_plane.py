@@ -1,0 +1,50 @@
+"""Sharp ranges in two parameters: the border is found, or is given as a hint, and both sides are certified."""
+
+from certificates import checker
+from certificates.search.sharp import read
+from certificates.search.sharp_plane import find_sharp_region
+from certificates.terms import reals
+from tests.certificates.search_points import cases
+
+alpha, K, eps = reals("alpha K eps")
+UNIT = (alpha > 0) & (alpha < 1)
+
+ORBIT = f"""statement plane/orbit
+forall alpha K
+integer K
+{cases.UNIT}
+given K >= 1
+have 1 + alpha > 0
+let x = K*(alpha*(K + 1) - (K - 1))/(1 + alpha)^2
+show x >= 0"""
+
+STRIP = f"""statement plane/strip
+forall alpha eps w
+{cases.UNIT}
+given eps > 0
+given 0 < w and w < 2 + eps
+show alpha*w < 2"""
+
+
+def settled(statement, found):
+    return checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement})
+
+
+def test_the_orbit_of_period_K_exists_from_its_own_ratio_on():
+    statement = cases.read(ORBIT)
+    found = find_sharp_region([statement], ["alpha", "K"], UNIT & (K >= 1), "plane/sharp", {}, cases.budget())
+    assert str(found.statement.condition) == "alpha*K + alpha - K + 1 >= 0"
+    assert settled(statement, found) == "certified"
+
+
+def test_a_border_given_as_a_hint():
+    statement = cases.read(STRIP)
+    found = find_sharp_region([statement], ["alpha", "eps"], UNIT & (eps > 0), "plane/sharp", {}, cases.budget(), ["alpha*(2 + eps) - 2"])
+    assert str(found.statement.condition) == "-alpha*eps - 2*alpha + 2 >= 0"
+    assert settled(statement, found) == "certified"
+
+
+def test_a_useless_hint_is_a_named_failure():
+    statement = cases.read(STRIP)
+    found = find_sharp_region([statement], ["alpha", "eps"], UNIT & (eps > 0), "plane/sharp", {}, cases.budget(), ["alpha - 1/7"])
+    assert (found.statement, found.failure) == (None, "no two borders tell the samples apart")
