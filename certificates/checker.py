@@ -26,8 +26,7 @@ class Rejected(Exception):
     """A certificate does not prove its statement, or a statement says nothing: the reason, then the offending object."""
 
     def __init__(self, reason, offender=""):
-        text = str(offender)[:300]
-        super().__init__(ascii(reason + (": " if text else "") + text)[1:-1])
+        super().__init__(reason + (f": {offender}"[:300] if offender != "" else ""))
 
 
 work_left = [MAX_WORK]
@@ -45,8 +44,6 @@ def spend(amount):
 
 class Poly:
     """A polynomial with rational coefficients, and a bound on its total degree."""
-
-    __slots__ = ("terms", "den", "deg")
 
     def __init__(self, terms, den, deg):
         if deg > MAX_DEGREE or den.bit_length() > MAX_BITS:
@@ -86,6 +83,8 @@ class Poly:
         return self + -other
 
     def __pow__(self, exponent):
+        if exponent * max(self.deg, 1) > MAX_DEGREE:
+            raise Rejected("an exponent is too large", exponent)
         return prod([self] * exponent, start=ONE)
 
     def constant(self):
@@ -108,8 +107,6 @@ ONE, ZERO = number(1), number(0)
 
 class Ratio:
     """num / product of licensed polynomials: den maps the number of a polynomial known to be nonzero to its exponent."""
-
-    __slots__ = ("num", "den")
 
     def __init__(self, num, den=None):
         self.num, self.den = num, den or {}
@@ -168,8 +165,7 @@ class Context:
             raise Rejected("too many variables", name)
         self.define(name, Ratio(Poly({1 << (BITS * len(self.index)): 1}, 1, 1)))
         self.index[key] = len(self.index)
-        if integral:
-            self.integers.add(key)
+        self.integers |= {key} if integral else set()
 
     def define(self, name, ratio):
         if name in self.values or not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
@@ -232,9 +228,7 @@ class Context:
         """The value of a term, as a Ratio."""
         if isinstance(node, ast.Constant) and type(node.value) is int:
             return Ratio(number(node.value))
-        if isinstance(node, ast.Name):
-            if node.id not in self.values:
-                raise Rejected("an undeclared name", node.id)
+        if isinstance(node, ast.Name) and node.id in self.values:
             return self.values[node.id]
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             return self.subtract(Ratio(ZERO), self.value(node.operand))
@@ -242,13 +236,11 @@ class Context:
             left, op = self.value(node.left), type(node.op)
             if op is ast.Pow and isinstance(node.right, ast.Constant) and type(node.right.value) is int:
                 exponent = node.right.value
-                if not 0 <= exponent <= MAX_DEGREE:
-                    raise Rejected("an exponent is too large", exponent)
                 return Ratio(left.num**exponent, {i: e * exponent for i, e in left.den.items() if exponent})
             if op in (ast.Add, ast.Sub, ast.Mult, ast.Div):
                 right = self.reciprocal(node.right) if op is ast.Div else self.value(node.right)
                 return (self.add if op is ast.Add else self.subtract if op is ast.Sub else self.multiply)(left, right)
-        raise Rejected("not a term", ast.unparse(node))
+        raise Rejected("an undeclared name" if isinstance(node, ast.Name) else "not a term", ast.unparse(node))
 
     def polynomial(self, text):
         ratio = self.value(parse(text))
@@ -266,6 +258,7 @@ class Context:
 
     def formula(self, node, truth=True):
         """The formula, or its negation, with `not` driven down to atoms: ("atom", p, relation), ("and", ..), ("or", ..) or a bool."""
+        spend(100)
         both, either = ("and", "or") if truth else ("or", "and")
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
             return self.formula(node.operand, not truth)
@@ -284,59 +277,60 @@ class Context:
         raise Rejected("not a formula", ast.unparse(node))
 
     def show(self, poly):
-        """A polynomial as text, for messages and searches."""
-        text = ""
+        """A polynomial as text that `parse` reads."""
+        parts = []
         for m in sorted(poly.terms, reverse=True):
-            c = Fraction(poly.terms[m], poly.den)
             powers = [(n, (m >> (BITS * i)) % (1 << BITS)) for n, i in self.index.items()]
-            factors = [n if e == 1 else f"{n}^{e}" for n, e in powers if e]
-            factors = ([str(abs(c))] if abs(c) != 1 or not factors else []) + factors
-            text += (" - " if c < 0 else " + ") + "*".join(factors)
-        return (text[3:] if text[:3] == " + " else "-" + text[3:]) if text else "0"
+            parts.append("*".join([str(Fraction(poly.terms[m], poly.den)), *(n if e == 1 else f"{n}^{e}" for n, e in powers if e)]))
+        return re.sub(r"\b1\*(?=[A-Za-z])", "", " + ".join(parts)).replace("+ -", "- ") or "0"
 
 
 def variables_of(context, poly):
     return {n for n, i in context.index.items() if any((m >> (BITS * i)) % (1 << BITS) for m in poly.terms)}
 
 
-# ------------------------------------------------------------ polynomials in one variable: lists of Fractions from the constant up
+# ------------------------------------------------------------ polynomials in one variable: lists of integers from the constant up
 
 
 def univariate(context, poly, name):
+    """The coefficients, up to the positive factor that the denominator is."""
     if variables_of(context, poly) != {name}:
         raise Rejected(f"expected a polynomial in {name} alone", context.show(poly))
     shift = BITS * context.index[name]
-    return [Fraction(poly.terms.get(k << shift, 0), poly.den) for k in range((max(poly.terms) >> shift) + 1)]
+    return [poly.terms.get(k << shift, 0) for k in range((max(poly.terms) >> shift) + 1)]
 
 
-def evaluate(p, at):
-    value = Fraction(0)
-    spend(len(p) ** 2 * (at.numerator.bit_length() + at.denominator.bit_length()) >> 6)
+def sign_at(p, at):
+    """The sign of p at a rational number."""
+    value, scale = 0, 1
     for c in reversed(p):
-        value = value * at + c
-    return value
+        spend(1 + (value.bit_length() * at.numerator.bit_length() >> 16))
+        value, scale = value * at.numerator + c * scale, scale * at.denominator
+    return (value > 0) - (value < 0)
 
 
 def remainder(p, q):
+    """A positive multiple of the remainder of p by q, without common factors."""
     rest = list(p)
     while len(rest) >= len(q):
-        factor, shift = rest[-1] / q[-1], len(rest) - len(q)
-        spend(len(q) * (8 + factor.numerator.bit_length() + factor.denominator.bit_length()) >> 3)
-        rest = [c - factor * q[k - shift] if k >= shift else c for k, c in enumerate(rest)][:-1]
+        factor, shift = rest[-1] if q[-1] > 0 else -rest[-1], len(rest) - len(q)
+        spend(len(rest) * (1 + (factor.bit_length() * q[-1].bit_length() >> 16)))
+        rest = [c * abs(q[-1]) - (factor * q[k - shift] if k >= shift else 0) for k, c in enumerate(rest)][:-1]
         while rest and rest[-1] == 0:
             rest.pop()
+        rest = [c // gcd(*rest) for c in rest]
     return rest
 
 
 def count_roots(p, low, high):
-    """The number of distinct real roots in the half-open interval (low, high], by Sturm's theorem; p is not 0 at the ends."""
+    """The number of distinct real roots between two numbers where p is not 0, by Sturm's theorem."""
     chain = [p, [k * c for k, c in enumerate(p)][1:]]
     while chain[-1]:
         chain.append([-c for c in remainder(chain[-2], chain[-1])])
-    signs = [[value > 0 for value in (evaluate(q, at) for q in chain if q) if value] for at in (low, high)]
-    changes = [sum(a != b for a, b in zip(s, s[1:])) for s in signs]
-    if evaluate(p, low) == 0 or evaluate(p, high) == 0:
+    signs = [[sign for sign in (sign_at(q, at) for q in chain if q) if sign] for at in (low, high)]
+    if sign_at(p, low) == 0 or sign_at(p, high) == 0:
         raise Rejected("a polynomial vanishes at an end of the interval")
+    changes = [sum(a != b for a, b in zip(row, row[1:])) for row in signs]
     return changes[0] - changes[1]
 
 
@@ -460,9 +454,9 @@ def close_by_interval(state, known, index, low, high):
         coefficients = univariate(state.context, line, name)
         if len(coefficients) != 2 or sense not in (">", ">=") or coefficients[1] * side <= 0:
             raise Rejected("not a bound of the right sense", state.context.show(line))
-        ends.append(-coefficients[0] / coefficients[1])
+        ends.append(Fraction(-coefficients[0], coefficients[1]))
     p = univariate(state.context, poly, name)
-    if relation not in (">", ">=") or ends[0] <= ends[1] and (evaluate(p, ends[0]) >= 0 or ends[0] < ends[1] and count_roots(p, *ends)):
+    if relation not in (">", ">=") or ends[0] <= ends[1] and (sign_at(p, ends[0]) >= 0 or ends[0] < ends[1] and count_roots(p, *ends)):
         raise Rejected("the fact does not fail on the whole interval", state.context.show(poly))
 
 
@@ -488,14 +482,17 @@ def close_by_use(state, known, name, arguments, fresh, node):
         context.declare(new, any(variable in line for line in known[name].get("integer")))
         values[variable] = context.values[new]
     story = Unfolding(known[name], Context(context, values))
-    if set(values) != story.variables or set(arguments) != set(story.universal) or set(arguments) & set(fresh) or not all(
-            is_integral(state.context, arguments[variable]) for variable in story.integers & set(arguments)):
-        raise Rejected("an instance gives every variable one value, an integer one an integer", name)
+    one_value_each(state.context, story, arguments, fresh, story.variables)
+    if set(arguments) != set(story.universal):
+        raise Rejected("only what exists is named afresh", name)
     close(state.branch(join("or", [story.negated(story.premises), story.goal(True)]), context), node, known)
 
 
-def is_integral(context, text):
-    return text in context.integers or re.fullmatch(r"-?\d+", text, re.ASCII) is not None
+def one_value_each(context, story, terms, others, needed):
+    """Every variable has one value, by a term or otherwise, and every integer variable with a term has an integer one or a numeral."""
+    whole = all(terms[n] in context.integers or re.fullmatch(r"-?\d+", terms[n], re.ASCII) for n in story.integers & set(terms))
+    if set(terms) & set(others) or set(terms) | set(others) != set(needed) or not whole:
+        raise Rejected("every variable needs one value, an integer one an integer", sorted(terms))
 
 
 RULES = {"close": close_at_once, "psatz": close_by_positivstellensatz, "cases": close_by_cases, "sign": close_by_sign,
@@ -673,10 +670,9 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     if found[0] == "sign":
         for case, part in zip(state.by_sign(found[1]), found[2:], strict=True):
             find(case, part, known, purpose, statements, base, sharp)
-        return
+        return None
     if found[0] == "empty":
-        close(state, *found[1:], known)
-        return
+        return close(state, *found[1:], known)
     name, adjoined, terms, node, *rest = found
     if name not in statements or len(rest) != (purpose == "counterexample"):
         raise Rejected("a witness of the wrong shape, or for another statement", name)
@@ -685,11 +681,7 @@ def find(state, found, known, purpose, statements, base, sharp=None):
         adjoin(state, known, *entry)
     values = {variable: state.context.value(parse(text)) for variable, text in terms.items()}
     story = Unfolding(statement, Context(state.context, {**values, **base}), sharp)
-    needed = story.variables if purpose == "witness" else set(story.universal)
-    if set(values) & set(base) or set(values) | set(base) != needed:
-        raise Rejected("a witness gives every variable one value", sorted(needed ^ set(values) ^ set(base)))
-    if not all(is_integral(state.context, terms[n]) for n in story.integers if n in terms):
-        raise Rejected("an integer variable needs an integer value", sorted(story.integers))
+    one_value_each(state.context, story, terms, base, story.variables if purpose == "witness" else story.universal)
     close(state.branch(story.negated(story.goals if purpose == "witness" else story.premises)), node, known)
     for last in rest:
         close(state.branch(story.goal(True), story.context), last, known)
@@ -717,15 +709,16 @@ def check_sharp(statement, certificate, known, statements):
     """
     (names,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
     inside, outside, sample = certificate
-    state = State(Context())
+    context = Context()
     for parameter in over:
-        state.context.declare(parameter)
-    if Context(None, {name: Ratio(number(rational(value))) for name, value in sample.items()}).formula(domain) is not True:
+        context.declare(parameter)
+    state = State(context)
+    if set(sample) != set(over) or Context(None, {name: Ratio(number(rational(value))) for name, value in sample.items()}).formula(domain) is not True:
         raise Rejected("the sample is not in the domain of a sharp range", sample)
     for name, (tree, *ends) in statement.get("number"):
         poly, low, high = state.context.value(tree).num, *(state.context.value(end).num.constant() for end in ends)
         p = univariate(state.context, poly, *variables_of(state.context, poly))
-        if low >= high or count_roots(p, low, high) != 1 or evaluate(p, low) * evaluate(p, high) >= 0:
+        if low >= high or count_roots(p, low, high) != 1 or sign_at(p, low) == sign_at(p, high):
             raise Rejected("not one root, with a change of sign, between the ends of a number", name)
     if not names or set(inside) != set(names) or not all(n in statements and statements[n].kind == "universal" for n in names):
         raise Rejected("a sharp range proves each of its earlier statements", names)
@@ -742,7 +735,7 @@ def check_iterates(statement, certificate, known, statements):
     (variables,), (integers,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "integer", "iterates", "after"))
     if certificate != [] or arguments != variables[:len(arguments)] or not 0 < len(arguments) == len(images) == len(powers) or (
-            count != integers or set(count) & set(arguments)):
+            count != integers or not set(count) <= set(variables[len(arguments):])):
         raise Rejected("a map names its variables first, an image for each, and one integer apart", statement.name)
     context = Context()
     for name in variables:
@@ -772,19 +765,18 @@ def settle(statement, certificate, known, statements):
     kind = sorted(certificate) if isinstance(certificate, dict) else []
     if kind == ["unknown"]:
         return "unknown"
-    if statement.kind != "universal" and kind == ["certified"]:
-        check = check_sharp if statement.kind == "sharp" else check_iterates
-        check(statement, certificate["certified"], known, statements)
-        return "certified"
-    named = {statement.name: statement}
+    start, named = State(Context()), {statement.name: statement}
     if statement.kind == "universal" and kind == ["refuted"]:
-        find(State(Context()), certificate["refuted"], known, "counterexample", named, {})
+        find(start, certificate["refuted"], known, "counterexample", named, {})
         return "refuted"
-    if statement.kind == "universal" and kind == ["certified", "point"]:
+    if kind != (["certified", "point"] if statement.kind == "universal" else ["certified"]):
+        raise Rejected("a certificate with missing or left over keys", kind)
+    if statement.kind == "universal":
         prove(statement, certificate["certified"], known)
-        find(State(Context()), certificate["point"], known, "point", named, {})
-        return "certified"
-    raise Rejected("a certificate with missing or left over keys", kind)
+        find(start, certificate["point"], known, "point", named, {})
+    else:
+        {"sharp": check_sharp, "iterates": check_iterates}[statement.kind](statement, certificate["certified"], known, statements)
+    return "certified"
 
 
 # ------------------------------------------------------------ files
@@ -857,7 +849,7 @@ def main(arguments):
     try:
         results = check_folder(*arguments or [os.path.join(os.path.dirname(os.path.abspath(__file__)), "store")])
     except (Rejected, TypeError) as reason:
-        print(f"checker: {reason}", file=sys.stderr)
+        print("checker:", ascii(str(reason))[1:-1], file=sys.stderr)
         return 2
     for name, outcome, reason in results:
         if outcome == "rejected":

@@ -18,11 +18,11 @@ def fixed_by_units(question: Question) -> tuple[str, ...]:
     """
     positive = [next(iter(f.poly.used)) for f in question.assumed if isinstance(f, Atom) and f.relation == ">" and _is_variable(f)]
     free = [i for i in dict.fromkeys(positive) if question.names[i] not in question.bound | question.integers]
-    if question.integers or not free:
+    if not free:
         return ()
     chosen: list[int] = []
     basis = _gradings(question)
-    for i in sorted(free, reverse=True):
+    for i in sorted(free):
         if _rank([[row[j] for j in [*chosen, i]] for row in basis]) == len(chosen) + 1:
             chosen.append(i)
     return tuple(question.names[i] for i in sorted(chosen))
@@ -48,14 +48,18 @@ def _is_variable(fact: Atom) -> bool:
 
 
 def _gradings(question: Question) -> list[list[Fraction]]:
-    """A basis of the weights for which every polynomial of the question is homogeneous: the null space of all differences of exponents."""
+    """A basis of the weights for which every polynomial of the question is homogeneous: the null space of all differences of exponents.
+
+    Integers have weight 0: they keep their values.
+    """
     differences: dict[tuple[int, ...], None] = {}
     for formula in (*question.assumed, *(denial.formula for denial in question.denials)):
         for fact in atoms(formula):
             first = fact.poly.terms[0][0]
             differences.update(dict.fromkeys(tuple(a - b for a, b in zip(e, first)) for e, _ in fact.poly.terms[1:]))
-    rows, pivots = _reduced([[Fraction(x) for x in row] for row in differences])
     loose, width = [], len(question.names)
+    whole = [[Fraction(int(i == j)) for j in range(width)] for i, name in enumerate(question.names) if name in question.integers]
+    rows, pivots = _reduced([*whole, *([Fraction(x) for x in row] for row in differences)])
     for free in (i for i in range(width) if i not in pivots):
         vector = [Fraction(int(i == free)) for i in range(width)]
         for row, pivot in zip(rows, pivots):

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib import import_module
+from itertools import islice, product
 from typing import Any
 
 from certificates.routes.algebraic import Exact, Root, root_number, truth_at
 from certificates.routes.polynomials import Atom, Formula, Polynomial, atom, branches, join, map_atoms
-from certificates.routes.questions import Denial, Question, questions
+from certificates.routes.questions import Denial, Question, flat, questions
 from certificates.routes.scaling import at_unit_values, fixed_by_units
 from certificates.routes.smtlib import question_text, symbol
 from certificates.routes.votes import Budget, Vote
 
-MOST_BRANCHES = 64
+MOST_BRANCHES, MOST_TRIES = 64, 16
 TACTICS = {"nlsat": ("simplify", "propagate-values", "qfnra-nlsat"), "nlqsat": ("simplify", "nnf", "nlqsat"), "smt": ("smt",)}
 SEEDS = {"nlsat": "seed", "smt": "random_seed"}  # nlqsat takes no seed: it draws no random numbers
 
@@ -32,10 +33,10 @@ class Reply:
 class Session:
     """A fresh Z3 context with a purse of resource units that all the queries of one vote share."""
 
-    def __init__(self, purse: int) -> None:
+    def __init__(self, purse: int, outer: Session | None = None) -> None:
         self.z3: Any = import_module("z3")
-        self.context = self.z3.Context()
-        self.purse, self.spent, self.before = purse, 0, 0
+        self.context = outer.context if outer else self.z3.Context()
+        self.outer, self.purse, self.spent, self.before = outer, purse, 0, outer.before if outer else 0
 
     def ask(self, question: Question, engine: str, units: int) -> Reply:
         """One query, for at most so many resource units."""
@@ -62,8 +63,12 @@ class Session:
         table = solver.statistics()
         total = next((int(table.get_key_value(key)) for key in table.keys() if key == "rlimit count"), self.before)
         # the counter belongs to the context, so it grows from query to query
+        already = self.spent
         self.spent += max(0, min(total - self.before, 2 * units)) + 1
         self.before = max(total, self.before)
+        if self.outer:
+            self.outer.spent += self.spent - already
+            self.outer.before = self.before
 
     def _point(self, question: Question, model: Any) -> dict[str, Exact] | None:
         values = {declared.name(): model[declared] for declared in model.decls()}
@@ -163,33 +168,82 @@ def negation(formula: Formula) -> Formula:
 
 
 def decide(session: Session, question: Question) -> Reply:
-    """The question's answer: asked as it stands, then with units set to 1, then branch by branch or with witnesses tried.
+    """The question's answer, by steps that are each sound for the whole question, cheap ones first.
 
-    Every step is sound for the whole question: units lose nothing, the branches of a disjunction cover it, and a witness
-    that is tried only makes what is said to exist harder to find.
+    As it stands; with units set to 1, which loses nothing; branch by branch, or with witnesses tried for what is said to exist, which only
+    makes them harder to find.  Integers are first let be reals, after p > 0 has become p >= 1: unsat then settles the whole; a solution in
+    reals counts only if its integers are integers, and otherwise small integers are tried in turn.
     """
-    engine = "smt" if question.integers else "nlqsat" if question.quantified else "nlsat"
-    reply = session.ask(question, engine, session.purse // 4)
+    if question.integers:
+        return _with_integers(session, question)
+    engine = "nlqsat" if question.quantified else "nlsat"
+    reply = session.ask(question, engine, session.purse // 8)
     if reply.answer != "unknown":
         return reply
     units = fixed_by_units(question)
+    with_units = f" with {', '.join(units)} = 1" if units else ""
     if units:
         question = at_unit_values(question, units)
-        with_units = f" with {', '.join(units)} = 1"
-        reply = session.ask(question, engine, session.purse // 4)
-        if reply.answer != "unknown":
-            return _completed(reply, units, with_units)
-    else:
-        with_units = ""
-    reply = _with_witnesses(session, question) if question.quantified else _by_branches(session, question, engine)
-    if reply.answer == "unknown" and engine != "smt":
+        reply = session.ask(question, engine, session.purse // 8)
+    if reply.answer == "unknown":
+        reply = _with_witnesses(session, question) if question.quantified else _by_branches(session, question, engine)
+    if reply.answer == "unknown":
         reply = session.ask(question, "smt", session.purse)
-    return _completed(reply, units, with_units)
-
-
-def _completed(reply: Reply, units: tuple[str, ...], note: str) -> Reply:
     point = {**reply.point, **{name: Fraction(1) for name in units}} if reply.point is not None else None
-    return Reply(reply.answer, point, reply.how + note)
+    return Reply(reply.answer, point, reply.how + with_units)
+
+
+def _with_integers(session: Session, question: Question) -> Reply:
+    reply = session.ask(question, "smt", session.purse // 16)
+    if reply.answer != "unknown":
+        return reply
+    if question.integers & question.bound:
+        return session.ask(question, "smt", session.purse)
+    relaxed = replace(_tightened(question), integers=frozenset())
+    reply = decide(Session(session.purse // 4, session), relaxed)
+    if reply.answer == "unsat":
+        return Reply("unsat", how=reply.how + " even for reals")
+    if reply.point is not None and all(_is_integer(reply.point[name]) for name in question.integers):
+        return reply
+    for values in islice(product(range(4), repeat=len(question.integers)), MOST_TRIES):
+        tried = relaxed
+        for name, value in zip(sorted(question.integers), values):
+            tried = with_value(tried, name, value)
+        reply = session.ask(tried, "nlqsat" if tried.quantified else "nlsat", session.purse // 32)
+        if reply.answer == "sat" and reply.point is not None:
+            chosen = dict(zip(sorted(question.integers), map(Fraction, values)))
+            return Reply("sat", {**reply.point, **chosen}, f"{reply.how} at small integers")
+    return session.ask(question, "smt", session.purse)
+
+
+def _is_integer(value: Exact) -> bool:
+    return isinstance(value, Fraction) and value.denominator == 1
+
+
+def _tightened(question: Question) -> Question:
+    """p >= 1 in place of p > 0 where p has integer coefficients and integer variables only."""
+
+    def change(fact: Atom) -> Formula:
+        poly = fact.poly
+        if fact.relation != ">" or poly.den != 1 or not {poly.names[i] for i in poly.used} <= question.integers:
+            return fact
+        terms, constant = dict(poly.terms), (0,) * len(poly.names)
+        terms[constant] = terms.get(constant, 0) - 1
+        return atom(Polynomial.of(poly.names, terms), ">=")
+
+    return _changed(question, change)
+
+
+def with_value(question: Question, name: str, value: int) -> Question:
+    """The question with an integer in place of one variable, which no denial binds any more."""
+    i = question.names.index(name)
+    changed = _changed(question, lambda fact: atom(fact.poly.with_value(i, Fraction(value)), fact.relation))
+    return replace(changed, denials=tuple(Denial(tuple(n for n in d.bound if n != name), d.formula) for d in changed.denials))
+
+
+def _changed(question: Question, change: Callable[[Atom], Formula]) -> Question:
+    return replace(question, assumed=flat([map_atoms(formula, change) for formula in question.assumed]),
+                   denials=tuple(Denial(d.bound, map_atoms(d.formula, change)) for d in question.denials))
 
 
 def _by_branches(session: Session, question: Question, engine: str) -> Reply:
@@ -208,17 +262,9 @@ def _with_witnesses(session: Session, question: Question) -> Reply:
     """Tries the values 0 and 1 for one variable that is said to exist, and asks again: unsat then settles the whole."""
     if not question.refutes or question.part == "outside":
         return Reply("unknown", how="undecided within the budget")
-    tries = [(name, value) for denial in question.denials for name in denial.bound if name not in question.integers for value in (0, 1)]
-    for name, value in tries:
-        i = question.names.index(name)
-
-        def change(fact: Atom, i: int = i, value: int = value) -> Formula:
-            return atom(fact.poly.with_value(i, Fraction(value)), fact.relation)
-
-        tried = replace(question, denials=tuple(
-            Denial(tuple(n for n in d.bound if n != name), map_atoms(d.formula, change)) for d in question.denials))
-        engine = "smt" if question.integers else "nlqsat" if tried.quantified else "nlsat"
-        reply = session.ask(tried, engine, session.purse // 4)
+    for value, name in product((0, 1), sorted(question.bound)):
+        tried = with_value(question, name, value)
+        reply = session.ask(tried, "nlqsat" if tried.quantified else "nlsat", session.purse // 4)
         if reply.answer == "unsat":
             return Reply("unsat", how=f"{reply.how} with the witness {name} = {value}")
     return Reply("unknown", how="undecided within the budget")

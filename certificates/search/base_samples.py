@@ -10,7 +10,7 @@ from certificates import checker
 
 from .algebraic import simplest_between
 from .budget import Budget
-from .candidates import Cells, favourites
+from .candidates import UNITS, Cells, favourites
 from .condition import Condition, evaluate, ring_of
 from .quotients import Sample
 from .sampler import Sampler
@@ -34,15 +34,28 @@ def base_samples(state: checker.State, budget: Budget, count: int = 12) -> list[
     if len(used) == 1:
         return [{**{n: fmpq(1) for n in names}, **s} for s in _on_a_line(condition, next(iter(used)))]
     found: list[Sample] = []
-    for width, last, nodes in ((4, 3, 300), (9, 3, 3000)):
+    for width, last, nodes in ((4, 3, 300), (9, 3, 3000), (24, 3, 3000)):
         every = list(islice(Sampler(budget, frozenset(state.context.integers), width, last, nodes).search(condition, names), 400))
         for assignment in every[:: max(1, len(every) // count)]:
             sample = {name: assignment.rational(name) for name in names}
             if all(v is not None for v in sample.values()) and sample not in found:
                 found.append({n: v for n, v in sample.items() if v is not None})
-        if len(found) >= count // 2:
+        if len(found) >= count // 2 or found and width >= 9:
             break
-    return found + [s for s in _scattered(condition, names, state.context.integers, count) if s not in found]
+    found += [s for s in _scattered(condition, names, state.context.integers, count) if s not in found]
+    return found + _extreme(condition, found[:1] + found[len(found) // 2:][:1], sorted(used - UNITS - set(state.context.integers)))
+
+
+def _extreme(condition: Condition, samples: list[Sample], names: list[str]) -> list[Sample]:
+    """The samples with one variable at a time made very small or very large: what serves by chance does not serve there."""
+    found: list[Sample] = []
+    for sample in samples:
+        for name in names:
+            for value in (fmpq(1, 1000), fmpq(1000)):
+                moved = {**sample, name: value}
+                if moved not in found and condition.substituted(moved).tree is True:
+                    found.append(moved)
+    return found
 
 
 def _scattered(condition: Condition, names: list[str], integers: set[str], count: int) -> list[Sample]:

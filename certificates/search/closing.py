@@ -7,20 +7,19 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from flint import fmpz_mpoly
-
 from certificates import checker
 
 from .budget import Budget, Exhausted, accepted
 from .interior import has_interior_point
-from .polynomials import Ring, total_degree
+from .polynomials import Ring
 from .positivstellensatz import DEEP, FIRST, QUICK, SQUARES, USUAL, Stage, close_by_equations, search
 from .problem import Problem, Signs
 from .squares import Pool
 
 Node = list[Any]
-DEPTH = 3  # of signs told apart below one another
+DEPTH = 2  # of signs told apart below one another
 CANDIDATES = 6
+BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ class Closing:
         if state.closed:
             return ["close"]
         if not state.choices:
-            return self.leaf(state, DEPTH if self.effort < 2 else 0)
+            return self.leaf(state, 0)
         node = self.attempt(state, QUICK)
         return node if node is not None else self.cases(state)
 
@@ -115,67 +114,115 @@ class Closing:
             return ["close"]
         rounded, inside = self.rounded(state)
         problem = self.problem(inside)
-        return wrapped(rounded, self.combinations(inside, problem, depth))
-
-    def combinations(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
-        """What `leaf` does once integers are rounded."""
         node = close_by_equations(problem) or search(problem, FIRST if self.effort else QUICK, self.budget)
-        if node is not None or self.effort == 0 or not state.context.integers and has_interior_point(problem, self.budget):
-            return node
-        node = search(problem, USUAL, self.budget)
+        if node is None and self.effort and (state.context.integers or not has_interior_point(problem, self.budget)):
+            node = self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
+        return wrapped(rounded, node)
+
+    def usual(self, problem: Problem, again: bool) -> Node | None:
+        """Products of two facts, and single facts times squares; then the same with facts divided by their positive factors."""
+        node = search(problem, (*FIRST, *USUAL) if again else USUAL, self.budget)
         if node is None and problem.divide():
             node = search(problem, (*FIRST, *USUAL), self.budget)
-        sure = candidates(state, problem, 2) if node is None else []
-        simple = [poly for poly in sure if total_degree(poly) == 1]
-        if node is None and (depth < DEPTH or state.context.integers and depth <= DEPTH):
-            node = self.cut(state, simple, problem, depth, 2)
-        node = node or search(problem, SQUARES, self.budget)
-        if node is None and depth < DEPTH:
-            node = self.cut(state, [poly for poly in sure if poly not in simple], problem, depth, 2)
-        if node is None and self.effort > 1:
-            node = self.cut(state, candidates(state, problem, 1), problem, depth, 1) if depth < DEPTH - 1 else None
-            if node is None and depth == 0:
-                node = search(problem, DEEP, self.budget)
         return node
 
-    def cut(self, state: checker.State, polys: list[fmpz_mpoly], problem: Problem, depth: int, closed: int) -> Node | None:
-        """Tells the sign of a candidate apart, where at least `closed` of the three cases close quickly."""
-        for poly in polys:
-            text = problem.in_units(poly)
-            cases = state.by_sign(text)
-            nodes = [self.attempt(case, FIRST) for case in cases]
-            if sum(node is not None for node in nodes) < closed:
+    def with_lemmas(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
+        """Signs that can be shown are added to the facts; where that is not enough, signs are told apart."""
+        lemmas: list[Lemma] = []
+        for kind in ("integers", "factors", "", "variables"):
+            before = len(lemmas)
+            if not kind:
+                node = search(problem, SQUARES, self.budget)
+                if node is not None:
+                    return under(lemmas, node)
                 continue
-            for k, case in enumerate(cases):
-                nodes[k] = nodes[k] or self.leaf(case, depth + 1)
-                if nodes[k] is None:
+            for _ in range(2):
+                count = len(lemmas)
+                for text in candidates(state, problem, kind):
+                    lemma, state = self.lemma(state, text, BOTH if kind == "variables" else FIRST)
+                    lemmas += [lemma] if lemma else []
+                if lemmas and lemmas[-1].node is not None:
+                    return under(lemmas, lemmas[-1].node)
+                if len(lemmas) == count:
                     break
-            else:
-                return ["sign", text, *nodes]
-            if closed == 2:
-                return None  # the case that is left says the same as this state and more
+                problem = self.problem(state)
+            if len(lemmas) > before:
+                node = close_by_equations(problem) or self.usual(problem, True)
+                if node is not None:
+                    return under(lemmas, node)
+        node = self.split(state, problem, depth) if self.effort > 1 and depth < DEPTH else None
+        if node is None and self.effort > 1 and depth == 0:
+            node = search(problem, DEEP, self.budget)
+        return under(lemmas, node)
+
+    def lemma(self, state: checker.State, text: str, stages: Sequence[Stage]) -> tuple[Lemma | None, checker.State]:
+        """The sign of a polynomial where two of the three cases close quickly, and the state with it."""
+        cases = state.by_sign(text)
+        nodes = [self.attempt(case, stages) for case in cases]
+        open_cases = [k for k, node in enumerate(nodes) if node is None]
+        if len(open_cases) > 1:
+            return None, state
+        place = open_cases[0] if open_cases else 2
+        rounded, inside = self.rounded(cases[place])
+        return Lemma(text, nodes, place, rounded, nodes[place]), inside
+
+    def split(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
+        """Tells the sign of a candidate apart, where one of the three cases at least closes quickly."""
+        for kind in ("factors", "variables", "resultants"):
+            for text in candidates(state, problem, kind):
+                cases = state.by_sign(text)
+                nodes = [self.attempt(case, FIRST) for case in cases]
+                if all(node is None for node in nodes):
+                    continue
+                for k in (1, 0, 2):
+                    nodes[k] = nodes[k] or self.leaf(cases[k], depth + 1)
+                    if nodes[k] is None:
+                        break
+                else:
+                    return ["sign", text, *nodes]
         return None
 
 
-def candidates(state: checker.State, problem: Problem, closed: int) -> list[fmpz_mpoly]:
-    """Polynomials whose sign is worth telling apart: integers and their differences, factors of facts, factors of resultants."""
+@dataclass
+class Lemma:
+    """A sign told apart where one case is left, in which integers are rounded; `node` closes that case too where it is known."""
+
+    text: str
+    nodes: list[Node | None]
+    place: int
+    rounded: list[int]
+    node: Node | None
+
+
+def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
+    """The node below the nodes of lemmas."""
+    for lemma in reversed(lemmas if node is not None else []):
+        own = lemma.node if lemma.node is not None else wrapped(lemma.rounded, node)
+        node = ["sign", lemma.text, *(own if k == lemma.place else case for k, case in enumerate(lemma.nodes))]
+    return node
+
+
+def candidates(state: checker.State, problem: Problem, kind: str) -> list[str]:
+    """Polynomials whose sign is worth telling apart: integers and their differences, factors of facts, variables, factors of resultants."""
     pool = Pool()
-    integers = [gen for gen, name in zip(problem.ring.gens, state.context.index) if name in state.context.integers]
-    if closed == 2:
-        for poly in [*integers, *(a - b for a, b in combinations(integers, 2))]:
-            pool.add(poly)
-    for poly in problem.unsigned_factors()[:CANDIDATES]:
-        pool.add(poly)
-    for poly in (problem.variables_and_differences() if closed == 2 else problem.candidates("resultants"))[:2 * CANDIDATES]:
-        pool.add(poly)
+    if kind == "integers":
+        integers = [gen for gen, name in zip(problem.ring.gens, state.context.index) if name in state.context.integers]
+        found = [*integers, *(a - b for a, b in combinations(integers, 2))]
+    elif kind == "factors":
+        found = problem.unsigned_factors()[:CANDIDATES]
+    elif kind == "variables":
+        found = problem.variables_and_differences()[:2 * CANDIDATES]
+    else:
+        found = problem.candidates("resultants")[:CANDIDATES]
     signs, equations = Signs(problem), [equation.poly for equation in problem.reduction.left]
-    found = []
-    for poly in pool.polys:
-        rest = Pool()
-        rest.add(problem.reduction.reduce(poly)[1])
-        if rest.polys and (not signs.of(rest.polys[0])[0] or any(not divmod(equation, rest.polys[0])[1] for equation in equations)):
-            found.append(poly)
-    return found
+    texts = []
+    for poly in found:
+        before = len(pool.polys)
+        pool.add(problem.reduction.reduce(poly)[1])
+        for rest in pool.polys[before:]:
+            if not signs.of(rest)[0] or any(not divmod(equation, rest)[1] for equation in equations):
+                texts.append(problem.in_units(poly))
+    return texts
 
 
 def wrapped(rounded: list[int], node: Node | None) -> Node | None:

@@ -13,7 +13,7 @@ from flint import fmpz_mpoly
 from .budget import Budget
 from .lifting import Term, finish
 from .linear_program import Program, solve
-from .polynomials import Row, collect, multiply, total_degree
+from .polynomials import Packing, Row, collect, multiply, total_degree
 from .problem import Fact, Problem, Sum, times
 from .reduction import Factors, merge, power
 
@@ -34,11 +34,12 @@ class Combination:
             others = [k for k in others if not problem.said_by_bounds(k, bounded)]
             degrees = [fact.degree(bounded.variable) for fact in facts]
         most = bernstein + max((degrees[k] for k in others), default=0) if bounded is not None else 0
-        squares = [collect(multiply(row, row)) for row in map(problem.ring.row, roots)]
+        self.packing = Packing(problem.ring, [*problem.polys(), *roots])
+        squares = [collect(multiply(row, row)) for row in map(self.packing.row, roots)]
         heights = [2 * self._height(root) for root in roots]
         own_heights = [self._height(fact.poly) for fact in facts]
         highest = max([2, *own_heights])
-        products = Products(problem, others)
+        products = Products([facts[k] for k in others], others, self.packing)
         levels: dict[int, Level] = {}
         for count in range(degree + 1):
             if count:
@@ -48,14 +49,19 @@ class Combination:
                 part = products.only([k for k, other in enumerate(rooms) if other == room])
                 for level in {0, room} if room >= 0 else ():
                     if level not in levels:
-                        levels[level] = Level(problem, level)
+                        levels[level] = Level(problem, level, self.packing)
                     self._add(levels[level], part, -1)
                     for which, square in enumerate(squares if count < 2 else ()):
                         low = [k for k, chosen in enumerate(part.chosen) if heights[which] + sum(own_heights[i] for i in chosen) <= highest]
                         if low:
                             self._add(levels[level], part.only(low).times_row(square), which)
-        if problem.reduction.left:
-            self._add_equations(degree, bernstein)
+        basis = problem.reduction.basis() if self.packing.exact else []
+        for equation in basis:
+            poly = equation.poly / int(equation.poly.content())
+            keys, values = self.packing.row(poly)
+            self.program.add_rewriting(self.packing.exponents(keys[:1])[0], keys, values)
+        self.program.exponents = self.packing.exponents
+        self._add_equations([k for k, equation in enumerate(problem.reduction.left) if equation not in basis], degree, bernstein)
 
     def _height(self, poly: fmpz_mpoly) -> int:
         """The total degree in all but the bounded variable."""
@@ -75,20 +81,21 @@ class Combination:
         self.program.add(keys.reshape(count * size, -1), values.reshape(count * size, -1), strict, costs)
         self.columns += [(merge(own, more), root) for own in map(powers_of, products.chosen) for more in level.factors]
 
-    def _add_equations(self, degree: int, bernstein: int) -> None:
-        """Adds every equation that is left, times monomials, as free columns."""
+    def _add_equations(self, places: list[int], degree: int, bernstein: int) -> None:
+        """Adds equations that are left, times monomials, as free columns."""
         problem = self.problem
         degree = max(1, degree)
-        polys = problem.polys()
-        bounds = [max(int(p.degrees()[v]) for p in polys) for v in range(problem.ring.size)]
-        top = max(total_degree(p) for p in polys) * degree + bernstein
-        for place, equation in enumerate(problem.reduction.left):
+        polys = problem.polys() if places else []
+        bounds = [max(int(p.degrees()[v]) for p in polys) for v in range(problem.ring.size)] if places else []
+        top = max((total_degree(p) for p in polys), default=0) * degree + bernstein
+        for place in places:
+            equation = problem.reduction.left[place]
             room, own = top - total_degree(equation.poly), [int(d) for d in equation.poly.degrees()]
             ranges = [range(max(0, min(room, b * degree + (bernstein if b else 0) - o)) + 1 if b else 1) for b, o in zip(bounds, own)]
             monomials = [exponents for exponents in choices(*ranges) if sum(exponents) <= room]
-            keys, values = problem.ring.row(equation.poly)
+            keys, values = self.packing.row(equation.poly)
             self.cofactors += [(place, exponents) for exponents in monomials]
-            self.program.add_free(problem.ring.keys(monomials)[:, None] + keys, np.broadcast_to(values, (len(monomials), len(values))))
+            self.program.add_free(self.packing.keys(monomials)[:, None] + keys, np.broadcast_to(values, (len(monomials), len(values))))
 
     def node(self, budget: Budget) -> Node | None:
         """Solves the program, and gives the node of its solution."""
@@ -104,12 +111,12 @@ class Combination:
 class Products:
     """Products of the same number of facts as rows of keys and values, padded with zeros."""
 
-    def __init__(self, problem: Problem, others: list[int]) -> None:
-        facts = [problem.facts[k] for k in others]
-        length = max((len(fact.row[0]) for fact in facts), default=1)
+    def __init__(self, facts: list[Fact], others: list[int], packing: Packing) -> None:
+        length = max((len(fact.poly) for fact in facts), default=1)
         self.own_keys, self.own_values = np.zeros((len(facts), length), np.int64), np.zeros((len(facts), length))
         for k, fact in enumerate(facts):
-            self.own_keys[k, : len(fact.row[0])], self.own_values[k, : len(fact.row[0])] = fact.row
+            width = len(fact.poly)
+            self.own_keys[k, :width], self.own_values[k, :width] = packing.row(fact.poly)
         self.own_strict = [fact.strict for fact in facts]
         self.others = others
         self.places: list[tuple[int, ...]] = [()]  # the facts of every product, by their places among the others
@@ -163,7 +170,7 @@ def powers_of(chosen: tuple[int, ...]) -> Factors:
 class Level:
     """The Bernstein polynomials low^i * high^(degree - i) as a table of coefficients of the powers of the bounded variable."""
 
-    def __init__(self, problem: Problem, degree: int) -> None:
+    def __init__(self, problem: Problem, degree: int, packing: Packing) -> None:
         self.degree = degree
         bounded, facts = problem.bounded, problem.facts
         if bounded is None or degree == 0:
@@ -178,7 +185,7 @@ class Level:
                 line.append(np.convolve(line[-1], base))
             lines.append(line)
         self.table = np.array([np.convolve(lines[0][i], lines[1][degree - i]) for i in range(degree + 1)])
-        self.keys = np.arange(degree + 1, dtype=np.int64) * problem.ring.weights[bounded.variable]
+        self.keys = np.arange(degree + 1, dtype=np.int64) * packing.weights[bounded.variable]
         pairs = [((bounded.low, i), (bounded.high, degree - i)) for i in range(degree + 1)]
         self.factors = [tuple(sorted((k, e) for k, e in pair if e)) for pair in pairs]
         self.strict = [all(facts[k].strict for k, _ in own) for own in self.factors]

@@ -15,6 +15,7 @@ from .closing import search_closing
 from .condition import Condition, constant_of, to_text
 from .found_terms import Node, Wanted, confirmed
 from .line_cover import LineCover
+from .normal import Normal
 from .quotients import SPARE, Choice, Sample
 from .setting import Task, length, margins_of, setting
 from .templates import TemplateSearch
@@ -29,28 +30,31 @@ def cover(task: Task, state: checker.State, samples: Sequence[Sample], depth: in
         return LineCover(task, state, line[0], samples).search()
     condition, keys, integers = setting(task, state)
     unknowns = list(keys.values())
-    base = [n for n in condition.ring.names() if n not in unknowns and n not in SPARE]
+    normal = Normal(state, condition)
+    condition = normal.condition(condition)
+    base = normal.base([n for n in condition.ring.names() if n not in unknowns and n not in SPARE])
+    given = [normal.sample(sample) for sample in samples]
     tried: list[Choice] = list(former)
     if samples:
-        margins = margins_of(state, condition)
-        search = TemplateSearch(base, samples, task.budget, integers, task.nodes, None, task.hints, margins)
+        margins = margins_of(state, condition, normal)
+        search = TemplateSearch(base, given, task.budget, integers, task.nodes, None, task.hints, margins)
         tried += islice(search.search(condition, unknowns), task.tries)
     else:
         node = search_closing(state, task.known, task.budget, 1)
         if node is not None:
             return ["empty", node]
     for choice in _shortest(tried):
-        wanted = Wanted(task.statement, task.purpose, task.base, task.sharp)
+        wanted = Wanted(task.statement, task.purpose, task.base, task.sharp, normal)
         found = confirmed(wanted, state, choice, keys, task.known, task.budget, samples, task.effort)
         if found is not None:
             return found
     if depth <= 0 or len(samples) < 2:
         return None
-    partial = TemplateSearch(base, samples, task.budget, integers, task.nodes, 1, task.hints, margins)
+    partial = TemplateSearch(base, given, task.budget, integers, task.nodes, 1, task.hints, margins)
     choices = sorted(islice(partial.search(condition, unknowns), 60), key=lambda c: (-len(c.serves), length(c)))
     for first in choices[:3]:
-        for poly in _splitters(condition, first, samples, base)[:2]:
-            found = _split(task, state, poly, samples, depth, choices[:4])
+        for poly in _splitters(condition, first, given, base)[:2]:
+            found = _split(task, state, normal.lift(poly), samples, depth, choices[:4])
             if found is not None:
                 return found
     return None

@@ -13,7 +13,9 @@ from certificates import checker
 from .budget import Budget, accepted
 from .closing import search_closing
 from .condition import coefficients_in, constant_of, to_flint, to_text
+from .normal import Normal
 from .quotients import Choice, Quotient, Root, Sample
+from .scaling import Weight
 
 Node = list[Any]
 Known = dict[str, checker.Statement]
@@ -35,18 +37,21 @@ class Renamed:
 
 
 class TermWriter:
-    """Writes quotients in a context; a bottom that is not licensed is adjoined as the root of a linear polynomial."""
+    """Writes quotients of lowered polynomials in a context; a bottom that is not licensed is adjoined as the root of a linear polynomial."""
 
-    def __init__(self, context: checker.Context, renamed: Renamed, taken: Sequence[str]) -> None:
-        self.context, self.renamed, self.taken = context, renamed, set(taken)
+    def __init__(self, context: checker.Context, renamed: Renamed, normal: Normal) -> None:
+        self.context, self.renamed, self.normal = context, renamed, normal
+        self.taken: set[str] = set()
         ring = renamed.ring
         size = len(context.index)
         keys = list(context.index)
-        self.licensed: list[fmpq_mpoly] = []
+        self.licensed: list[tuple[fmpq_mpoly, fmpq_mpoly]] = []  # each as it is, and lowered
         for poly, _ in context.licensed:
-            small = to_flint(poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size)
             if set(keys) <= set(ring.names()):
-                self.licensed.append(small.project_to_context(ring))
+                whole = to_flint(poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size).project_to_context(ring)
+                lowered = normal.lower(whole)
+                if not lowered.is_constant():
+                    self.licensed.append((whole, lowered))
         self.inverses: dict[str, tuple[str, fmpq_mpoly]] = {}
 
     def fresh(self, name: str) -> str:
@@ -56,22 +61,40 @@ class TermWriter:
         self.taken.add(name)
         return name
 
-    def text(self, value: Quotient) -> str:
-        """The quotient as text; `inverses` grows by what has to be adjoined for it."""
+    def licence(self, factor: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly] | None:
+        """What is licensed and has this factor, as it is and lowered."""
+        return next((pair for pair in self.licensed if (pair[1] % factor) == 0), None)
+
+    def unlicensed(self, value: Quotient) -> list[fmpq_mpoly]:
+        """The factors of the bottom that no licence has."""
+        return [f for f, _ in value.bottom.factor()[1] if not f.is_constant() and self.licence(f) is None]
+
+    def text(self, value: Quotient, weight: Weight = ()) -> str:
+        """The quotient as text, of this weight; `inverses` grows by what has to be adjoined for it."""
+        normal = self.normal
         top, bottoms, inverses = value.top, [], []
         scale, factors = value.bottom.factor()
         top = top / scale
+        need = list(weight)
         for factor, power in factors:
-            licence = next((p for p in self.licensed if (p % factor) == 0), None) if not factor.is_constant() else None
+            licence = self.licence(factor) if not factor.is_constant() else None
             if licence is not None:
-                top = top * (licence / factor) ** power
-                bottoms += [(self.renamed.text(licence), power)]
+                top = top * (licence[1] / factor) ** power
+                bottoms += [(self.renamed.text(licence[0]), power)]
+                need = [n + power * w for n, w in zip(need, normal.weight(normal.lower_units(licence[0])))]
             else:
                 mark = self.renamed.text(factor)
                 if mark not in self.inverses:
                     self.inverses[mark] = (self.fresh("inverse"), factor)
                 inverses += [(self.inverses[mark][0], power)]
-        text = self.renamed.text(top)
+        missing = [n - w for n, w in zip(need, normal.weight(top))]
+        whole = normal.lift(top)
+        for unit, power in zip(normal.units, missing):
+            if power > 0:
+                whole = whole * whole.context().gen(whole.context().variable_to_index(unit)) ** power
+            elif power < 0 and top != 0:
+                bottoms.append((unit, -power))
+        text = self.renamed.text(whole)
         if inverses:
             text = "*".join([_whole(text), *(n if e == 1 else f"{n}^{e}" for n, e in inverses)])
         if bottoms:
@@ -91,16 +114,44 @@ class Wanted:
     statement: checker.Statement
     purpose: str
     base: dict[str, checker.Ratio]
-    sharp: list[Any] | None = None
+    sharp: list[Any] | None
+    normal: Normal
 
 
 def confirmed(wanted: Wanted, state: checker.State, choice: Choice, keys: dict[str, str], known: Known, budget: Budget,
               samples: Sequence[Sample], effort: int) -> Node | None:
     """The choice as a found with all nodes, accepted by the checker; None where a node is missing."""
-    statement, purpose, base, sharp = wanted.statement, wanted.purpose, wanted.base, wanted.sharp
+    found = _with_nodes(wanted, state, choice, keys, known, budget, samples, effort, 3)
+    named = {wanted.statement.name: wanted.statement}
+    ok = found is not None and accepted(checker.find, state.branch(), found, known, wanted.purpose, named, wanted.base, wanted.sharp)
+    return found if ok else None
+
+
+def _with_nodes(wanted: Wanted, state: checker.State, choice: Choice, keys: dict[str, str], known: Known, budget: Budget,
+                samples: Sequence[Sample], effort: int, depth: int) -> Node | None:
+    """The found; the signs of what it divides by are told apart first where no licence settles them."""
+    statement, purpose, base, sharp, normal = wanted.statement, wanted.purpose, wanted.base, wanted.sharp, wanted.normal
     own = state.branch()
     renamed = Renamed(choice.ring)
-    writer = TermWriter(own.context, renamed, [])
+    writer = TermWriter(own.context, renamed, normal)
+    spare = {root.name for root in choice.roots}
+    for value in choice.values.values():
+        for factor in writer.unlicensed(value):
+            if not spare & {n for n, e in zip(choice.ring.names(), factor.degrees()) if e}:
+                if depth == 0:
+                    return None
+                text = renamed.text(normal.lift(factor))
+                founds: list[Node] = []
+                for case, branch in enumerate(own.by_sign(text)):
+                    node = search_closing(branch, known, budget, min(effort, 1))
+                    if node is None and case == 1:
+                        return None
+                    part = ["empty", node] if node is not None else _with_nodes(
+                        wanted, branch, choice, keys, known, budget, samples, effort, depth - 1)
+                    if part is None:
+                        return None
+                    founds.append(part)
+                return ["sign", text, founds[0], founds[1], founds[2]]
     adjoined: list[Node] = []
     try:
         for root in choice.roots:
@@ -110,7 +161,7 @@ def confirmed(wanted: Wanted, state: checker.State, choice: Choice, keys: dict[s
             adjoined.append(entry)
         terms: dict[str, str] = {}
         for variable, key in sorted(keys.items()):
-            terms[variable] = writer.text(choice.values[key]) if key in choice.values else renamed.names[key]
+            terms[variable] = writer.text(choice.values[key], normal.weights.get(key, ())) if key in choice.values else renamed.names[key]
         for name, factor in list(writer.inverses.values()):
             entry = _adjoined_inverse(own, name, factor, renamed, known, budget, samples, effort)
             if entry is None:
@@ -128,23 +179,25 @@ def confirmed(wanted: Wanted, state: checker.State, choice: Choice, keys: dict[s
         if node is None:
             return None
         nodes.append(node)
-    found = [statement.name, adjoined, terms, *nodes]
-    fresh = state.branch()
-    return found if accepted(checker.find, fresh, found, known, purpose, {statement.name: statement}, base, sharp) else None
+    return [statement.name, adjoined, terms, *nodes]
 
 
 def _adjoined_root(state: checker.State, root: Root, renamed: Renamed, writer: TermWriter, known: Known, budget: Budget,
                    samples: Sequence[Sample], effort: int) -> Node | None:
     """The larger root of a polynomial of degree 2 with leading coefficient 1, between 0 or its vertex and a bound."""
+    normal = writer.normal
     name = writer.fresh(root.name)
     renamed.names[root.name] = name
     parts = coefficients_in(root.poly, root.name)
     half = parts[1] * fmpq(-1, 2)
     under = half * half - parts[0]  # root = half + sqrt(under)
-    low = renamed.text(half)
-    highs = [str(k) for k in range(1, 5)] + [renamed.text(half + 1 + under)]
-    for high in highs:
-        entry = _entry(state, name, renamed.text(root.poly), low, high, known, budget, effort)
+    weight = normal.weight_of_root(root)
+    poly, one = normal.lift(root.poly, tuple(2 * w for w in weight)), under.context().constant(1)
+    low = renamed.text(normal.lift(half, weight))
+    highs = [renamed.text(normal.lift(one * k, weight)) for k in range(1, 5)]
+    quotients = [half + 1 + under]
+    for high in [*highs, *(writer.text(Quotient(q, one), weight) for q in quotients)]:
+        entry = _entry(state, name, renamed.text(poly), low, high, known, budget, effort)
         if entry is not None:
             return entry
     return None

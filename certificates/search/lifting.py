@@ -9,9 +9,12 @@ from math import gcd, lcm, prod
 
 from flint import fmpz_mpoly
 
-from .polynomials import Ring, degree_in, pseudo_divide
+from .polynomials import Ring, degree_in, pseudo_divide, total_degree
 from .reduction import Factors, Reduction, merge, power
 from .scaling import Scaling
+
+
+SWEEPS = 8
 
 
 @dataclass
@@ -72,6 +75,26 @@ def finish(source: Source, reduction: Reduction, terms: Sequence[Term], cofactor
             owed[k] = owed.get(k, ring.zero) - quotient * c
         extra = merge(extra, factors)
         total = rest * multiple
+    for _ in range(SWEEPS if total else 0):
+        for equation in reduction.basis():
+            # total * scale = quotient * poly + rest, with a scale that makes every division of coefficients exact
+            content = int(equation.poly.content())
+            poly = equation.poly / content
+            leading = abs(int(poly.leading_coefficient()))
+            scale = leading ** (total_degree(total) + 1) if leading != 1 else 1
+            quotient, rest = divmod(total * scale, poly)
+            if not quotient:
+                continue
+            multiple, factors, scale = equation.multiple, equation.factors, scale * content
+            if any(source.relations[index] == "!=" for index, _ in factors):
+                quotient, multiple, factors = quotient * multiple, multiple * multiple, power(factors, 2)
+            terms = [Term(t.coefficient * scale, t.factors, t.root) for t in terms]
+            owed = {k: c * multiple * scale for k, c in owed.items()}
+            for k, c in equation.combination.items():
+                owed[k] = owed.get(k, ring.zero) - quotient * c
+            extra, total = merge(extra, factors), rest * multiple * content
+        if not total:
+            break
     if total:
         return None
     terms = [Term(t.coefficient, merge(t.factors, extra), t.root) for t in terms]

@@ -18,6 +18,7 @@ from .candidates import separate
 from .closing import search_closing
 from .condition import Condition, constant_of, evaluate, univariate
 from .found_terms import Node, Wanted, confirmed
+from .normal import Normal
 from .quotients import Choice, Sample, reduced_by, root_values
 from .ranges import Interval, Line
 from .setting import Task, length, margins_of, setting
@@ -42,8 +43,9 @@ class LineCover:
     def __init__(self, task: Task, state: checker.State, parameter: str, samples: Sequence[Sample]) -> None:
         self.task, self.state, self.parameter, self.samples = task, state, parameter, list(samples)
         self.condition, self.keys, self.integers = setting(task, state)
+        self.normal = Normal(state, self.condition, equations=False)
         self.allowed = state_condition(state)
-        self.margins = margins_of(state, self.condition)
+        self.margins = margins_of(state, self.condition, self.normal)
         self.served: list[tuple[Choice, list[Interval]]] = []
 
     def search(self) -> Node | None:
@@ -145,7 +147,7 @@ class LineCover:
         """The piece's choice, or another that serves there, or the piece in two halves."""
         others = [c for c, intervals in self.served if c is not piece.choice and any(_within(piece.interval, i) for i in intervals)]
         task = self.task
-        wanted = Wanted(task.statement, task.purpose, task.base, task.sharp)
+        wanted = Wanted(task.statement, task.purpose, task.base, task.sharp, self.normal)
         for choice in [piece.choice, *others[:2]]:
             try:
                 found = confirmed(wanted, state, choice, self.keys, task.known, task.budget.part(PART), self.samples, task.effort)

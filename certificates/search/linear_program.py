@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -10,11 +11,16 @@ import numpy as np
 from flint import fmpz_mat
 
 from .budget import Budget
+from .polynomials import Keys
 
 Matrix = np.ndarray[Any, np.dtype[np.float64]]
 Mask = np.ndarray[Any, np.dtype[np.bool_]]
 EXACT = float(1 << 53)
 TINY = 1e-9
+
+
+def _no_exponents(keys: Keys) -> Keys:
+    raise ValueError("monomials are not rewritten without their exponents")
 
 
 class Program:
@@ -26,6 +32,8 @@ class Program:
         self.shapes: list[tuple[int, int]] = []  # columns, and entries of each, of every block
         self.strict: list[bool] = []
         self.costs: list[float] = []
+        self.rewritings: list[tuple[Keys, Keys, Any]] = []
+        self.exponents: Callable[[Keys], Keys] = _no_exponents
         self.count = 0  # of the columns that are not free; they come first
 
     def add(self, keys: Any, values: Any, strict: list[bool], costs: list[float]) -> None:
@@ -44,18 +52,24 @@ class Program:
         self.shapes.append(keys.shape)
 
 
+    def add_rewriting(self, leading: Keys, keys: Keys, values: Any) -> None:
+        """An equation, its leading monomial first: columns are compared after its multiples are taken off."""
+        self.rewritings.append((leading, keys, values))
+
+
 Solution = tuple[dict[int, Fraction], dict[int, Fraction]]
 
 
 def solve(program: Program, budget: Budget) -> Solution | None:
     """The positive coefficients of the columns used and the coefficients of the free ones used, exactly; None where none were found.
 
-    >>> from .polynomials import Ring
+    >>> from .polynomials import Packing, Ring
     >>> ring = Ring(("x",))
     >>> x, = ring.gens
+    >>> packing = Packing(ring, [x])
     >>> program = Program()
     >>> for p, strict in ((x - 2, False), (1 - x, False), (ring.one, True)):
-    ...     program.add(*(part[None, :] for part in ring.row(p)), [strict], [1.0])
+    ...     program.add(*(part[None, :] for part in packing.row(p)), [strict], [1.0])
     >>> solve(program, Budget(1000))
     ({0: Fraction(1, 1), 1: Fraction(1, 1), 2: Fraction(1, 1)}, {})
     """
@@ -72,7 +86,7 @@ def solve(program: Program, budget: Budget) -> Solution | None:
         return None
     work = matrix[:, alive]
     work = work[work.any(axis=1)]
-    size = np.abs(work).max(axis=0)
+    size = np.abs(work).max(axis=0, initial=0.0)
     size[size == 0] = 1.0
     inequality, strict, costs = alive < count, strict[alive], costs[alive]
     budget.spend(100 + work.size // 8)
@@ -89,6 +103,7 @@ def solve(program: Program, budget: Budget) -> Solution | None:
 
 
 JITTER = (0.0, 0.7)
+SWEEPS = 60
 NOISE = np.random.default_rng(7).random(20000)
 
 
@@ -104,7 +119,29 @@ def assemble(program: Program, budget: Budget) -> Matrix | None:
         return None
     lengths = np.repeat([shape[1] for shape in program.shapes], [shape[0] for shape in program.shapes])
     where = inverse * columns + np.repeat(np.arange(columns), lengths)[used]
-    return np.bincount(where, values[used], rows * columns).reshape(rows, columns)
+    matrix = np.bincount(where, values[used], rows * columns).reshape(rows, columns)
+    return rewritten(matrix, keys, program, budget) if program.rewritings else matrix
+
+
+def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> Matrix | None:
+    """The columns reduced by the equations: a row of a multiple of a leading monomial is moved to the other monomials."""
+    for _ in range(SWEEPS):
+        exponents = program.exponents(keys)
+        for leading, own, values in program.rewritings:
+            hit = (exponents >= leading).all(axis=1)
+            if hit.any():
+                break
+        else:
+            return matrix
+        # the whole matrix is multiplied by the leading coefficient, which changes no relation between its columns
+        moved = ((keys[hit] - own[0])[:, None] + own[1:]).ravel()
+        parts = (matrix[hit][:, None, :] * -values[1:, None]).reshape(len(moved), matrix.shape[1])
+        keys, inverse = np.unique(np.concatenate([keys[~hit], moved]), return_inverse=True)
+        order = np.argsort(inverse, kind="stable")
+        starts = np.searchsorted(inverse[order], np.arange(len(keys)))
+        matrix = np.add.reduceat(np.vstack([matrix[~hit] * values[0], parts])[order], starts, axis=0)
+        budget.spend(20 + matrix.size // 20)
+    return None
 
 
 def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:

@@ -70,8 +70,7 @@ def close_at_number(state: checker.State, adjoined: Adjoined) -> list[Any] | Non
 
 def _contradiction(state: checker.State, index: int, adjoined: Adjoined) -> list[Any] | None:
     poly, relation = state.facts[index]
-    coefficients = checker.univariate(state.context, poly, adjoined.name)
-    dense, modulus = fmpq_poly([exact(c) for c in coefficients]), fmpq_poly(adjoined.poly)
+    dense, modulus = _dense(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
     sign = adjoined.number.sign_of(dense)
     if {">": sign > 0, ">=": sign >= 0, "=": sign == 0, "!=": sign != 0}[relation]:
         return None
@@ -91,9 +90,13 @@ def _contradiction(state: checker.State, index: int, adjoined: Adjoined) -> list
 
 
 def _no_root(dense: fmpq_poly, adjoined: Adjoined) -> bool:
-    coefficients = [fraction(c) for c in dense.coeffs()]
-    ends = checker.evaluate(coefficients, adjoined.low), checker.evaluate(coefficients, adjoined.high)
-    return all(ends) and checker.count_roots(coefficients, adjoined.low, adjoined.high) == 0
+    ends = dense(exact(adjoined.low)), dense(exact(adjoined.high))
+    return all(ends) and checker.count_roots([int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high) == 0
+
+
+def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly:
+    """A polynomial in one variable; the checker refuses any other."""
+    return fmpq_poly([int(c) for c in checker.univariate(context, checker.Poly(poly.terms, 1, poly.deg), name)]) / poly.den
 
 
 def _own_facts(state: checker.State, adjoined: Adjoined) -> tuple[int, int, int]:
@@ -109,7 +112,6 @@ def _own_facts(state: checker.State, adjoined: Adjoined) -> tuple[int, int, int]
             if poly.terms[one] < 0 and end == adjoined.high:
                 found.setdefault("high", index)
         if relation == "=" and checker.variables_of(state.context, poly) == {adjoined.name}:
-            coefficients = checker.univariate(state.context, poly, adjoined.name)
-            if fmpq_poly([exact(c) for c in coefficients]) == fmpq_poly(adjoined.poly):
+            if _dense(state.context, poly, adjoined.name) == fmpq_poly(adjoined.poly):
                 found.setdefault("equation", index)
     return found["low"], found["high"], found["equation"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,8 @@ from certificates import checker
 Keys = np.ndarray[Any, np.dtype[np.int64]]
 Row = tuple[Keys, np.ndarray[Any, np.dtype[np.float64]]]  # the keys of a polynomial's monomials, and its coefficients
 
-# One odd number for each variable: a monomial's key is the sum of exponent times number, modulo 2^64.  Two monomials of one
-# program share a key with negligible probability, and then an exact solution fails its check and is dropped.
+# With many variables: one odd number for each, a monomial's key being the sum of exponent times number, modulo 2^64.  Two monomials
+# share a key with negligible probability, and then an exact solution fails its check and is dropped.
 WEIGHTS = np.random.default_rng(20).integers(-(1 << 62), 1 << 62, checker.MAX_VARIABLES, dtype=np.int64) | 1
 
 
@@ -31,7 +32,6 @@ class Ring:
         self.ctx = fmpz_mpoly_ctx.get(names or ("none",), Ordering.degrevlex)
         self.gens = self.ctx.gens()
         self.size = max(1, len(names))
-        self.weights = WEIGHTS[: self.size]
         self.form = struct.Struct(f"<{self.size}H")
         self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
         self.one = self.ctx.constant(1)
@@ -48,16 +48,40 @@ class Ring:
         self.seen[id(poly)] = (poly, result)  # holding the polynomial keeps its id from being used again
         return result
 
+
+class Packing:
+    """Monomials in some of a ring's variables as integers that add where monomials multiply.
+
+    >>> ring = Ring(("x", "y"))
+    >>> x, y = ring.gens
+    >>> packing = Packing(ring, [x**2 + y])
+    >>> packing.exponents(packing.row(x**2 * y - 1)[0]).tolist()
+    [[2, 1], [0, 0]]
+    """
+
+    def __init__(self, ring: Ring, polys: Iterable[fmpz_mpoly]) -> None:
+        degrees = [poly.degrees() for poly in polys if poly]
+        self.used = [v for v in range(ring.size) if any(d[v] for d in degrees)]
+        self.bits = 62 // max(1, len(self.used))
+        self.exact = self.bits >= 6  # else keys tell monomials apart with all but certainty, yet do not give the exponents back
+        self.weights = np.zeros(ring.size, np.int64) if self.exact else WEIGHTS[: ring.size]
+        for place, v in enumerate(self.used if self.exact else ()):
+            self.weights[v] = 1 << (self.bits * place)
+
     def row(self, poly: fmpz_mpoly) -> Row:
         """The polynomial as keys and float coefficients."""
         if not poly:
             return np.zeros(0, np.int64), np.zeros(0)
-        keys = np.array(poly.monoms(), dtype=np.int64) @ self.weights
-        return keys, np.array([int(c) for c in poly.coeffs()], dtype=np.float64)
+        return np.array(poly.monoms(), dtype=np.int64) @ self.weights, np.array([int(c) for c in poly.coeffs()], dtype=np.float64)
 
     def keys(self, monomials: list[tuple[int, ...]]) -> Keys:
-        """The keys of monomials given by their exponents."""
-        return np.array(monomials, dtype=np.int64).reshape(len(monomials), self.size) @ self.weights
+        """The keys of monomials given by the exponents of all variables."""
+        return np.array(monomials, dtype=np.int64).reshape(len(monomials), len(self.weights)) @ self.weights
+
+    def exponents(self, keys: Keys) -> Keys:
+        """The exponents of the used variables, one row a key."""
+        shifts = np.arange(len(self.used), dtype=np.int64) * self.bits
+        return (keys[:, None] >> shifts) & ((1 << self.bits) - 1)
 
 
 def multiply(a: Row, b: Row) -> Row:

@@ -18,7 +18,7 @@ from .reduction import merge, power
 Stage = tuple[int, int, str]  # (products of facts, extra Bernstein degree, kind of squares)
 QUICK: tuple[Stage, ...] = ((1, 0, ""),)
 FIRST: tuple[Stage, ...] = ((2, 0, ""),)
-USUAL: tuple[Stage, ...] = ((2, 2, ""),)
+USUAL: tuple[Stage, ...] = ((2, 2, ""), (1, 0, "squares"))
 SQUARES: tuple[Stage, ...] = ((1, 2, "squares"), (1, 2, "resultants"))
 DEEP: tuple[Stage, ...] = ((2, 4, ""), (2, 2, "squares"), (2, 2, "resultants"), (3, 0, ""), (2, 4, "resultants"))
 

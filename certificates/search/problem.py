@@ -13,7 +13,7 @@ from flint import fmpz_mpoly
 from certificates import checker
 
 from .lifting import Source
-from .polynomials import Ring, Row, constant_of, total_degree
+from .polynomials import Ring, constant_of, total_degree
 from .reduction import Factors, Reduction, Signed
 from .scaling import Scaling
 from .squares import Pool, factors, resultants, squares
@@ -31,7 +31,6 @@ class Fact:
     factors: Factors
     counts: tuple[int, ...]
     scale: Fraction
-    row: Row
     multiplier: Sum | None = None  # a positive sum over other facts; None stands for 1
 
     def degree(self, variable: int) -> int:
@@ -75,13 +74,25 @@ class Problem:
         equations = [(k, p) for k, p in enumerate(lowered) if relations[k] == "=" and p and k not in self.idle]
         signed = [Signed(k, p, relations[k] == ">") for k, p in enumerate(lowered) if relations[k] in (">", "!=")]
         integers = frozenset(k for k, name in enumerate(ring.names) if name in state.context.integers)
-        self.reduction = Reduction(ring, equations, signed if equations else [], integers)
+        kept = integers | self._bounded_variables(lowered, relations)
+        self.reduction = Reduction(ring, equations, signed if equations else [], kept)
         self.facts: list[Fact] = []
         self.contradiction: Fact | None = None
         for index, (poly, relation) in enumerate(zip(lowered, relations)):
             if relation != "=" and index not in self.idle:
                 self._take(index, poly, relation)
         self.bounded = self._most_common_bounded()
+
+    @staticmethod
+    def _bounded_variables(polys: list[fmpz_mpoly], relations: list[str]) -> frozenset[int]:
+        """The variables that facts in them alone bound on both sides."""
+        sides: set[tuple[int, bool]] = set()
+        for poly, relation in zip(polys, relations):
+            if relation in (">", ">=") and len(poly) < 3 and poly.total_degree() == 1:
+                degrees = [int(d) for d in poly.degrees()]
+                if sum(degrees) == 1:
+                    sides.add((degrees.index(1), (constant_of(poly.derivative(degrees.index(1))) or 0) > 0))
+        return frozenset(v for v, up in sides if up and (v, False) in sides)
 
     def _take(self, index: int, poly: fmpz_mpoly, relation: str) -> None:
         """Adds the fact as it stands after the eliminations, unless it is there already or says nothing."""
@@ -92,20 +103,18 @@ class Problem:
         strict, value = relation != ">=", constant_of(rest)
         if value is not None:
             if value < 0 or value == 0 and strict:
-                self.contradiction = Fact(rest, strict, own, counts, Fraction(1), self.ring.row(rest))
+                self.contradiction = Fact(rest, strict, own, counts, Fraction(1))
             return
         content = abs(int(rest.content()))
-        self.add(Fact(rest / content if content > 1 else rest, strict, own, counts, Fraction(content), (EMPTY)))
+        self.add(Fact(rest / content if content > 1 else rest, strict, own, counts, Fraction(content)))
 
     def add(self, fact: Fact) -> None:
         """Adds a fact unless the same polynomial is there already, at least as strict."""
         for place, known in enumerate(self.facts):
             if known.poly == fact.poly:
                 if fact.strict and not known.strict:
-                    fact.row = known.row
                     self.facts[place] = fact
                 return
-        fact.row = self.ring.row(fact.poly)
         self.facts.append(fact)
 
     def polys(self) -> list[fmpz_mpoly]:
@@ -214,9 +223,8 @@ class Problem:
                 continue
             rest = rest * positive
             content = abs(int(rest.content()))
-            changed.append((place, Fact(rest / content, fact.strict, fact.factors, fact.counts, fact.scale * content, fact.row, multiplier)))
+            changed.append((place, Fact(rest / content, fact.strict, fact.factors, fact.counts, fact.scale * content, multiplier)))
         for place, fact in changed:
-            fact.row = self.ring.row(fact.poly)
             self.facts[place] = fact
         self.bounded = self._most_common_bounded()
         return bool(changed)
@@ -225,9 +233,6 @@ class Problem:
 def size(poly: fmpz_mpoly) -> tuple[int, int]:
     """Small polynomials first."""
     return total_degree(poly), len(poly)
-
-
-EMPTY = Ring(()).row(Ring(()).zero)
 
 
 def times(a: Sum, b: Sum) -> Sum:

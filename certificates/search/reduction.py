@@ -67,8 +67,8 @@ class Reduction:
     """The eliminations of a state in order, and the equations that are left."""
 
     def __init__(self, ring: Ring, equations: Sequence[tuple[int, fmpz_mpoly]], signed: Sequence[Signed],
-                 integers: frozenset[int] = frozenset()) -> None:
-        self.ring, self.signed, self.integers, self.steps = ring, signed, integers, list[Step]()
+                 kept: frozenset[int] = frozenset()) -> None:
+        self.ring, self.signed, self.kept, self.steps = ring, signed, kept, list[Step]()
         self.left = [Equation(poly, {index: ring.one}, ring.one, ()) for index, poly in equations]
         self.contradiction: Equation | None = None
         while self.left and self._divide_one():
@@ -81,8 +81,8 @@ class Reduction:
         best: tuple[tuple[int, ...], Equation, int, fmpz_mpoly, fmpz_mpoly, Factors] | None = None
         for place, equation in enumerate(self.left):
             for variable, degree in enumerate(equation.poly.degrees()):
-                if degree != 1:
-                    continue
+                if degree != 1 or variable in self.kept and len(equation.poly) > 2 and 2 in equation.poly.degrees():
+                    continue  # a parameter given by a root is better kept than the root
                 lead = equation.poly.derivative(variable)
                 value = constant_of(lead)
                 if best is not None and best[0][0] == 0 and value is None:
@@ -90,7 +90,7 @@ class Reduction:
                 found = () if value is not None else self.product(lead)
                 if found is None:
                     continue
-                rank = (int(value is None), int(variable in self.integers), len(equation.poly), -variable, place)
+                rank = (int(value is None), int(variable in self.kept), len(equation.poly), -variable, place)
                 if best is None or rank < best[0]:
                     rest = lead * self.ring.gens[variable] - equation.poly
                     best = (rank, equation, variable, lead, rest, found)
@@ -145,6 +145,17 @@ class Reduction:
                 self._tidy()
                 return self.contradiction is None
         return False
+
+    def basis(self) -> list[Equation]:
+        """Equations left with pairwise coprime leading monomials: a Groebner basis of the ideal that they generate."""
+        chosen: list[Equation] = []
+        used: set[int] = set()
+        for equation in sorted(self.left, key=lambda e: (len(e.poly), e.poly.total_degree())):
+            leading = {v for v, e in enumerate(equation.poly.monoms()[0]) if e}
+            if not leading & used:
+                chosen.append(equation)
+                used |= leading
+        return chosen
 
     def product(self, poly: fmpz_mpoly) -> Factors | None:
         """The facts whose product is the polynomial up to a rational factor, where all are positive; None where there are none."""

@@ -13,6 +13,7 @@ from certificates import checker
 from .budget import Budget
 from .condition import Condition, ring_of, to_flint
 from .found_terms import Known
+from .normal import Normal
 from .quotients import SPARE, Choice, Quotient
 
 
@@ -53,14 +54,18 @@ def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str]
     return Condition.of(story.context, formula, ring_of(story.context, *SPARE)), keys, integers
 
 
-def margins_of(state: checker.State, condition: Condition) -> list[fmpq_mpoly]:
-    """What the state says to be positive, as long as it is short, and products: small where the state ends."""
+def margins_of(state: checker.State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
+    """What the state says to be positive, lowered, as long as it is short, and products: small where the state ends."""
     size = len(state.context.index)
     keys = list(state.context.index)
     ring = fmpq_mpoly_ctx.get(keys or ["none"], condition.ring.ordering())
-    found = [to_flint(poly, ring, size).project_to_context(condition.ring) for poly, relation in state.facts if relation in (">", ">=")]
-    short = [p for p in found if not p.is_constant() and len(p) <= 6 and p.total_degree() <= 4]
-    least = sorted(short, key=lambda p: (p.total_degree(), len(p)))[:4]
+    found: list[fmpq_mpoly] = []
+    for poly, relation in state.facts:
+        if relation in (">", ">="):
+            lowered = normal.lower(to_flint(poly, ring, size).project_to_context(condition.ring))
+            if not lowered.is_constant() and len(lowered) <= 6 and lowered.total_degree() <= 4 and lowered not in found:
+                found.append(lowered)
+    least = sorted(found, key=lambda p: (p.total_degree(), len(p)))[:5]
     return least + [least[0] * q for q in least[1:3]]
 
 

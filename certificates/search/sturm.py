@@ -44,4 +44,4 @@ def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
         return False
     if all(b >= 0 for b in coefficients):
         return True
-    return low < high and checker.count_roots([Fraction(int(c.p), int(c.q)) for c in poly.coeffs()], low, high) == 0
+    return low < high and checker.count_roots([int(c) for c in poly.numer().coeffs()], low, high) == 0

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from flint import fmpq, fmpq_mpoly
 
 from .budget import Budget
-from .candidates import UNITS, favourites, solutions, trials
+from .candidates import PARAMETERS, UNITS, favourites, solutions, trials
 from .condition import Condition, coefficients_in, constant_of
 from .quotients import Choice, Quotient, Root, Sample, insert, reduced_by, root_values, square_roots
 
@@ -169,7 +169,10 @@ class TemplateSearch:
         plain += constants[3:]
         near = [(q, None) for q in lines[:4]] + roots[:4]
         slight = [margin * c for margin in self.margins[:5] for c in BESIDE]
-        beside = [(Quotient.reduced(q.top + shift * q.bottom, q.bottom), root) for q, root in near for shift in slight]
+        small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
+        slight_near = [(Quotient.reduced(q.top * (k + m) + sign * m * q.bottom, q.bottom * (k + m)), root)
+                       for q, root in near for m, k in small for sign in (1, -1)]
+        beside = slight_near + [(Quotient.reduced(q.top + shift * q.bottom, q.bottom), root) for q, root in near for shift in slight]
         unique: list[Candidate] = []
         seen: set[tuple[str, str]] = set()
         for candidate in [*((q, None) for q in plain), *roots, *beside]:
@@ -251,3 +254,8 @@ class TemplateSearch:
 def possible(condition: Condition, name: str, value: fmpq) -> bool:
     """Whether a condition can still be met with this value of a variable, as far as folding shows."""
     return condition.substituted({name: value}).tree is not False
+
+
+def ring_names(poly: fmpq_mpoly) -> set[str]:
+    """The variables that occur in a polynomial."""
+    return {name for name, e in zip(poly.context().names(), poly.degrees()) if e}

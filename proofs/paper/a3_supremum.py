@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from certificates.statements import Statement
-from certificates.terms import Formula, conjunction, equal, iff, reals, term
+from certificates.terms import Formula, Term, conjunction, equal, iff, reals, term
 from proofs.claims import Argument, Assertion, Readings, claim
 from proofs.paper.events import only_at, strikes_at, value_of
 from proofs.paper.gains import STEEP, are_slopes, dE_dbeta, dE_dv, dR_dbeta, dR_dv, with_slopes
-from proofs.paper.outside import B1_OUTSIDE, CLOSED_B1, CORNER, ON_R, SUPREMAL, b_0, change, dE_sup, least, not_supremal, pieces
+from proofs.paper.outside import B1_OUTSIDE, CLOSED_B1, CORNER, ON_R, SUPREMAL, b_0, change, dE_sup, least, not_supremal, pieces, v0
 from proofs.paper.vocabulary import (
     B1,
     B2,
@@ -19,33 +19,38 @@ from proofs.paper.vocabulary import (
     beta,
     derived,
     energy,
+    eps,
     exists_some,
     f2,
     impact_energy_change,
-    is_supremum,
     t,
     v,
 )
+from proofs.reading.notions import Region
 from proofs.reading.parser import parse_name
 from proofs.reading.printed import Printed
 from proofs.reading.values import Vector
 
-lam, edge, h, beta1, v1 = reals("lam edge h beta1 v1")
+lam, edge, height, h = reals("lam edge height h")
 AT_CORNER = PAPER.at(parse_name(r"\overline b"), b_0).extended({r"\overline b_s": b_0, r"\Delta E_{sup}": dE_sup})
 MULTIPLIED = with_slopes(PAPER, b_0).extended({r"\lambda": lam, r"\overline b_s": b_0})
 
 
-def below_the_corner(region: Formula) -> tuple[Statement, Statement]:
-    """The energy change at the corner bounds that of the impacts from the region, and they come as close to it as one likes."""
-    bound, approached = is_supremum(least, change, ["beta", "v"], region, strict=True, given=[CORNER(b_0)])
-    return bound, approached
+def is_least_bound(value: Term, region: Region, given: list[Formula]) -> tuple[Statement, Statement]:
+    """The value bounds the energy change of the impacts from the region, and those above the corner come as close to it as one likes."""
+    above = Vector((height, v0))
+    return (
+        always(change < value, given=[*given, region(b)], label="bound"),
+        exists_some(["height"], term(impact_energy_change(above)) > value - eps, within=[region(above)], given=[*given, eps > 0],
+                    label="approached"),
+    )
 
 
 @claim("sA.3-sup", "A.3", "line 679", printed=r"\mathcal{H} - \mathcal{R}", as_it_stands=r"\mathcal{A} - \mathcal{R}")
 def supremum_outside_the_region(printed: Printed) -> Readings:
     """The energy change at the corner of R is the supremum outside R: over all states there, or over those whose impact comes."""
     region = value_of(printed, PAPER)
-    impacts = below_the_corner(region(b) & B1(b))
+    impacts = is_least_bound(least, region & B1, [CORNER(b_0)])
     flights = always(energy(f2(b)) - energy(b) < least, given=[CORNER(b_0), region(b), B2(b)], label="flights")
     return Readings({"all-states": Assertion((*impacts, flights)), "with-impact": Assertion(impacts)})
 
@@ -58,10 +63,12 @@ def supremum_outside_the_region(printed: Printed) -> Readings:
 def condition_on_the_boundary(printed: Printed) -> list[Statement]:
     """Along a level line of R the energy change is stationary exactly where both gradients are parallel."""
     p, q = reals("p q")
-    parallel, slopes = printed.formula(MULTIPLIED), are_slopes(dR_dbeta, state=b_0)
+    down, along = (term(entry) for entry in at(derived("region_gradient"), b_0).entries)
+    names = {r"D_{\overline\beta} R": only_at(b_0, down), r"D_{\dot{\overline\beta}} R": only_at(b_0, along)}
+    parallel = printed.formula(MULTIPLIED.extended(names))
     return [
-        exists_some(["lam"], parallel, given=[slopes, equal(dE_dv * dR_dbeta, dE_dbeta * dR_dv)], label="needed"),
-        always(equal(dE_dbeta * p + dE_dv * q, 0), given=[slopes, parallel, equal(dR_dbeta * p + dR_dv * q, 0)], label="enough"),
+        exists_some(["lam"], parallel, given=[equal(dE_dv * down, dE_dbeta * along)], label="needed"),
+        always(equal(dE_dbeta * p + dE_dv * q, 0), given=[parallel, equal(down * p + along * q, 0)], label="enough"),
     ]
 
 
@@ -146,9 +153,7 @@ def energy_change_is_concave_on_the_edge(printed: Printed) -> list[Statement]:
 @claim("sA.3.2-corner", "A.3.2", "line 702", printed=r"R(\overline{b}) = 0, \quad \overline{\beta} = 0")
 def supremum_belongs_to_the_corner(printed: Printed) -> list[Statement]:
     """The supremum is the energy change where the level line of R meets the edge of H, at the boundary of the impacts outside R."""
-    bound, approached = is_supremum(least, change, ["beta", "v"], B1_OUTSIDE(b), strict=True,
-                                    given=[CLOSED_B1(b_0), printed.formula(AT_CORNER)])
-    return [bound, approached]
+    return list(is_least_bound(least, B1_OUTSIDE, [CLOSED_B1(b_0), printed.formula(AT_CORNER)]))
 
 
 @claim("eq-39", "A.3.2", "(39)",
@@ -167,9 +172,11 @@ def corner_strikes_at_once(printed: Printed) -> Statement:
 @claim("sA.3.2-sup1", "A.3.2", "line 710", printed=r"\Delta E_{sup} := \Delta_1 E(\overline{b}_s)")
 def supremum_is_the_energy_change_at_the_corner(printed: Printed) -> list[Statement]:
     """The energy change at the corner is the supremum over the impacts outside R, and is not attained there."""
-    names, b_1 = PAPER.extended({r"\overline b_s": b_0, r"\Delta E_{sup}": dE_sup}), Vector((beta1, v1))
-    return is_supremum(dE_sup, term(impact_energy_change(b_1)), ["beta1", "v1"], B1_OUTSIDE(b_1), strict=True,
-                       given=[CORNER(b_0), printed.formula(names)])
+    names = PAPER.extended({r"\overline b_s": b_0})
+    return [
+        always(printed.formula(names), given=[CORNER(b_0)], label="value"),
+        *is_least_bound(printed.right(names), B1_OUTSIDE, [CORNER(b_0)]),
+    ]
 
 
 @claim("sA.3.2-sup2", "A.3.2", "line 710",

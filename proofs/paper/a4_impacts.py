@@ -30,15 +30,15 @@ from proofs.reading.values import Vector
 
 edge, delta, k, p, q = reals("edge delta k p q")
 LEFT = Vector((edge, v))
-# The states near b: the height moves by at most delta r^2 / g and the velocity by at most delta r; k r bounds the velocity of b.
+# The states near b: the height moves by at most delta r^2 / g and the velocity by at most delta r; (k - 2) r bounds the velocity of b.
 NEAR = b + Vector((p, q))
 WITHIN_DELTA = [-(r**2) * delta <= g * p, g * p <= r**2 * delta, -r * delta <= q, q <= r * delta]
-BOUNDED = [k > 0, -k * r <= v, v <= k * r]
+BOUNDED = [k > 0, -(k - 2) * r <= v, v <= (k - 2) * r]
 
 
 def room(*margins: Term) -> Formula:
     """There is a small delta by which a state may move before its energy or collision margin changes by so much."""
-    return conjunction([delta < 1, *((k + 2) * r**2 * delta < margin for margin in margins)])
+    return conjunction([delta < 1, *(k * r**2 * delta < margin for margin in margins)])
 
 
 @claim("sA.4-distinct", "A.4", "line 716")

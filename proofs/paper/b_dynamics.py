@@ -51,7 +51,8 @@ def map_on_b1_again(printed: Printed) -> list[Statement]:
 @claim("sB.3-f2", "B.3", "line 783", repeats="eq-12", printed=r"\overline{f}_1(\overline{b}_k) := -A_T x - \alpha_T")
 def map_on_b2_again(printed: Printed) -> Statement:
     """The dynamics on B2, here under the name of those on B1, take a state x to this affine image at the next bounce."""
-    names = {r"\overline f_1": StateFunction(lambda state: ball_at(t, state)), r"\overline b_k": b_0, "x": b_0, r"\alpha_T": flight_offset(T)}
+    flown = StateFunction(lambda state: ball_at(t, state))
+    names = {r"\overline f_1": flown, r"\overline b_k": b_0, "x": b_0, r"\alpha_T": flight_offset(T)}
     return always(printed.formula(PAPER.extended(names)), given=[B2(b_0), t > 0, equal(height(table_at(t)), 0)])
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from certificates.statements import Statement
-from certificates.terms import equal, iff, term
+from certificates.terms import Formula, equal, iff, term
 from proofs.claims import Assertion, Readings, claim
 from proofs.paper.events import height, speed, vector
 from proofs.paper.outside import B1_OUTSIDE, OUTSIDE
@@ -158,14 +158,17 @@ def fixed_point_lies_in_both() -> Statement:
 
 @claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"))
 def bands_are_mapped_into_themselves() -> Readings:
-    """f maps the band around e_1 into itself, if it does not reach to where R leaves B1, or whatever its size, eps r^2."""
+    """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself.
+
+    That is, if it does not reach to where R leaves B1; or whatever its size.
+    """
     size = eps * r**2
-    stays = [eps > 0, band(size)(b), next_states(b, image)]
     narrow = [leaves_R_at(c), from_e_1(on_the_line(c)) > size]
-    return Readings({
-        "narrow": Assertion((always(band(size)(image), given=[*narrow, *stays], in_range=RANGE_21),)),
-        "every-size": Assertion((always(band(size)(image), given=stays, in_range=RANGE_21),)),
-    })
+
+    def stays(given: list[Formula]) -> Assertion:
+        return Assertion((always(band(size)(vector(f1(b))), given=[eps > 0, *given, band(size)(b)], in_range=RANGE_21),))
+
+    return Readings({"narrow": stays(narrow), "every-size": stays([])})
 
 
 @claim("region-trap", "inclusions", "not printed")

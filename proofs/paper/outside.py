@@ -24,15 +24,15 @@ WITH_INTEGERS = Vocabulary(ORDER, STANDING.ranges, STANDING.givens, STANDING.abb
 always_counting = partial(forms.always, vocabulary=WITH_INTEGERS)
 exists_counting = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
 
-OUTSIDE = H - R
-B1_OUTSIDE = B1 - R
+BEYOND_R = Region(lambda state: at(derived("region_margin"), state) < 0)
+OUTSIDE, B1_OUTSIDE = H & BEYOND_R, B1 & BEYOND_R
 CLOSED_B1 = H & Region(lambda state: at(derived("collision_margin"), state) >= 0)
 ON_R = Region(lambda state: equal(at(derived("region_margin"), state), 0))
 CORNER = B1 & ON_R & Region(lambda state: equal(state.component(1), 0))
 change, least = term(impact_energy_change(b)), term(impact_energy_change(b_0))  # the least loss is that at the corner b_0
 SUPREMAL = [CORNER(b_0), equal(dE_sup, least)]
 LEVEL: Term = derived("region_energy")
-NAMED = PAPER.extended({r"\Delta E_{sup}": derived("delta_E_sup"), r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
+NAMED = PAPER.extended({r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
 worst_wait: Term = at(derived("hang_time"), {"v": u})  # the flight from the ground up and back that has all the energy of b_0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from certificates.statements import Statement
 from certificates.terms import Formula, Term, different, iff, reals, term
 from proofs.claims import Argument, Assertion, Awaiting, claim
-from proofs.paper.events import value_of
+from proofs.paper.events import speed, value_of, vector
 from proofs.paper.orbits import b_0, eigenvalue_of, is_fixed_point, next_bounce, offset_with, strikes_from, within
 from proofs.paper.vocabulary import (
     B1,
@@ -44,9 +44,11 @@ def state_at_the_next_bounce(printed: Printed) -> Statement:
 @claim("s3.3-iterate", "3.3", "line 291")
 def impact_in_each_of_two_periods() -> list[Statement]:
     """If the image of a state of B1 is in B1 too, the ball strikes again, and the state after the second period is the image's image."""
-    once, twice = f1(b), f1(f1(b))
+    once, twice = vector(f1(b)), f1(f1(b))
+    slower = speed(once) < r
     return [
-        exists_some(["tau"], strikes_from(once, tau), given=[B1(b), B1(once)], label="strikes-again"),
+        always(slower, given=[B1(b), B1(once)], label="approaches-again"),
+        exists_some(["tau"], strikes_from(once, tau), given=[B1(b), slower, B1(once)], label="strikes-again"),
         always(equals(next_bounce(next_bounce(b, t), tau), twice), given=[strikes_from(b, t), strikes_from(once, tau)], label="composed"),
     ]
 

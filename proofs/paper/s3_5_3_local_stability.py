@@ -108,15 +108,19 @@ def fixed_points_are_stable_where_they_exist() -> Argument:
     """
     higher = b + Vector((lift, term(0)))
     flies_on = B1(higher) & B2(vector(flights(K - 2)(vector(f1(higher)))))
-    returns = B1(higher) & next_state_is(vector(f1(higher)), lambda state: within(r, speed(state) - speed(b)))
+    second = vector(at(derived("impact_fixed_point"), {"K": 2}))
+    lifted = second + Vector((lift, term(0)))
+    returns = B1(lifted) & next_state_is(vector(f1(lifted)), lambda state: within(r, speed(state) - speed(second)))
     return Argument(
         steps={
             "eigenvalues": Assertion((always_integer(p**2 + q**2 < 1, given=[eigenvalue_of(derived("return_jacobian"), p, q)]),)),
             "same-pieces": Assertion((exists_integer(["lift"], flies_on, within=[lift > 0], given=[K >= 2, comes_back(K)],
                                                      in_range=from_threshold_on()),)),
         },
-        conclusion=Assertion((exists_some(["lift"], returns, within=[lift > 0], given=[comes_back(2)],
-                                          in_range=[alpha >= Fraction(1, 3), alpha < 1]),)),
+        conclusion=Assertion((
+            always(comes_back(2, second), label="second"),
+            exists_some(["lift"], returns, within=[lift > 0], in_range=[alpha >= Fraction(1, 3), alpha < 1], label="returns"),
+        )),
     )
 
 

@@ -12,6 +12,7 @@ from proofs.paper.relative_motion import (
     NEAR,
     RANGE_21,
     band,
+    boundary_of_band,
     c,
     from_e_1,
     image,
@@ -38,6 +39,7 @@ from proofs.paper.vocabulary import (
     r,
     v,
 )
+from proofs.reading.notions import Region, StateFunction
 from proofs.reading.printed import Printed
 from proofs.reading.values import Vector
 
@@ -126,6 +128,7 @@ def band_around_the_fixed_point(printed: Printed) -> list[Statement]:
     return [
         always(iff(region(b), B1(b) & R(b) & close), given=[d >= 0, equal(d**2, 2 * eps)], label="band"),
         always(region(e_1), given=[eps >= 0], label="contains-e_1"),
+        always(R(b), given=[region(b)], label="inside-R"),
     ]
 
 
@@ -178,13 +181,14 @@ def band_is_mapped_into_itself(printed: Printed) -> Argument:
         return (-1 <= value) & (value <= 1)
 
     is_enough = always(inside(quadratic(y)), given=[inside(quadratic(-1)), inside(quadratic(1)), inside(y)])
-    boundary = always(band(eps)(vector(f1(b))), given=[eps > 0, *NEAR, band(eps)(b)], in_range=RANGE_21)
+    boundary = always(band(eps)(vector(f1(b))), given=[eps > 0, *NEAR, boundary_of_band(eps)(b)], in_range=RANGE_21)
+
+    def stays(f: StateFunction, where: Region, label: str) -> Statement:
+        return always(printed.formula(AROUND_E1.extended({r"\overline f": f})), given=[eps > 0, *NEAR, where(b)], in_range=RANGE_21, label=label)
+
     return Argument(
-        steps={
-            "boundary": Assertion((boundary,)),
-            "boundary-is-enough": Assertion((is_enough,)),
-        },
-        conclusion=Assertion((always(printed.formula(AROUND_E1), given=[eps > 0, *NEAR, next_states(b, image)], in_range=RANGE_21),)),
+        steps={"boundary": Assertion((boundary,)), "boundary-is-enough": Assertion((is_enough,))},
+        conclusion=Assertion((stays(f1, B1, "with-impact"), stays(f2, B2, "without-impact"))),
     )
 
 

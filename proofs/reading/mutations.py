@@ -158,7 +158,7 @@ def _of_spans(print_: Edits, i: int, where: str) -> Iterator[Change]:
 def one_mark_changes(latex: str) -> Iterator[Change]:
     r"""Prints that differ by one mark and can still be read, the simplest marks first.
 
-    The order is dot, bar, prime, sign, exponent, half, index, strictness, and in each the right of the first relation
+    The order is dot, bar, prime, sign, exponent, half, index, strictness, letter, and in each the right of the first relation
     before its left; each change names its kind first.
 
     >>> [changed for change, changed in one_mark_changes(r"a \le b") if change.startswith("strictness")]
@@ -215,6 +215,7 @@ def _exponents(print_: Edits) -> Iterator[Change]:
     for i, token in enumerate(print_.tokens):
         if token.text == "^" and (span := print_.script(i)):
             yield f"dropped at column {token.start + 1}", print_.replaced(*span, "")
+            yield f"brought down at column {token.start + 1}", print_.replaced(token.start, token.end, " ")
     for i, token in enumerate(print_.tokens):
         bracket = token.text in (")", "]")
         if bracket or token.kind == "letter" and i not in print_.words:
@@ -274,6 +275,13 @@ def _strictness(print_: Edits) -> Iterator[Change]:
             )
 
 
+def _letters(print_: Edits) -> Iterator[Change]:
+    for i, token in enumerate(print_.tokens):
+        if token.kind == "letter" and i not in print_.words:
+            for other in ALTERNATIVES.get(token.text, ()):
+                yield f"{token.text} to {other} at column {token.start + 1}", print_.instead(i, other)
+
+
 _MARKS: dict[str, Callable[[Edits], Iterator[Change]]] = {
     "dot": _accents(r"\dot"),
     "bar": _accents(r"\bar", r"\overline"),
@@ -283,4 +291,5 @@ _MARKS: dict[str, Callable[[Edits], Iterator[Change]]] = {
     "half": _halves,
     "index": _indices,
     "strictness": _strictness,
+    "letter": _letters,
 }

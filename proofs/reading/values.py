@@ -181,6 +181,8 @@ class Matrix:
         if rows != columns:
             raise ShapeError("a power of a matrix that is not square")
         base = self.inverse() if exponent < 0 else self
+        if abs(exponent) > 9:
+            raise ShapeError(f"a power {exponent} of a matrix, which is beyond 9")
         result = Matrix(tuple(tuple(int(i == j) for j in range(rows)) for i in range(rows)))
         for _ in range(abs(exponent)):
             result = result * base

@@ -16,13 +16,13 @@ ROOT = Path(__file__).resolve().parents[3]
 PROGRAM = f"""
 import json, resource, sys
 resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
-resource.setrlimit(resource.RLIMIT_CPU, (10, 10))
+resource.setrlimit(resource.RLIMIT_CPU, (20, 20))
 sys.path.insert(0, {str(ROOT)!r})
 from certificates import checker
-checker.MAX_WORK //= 8
+checker.MAX_WORK //= 20
 for text, certificate in json.load(sys.stdin):
     (statement,) = checker.read_statements(text).values()
-    print(*checker.check_one(statement, certificate, {{}}, {{}}))
+    print(*checker.check_one(statement, certificate, {{}}, {{}}), flush=True)
 """
 AT = {"x": "0", "y": "0", "z": "0"}
 ROWS = ("forall x y z", "given x >= 0", "given x <= 1", "show x < 2")
@@ -57,18 +57,17 @@ NODES: dict[str, Json] = {
     "huge coefficients": summand(power_sum(f"{BIG}*x") + "*" + power_sum(f"{BIG}*y") + "*" + power_sum(f"{BIG}*z")),
     "a huge number": summand(f"{BIG}^4000"),
     "many summands after a long one": ["psatz", [[1, [], "(x + y + z + 1)^12"], *[[1, [], "1"]] * 200_000], []],
-    "a root count of degree 150": negated(sampled(60, 150), ["interval", 3, 0, 1]),
-    "a root count of degree 40, long coefficients": negated(sampled(4000, 40), ["interval", 3, 0, 1]),
-    "ends of an interval with 4000 digits": negated(
-        f"-{BIG}*x - {BIG[:-1]}7", negated("x^3000 - 3", ["interval", 4, 3, 1])
-    ),
+    "a root count of degree 150": negated(f"{sampled(60, 150)} - 2^61", ["interval", 3, 0, 1]),
+    "a root count of degree 40, long coefficients": negated(f"{sampled(4000, 40)} - 2^3999*4", ["interval", 3, 0, 1]),
+    "a long numerator at the end of an interval": negated(f"{BIG}*x + {BIG[:-1]}7", negated("x^3000 - 3", ["interval", 4, 3, 1])),
+    "a long denominator at the end of an interval": negated(f"{BIG}*x - 1", negated("x^3000 - 3", ["interval", 4, 3, 1])),
     "denominators without bound": ["psatz", [[f"1/{10**300 + k}", [], "1"] for k in range(300)], []],
     "a power of a fact": ["psatz", [[1, [[0, 4000], [1, 4000], [2, 4000]], "1"]], []],
 }
 SHOWS: dict[str, str] = {
-    "equivalences of equivalences": nested(60),
     "a denominator to a power of a power": "(((1/z)^4000)^4000)^4000 + 1 > 0",
     "a product of quotients": "*".join(f"((x + {k})/z^{k})" for k in range(80)) + " + 1/z >= 0",
+    "equivalences of equivalences": nested(60),
 }
 CASES: dict[str, tuple[str, Json]] = {
     **{name: (lines(*ROWS), proof(node, at=AT)) for name, node in NODES.items()},
@@ -79,11 +78,14 @@ CASES: dict[str, tuple[str, Json]] = {
 }
 
 
+@pytest.fixture(scope="module")
+def outcomes() -> dict[str, str]:
+    """{name: what the checker says}, from one process with bounded memory and time; a name is missing where it did not end."""
+    sent = json.dumps(list(CASES.values()))
+    done = subprocess.run([sys.executable, "-c", PROGRAM], input=sent, capture_output=True, text=True, timeout=120)
+    return dict(zip(CASES, done.stdout.splitlines()))
+
+
 @pytest.mark.parametrize("name", CASES)
-def test_ends_in_a_rejection(name: str) -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM], input=json.dumps([CASES[name]]), capture_output=True, text=True, timeout=60
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.startswith("rejected ")
-    assert done.stdout.count("\n") == 1
+def test_ends_in_a_rejection(outcomes: dict[str, str], name: str) -> None:
+    assert outcomes[name].startswith("rejected ")

@@ -11,7 +11,7 @@ from tests.certificates.checker.evaluator import formula_at, holds_at, term_at
 from tests.certificates.checker.harness import CLOSE, lines, proof, refuted, verdict
 
 NAMES = ("x", "y", "z")
-FEW = settings(max_examples=40, deadline=None, derandomize=True)
+FEW = settings(max_examples=25, deadline=None, derandomize=True)
 small = st.fractions(min_value=-3, max_value=3, max_denominator=4)
 points = st.fixed_dictionaries(dict.fromkeys(NAMES, small))
 

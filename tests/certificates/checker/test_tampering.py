@@ -35,7 +35,7 @@ def places(data: Json, path: list[Any]) -> Iterator[tuple[list[Any], Json]]:
         yield from places(value, [*path, key])
 
 
-MOST = 80  # changes tried of one certificate, evenly spread
+MOST = 40  # changes tried of one certificate, evenly spread
 
 
 def tampered(certificate: Json) -> list[Json]:

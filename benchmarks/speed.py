@@ -1,0 +1,49 @@
+"""Whole commands, each in a process of its own: seconds and peak memory against the aims.  Run: python benchmarks/speed.py [--runs 3]"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+COMMAND = [sys.executable, "-m", "proofs.command.main"]
+
+
+def measure(arguments: list[str]) -> tuple[float, float]:
+    """Seconds and peak megabytes (largest single process) of one command."""
+    began = time.perf_counter()
+    process = subprocess.Popen(arguments, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, _, usage = os.wait4(process.pid, 0)
+    process.returncode = 0
+    return time.perf_counter() - began, usage.ru_maxrss / 1024
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--runs", type=int, default=3)
+    runs = parser.parse_args().runs
+    rows = [
+        ("certify, exact route, empty store", 6.0, lambda d: [*COMMAND, "certify", "--fresh", "--routes", "exact", "--store", d]),
+        ("certify, all routes, empty store", 12.0, lambda d: [*COMMAND, "certify", "--fresh", "--store", d]),
+        ("certify, from the store", 1.5, lambda d: [*COMMAND, "certify"]),
+        ("checker over everything", 0.2, lambda d: [sys.executable, "-I", "-S", "certificates/checker.py"]),
+        ("juggleproof --help", 0.15, lambda d: [*COMMAND, "--help"]),
+    ]
+    print(f"{'command':36} {'aim':>6} {'median':>8} {'least':>8} {'most':>8} {'MB':>6}")
+    for title, aim, command in rows:
+        found = []
+        for _ in range(runs):
+            with tempfile.TemporaryDirectory() as folder:
+                found.append(measure(command(folder)))
+        seconds = [one for one, _ in found]
+        print(f"{title:36} {aim:6.2f} {statistics.median(seconds):8.2f} {min(seconds):8.2f} {max(seconds):8.2f} {max(m for _, m in found):6.0f}")
+
+
+if __name__ == "__main__":
+    main()

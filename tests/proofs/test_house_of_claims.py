@@ -1,0 +1,66 @@
+"""The claims, the ledger, the register, the store and the README fit together."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from certificates import checker
+from certificates.store import DEFAULT, Store
+from proofs.command import readme
+from proofs.ledger.ledger import check_claims, load_ledger
+from proofs.loading import paper_claims
+from proofs.register import changes, load_register
+from proofs.verdicts import VERDICTS
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_ledger_names_the_claims_there_are_holds() -> None:
+    check_claims(load_ledger(), {claim.id for claim in paper_claims()})
+
+
+def test_register_has_every_claim_holds() -> None:
+    register = load_register()
+    assert set(register) == {claim.id for claim in paper_claims()}
+    assert {entry["verdict"] for entry in register.values()} <= set(VERDICTS)
+
+
+def test_unknown_claims_await_a_theorem_holds() -> None:
+    for claim, entry in load_register().items():
+        assert entry["verdict"] != "unknown" or entry.get("detail", "").startswith("awaits "), claim
+
+
+def test_every_stored_statement_is_settled_by_the_checker_holds() -> None:
+    outcomes = {name: outcome for name, outcome, _ in checker.check_folder(str(DEFAULT))}
+    assert outcomes and "rejected" not in outcomes.values()
+    assert set(outcomes) == set(Store(DEFAULT).texts)
+
+
+def test_bare_checker_accepts_the_store_holds() -> None:
+    done = subprocess.run([sys.executable, "-I", "-S", "certificates/checker.py"], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_readme_shows_the_register_holds() -> None:
+    text = readme.README.read_text(encoding="utf-8")
+    assert readme.with_results(text) == text, "run juggleproof certify --accept, which writes the results into README.md"
+
+
+def test_repeated_prints_name_an_earlier_claim_holds() -> None:
+    seen: set[str] = set()
+    for claim in paper_claims():
+        assert not claim.repeats or claim.repeats in seen, f"{claim.id} repeats {claim.repeats}, which is no earlier claim"
+        seen.add(claim.id)
+
+
+def test_change_of_verdict_shows_before_and_after_holds() -> None:
+    before, after = {"a": {"verdict": "holds"}, "b": {"verdict": "gap"}}, {"a": {"verdict": "false"}}
+    assert changes(before, after, partial=True) == ["a: verdict was holds, is false"]
+    assert len(changes(before, after, partial=False)) == 2
+
+
+def test_no_sentence_of_a_claim_names_a_verdict_holds() -> None:
+    for claim in paper_claims():
+        assert claim.says.endswith((".", "?", ")")), claim.id

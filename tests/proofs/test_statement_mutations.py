@@ -1,0 +1,108 @@
+"""A statement with one coefficient, sign, exponent or relation changed: what is still certified must be true, what is false is refuted.
+
+`make test` takes a fixed sample of the statements; with JUGGLEPROOF_MUTANTS=all (as CI sets it) every certified statement is mutated.
+The independent judge shares nothing with the checker: 10,000 rational points, and Z3 on the negation.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+from multiprocessing import get_context
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from independent import Independent  # noqa: E402
+from statement_mutants import mutants  # noqa: E402
+
+from certificates import checker  # noqa: E402
+from certificates.routes.z3_route import vote  # noqa: E402
+from certificates.search.budget import Budget, Exhausted  # noqa: E402
+from certificates.search.certificate import search_certificate  # noqa: E402
+from certificates.store import DEFAULT, Store  # noqa: E402
+
+ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
+SHARE = 1 if ALL else 24  # one certified statement in so many
+MUTANTS_EACH = 6 if ALL else 4
+BUDGET = 400_000
+
+
+def digest(text: str) -> int:
+    return int(hashlib.sha256(text.encode()).hexdigest()[:8], 16)
+
+
+@cache
+def certified() -> dict[str, str]:
+    """The certified universal statements of the paper, without `exists` and without integers."""
+    store = Store(DEFAULT)
+    return {name: text for name, text in store.texts.items()
+            if "certified" in (store.certificate(name, text) or {}) and "\nforall " in text and "\nsharp " not in text
+            and not any(f"\n{word} " in text for word in ("exists", "integer", "iterates"))}
+
+
+def sample() -> Iterator[tuple[str, str, str]]:
+    """(statement, what was changed, mutant): a fixed choice that depends on nothing but the texts."""
+    for name, text in certified().items():
+        if digest(name) % SHARE == 0:
+            ranked = sorted(mutants(text), key=lambda one: (not one[0].startswith("show"), digest(name + one[0])))
+            for change, mutant in ranked[:MUTANTS_EACH]:
+                yield name, change, mutant
+
+
+def judged(job: tuple[str, str, str]) -> tuple[str, str, str, str]:
+    """(statement, change, what the search and checker say, what the independent judge says)."""
+    name, change, mutant = job
+    try:
+        parsed = checker.read_statements(mutant)[name]
+        found = search_certificate(parsed, {}, Budget(BUDGET))
+        outcome = checker.check_one(parsed, found, {}, {})[0]
+    except checker.Rejected:
+        return name, change, "refused", ""
+    except Exhausted:
+        outcome = "unknown"
+    if outcome == "refuted":
+        return name, change, outcome, ""
+    point = Independent(mutant).counterexample(10_000 if outcome == "certified" else 2_000)
+    verdict = "false" if point is not None else {"holds": "true", "fails": "false"}.get(vote(parsed).answer, "open")
+    return name, change, outcome, verdict
+
+
+@cache
+def results() -> list[tuple[str, str, str, str]]:
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
+        return list(pool.map(judged, sample(), chunksize=4))
+
+
+def test_there_are_mutants_holds() -> None:
+    assert len(results()) >= (1000 if ALL else 40)
+
+
+def test_certified_mutants_are_true_holds() -> None:
+    wrong = [one for one in results() if one[2] == "certified" and one[3] == "false"]
+    assert not wrong, f"certified, but false: {wrong[0]}"
+
+
+def test_false_mutants_are_refuted_exactly_holds() -> None:
+    refuted = sum(one[2] == "refuted" for one in results())
+    missed = [one for one in results() if one[2] == "unknown" and one[3] == "false"]
+    assert refuted >= 0.95 * (refuted + len(missed)), f"{len(missed)} false mutants were not refuted, {refuted} were; the first: {missed[0]}"
+
+
+def test_every_certified_claim_has_a_refuted_mutant_holds() -> None:
+    """A claim all of whose mutants survive says nothing; judged over the claims that the sample reaches with every mutant they have."""
+    reached: dict[str, list[str]] = {}
+    for name, _, outcome, _ in results():
+        reached.setdefault(name.split("/")[0], []).append(outcome)
+    silent = []
+    for claim, outcomes in reached.items():
+        if "refuted" in outcomes or "refused" in outcomes:
+            continue
+        everything = [(n, c, m) for n, t in certified().items() if n.split("/")[0] == claim for c, m in mutants(t)]
+        if not any(judged(job)[2] == "refuted" for job in everything):
+            silent.append(claim)
+    assert not silent, f"no mutant of these claims is refuted, so they say nothing: {silent}"
