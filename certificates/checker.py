@@ -98,7 +98,6 @@ class Poly:
 
 
 def number(value):
-    value = Fraction(value)
     return Poly({0: value.numerator} if value else {}, value.denominator, 0)
 
 
@@ -304,7 +303,7 @@ def sign_at(p, at):
     """The sign of p at a rational number."""
     value, scale = 0, 1
     for c in reversed(p):
-        spend(1 + (value.bit_length() * at.numerator.bit_length() >> 16))
+        spend(1 + ((value.bit_length() + scale.bit_length()) * (sum(map(int.bit_length, at.as_integer_ratio())) + c.bit_length()) >> 16))
         value, scale = value * at.numerator + c * scale, scale * at.denominator
     return (value > 0) - (value < 0)
 
@@ -318,7 +317,8 @@ def remainder(p, q):
         rest = [c * abs(q[-1]) - (factor * q[k - shift] if k >= shift else 0) for k, c in enumerate(rest)][:-1]
         while rest and rest[-1] == 0:
             rest.pop()
-        rest = [c // gcd(*rest) for c in rest]
+        content = gcd(*rest)
+        rest = [c // content for c in rest]
     return rest
 
 

@@ -33,7 +33,7 @@ def from_sympy(expression: Any, roots: Mapping[Any, Term] | None = None) -> Term
             return from_sympy(base, roots) ** int(exponent)
         twice = 2 * exponent
         if twice.is_Integer:
-            return _root(base, roots) ** int(twice)
+            return _root(base, roots) ** int(twice) if twice != 1 else _root(base, roots)
     raise ClaimError(f"{expression} is not rational in its symbols; adjoin its roots and write the rest exactly")
 
 
@@ -53,18 +53,19 @@ def _product(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
     """Factors with positive exponents above, those with negative ones below, as SymPy holds them: nothing is multiplied out."""
     above: list[Term] = []
     below: list[Term] = []
+    negative = False
     for factor in expression.as_ordered_factors():
         if factor.is_Rational:
-            above += [term(int(factor.p))] if abs(factor.p) != 1 else []
+            negative ^= bool(factor.p < 0)
+            above += [term(abs(int(factor.p)))] if abs(factor.p) != 1 else []
             below += [term(int(factor.q))] if factor.q != 1 else []
-            sign = factor.p < 0 and abs(factor.p) == 1
-            above += [term(-1)] if sign else []
         elif factor.is_Pow and factor.exp.could_extract_minus_sign():
             below.append(from_sympy(1 / factor, roots))
         else:
             above.append(from_sympy(factor, roots))
     product = _multiplied(above)
-    return product / _multiplied(below) if below else product
+    product = product / _multiplied(below) if below else product
+    return -product if negative else product
 
 
 def _multiplied(factors: list[Term]) -> Term:

@@ -21,10 +21,10 @@ from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions,
 from proofs.corrections import Candidate, candidates
 from proofs.verdicts import Verdict, outcome_of, verdict_of
 
-DEFAULT_BUDGET = 3_000_000
+DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
-SHARP = 4  # a sharp range takes many proofs and families
+SHARP = 1  # a sharp range takes many proofs and families, each with this part of the budget at most
 
 
 @dataclass(frozen=True)
@@ -240,7 +240,8 @@ class _Judge:
                 return
         from proofs.ranges import search_sharp_range
 
-        result = search_sharp_range(name, ranged, over[0], self.known, SHARP * self.options.budget) if len(over) == 1 else None
+        borders = self.claim.hints.get("sharp", ())
+        result = search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget, borders)
         if result is None:
             self.found.sharp[prefix] = {"text": "not found", "by": []}
             return

@@ -10,25 +10,49 @@ from certificates.search.algebraic import AlgebraicNumber
 from certificates.search.budget import Budget, Exhausted
 from certificates.search.ranges import Line
 from certificates.search.sharp import find_sharp_range
+from certificates.search.sharp_plane import find_sharp_region
 from certificates.statements import SharpRange, Statement
-from certificates.terms import real
+from certificates.terms import conjunction, disjunction, real
 
 DECIMALS = 12
+DOMAINS = {"alpha": (real("alpha") > 0) & (real("alpha") < 1), "K": real("K") >= 1, "eps": real("eps") > 0}
 
 
 def search_sharp_range(
-    name: str, statements: Sequence[Statement], parameter: str, known: Mapping[str, checker.Statement], budget: int,
+    name: str, statements: Sequence[Statement], over: Sequence[str], known: Mapping[str, checker.Statement], budget: int,
+    borders: Sequence[str] = (),
 ) -> tuple[SharpRange, Any, str] | None:
-    """The sharp range of the statements in (0, 1), its certificate and how it is told; None where the search does not find one."""
-    value = real(parameter)
+    """The sharp range of the statements, its certificate and how it is told; None where the search does not find one.
+
+    Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1, over alpha and eps in that times eps > 0; where the
+    latter is not found, the alpha for which the statements hold with every eps.  `borders`: polynomials that may bound a plane range.
+    """
     parsed = [checker.read_statements(statement.text())[statement.name] for statement in statements]
+    if len(over) > 1:
+        domain = conjunction([DOMAINS[parameter] for parameter in over])
+        region = find_sharp_region(parsed, over, domain, name, known, Budget(budget), borders)
+        if region.statement is not None and region.certificate is not None:
+            return region.statement, region.certificate, told_plainly(region.statement)
+    if list(over) != ["alpha"] and "eps" not in over:
+        return None
     try:
-        found = find_sharp_range(parsed, parameter, (value > 0) & (value < 1), name, known, Budget(budget))
+        found = find_sharp_range(parsed, "alpha", DOMAINS["alpha"], name, known, Budget(budget))
     except Exhausted:
         return None
     if found.statement is None or found.certificate is None or found.line is None:
         return None
-    return found.statement, found.certificate, told(found.line.simplified(), parameter)
+    return found.statement, found.certificate, told(found.line.simplified(), "alpha")
+
+
+def told_plainly(statement: SharpRange) -> str:
+    """A range over several parameters as a person reads it: its condition, or that it is everything or nothing.
+
+    >>> alpha, size = real("alpha"), real("K")
+    >>> told_plainly(SharpRange("x/sharp", (), ("alpha", "K"), (alpha > 0) & (size >= 1), alpha * size > 1))
+    'alpha*K > 1'
+    """
+    text = str(statement.condition)
+    return {str(conjunction([])): str(statement.domain), str(disjunction([])): "nowhere"}.get(text, text)
 
 
 def told(line: Line, parameter: str) -> str:

@@ -153,9 +153,9 @@ def _range(poly: Polynomial, ends: dict[int, tuple[Fraction, Fraction]]) -> tupl
     low = high = Fraction(0)
     for exponents, c in poly.terms:
         a = b = Fraction(c)
-        for i, (l, h) in ends.items():
+        for i, (below, above) in ends.items():
             for _ in range(exponents[i]):
-                corners = (a * l, a * h, b * l, b * h)
+                corners = (a * below, a * above, b * below, b * above)
                 a, b = min(corners), max(corners)
         low, high = low + a, high + b
     return low, high

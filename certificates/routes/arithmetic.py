@@ -7,6 +7,7 @@ A box is a tuple of dyadic sides (m, r, e): the interval [(m - r) 2^e, (m + r) 2
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from fractions import Fraction
 from functools import cached_property
 from importlib import import_module
@@ -35,6 +36,12 @@ def middle(box: Box) -> list[Fraction]:
     return [m * Fraction(2) ** e for m, _, e in box]
 
 
+def working_precision() -> AbstractContextManager[Any]:
+    """A context in which balls carry 64 bits, whatever is set outside: so votes do not depend on what ran before."""
+    context: AbstractContextManager[Any] = import_module("flint").ctx.workprec(PRECISION)
+    return context
+
+
 class Balls:
     """python-flint's `arb`: midpoint and radius.  An undecided comparison is False there, whichever way it is asked."""
 
@@ -42,7 +49,6 @@ class Balls:
 
     def __init__(self) -> None:
         flint: Any = import_module("flint")
-        flint.ctx.prec = PRECISION
         self.arb, self.arf = flint.arb, flint.arf
 
     def side(self, side: Side) -> Any:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
+from certificates.routes.arithmetic import working_precision
 from certificates.routes.goal_bounds import GoalBound, enclose_goal
 from certificates.routes.polynomials import Atom
 from certificates.routes.questions import Question, questions
@@ -25,7 +26,7 @@ class Finding:
     point: list[Fraction] | None = None
     reasons: list[str] = field(default_factory=list)
     unbounded: bool = False
-    equations: bool = False
+    thin: bool = False  # an equation or its negation is among the facts: boxes only come near such sets
 
 
 @dataclass
@@ -36,7 +37,8 @@ class Tally:
     leaves: list[tuple[Sequence[Atom], list[Leaf]]] = field(default_factory=list)
 
 
-def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budget | None = None) -> Vote:
+def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budget | None = None,
+         asked: Sequence[Question] | None = None) -> Vote:
     """The boxes' vote on a universal statement in reals.
 
     `holds`: on every box some premise or the negated goal surely fails; `fails`: an exact point; `enclosed`: the infimum of what is to
@@ -50,9 +52,14 @@ def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budge
     budget = budget or Budget()
     if statement.kind != "universal":
         return Vote("boxes", "not applicable", "the statement is not about all points of one region")
-    *lines, goal = questions(statement, earlier)
+    *lines, goal = asked or questions(statement, earlier)
     if goal.quantified or goal.integers:
         return Vote("boxes", "not applicable", "something is said to exist" if goal.quantified else "a variable is an integer")
+    with working_precision():
+        return _vote(statement.name, lines, goal, budget)
+
+
+def _vote(name: str, lines: Sequence[Question], goal: Question, budget: Budget) -> Vote:
     tally, reasons, unbounded = Tally(), list[str](), True
     for line in lines:
         finding = _settle(line, budget.boxes // 8, tally)
@@ -66,7 +73,7 @@ def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budge
         bound = enclose_goal(goal, budget.width, 3 * budget.boxes // 8)
         tally.boxes += bound.boxes if bound else 0
         finding.point = bound.point if bound else None
-        if bound.room if bound else not (finding.unbounded or finding.equations):
+        if bound.room if bound else not (finding.unbounded or finding.thin):
             finding = _settle(goal, budget.boxes - tally.boxes, tally)
     if finding.point is not None:
         return _failure(goal, finding.point, tally, units)
@@ -76,7 +83,7 @@ def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budge
     if reasons:
         undecided = not unbounded or finding.reasons and not finding.unbounded
         return Vote("boxes", "unknown" if undecided else "not applicable", "; ".join(reasons), tally.boxes)
-    return _success(statement.name, tally)
+    return _success(name, tally)
 
 
 def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
@@ -96,8 +103,8 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
             finding.unbounded = True
             finding.reasons.append(f"the region is not bounded in {', '.join(unbounded)}")
         elif not found.empty:
-            finding.equations = any(fact.relation == "=" for fact in region.facts)
-            finding.reasons.append("undecided after the counted boxes" + (", with equations left" if finding.equations else ""))
+            finding.thin = finding.thin or any(fact.relation in ("=", "!=") for fact in region.facts)
+            finding.reasons.append("undecided after the counted boxes" + (", near an equation" if finding.thin else ""))
         else:
             leaves.append((region.facts, found.leaves))
     if not finding.reasons:

@@ -55,13 +55,19 @@ def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBou
         if found is None:
             return None
         boxes += found.boxes
-        enclosure = Enclosure(str(poly), found.low, found.high, width)
+        enclosure = Enclosure(str(poly), _short(found.low, up=False), _short(found.high, up=True), width)
         if part.holds(-found.high):
             return GoalBound((enclosure,), False, found.confirmed, boxes, found.point)
         enclosures.append(enclosure)
         confirmed = confirmed and found.confirmed
         positive = positive and not part.holds(-found.low)
     return GoalBound(tuple(enclosures), positive, confirmed, boxes)
+
+
+def _short(value: Fraction, up: bool) -> Fraction:
+    """The next multiple of 2^-20: an enclosure with readable ends."""
+    scaled = value * (1 << 20)
+    return Fraction(-(-scaled.numerator // scaled.denominator) if up else scaled.numerator // scaled.denominator, 1 << 20)
 
 
 @dataclass
@@ -93,6 +99,8 @@ def _infimum(assumed: Formula, poly: Polynomial, width: Fraction, allowance: int
         for step in region.solved:
             aim = insert(aim, step)
         inner = enclose_infimum(aim, region.facts, region.box(), found.high, width, allowance // len(parts), region.test(assumed))
+        if inner is None:
+            return None
         found.boxes += inner.boxes
         if inner.point is not None:
             found.high, found.point = inner.high, region.complete(inner.point)

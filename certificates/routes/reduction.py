@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from importlib import import_module
 from typing import Any
 
+from certificates.routes.bounding import Bounds, intervals
 from certificates.routes.polynomials import Atom, Exponents, Polynomial, atom
-from certificates.routes.bounding import Interval, upper_end
+from certificates.routes.spans import Interval, upper_end, zero_end
 
 
 @dataclass(frozen=True)
@@ -79,13 +79,13 @@ def _multiply(a: dict[Exponents, int], b: dict[Exponents, int]) -> dict[Exponent
     return product
 
 
-def reduce_factors(facts: Sequence[Atom], box: Sequence[Interval] | None = None) -> list[Atom] | None:
+def reduce_factors(facts: Sequence[Atom], bounds: Sequence[Bounds] | None = None) -> list[Atom] | None:
     """Facts that follow from the given ones and are simpler; None where they contradict each other.
 
     Formula: p = f q > 0 with f > 0 or f >= 0 among the facts (or on the box) gives q > 0; p = f q >= 0 with f > 0 gives q >= 0;
     p = f^2 q > 0 gives q > 0.  Source: flint's factorization over the integers.
     """
-    current = list(dict.fromkeys(facts))
+    current, box = list(dict.fromkeys(facts)), intervals(bounds) if bounds is not None else None
     for _ in range(4):
         signs = {fact.poly: fact.relation for fact in current if fact.relation in (">", ">=")}
         new: list[Atom] = []
@@ -142,7 +142,7 @@ def _known_sign(factor: Polynomial, signs: dict[Polynomial, str], box: Sequence[
     if box is not None:
         for poly, sign in ((factor, -1), (minus, 1)):
             end = upper_end(poly, box)
-            if end < (0, Fraction(0)) or relation == ">" and end == (0, Fraction(0)):
+            if end < zero_end() or relation == ">" and end == zero_end():
                 return sign
     return 0
 

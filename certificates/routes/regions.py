@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import islice, product
 
 from certificates.routes.arithmetic import Box
-from certificates.routes.bounding import Interval, bounding_box, dyadic
+from certificates.routes.bounding import Bounds, bounding_box, dyadic
 from certificates.routes.polynomials import Atom, Formula, branches, truth
 from certificates.routes.reduction import Solved, reduce_factors, solve_equations
 
@@ -24,7 +24,7 @@ class Region:
     names: tuple[str, ...]
     facts: tuple[Atom, ...]
     solved: tuple[Solved, ...]
-    intervals: tuple[Interval, ...]
+    bounds: tuple[Bounds, ...]
 
     def used(self) -> list[int]:
         """The numbers of the variables that still occur."""
@@ -32,12 +32,12 @@ class Region:
 
     def unbounded(self) -> list[str]:
         """The variables that still occur and that nothing bounds."""
-        return [self.names[i] for i in self.used() if self.intervals[i][0][0] or self.intervals[i][1][0]]
+        return [self.names[i] for i in self.used() if self.bounds[i][0][0] or self.bounds[i][1][0]]
 
     def box(self) -> Box:
         """Dyadic sides around the intervals; infinite ones are cut, and variables that no longer occur stay at one value."""
         used, sides = self.used(), []
-        for i, (low, high) in enumerate(self.intervals):
+        for i, (low, high) in enumerate(self.bounds):
             a = low[1] if not low[0] else min(-TRIAL_SIDE, high[1] - 2 * TRIAL_SIDE) if not high[0] else -TRIAL_SIDE
             b = high[1] if not high[0] else max(TRIAL_SIDE, a + 2 * TRIAL_SIDE)
             sides.append(dyadic(a, b) if i in used else dyadic((a + b) / 2, (a + b) / 2))
@@ -57,7 +57,8 @@ class Region:
     def samples(self, formula: Formula) -> Iterator[list[Fraction]]:
         """A few exact points of the region that meet the formula, from small numbers."""
         used, found = self.used(), 0
-        choices = [[v for v in SAMPLES if low <= (0, v) <= high] or [_inside((low, high))] for low, high in (self.intervals[i] for i in used)]
+        sides = [self.bounds[i] for i in used]
+        choices = [[v for v in SAMPLES if side[0] <= (0, v) <= side[1]] or [_inside(side)] for side in sides]
         for values in islice(product(*choices), MOST_SAMPLES):
             point = [Fraction(0)] * len(self.names)
             for i, value in zip(used, values):
@@ -87,23 +88,24 @@ def regions(names: tuple[str, ...], formula: Formula) -> list[Region] | None:
 def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:
     """The branch as a region; None where its facts contradict each other on the way.
 
-    Factors may turn into equations and intervals may give factors a sign, so both are gone through twice.
+    Factors may turn into equations and bounds may give factors a sign, so both are gone through twice.
     """
-    current, solved, intervals = list(facts), list[Solved](), None
+    current, solved = list(facts), list[Solved]()
+    bounds: list[Bounds] | None = None
     for _ in range(2):
         solution = solve_equations(current)
-        reduced = reduce_factors(solution[0], intervals) if solution is not None else None
+        reduced = reduce_factors(solution[0], bounds) if solution is not None else None
         if solution is None or reduced is None:
             return None
         solved += solution[1]
-        if intervals is None or reduced != current:
-            intervals = bounding_box(reduced, len(names))
-        if intervals is None:
+        if bounds is None or reduced != current:
+            bounds = bounding_box(reduced, len(names))
+        if bounds is None:
             return None
         current = reduced
-    return Region(names, tuple(current), tuple(solved), tuple(intervals))
+    return Region(names, tuple(current), tuple(solved), tuple(bounds or ()))
 
 
-def _inside(interval: Interval) -> Fraction:
-    (low_kind, low), (high_kind, high) = interval
+def _inside(bounds: Bounds) -> Fraction:
+    (low_kind, low), (high_kind, high) = bounds
     return (low + high) / 2 if not low_kind and not high_kind else low + 1 if not low_kind else high - 1

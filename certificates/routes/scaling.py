@@ -12,7 +12,7 @@ from certificates.routes.questions import Denial, Question, flat
 def fixed_by_units(question: Question) -> tuple[str, ...]:
     """The variables that may be set to 1 without loss.
 
-    Formula: if every fact is homogeneous for weights W (a matrix, one row a grading), then x_i -> t^(W_i) x_i keeps all signs for every t > 0.
+    Formula: if every fact is homogeneous for the weights W_i of a grading, then x_i -> t^(W_i) x_i keeps all signs for every t > 0.
     Positive variables whose columns of W are independent can so be brought to 1 together, whatever the others are.
     Source: the quotient of the positive torus by its action on the solutions (dimensional analysis).
     """

@@ -101,7 +101,8 @@ def second_opinion(facts: Sequence[Atom], leaves: Sequence[Leaf]) -> tuple[int, 
     chosen = leaves[::step]
     confirmed = 0
     for leaf in chosen:
-        values = [_enclose(fact[leaf.fact], Placed(arithmetic, leaf.box), leaf.centred) for fact, arithmetic in ((ready, kernel), (first, balls))]
+        values = [_enclose(fact[leaf.fact], Placed(arithmetic, leaf.box), leaf.centred)
+                  for fact, arithmetic in ((ready, kernel), (first, balls))]
         confirmed += ready[leaf.fact].fails(values[0])
         spans = kernel.ends(values[0]), balls.ends(values[1])
         if spans[0] and spans[1] and (spans[0][1] < spans[1][0] or spans[1][1] < spans[0][0]):
@@ -124,11 +125,13 @@ class Infimum:
     confirmed: bool = True
 
 
-def enclose_infimum(poly: Polynomial, facts: Sequence[Atom], box: Box, known: Fraction, width: Fraction, allowance: int, accept: Accept) -> Infimum:
+def enclose_infimum(
+    poly: Polynomial, facts: Sequence[Atom], box: Box, known: Fraction, width: Fraction, allowance: int, accept: Accept,
+) -> Infimum | None:
     """Encloses the infimum of the polynomial over the points of the box that meet all facts, best box first.
 
     `known` is a value already attained; parts of the region where the polynomial is larger do not matter.  The low end is the least
-    lower end over the boxes that are left; it is the high end where none is left.
+    lower end over the boxes that are left; it is the high end where none is left.  None where a box has no finite enclosure.
     """
     kernel: Kernel = Balls()
     ready, aim = [Fact(kernel, fact) for fact in facts], Fact(kernel, Atom(poly, ">="))
@@ -136,12 +139,12 @@ def enclose_infimum(poly: Polynomial, facts: Sequence[Atom], box: Box, known: Fr
     heap: list[tuple[Fraction, int, Box, tuple[int, ...]]] = []
     floor: Fraction | None = None  # the lower end of a box that is a point and was set aside
 
-    def place(current: Box, alive: tuple[int, ...], at_least: Fraction | None) -> None:
+    def place(current: Box, alive: tuple[int, ...], at_least: list[Fraction]) -> bool:
         placed = Placed(kernel, current)
         leaf, alive, _, promising = _look(ready, alive, placed)
         found.boxes += 1
         if leaf is not None:
-            return
+            return True
         if promising:
             point = middle(current)
             if accept(point):
@@ -150,11 +153,13 @@ def enclose_infimum(poly: Polynomial, facts: Sequence[Atom], box: Box, known: Fr
                     found.high, found.point = value, point
         values = [aim.natural(placed), *_lowered(aim, [ready[k] for k in alive], placed)]
         lows = [span[0] / poly.den for value in values if (span := kernel.ends(value)) is not None]
-        low = max([*lows, *([at_least] if at_least is not None else [])])
-        if low < found.high:
+        low = max([*lows, *at_least], default=None)
+        if low is not None and low < found.high:
             heapq.heappush(heap, (low, found.boxes, current, alive))
+        return low is not None
 
-    place(box, tuple(range(len(facts))), None)
+    if not place(box, tuple(range(len(facts))), []):
+        return None
     while heap and found.boxes < allowance:
         low, _, current, alive = heap[0]
         if found.high - low <= width:
@@ -165,7 +170,7 @@ def enclose_infimum(poly: Polynomial, facts: Sequence[Atom], box: Box, known: Fr
             floor = low if floor is None else min(floor, low)
             break
         for half in split(current, _cut(aim, ready, alive, Placed(kernel, current), sides)):
-            place(half, alive, low)
+            place(half, alive, [low])
     if heap or floor is not None:
         found.low = min([found.high, *([heap[0][0]] if heap else []), *([floor] if floor is not None else [])])
         found.confirmed = _confirm(poly, found, heap[0][2] if heap else box)

@@ -42,7 +42,8 @@ def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
                     "which asks for one more alternation of quantifiers")
     rows.append(f"(set-logic {_widest([logic(question) for question in asked])})")
     for question in asked:
-        rows += [f"; {question.part}: {_meaning(question)}", "(push 1)", *declarations(question), *assertions(question), "(check-sat)", "(pop 1)"]
+        rows += [f"; {question.part}: {_meaning(question)}", "(push 1)"]
+        rows += [*declarations(question), *assertions(question), "(check-sat)", "(pop 1)"]
     return "\n".join(rows) + "\n"
 
 
@@ -54,7 +55,7 @@ def question_text(question: Question) -> str:
 def _meaning(question: Question) -> str:
     if question.part == "outside":
         return "a solution is a parameter outside the range at which all the named statements hold"
-    return "a solution refutes the statement" if question.refutes else "a solution shows that this line does not follow from those before it"
+    return "a solution refutes the statement" if question.refutes else "a solution shows that this line does not follow from those before"
 
 
 def logic(question: Question) -> str:

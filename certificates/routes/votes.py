@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-ANSWERS = ("holds", "fails", "unknown", "enclosed", "not applicable")
+from certificates.routes.questions import questions
+
 AGREES = {"certified": "holds", "refuted": "fails"}
 
 
@@ -47,7 +48,7 @@ class Enclosure:
 
 @dataclass(frozen=True)
 class Vote:
-    """What one route says of one statement: `holds` or `fails` decide it; the other answers say nothing about its truth.
+    """What one route says of one statement: `holds` or `fails` decide it; `unknown`, `enclosed` and `not applicable` do not.
 
     `model` is an exact point (name, value) at which the statement fails; `opinions` are (arithmetic, what it found) where two were asked.
     """
@@ -103,14 +104,14 @@ def cast_votes(statement: Any, outcome: str, routes: Sequence[str] = ("z3", "box
 
     `earlier` gives the statements that a sharp range names.  Raises Disagreement where a vote contradicts the outcome or another vote.
     """
-    budget = budget or Budget()
+    asked = questions(statement, earlier)
     votes: list[Vote] = []
     for route in routes:
         if route == "z3":
             from certificates.routes import z3_route  # loading Z3 takes 70 ms: only where it is asked
-            votes.append(z3_route.vote(statement, earlier, budget))
+            votes.append(z3_route.vote(statement, earlier, budget, asked))
         elif route == "boxes":
             from certificates.routes import boxes_route
-            votes.append(boxes_route.vote(statement, earlier, budget))
+            votes.append(boxes_route.vote(statement, earlier, budget, asked))
     compare(statement.name, outcome, votes)
     return tuple(votes)

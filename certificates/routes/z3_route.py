@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib import import_module
@@ -35,8 +35,9 @@ class Session:
 
     def __init__(self, purse: int, outer: Session | None = None) -> None:
         self.z3: Any = import_module("z3")
-        self.context = outer.context if outer else self.z3.Context()
-        self.outer, self.purse, self.spent, self.before = outer, purse, 0, outer.before if outer else 0
+        self.context: Any = outer.context if outer else self.z3.Context()
+        self.outer, self.purse, self.spent = outer, purse, 0
+        self.before: int = outer.before if outer else 0  # the context's counter, which goes on from query to query
 
     def ask(self, question: Question, engine: str, units: int) -> Reply:
         """One query, for at most so many resource units."""
@@ -62,7 +63,6 @@ class Session:
     def _count(self, solver: Any, units: int) -> None:
         table = solver.statistics()
         total = next((int(table.get_key_value(key)) for key in table.keys() if key == "rlimit count"), self.before)
-        # the counter belongs to the context, so it grows from query to query
         already = self.spent
         self.spent += max(0, min(total - self.before, 2 * units)) + 1
         self.before = max(total, self.before)
@@ -91,15 +91,16 @@ class Session:
         raise ValueError("a model's value is not a number")
 
 
-def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budget | None = None) -> Vote:
+def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budget | None = None,
+         asked: Sequence[Question] | None = None) -> Vote:
     """Z3's vote on a statement of the checker: `holds` where every question is unsat, `fails` where a model passes exact evaluation.
 
     >>> from certificates.routes.questions import read_statement
     >>> str(vote(read_statement("statement demo/root\\nforall x\\ngiven x > 0\\nshow x^2 != 2")))
-    'z3 says fails at x = the root of z^2 - 2 in [5792/4096, 5793/4096] (goal: sat by nlsat)'
+    'z3 says fails at x = the root of z^2 - 2 in [181/128, 5793/4096] (goal: sat by nlsat)'
     """
     session = Session((budget or Budget()).rlimit)
-    asked, notes, open_lines = questions(statement, earlier), [], False
+    asked, notes, open_lines = asked or questions(statement, earlier), [], False
     for question in asked:
         reply = decide(session, question)
         notes.append(f"{question.part}: {reply.how}")
@@ -174,46 +175,44 @@ def decide(session: Session, question: Question) -> Reply:
     makes them harder to find.  Integers are first let be reals, after p > 0 has become p >= 1: unsat then settles the whole; a solution in
     reals counts only if its integers are integers, and otherwise small integers are tried in turn.
     """
-    if question.integers:
+    if question.integers & set(question.occurring()):
         return _with_integers(session, question)
+    question = replace(question, integers=frozenset())
     engine = "nlqsat" if question.quantified else "nlsat"
-    reply = session.ask(question, engine, session.purse // 8)
+    reply = session.ask(question, engine, session.purse // 16)
+    if False in (*question.assumed, *(denial.formula for denial in question.denials)):
+        return Reply(reply.answer, reply.point, reply.how + ", where expanding leaves nothing to ask")
     if reply.answer != "unknown":
         return reply
     units = fixed_by_units(question)
     with_units = f" with {', '.join(units)} = 1" if units else ""
-    if units:
-        question = at_unit_values(question, units)
-        reply = session.ask(question, engine, session.purse // 8)
+    question = at_unit_values(question, units)
+    reply = session.ask(question, engine, session.purse // 4)
     if reply.answer == "unknown":
         reply = _with_witnesses(session, question) if question.quantified else _by_branches(session, question, engine)
-    if reply.answer == "unknown":
-        reply = session.ask(question, "smt", session.purse)
+    if reply.answer == "unknown" and not question.quantified:  # never smt, whose simplex does work on reals that no unit counts
+        reply = session.ask(question, engine, session.purse // 2)
     point = {**reply.point, **{name: Fraction(1) for name in units}} if reply.point is not None else None
     return Reply(reply.answer, point, reply.how + with_units)
 
 
 def _with_integers(session: Session, question: Question) -> Reply:
-    reply = session.ask(question, "smt", session.purse // 16)
-    if reply.answer != "unknown":
-        return reply
     if question.integers & question.bound:
         return session.ask(question, "smt", session.purse)
-    relaxed = replace(_tightened(question), integers=frozenset())
+    relaxed, names = replace(_tightened(question), integers=frozenset()), [n for n in question.occurring() if n in question.integers]
     reply = decide(Session(session.purse // 4, session), relaxed)
     if reply.answer == "unsat":
         return Reply("unsat", how=reply.how + " even for reals")
-    if reply.point is not None and all(_is_integer(reply.point[name]) for name in question.integers):
+    if reply.point is not None and all(_is_integer(reply.point[name]) for name in names):
         return reply
-    for values in islice(product(range(4), repeat=len(question.integers)), MOST_TRIES):
+    for values in islice(product(range(4), repeat=len(names)), MOST_TRIES):
         tried = relaxed
-        for name, value in zip(sorted(question.integers), values):
+        for name, value in zip(names, values):
             tried = with_value(tried, name, value)
         reply = session.ask(tried, "nlqsat" if tried.quantified else "nlsat", session.purse // 32)
         if reply.answer == "sat" and reply.point is not None:
-            chosen = dict(zip(sorted(question.integers), map(Fraction, values)))
-            return Reply("sat", {**reply.point, **chosen}, f"{reply.how} at small integers")
-    return session.ask(question, "smt", session.purse)
+            return Reply("sat", {**reply.point, **dict(zip(names, map(Fraction, values)))}, f"{reply.how} at small integers")
+    return session.ask(question, "smt", session.purse // 8)
 
 
 def _is_integer(value: Exact) -> bool:
@@ -259,12 +258,12 @@ def _by_branches(session: Session, question: Question, engine: str) -> Reply:
 
 
 def _with_witnesses(session: Session, question: Question) -> Reply:
-    """Tries the values 0 and 1 for one variable that is said to exist, and asks again: unsat then settles the whole."""
+    """Tries the value 0 for one variable that is said to exist, and asks again: unsat then settles the whole."""
     if not question.refutes or question.part == "outside":
         return Reply("unknown", how="undecided within the budget")
-    for value, name in product((0, 1), sorted(question.bound)):
-        tried = with_value(question, name, value)
+    for name in (name for name in question.names if name in question.bound):
+        tried = with_value(question, name, 0)
         reply = session.ask(tried, "nlqsat" if tried.quantified else "nlsat", session.purse // 4)
         if reply.answer == "unsat":
-            return Reply("unsat", how=f"{reply.how} with the witness {name} = {value}")
+            return Reply("unsat", how=f"{reply.how} with the witness {name} = 0")
     return Reply("unknown", how="undecided within the budget")

@@ -13,7 +13,7 @@ class Exhausted(Exception):
 
 
 class Budget:
-    """A number of units of work, about a microsecond each; what a part spends, the whole spends too.
+    """A number of units of work, a few microseconds each; what a part spends, the whole spends too.
 
     >>> whole = Budget(100)
     >>> part = whole.part(30)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from importlib import import_module
 from typing import Any
 
@@ -12,32 +13,70 @@ from .closing import Hints, search_closing
 from .stories import unfolded
 
 Certificate = dict[str, Any]
+MOST = 256
+_made: dict[tuple[tuple[str, str], ...], tuple[str, Certificate]] = {}  # an assertion made twice under two names is settled once
+# (whether a refutation is sought, effort, share of the budget left in percent), in order: cheap attempts of both kinds first
+ATTEMPTS = ((True, 0, 50), (False, 1, 20), (False, 2, 20), (True, 1, 40), (False, 2, 60), (True, 2, 100))
 
 
 def search_certificate(statement: checker.Statement, known: dict[str, checker.Statement], budget: Budget,
                        hints: Hints | None = None) -> Certificate:
-    """{"certified": .., "point": ..}, {"refuted": ..} or {"unknown": reason}, each accepted by the checker."""
+    """{"certified": .., "point": ..}, {"refuted": ..} or {"unknown": reason}, each accepted by the checker.
+
+    >>> text = "statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2 > x"
+    >>> search_certificate(checker.read_statements(text)["demo/square"], {}, Budget(10**6))["certified"]
+    ['proof', [], ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]]
+    """
+    settings = (str(budget.left), str(hints), *sorted(known))
+    key = (*((keyword, written(said)) for keyword, said in statement.lines), *(("", setting) for setting in settings))
+    if key not in _made:
+        while len(_made) >= MOST:
+            del _made[next(iter(_made))]
+        _made[key] = statement.name, _search(statement, known, budget, hints)
+    name, certificate = _made[key]
+    return {kind: renamed(part, name, statement.name) for kind, part in certificate.items()} if name != statement.name else certificate
+
+
+def written(said: Any) -> str:
+    """What a line says, as text."""
+    if isinstance(said, ast.AST):
+        return ast.unparse(said)
+    return "(" + ", ".join(map(written, said)) + ")" if isinstance(said, (list, tuple)) else str(said)
+
+
+def renamed(part: Any, old: str, new: str) -> Any:
+    """A part of a certificate with the statement's name replaced where points and counterexamples name it."""
+    return [renamed(one, old, new) for one in part] if isinstance(part, list) else new if part == old else part
+
+
+def _search(statement: checker.Statement, known: dict[str, checker.Statement], budget: Budget, hints: Hints | None) -> Certificate:
     try:
-        for deep, effort in ((0, 1), (1, 2)):  # of the refutation, and of the proof after it
-            refuted = found(statement, "counterexample", known, budget, deep)
-            if refuted is not None:
-                return {"refuted": refuted}
-            proof = search_proof(statement, known, budget, effort=effort, hints=hints)
-            if proof is None:
+        for refutes, effort, share in ATTEMPTS:
+            part = budget.part(budget.left * share // 100)
+            try:
+                if refutes:
+                    refuted = found(statement, "counterexample", known, part, effort)
+                    if refuted is not None:
+                        return {"refuted": refuted}
+                    continue
+                proof = search_proof(statement, known, part, effort=effort, hints=hints)
+            except Exhausted:
                 continue
-            if not statement.get("forall"):
-                return {"certified": proof}
-            for depth in (0, 1, 2):
-                point = found(statement, "point", known, budget, depth)
-                if point is not None:
-                    return {"certified": proof, "point": point}
-            return {"unknown": "proved, but no point was found that meets the hypotheses"}
-        refuted = found(statement, "counterexample", known, budget, 2)
-        if refuted is not None:
-            return {"refuted": refuted}
+            if proof is not None:
+                return with_point(statement, proof, known, budget)
     except Exhausted:
-        return {"unknown": "the budget of counted work ran out"}
-    return {"unknown": "neither a proof nor a counterexample was found"}
+        pass
+    reason = "neither a proof nor a counterexample was found" if budget.left > 0 else "the budget of counted work ran out"
+    return {"unknown": reason}
+
+
+def with_point(statement: checker.Statement, proof: list[Any], known: dict[str, checker.Statement], budget: Budget) -> Certificate:
+    """The certificate of a proved statement: its proof and a point that meets its hypotheses."""
+    for depth in (0, 1, 2):
+        point = found(statement, "point", known, budget, depth)
+        if point is not None:
+            return {"certified": proof, "point": point}
+    return {"unknown": "proved, but no point was found that meets the hypotheses"}
 
 
 def found(statement: checker.Statement, purpose: str, known: dict[str, checker.Statement], budget: Budget, effort: int) -> list[Any] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -12,13 +12,15 @@ from certificates import checker
 from .budget import Budget, Exhausted, accepted
 from .interior import has_interior_point
 from .polynomials import Ring
-from .positivstellensatz import DEEP, FIRST, QUICK, SQUARES, USUAL, Stage, close_by_equations, search
-from .problem import Problem, Signs
+from .positivstellensatz import DEEP, FIRST, QUICK, SQUARES, TRIPLES, USUAL, Stage, close_by_equations, search
+from .problem import Problem
 from .squares import Pool
 
 Node = list[Any]
 DEPTH = 2  # of signs told apart below one another
 CANDIDATES = 6
+BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
+MOST_FOR_BOTH = 9  # facts
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
 
@@ -26,7 +28,7 @@ BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 class Hints:
     """What a claim may tell the search: earlier statements to use, each with terms for its variables."""
 
-    uses: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = ()
+    uses: tuple[tuple[str, Mapping[str, str]], ...] = ()
 
 
 def search_closing(state: checker.State, known: dict[str, checker.Statement], budget: Budget, effort: int = 2,
@@ -39,8 +41,25 @@ def search_closing(state: checker.State, known: dict[str, checker.Statement], bu
     >>> search_closing(checker.State(context).assume(formula), {}, Budget(10**6))
     ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]
     """
-    node = Closing(known, budget, effort).close(state)
+    uses, inside = with_uses(state, known, hints.uses if hints else ())
+    node = Closing(known, budget, effort).close(inside)
+    for name, terms in reversed(uses):
+        node = None if node is None else ["use", name, terms, {}, node]
     return node if node is None or not confirm or accepted(checker.close, state, node, known) else None
+
+
+def with_uses(state: checker.State, known: dict[str, checker.Statement],
+              wanted: Sequence[tuple[str, Mapping[str, str]]]) -> tuple[list[tuple[str, dict[str, str]]], checker.State]:
+    """The instances of earlier statements that a hint names, as far as they are known and exist, and the state that assumes them."""
+    uses = []
+    for name, terms in wanted:
+        if name not in known or known[name].get("exists"):
+            continue
+        values = {variable: state.context.value(checker.parse(text)) for variable, text in terms.items()}
+        story = checker.Unfolding(known[name], checker.Context(state.context, values))
+        state = state.branch(checker.join("or", [story.negated(story.premises), story.goal(True)]), story.context)
+        uses.append((name, dict(terms)))
+    return uses, state
 
 
 class Closing:
@@ -70,9 +89,10 @@ class Closing:
         return node if node is not None else self.cases(state)
 
     def cases(self, state: checker.State) -> Node | None:
-        """Splits the last disjunction with the fewest alternatives."""
-        sizes = [len(alternatives) for alternatives in state.choices]
-        index = min(range(len(sizes)), key=lambda k: (sizes[k], -k))
+        """Splits the last disjunction with the fewest alternatives that no fact contradicts at sight."""
+        known = {mark(poly, relation) for poly, relation in state.facts}
+        sizes = [sum(not contradicted(one, known) for one in alternatives) for alternatives in state.choices]
+        index = min(range(len(sizes)), key=lambda k: (sizes[k], len(state.choices[k]), -k))
         rest = state.branch()
         del rest.choices[index]
         nodes = []
@@ -129,8 +149,9 @@ class Closing:
     def with_lemmas(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
         """Signs that can be shown are added to the facts; where that is not enough, signs are told apart."""
         lemmas: list[Lemma] = []
-        for kind in ("integers", "factors", "", "variables"):
+        for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
             before = len(lemmas)
+            stages = BOTH if kind == "variables" and len(problem.facts) <= MOST_FOR_BOTH else FIRST
             if not kind:
                 node = search(problem, SQUARES, self.budget)
                 if node is not None:
@@ -139,10 +160,10 @@ class Closing:
             for _ in range(2):
                 count = len(lemmas)
                 for text in candidates(state, problem, kind):
-                    lemma, state = self.lemma(state, text, BOTH if kind == "variables" else FIRST)
+                    lemma, state = self.lemma(state, text, stages)
                     lemmas += [lemma] if lemma else []
-                if lemmas and lemmas[-1].node is not None:
-                    return under(lemmas, lemmas[-1].node)
+                    if lemma is not None and lemma.node is not None:
+                        return under(lemmas, lemma.node)
                 if len(lemmas) == count:
                     break
                 problem = self.problem(state)
@@ -150,7 +171,9 @@ class Closing:
                 node = close_by_equations(problem) or self.usual(problem, True)
                 if node is not None:
                     return under(lemmas, node)
-        node = self.split(state, problem, depth) if self.effort > 1 and depth < DEPTH else None
+        node = search(problem, TRIPLES, self.budget) if self.effort > 1 and depth < DEPTH else None
+        if node is None and self.effort > 1 and depth < DEPTH:
+            node = self.split(state, problem, depth)
         if node is None and self.effort > 1 and depth == 0:
             node = search(problem, DEEP, self.budget)
         return under(lemmas, node)
@@ -167,19 +190,27 @@ class Closing:
         return Lemma(text, nodes, place, rounded, nodes[place]), inside
 
     def split(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
-        """Tells the sign of a candidate apart, where one of the three cases at least closes quickly."""
+        """Tells the sign of a candidate apart: the one of whose cases most close quickly comes first."""
+        known = [text for fact in problem.facts for text in (problem.in_units(fact.poly), problem.in_units(-fact.poly))]
+        tried: list[tuple[int, str, list[Node | None]]] = []
         for kind in ("factors", "variables", "resultants"):
             for text in candidates(state, problem, kind):
-                cases = state.by_sign(text)
-                nodes = [self.attempt(case, FIRST) for case in cases]
-                if all(node is None for node in nodes):
+                if text in known:
                     continue
-                for k in (1, 0, 2):
-                    nodes[k] = nodes[k] or self.leaf(cases[k], depth + 1)
-                    if nodes[k] is None:
-                        break
-                else:
+                nodes = [self.attempt(case, BOTH) for case in state.by_sign(text)]
+                count = sum(node is not None for node in nodes)
+                if count == 3:
                     return ["sign", text, *nodes]
+                tried += [(count, text, nodes)] if count else []
+        tried.sort(key=lambda one: -one[0])
+        for _, text, nodes in tried[: BRANCHES - depth]:
+            cases = state.by_sign(text)
+            for k in (1, 0, 2):
+                nodes[k] = nodes[k] or self.leaf(cases[k], depth + 1)
+                if nodes[k] is None:
+                    break
+            else:
+                return ["sign", text, *nodes]
         return None
 
 
@@ -213,8 +244,8 @@ def candidates(state: checker.State, problem: Problem, kind: str) -> list[str]:
     elif kind == "variables":
         found = problem.variables_and_differences()[:2 * CANDIDATES]
     else:
-        found = problem.candidates("resultants")[:CANDIDATES]
-    signs, equations = Signs(problem), [equation.poly for equation in problem.reduction.left]
+        found = problem.candidates("resultants", 3 * CANDIDATES)
+    signs, equations = problem.signs(), [equation.poly for equation in problem.reduction.left]
     texts = []
     for poly in found:
         before = len(pool.polys)
@@ -222,7 +253,24 @@ def candidates(state: checker.State, problem: Problem, kind: str) -> list[str]:
         for rest in pool.polys[before:]:
             if not signs.of(rest)[0] or any(not divmod(equation, rest)[1] for equation in equations):
                 texts.append(problem.in_units(poly))
-    return texts
+    return texts[:2 * CANDIDATES]
+
+
+def mark(poly: checker.Poly, relation: str) -> tuple[frozenset[tuple[int, int]], str]:
+    """A fact up to a positive factor."""
+    content, key = poly.primitive()
+    return frozenset((key if content > 0 or relation in ("=", "!=") else -key).terms.items()), relation
+
+
+CONTRARY = {">": ((-1, ">"), (-1, ">="), (1, "=")), ">=": ((-1, ">"),), "=": ((1, ">"), (-1, ">"), (1, "!=")), "!=": ((1, "="),)}
+
+
+def contradicted(formula: Any, known: set[tuple[frozenset[tuple[int, int]], str]]) -> bool:
+    """Whether a fact among the known ones is the negation of the formula, or of a part of a conjunction."""
+    if formula[0] == "and":
+        return any(contradicted(part, known) for part in formula[1])
+    return formula[0] == "atom" and any(
+        mark(formula[1] if sign > 0 else -formula[1], relation) in known for sign, relation in CONTRARY[formula[2]])
 
 
 def wrapped(rounded: list[int], node: Node | None) -> Node | None:

@@ -14,8 +14,9 @@ from .budget import Budget
 from .lifting import Term, finish
 from .linear_program import Program, solve
 from .polynomials import Packing, Row, collect, multiply, total_degree
-from .problem import Fact, Problem, Sum, times
+from .problem import Problem
 from .reduction import Factors, merge, power
+from .signs import Fact, Sum, times
 
 Node = list[Any]
 Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
@@ -24,12 +25,13 @@ Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of
 class Combination:
     """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable, times squares of the roots."""
 
-    def __init__(self, problem: Problem, degree: int, bernstein: int, roots: list[fmpz_mpoly]) -> None:
+    def __init__(self, problem: Problem, degree: int, bernstein: int, roots: list[fmpz_mpoly],
+                 only: list[int] | None = None) -> None:
         self.problem, self.roots, self.program = problem, roots, Program()
         self.columns: list[tuple[Factors, int]] = []  # facts and root (-1 for 1) of every column
         self.cofactors: list[Cofactor] = []
         facts, bounded = problem.facts, problem.bounded if bernstein else None
-        others, degrees = list(range(len(facts))), [0] * len(facts)
+        others, degrees = only if only is not None else list(range(len(facts))), [0] * len(facts)
         if bounded is not None:
             others = [k for k in others if not problem.said_by_bounds(k, bounded)]
             degrees = [fact.degree(bounded.variable) for fact in facts]
@@ -138,7 +140,8 @@ class Products:
         new.places = [(*self.places[i], k) for i, k in pairs]
         new.chosen = [(*self.chosen[i], self.others[k]) for i, k in pairs]
         new.strict = [self.strict[i] and self.own_strict[k] for i, k in pairs]
-        new.keys = (self.keys[old][:, :, None] + self.own_keys[fact][:, None, :]).reshape(len(pairs), self.keys.shape[1] * self.own_keys.shape[1])
+        length = self.keys.shape[1] * self.own_keys.shape[1]
+        new.keys = (self.keys[old][:, :, None] + self.own_keys[fact][:, None, :]).reshape(len(pairs), length)
         new.values = (self.values[old][:, :, None] * self.own_values[fact][:, None, :]).reshape(new.keys.shape)
         new.widths = np.count_nonzero(new.values, axis=1).tolist()
         return new
@@ -180,7 +183,7 @@ class Level:
         lines = []
         for k in (bounded.low, bounded.high):
             slope = float(int(facts[k].poly.derivative(bounded.variable).leading_coefficient()))
-            line, base = [np.ones(1)], np.array([float(-problem.end(k, bounded.variable) * int(slope)), slope])
+            line, base = [np.ones(1)], np.array([float(-facts[k].end(bounded.variable) * int(slope)), slope])
             for _ in range(degree):
                 line.append(np.convolve(line[-1], base))
             lines.append(line)
@@ -213,8 +216,8 @@ def lift(problem: Problem, used: list[tuple[tuple[Factors, int], Fraction]], cof
     extra = ring.one  # what the terms have been multiplied by
     scale = Fraction(common)
     for k, most in divided.items():
-        value = sum_of(problem, facts[k].multiplier or [])
-        extra, scale = extra * value[0] ** most, scale * value[1] ** most
+        poly, unit = sum_of(problem, facts[k].multiplier or [])
+        extra, scale = extra * poly**most, scale * unit**most
     terms = [Term(t.coefficient * common * scale.denominator, t.factors, t.root) for t in terms]
     scale *= scale.denominator
     owed: dict[int, fmpz_mpoly] = {}

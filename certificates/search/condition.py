@@ -124,6 +124,22 @@ class Condition:
         """The relations that hold on their own: those at top level or in a top-level `and`."""
         return [(self.polys[k], relation) for k, relation in top_atoms(self.tree)]
 
+    def cleared(self) -> Condition:
+        """The same condition, its equations without the factors that it says not to vanish."""
+        nonzero = [p / p.leading_coefficient() for p, relation in self.facts() if relation in (">", "!=") and len(p) <= 4]
+        polys = list(self.polys)
+        for k, relation in top_atoms(self.tree):
+            if relation == "=" and 1 < len(polys[k]) <= 400 and any((polys[k] % q) == 0 for q in nonzero):
+                left = [f for f, _ in polys[k].factor()[1] if f / f.leading_coefficient() not in nonzero]
+                whole = self.ring.constant(1)
+                for factor in left:
+                    whole = whole * factor
+                polys[k] = whole
+        if len(top_atoms(self.tree)) != len({k for k, _ in top_atoms(self.tree)}) or any(
+                polys[k] is not self.polys[k] for k in _below(self.tree)):
+            return self
+        return Condition(self.ring, polys, fold(self.tree, polys.__getitem__))
+
     def univariate_truth(self, name: str, at: fmpq | AlgebraicNumber, polys: Mapping[int, fmpq_poly]) -> bool:
         """Whether a condition in one variable holds at a number; `polys` are its polynomials in that variable."""
         signs = {
@@ -153,6 +169,13 @@ def top_atoms(tree: Tree) -> list[tuple[int, str]]:
     if isinstance(tree[0], int):
         return [tree]
     return [part for part in tree[1] if not isinstance(part, bool) and isinstance(part[0], int)] if tree[0] == "and" else []
+
+
+def _below(tree: Tree) -> list[int]:
+    """The numbers of the polynomials of relations that a tree does not assert on their own."""
+    if isinstance(tree, bool) or isinstance(tree[0], int):
+        return []
+    return [k for part in tree[1] if tree[0] == "or" or not isinstance(part[0], int) for k in _indices(part)]
 
 
 def _join(op: str, parts: Sequence[Tree]) -> Tree:

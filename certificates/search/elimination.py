@@ -24,8 +24,8 @@ def border_polynomials(conditions: Sequence[tuple[Condition, Condition | None]],
         outer: list[fmpq_mpoly] = []
         if inner is not None:
             own = condition.variables() | set(parameters)
-            outer = _project(inner, own, budget)
-        for poly in _project(condition, set(parameters), budget, outer):
+            outer = projected(inner, own, budget)
+        for poly in projected(condition, set(parameters), budget, outer):
             if poly not in found:
                 found.append(poly)
     return sorted(found, key=lambda p: (p.total_degree(), len(p), str(p)))
@@ -41,7 +41,8 @@ def candidate_numbers(polys: Iterable[fmpq_mpoly], parameter: str) -> list[Algeb
     return sorted(found)
 
 
-def _project(condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly] = ()) -> list[fmpq_mpoly]:
+def projected(condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly] = ()) -> list[fmpq_mpoly]:
+    """Irreducible polynomials in the parameters on whose roots the projection of one condition can change."""
     condition, borders = _substituted(condition, parameters, budget, more)
     equations = [p for p, relation in condition.facts() if relation == "="]
     polys = _factors([*(condition.polys[k] for k in condition.used()), *borders])

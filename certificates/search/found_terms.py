@@ -37,7 +37,7 @@ class Renamed:
 
 
 class TermWriter:
-    """Writes quotients of lowered polynomials in a context; a bottom that is not licensed is adjoined as the root of a linear polynomial."""
+    """Writes quotients of lowered polynomials in a context; a bottom without a licence is adjoined, as a root."""
 
     def __init__(self, context: checker.Context, renamed: Renamed, normal: Normal) -> None:
         self.context, self.renamed, self.normal = context, renamed, normal

@@ -37,7 +37,8 @@ class Values:
         self.range = None
         if problem.bounded is not None and problem.bounded.variable in place:
             bounded = problem.bounded
-            self.range = place[bounded.variable], float(problem.end(bounded.low, bounded.variable)), float(problem.end(bounded.high, bounded.variable))
+            low, high = (float(problem.facts[k].end(bounded.variable)) for k in (bounded.low, bounded.high))
+            self.range = place[bounded.variable], low, high
 
     def least(self, points: Array) -> Array:
         """At every point the least of the facts, each divided by the sum of the absolute values of its terms."""

@@ -13,7 +13,6 @@ from .polynomials import Ring, degree_in, pseudo_divide, total_degree
 from .reduction import Factors, Reduction, merge, power
 from .scaling import Scaling
 
-
 SWEEPS = 8
 
 

@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
 
-from flint import fmpq, fmpq_mpoly, fmpq_poly
+from flint import fmpq, fmpq_mpoly
 
 from certificates import checker
 
-from .algebraic import AlgebraicNumber, polynomial_text, real_roots, sign, simplest_between
+from .algebraic import AlgebraicNumber, real_roots, sign, simplest_between
 from .base_samples import state_condition
 from .budget import Exhausted
 from .candidates import separate
 from .closing import search_closing
 from .condition import Condition, constant_of, evaluate, univariate
 from .found_terms import Node, Wanted, confirmed
+from .line_cuts import cut_between, linear_text
 from .normal import Normal
 from .quotients import Choice, Sample, reduced_by, root_values
 from .ranges import Interval, Line
-from .setting import Task, length, margins_of, setting
-from .templates import TemplateSearch
+from .setting import Task, failing_goal, length, margins_of, setting
+from .solver import ask
+from .templates import NEGLIGIBLE, TemplateSearch
 
-NEGLIGIBLE = fmpq(1, 2**100)  # of values that come from rational approximations of roots
 NEGLIGIBLE_WIDTH = Fraction(1, 2**200)
-PART = 4_000_000  # units of work for closing one piece
+PARTS = (250_000, 1_500_000)  # units of work for closing one piece: for each choice at first, then for the best
 
 
 @dataclass
@@ -46,6 +47,7 @@ class LineCover:
         self.normal = Normal(state, self.condition, equations=False)
         self.allowed = state_condition(state)
         self.margins = margins_of(state, self.condition, self.normal)
+        self.goal, self.borders = failing_goal(task, state, self.condition, task.budget)
         self.served: list[tuple[Choice, list[Interval]]] = []
 
     def search(self) -> Node | None:
@@ -78,13 +80,31 @@ class LineCover:
     def _gather(self, samples: Sequence[Sample]) -> None:
         """More choices: those that serve at all these samples."""
         task, nodes = self.task, min(self.task.nodes, 150)
-        search = TemplateSearch([self.parameter], samples, task.budget, self.integers, nodes, None, task.hints, self.margins)
-        for choice in islice(search.search(self.condition, list(self.keys.values())), 10):
+        search = TemplateSearch([self.parameter], samples, task.budget, self.integers, nodes, None, task.hints, self.margins,
+                                self.borders if self.goal is not None else None)
+        for choice in self._failing(search.search(self.condition, list(self.keys.values()))):
             if all(choice.values != known.values for known, _ in self.served):
                 intervals = self._intervals_of(choice)
                 if intervals:
                     self.served.append((choice, intervals))
         self.served.sort(key=lambda pair: length(pair[0]))
+
+    def _failing(self, choices: Iterator[Choice]) -> Iterator[Choice]:
+        """The first choices; where the goals speak of further variables, those at which Z3 sees no values that meet the goals."""
+        if self.goal is None:
+            yield from islice(choices, 10)
+            return
+        count = 0
+        for choice in islice(choices, 30):
+            sample = self.samples[choice.serves[len(choice.serves) // 2]] if choice.serves else self.samples[0]
+            given = {**sample, **root_values(choice.roots, sample)}
+            values = {name: value for name, quotient in choice.values.items() if (value := quotient.at(given)) is not None}
+            values = {name: value if value.q < 10**9 else nearest(value) for name, value in values.items()}
+            if ask(self.goal.substituted({**sample, **values}), self.task.budget, self.integers, 100_000).verdict == "unsat":
+                yield choice
+                count += 1
+                if count >= 4:
+                    return
 
     def _intervals_of(self, choice: Choice) -> list[Interval]:
         """Where in the state the choice meets the condition, up to the accuracy with which roots are known."""
@@ -127,7 +147,7 @@ class LineCover:
             return self._leaf(state, plan[0], depth)
         k = len(plan) // 2
         left, right = plan[k - 1], plan[k]
-        cut = _cut(left.interval, right.interval, self.parameter)
+        cut = cut_between(left.interval, right.interval, self.parameter)
         if cut is None:
             return None
         text, middle = cut
@@ -148,15 +168,16 @@ class LineCover:
         others = [c for c, intervals in self.served if c is not piece.choice and any(_within(piece.interval, i) for i in intervals)]
         task = self.task
         wanted = Wanted(task.statement, task.purpose, task.base, task.sharp, self.normal)
-        for choice in [piece.choice, *others[:2]]:
-            try:
-                found = confirmed(wanted, state, choice, self.keys, task.known, task.budget.part(PART), self.samples, task.effort)
-            except Exhausted:
-                if task.budget.left <= 0:
-                    raise
-                found = None
-            if found is not None:
-                return found
+        for part, choices in zip(PARTS, ([piece.choice, *others[:4]], [piece.choice, *others[:1]])):
+            for choice in choices:
+                try:
+                    found = confirmed(wanted, state, choice, self.keys, task.known, task.budget.part(part), self.samples, task.effort)
+                except Exhausted:
+                    if task.budget.left <= 0:
+                        raise
+                    found = None
+                if found is not None:
+                    return found
         low, high = piece.interval.low, piece.interval.high
         if depth <= 0 or low is None or high is None or low is high:
             return None
@@ -167,7 +188,7 @@ class LineCover:
         return self._build_halves(state, [Piece(half, piece.choice) for half in halves], value, depth - 1)
 
     def _build_halves(self, state: checker.State, halves: Sequence[Piece], value: fmpq, depth: int) -> Node | None:
-        text = _linear(value, self.parameter)
+        text = linear_text(value, self.parameter)
         founds: list[Node] = []
         for branch, piece in zip(state.by_sign(text), (halves[0], halves[0], halves[1])):
             found = self._leaf(branch, piece, depth)
@@ -264,34 +285,6 @@ def _just_above(low: AlgebraicNumber | None, high: AlgebraicNumber | None) -> fm
     return simplest_between(low._high, low._high + (high._low - low._high) / 64)
 
 
-def _linear(value: fmpq, parameter: str) -> str:
-    lead = parameter if value.q == 1 else f"{int(value.q)}*{parameter}"
-    return lead if value == 0 else f"{lead} - {int(value.p)}" if value > 0 else f"{lead} + {-int(value.p)}"
-
-
-def _cut(left: Interval, right: Interval, parameter: str) -> tuple[str, int | None] | None:
-    """(a polynomial that rises through the border of two pieces, which of them has the border itself; None: neither)."""
-    high, low = left.high, right.low
-    if high is None or low is None:
-        end = high if high is not None else low
-        if end is None:
-            return _linear(fmpq(0), parameter), 0
-        value = simplest_between(end._low - 1, end._low) if low is None else simplest_between(end._high, end._high + 1)
-        return _linear(value, parameter), 0
-    if low < high:
-        bottom = max(low._high, left.low._high) if left.low is not None else low._high
-        return _linear(simplest_between(bottom, high._low), parameter), 0
-    if high < low:
-        return _linear(simplest_between(high._high, low._low), parameter), None
-    middle = 0 if left.high_closed else 1 if right.low_closed else None
-    if high.is_rational:
-        return _linear(high._low, parameter), middle
-    return _rising_text(high, parameter), middle
-
-
-def _rising_text(number: AlgebraicNumber, parameter: str) -> str:
-    """The polynomial of the number with the sign that makes it rise there."""
-    rising = number.sign_of(fmpq_poly(number.poly).derivative()) > 0
-    if rising:
-        return number.polynomial_text(parameter)
-    return polynomial_text([-c for c in number.coefficients], parameter)
+def nearest(value: fmpq) -> fmpq:
+    """A short rational close to a long one, for Z3."""
+    return fmpq(int((value * 10**6).floor()), 10**6)

@@ -119,7 +119,7 @@ def assemble(program: Program, budget: Budget) -> Matrix | None:
         return None
     lengths = np.repeat([shape[1] for shape in program.shapes], [shape[0] for shape in program.shapes])
     where = inverse * columns + np.repeat(np.arange(columns), lengths)[used]
-    matrix = np.bincount(where, values[used], rows * columns).reshape(rows, columns)
+    matrix: Matrix = np.bincount(where, values[used], rows * columns).astype(np.float64, copy=False).reshape(rows, columns)
     return rewritten(matrix, keys, program, budget) if program.rewritings else matrix
 
 
@@ -127,12 +127,11 @@ def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> M
     """The columns reduced by the equations: a row of a multiple of a leading monomial is moved to the other monomials."""
     for _ in range(SWEEPS):
         exponents = program.exponents(keys)
-        for leading, own, values in program.rewritings:
-            hit = (exponents >= leading).all(axis=1)
-            if hit.any():
-                break
-        else:
+        hits = [(exponents >= leading).all(axis=1) for leading, _, _ in program.rewritings]
+        place = next((k for k, hit in enumerate(hits) if hit.any()), None)
+        if place is None:
             return matrix
+        hit, (_, own, values) = hits[place], program.rewritings[place]
         # the whole matrix is multiplied by the leading coefficient, which changes no relation between its columns
         moved = ((keys[hit] - own[0])[:, None] + own[1:]).ravel()
         parts = (matrix[hit][:, None, :] * -values[1:, None]).reshape(len(moved), matrix.shape[1])
@@ -146,8 +145,9 @@ def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> M
 
 def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
     """The columns that may be positive: where all of a row has one sign, its columns are zero.  None if no strict one is left."""
-    positive, negative = matrix > 0, matrix < 0
-    fixed = positive[:, count:].any(axis=1) | negative[:, count:].any(axis=1)
+    positive: Mask = matrix > 0
+    negative: Mask = matrix < 0
+    fixed: Mask = np.asarray(positive[:, count:].any(axis=1) | negative[:, count:].any(axis=1))
     alive = np.ones(matrix.shape[1], dtype=bool)
     while True:
         up, down = positive[:, alive].any(axis=1), negative[:, alive].any(axis=1)
@@ -158,7 +158,8 @@ def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
         if not (alive[:count] & strict).any():
             return None
         # a row that only dead columns reach says nothing any more
-        positive, negative, fixed = positive[~rows], negative[~rows], fixed[~rows]
+        left = np.flatnonzero(~rows)
+        positive, negative, fixed = positive[left], negative[left], fixed[left]
 
 
 def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple[Any, Any]:
@@ -192,7 +193,7 @@ def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple
 
 # iterations, not seconds, bound a run; one thread and a fixed seed make it the same every time
 OPTIONS = (("output_flag", False), ("presolve", "off"), ("threads", 1), ("random_seed", 1), ("solver", "simplex"),
-           ("simplex_iteration_limit", 5000))
+           ("simplex_iteration_limit", 5000), ("primal_feasibility_tolerance", 1e-10))
 
 
 def exact(matrix: Matrix, inequality: Mask, strict: Mask, near: Any, budget: Budget) -> list[Fraction] | None:

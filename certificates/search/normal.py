@@ -34,7 +34,7 @@ class Normal:
         if any(any(self.scaling.weights[k]) for k, name in enumerate(names) if name in whole and self.scaling.units):
             self.scaling = Scaling(Ring(names), polys, [])
         self.units = {names[k]: fmpq(1) for k in self.scaling.units}
-        self.weights: dict[str, Weight] = {n: w for n, w in zip(names, self.scaling.weights)} if self.units else {}
+        self.weights: dict[str, Weight] = dict(zip(names, self.scaling.weights)) if self.units else {}
         self.steps: list[tuple[str, fmpq_mpoly]] = []
         if equations:
             self._use_equations([p.subs(self.units) for p, relation in facts if relation == "="],

@@ -131,7 +131,8 @@ def coefficients_in(poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly) -> list[fm
     return result[::-1]
 
 
-def pseudo_divide(poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly) -> tuple[int, fmpz_mpoly, fmpz_mpoly]:
+def pseudo_divide(poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly, lead: fmpz_mpoly,
+                  rest: fmpz_mpoly) -> tuple[int, fmpz_mpoly, fmpz_mpoly]:
     """(n, q, r) with lead^n * poly = q * (lead * gen - rest) + r, where gen occurs in none of lead, rest and r."""
     coefficients = coefficients_in(poly, variable, gen)
     degree = len(coefficients) - 1

@@ -15,12 +15,15 @@ from .polynomials import constant_of
 from .problem import Problem
 from .reduction import merge, power
 
-Stage = tuple[int, int, str]  # (products of facts, extra Bernstein degree, kind of squares)
+MOST_FOR_TRIPLES = 10
+# (products of facts, extra Bernstein degree, kind of squares; or "near": no squares, and only facts in the goal's variables)
+Stage = tuple[int, int, str]
 QUICK: tuple[Stage, ...] = ((1, 0, ""),)
 FIRST: tuple[Stage, ...] = ((2, 0, ""),)
-USUAL: tuple[Stage, ...] = ((2, 2, ""), (1, 0, "squares"))
+USUAL: tuple[Stage, ...] = ((2, 2, "near"), (2, 2, ""), (1, 0, "squares"))
 SQUARES: tuple[Stage, ...] = ((1, 2, "squares"), (1, 2, "resultants"))
-DEEP: tuple[Stage, ...] = ((2, 4, ""), (2, 2, "squares"), (2, 2, "resultants"), (3, 0, ""), (2, 4, "resultants"))
+TRIPLES: tuple[Stage, ...] = ((3, 2, ""),)
+DEEP: tuple[Stage, ...] = ((2, 4, ""), (2, 2, "squares"), (2, 2, "resultants"), (2, 4, "resultants"))
 
 
 def close_by_equations(problem: Problem) -> Node | None:
@@ -46,13 +49,16 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
     """The first node that one of the stages finds."""
     if not problem.facts and not problem.reduction.left:
         return None
-    roots: dict[str, list[fmpz_mpoly]] = {"": []}
+    roots: dict[str, list[fmpz_mpoly]] = {"": [], "near": []}
     for degree, bernstein, kind in stages:
         if kind not in roots:
             roots[kind] = problem.candidates(kind)
-        if kind and not roots[kind] or (degree, bernstein, kind) == (2, 2, "") and problem.bounded is None and not problem.reduction.left:
+        near = problem.near_goal() if kind == "near" else None
+        if kind == "near" and near is None or kind not in ("", "near") and not roots[kind] or (degree, bernstein, kind) == (2, 2, "") and problem.bounded is None and not problem.reduction.left:
             continue  # nothing that a smaller stage did not have
-        node = Combination(problem, degree, bernstein, roots[kind]).node(budget)
+        if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
+            continue
+        node = Combination(problem, degree, bernstein, roots[kind], near).node(budget)
         if node is not None:
             return node
     return None

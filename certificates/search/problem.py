@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
-from math import comb
 
 from flint import fmpz_mpoly
 
@@ -16,35 +14,11 @@ from .lifting import Source
 from .polynomials import Ring, constant_of, total_degree
 from .reduction import Factors, Reduction, Signed
 from .scaling import Scaling
-from .squares import Pool, factors, resultants, squares
-from .sturm import bernstein, positive_between, univariate
+from .signs import Bounded, Fact, Signs, Sum, times
+from .squares import MOST, Pool, factors, resultants, squares
+from .sturm import positive_between, univariate
 
-Sum = list[tuple[Fraction, Factors]]  # of products of facts of the problem, each with a positive coefficient
-
-
-@dataclass
-class Fact:
-    """product of leads^counts * facts of the state^factors = scale * multiplier * poly modulo the equations; poly is primitive, scale > 0."""
-
-    poly: fmpz_mpoly
-    strict: bool
-    factors: Factors
-    counts: tuple[int, ...]
-    scale: Fraction
-    multiplier: Sum | None = None  # a positive sum over other facts; None stands for 1
-
-    def degree(self, variable: int) -> int:
-        """The degree in one variable."""
-        return int(self.poly.degrees()[variable])
-
-
-@dataclass(frozen=True)
-class Bounded:
-    """A variable with a fact low = a*z + b that bounds it below, a > 0, and a fact high = d - c*z that bounds it above."""
-
-    variable: int
-    low: int
-    high: int
+MANY = 7  # facts, from which on those near the goal are tried first
 
 
 class Problem:
@@ -117,9 +91,21 @@ class Problem:
                 return
         self.facts.append(fact)
 
+    def signs(self) -> Signs:
+        """The signs that the facts show at sight."""
+        return Signs(self.facts, self.bounded)
+
     def polys(self) -> list[fmpz_mpoly]:
         """The polynomials of the equations left and of the facts."""
         return [equation.poly for equation in self.reduction.left] + [fact.poly for fact in self.facts]
+
+    def near_goal(self) -> list[int] | None:
+        """The facts in the variables of the last one alone; None where that is all of them, or few are."""
+        if len(self.facts) < MANY:
+            return None
+        own = [bool(d) for d in self.facts[-1].poly.degrees()]
+        near = [k for k, fact in enumerate(self.facts) if all(mine or not d for mine, d in zip(own, fact.poly.degrees()))]
+        return near if len(near) < len(self.facts) else None
 
     # -------------------------------------------------------- bounded variables
 
@@ -140,18 +126,12 @@ class Problem:
         best = max(both, key=lambda v: (occurs[v], -v), default=None)
         return None if best is None else Bounded(best, low[best], high[best])
 
-    def end(self, index: int, variable: int) -> Fraction:
-        """Where a bound a*z + b vanishes."""
-        poly = self.facts[index].poly
-        slope = constant_of(poly.derivative(variable)) or 1
-        return Fraction(-(constant_of(poly - slope * self.ring.gens[variable]) or 0), slope)
-
     def _tighter(self, i: int, j: int, variable: int) -> int:
         """Of two bounds of one sense the one that implies the other."""
         if i == j:
             return i
         below = (constant_of(self.facts[i].poly.derivative(variable)) or 0) > 0
-        ends = self.end(i, variable), self.end(j, variable)
+        ends = self.facts[i].end(variable), self.facts[j].end(variable)
         if ends[0] == ends[1]:
             return i if self.facts[i].strict else j
         return j if (ends[1] > ends[0]) == below else i
@@ -162,26 +142,27 @@ class Problem:
             return True
         poly = self.facts[index].poly
         return self.facts[index].degree(bounded.variable) == sum(map(int, poly.degrees())) == total_degree(poly) and positive_between(
-            univariate(poly, bounded.variable), self.end(bounded.low, bounded.variable), self.end(bounded.high, bounded.variable))
+            univariate(poly, bounded.variable), self.facts[bounded.low].end(bounded.variable),
+            self.facts[bounded.high].end(bounded.variable))
 
     # -------------------------------------------------------- candidates and divided facts
 
-    def candidates(self, kind: str) -> list[fmpz_mpoly]:
+    def candidates(self, kind: str, most: int = MOST) -> list[fmpz_mpoly]:
         """Polynomials worth squaring: read off the facts before and after the eliminations, and reduced."""
         parameter = self.bounded.variable if self.bounded else -1
         find = {"squares": squares, "resultants": resultants}[kind]
         pool = Pool()
         if self.reduction.steps:
             before = [p for k, p in enumerate(self.source.lowered) if p and not p.is_constant() and k not in self.idle]
-            for poly in find(self.ring, before, parameter):
+            for poly in find(self.ring, before, parameter, most):
                 pool.add(self.reduction.reduce(poly)[1])
-        for poly in find(self.ring, self.polys(), parameter):
+        for poly in find(self.ring, self.polys(), parameter, most):
             pool.add(poly)
         return pool.polys
 
     def unsigned_factors(self) -> list[fmpz_mpoly]:
         """The irreducible factors of equations left, and those of facts that have no sign at sight, smallest first."""
-        signs, pool = Signs(self), Pool()
+        signs, pool = self.signs(), Pool()
         for equation in self.reduction.left:
             found = factors(equation.poly)
             for factor, _ in found if len(found) > 1 else ():
@@ -198,9 +179,9 @@ class Problem:
         """Variables of no known sign, and differences of two variables of one weight, but for the bounded variable."""
         used = [v for v in range(self.ring.size) if any(poly.degrees()[v] for poly in self.polys())]
         used = [v for v in used if self.bounded is None or v != self.bounded.variable]
-        signs, weights, gens = Signs(self), self.source.scaling.weights, self.ring.gens
+        signs, alike, gens = self.signs(), self.source.scaling.alike, self.ring.gens
         alone = [gens[v] for v in used if not signs.of(gens[v])[0]]
-        return alone + [gens[v] - gens[w] for v, w in combinations(used, 2) if not weights or weights[v] == weights[w]]
+        return alone + [gens[v] - gens[w] for v, w in combinations(used, 2) if alike(v, w)]
 
     def in_units(self, poly: fmpz_mpoly) -> str:
         """The text of a polynomial in the state's own units."""
@@ -209,12 +190,13 @@ class Problem:
 
     def divide(self) -> bool:
         """Replaces facts that have a positive factor by what is left without it; whether there were any."""
-        signs = Signs(self)
+        signs = self.signs()
         changed = []
         for place, fact in enumerate(self.facts):
             if total_degree(fact.poly) < 2 or fact.multiplier is not None:
                 continue
-            rest, multiplier, positive = fact.poly, [(Fraction(1), ())], 1
+            multiplier: Sum = [(Fraction(1), ())]
+            rest, positive = fact.poly, 1
             for factor, exponent in factors(fact.poly):
                 sign, found = signs.of(factor)
                 for _ in range(exponent if found else 0):
@@ -223,7 +205,8 @@ class Problem:
                 continue
             rest = rest * positive
             content = abs(int(rest.content()))
-            changed.append((place, Fact(rest / content, fact.strict, fact.factors, fact.counts, fact.scale * content, multiplier)))
+            scale = fact.scale * content
+            changed.append((place, Fact(rest / content, fact.strict, fact.factors, fact.counts, scale, multiplier)))
         for place, fact in changed:
             self.facts[place] = fact
         self.bounded = self._most_common_bounded()
@@ -233,80 +216,6 @@ class Problem:
 def size(poly: fmpz_mpoly) -> tuple[int, int]:
     """Small polynomials first."""
     return total_degree(poly), len(poly)
-
-
-def times(a: Sum, b: Sum) -> Sum:
-    """The product of two sums of products."""
-    total: dict[Factors, Fraction] = {}
-    for c, f in a:
-        for d, g in b:
-            powers = dict(f)
-            for k, e in g:
-                powers[k] = powers.get(k, 0) + e
-            key = tuple(sorted(powers.items()))
-            total[key] = total.get(key, Fraction(0)) + c * d
-    return [(c, f) for f, c in sorted(total.items())]
-
-
-class Signs:
-    """Polynomials whose sign the facts show at sight, as positive sums of products of facts."""
-
-    def __init__(self, problem: Problem) -> None:
-        self.problem = problem
-        self.at_least_zero: dict[int, int] = {}  # variable -> fact
-        for k, fact in enumerate(problem.facts):
-            degrees = [int(d) for d in fact.poly.degrees()]
-            if len(fact.poly) == 1 and sum(degrees) == 1 and fact.poly.leading_coefficient() > 0:
-                self.at_least_zero[degrees.index(1)] = k
-
-    def of(self, poly: fmpz_mpoly) -> tuple[int, Sum]:
-        """(sign, positive sum equal to sign * poly) with a strict term; (0, []) where none is seen."""
-        for k, fact in enumerate(self.problem.facts):
-            if fact.strict and fact.multiplier is None and (fact.poly == poly or fact.poly == -poly):
-                return (1 if fact.poly == poly else -1), [(Fraction(1), ((k, 1),))]
-        for sign in (1, -1):
-            found = self._termwise(poly * sign) or self._between(poly * sign)
-            if found:
-                return sign, found
-        return 0, []
-
-    def _termwise(self, poly: fmpz_mpoly) -> Sum:
-        """All coefficients positive in variables that are at least 0."""
-        found: Sum = []
-        strict = False
-        for monomial, coefficient in zip(poly.monoms(), poly.coeffs()):
-            used = [(v, int(e)) for v, e in enumerate(monomial) if e]
-            if coefficient < 0 or any(v not in self.at_least_zero for v, _ in used):
-                return []
-            own = tuple(sorted((self.at_least_zero[v], e) for v, e in used))
-            strict = strict or all(self.problem.facts[k].strict for k, _ in own)
-            found.append((Fraction(int(coefficient)), own))
-        return found if strict else []
-
-    def _between(self, poly: fmpz_mpoly) -> Sum:
-        """Positive Bernstein coefficients in the bounded variable alone."""
-        bounded = self.problem.bounded
-        if bounded is None:
-            return []
-        degree = int(poly.degrees()[bounded.variable])
-        if not degree or degree != sum(map(int, poly.degrees())):
-            return []
-        facts, ends = self.problem.facts, [self.problem.end(k, bounded.variable) for k in (bounded.low, bounded.high)]
-        width = ends[1] - ends[0]
-        slopes = [abs(constant_of(facts[k].poly.derivative(bounded.variable)) or 1) for k in (bounded.low, bounded.high)]
-        if width <= 0:
-            return []
-        found: Sum = []
-        strict = False
-        for k, b in enumerate(bernstein(univariate(poly, bounded.variable), ends[0], ends[1], degree)):
-            if b < 0:
-                return []
-            own = tuple((i, e) for i, e in sorted(((bounded.low, k), (bounded.high, degree - k))) if e)
-            if b:
-                strict = strict or all(facts[i].strict for i, _ in own)
-                value = Fraction(int(b.p), int(b.q)) * comb(degree, k) / width**degree
-                found.append((value / slopes[0] ** k / slopes[1] ** (degree - k), own))
-        return found if strict else []
 
 
 def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int]:

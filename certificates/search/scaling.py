@@ -26,36 +26,41 @@ class Scaling:
         self.ring = ring
         self.units: tuple[int, ...] = ()
         self.weights: list[Weight] = []  # of every variable
-        self.values: dict[str, int] = {}
+        self.values: dict[str | int, int] = {}
+        self.gradings: list[list[int]] = []  # of all of which the polynomials are homogeneous
         differences: set[tuple[int, ...]] = set()
         for poly in polys:
             first, *others = poly.monoms()
             differences.update(tuple(a - b for a, b in zip(first, other)) for other in others)
-        anchored = {k for d in differences if sum(map(bool, d)) == 1 for k, e in enumerate(d) if e}
-        candidates = [k for k in positive if k not in anchored]
-        if candidates:
-            self._choose(sorted(differences), candidates)
-
-    def _choose(self, differences: list[tuple[int, ...]], candidates: list[int]) -> None:
-        """Takes as many units among the candidates as gradings allow, with integer weights for all variables."""
-        size = self.ring.size
         if differences:
-            basis, rank = fmpz_mat(differences).nullspace()
-            rows = [list(line) for line in zip(*basis.tolist())][:rank]
+            basis, rank = fmpz_mat(sorted(differences)).nullspace()
+            self.gradings = [[int(c) for c in line] for line in zip(*basis.tolist())][:rank]
         else:
-            rows = [[int(i == k) for k in range(size)] for i in range(size)]
-        for count in range(min(len(rows), len(candidates)), 0, -1):
-            for units in combinations(candidates, count):
-                order = [*units, *(k for k in range(size) if k not in units)]
-                table, den, _ = fmpz_mat([[row[k] for k in order] for row in rows]).rref()
-                lines = table.tolist()[:count]
-                if all(int(lines[i][j]) == (int(den) if i == j else 0) for i in range(count) for j in range(count)) and all(
-                        int(c) % int(den) == 0 for line in lines for c in line):
-                    self.units = units
-                    place = {variable: k for k, variable in enumerate(order)}
-                    self.weights = [tuple(int(line[place[k]]) // int(den) for line in lines) for k in range(size)]
-                    self.values = {self.ring.names[k]: 1 for k in units}
-                    return
+            self.gradings = [[int(i == k) for k in range(ring.size)] for i in range(ring.size)]
+        candidates = [k for k in positive if any(row[k] for row in self.gradings)]
+        for count in range(min(len(self.gradings), len(candidates)), 0, -1):
+            if any(self._choose(units) for units in combinations(candidates, count)):
+                return
+
+    def _choose(self, units: tuple[int, ...]) -> bool:
+        """Takes these units, if each has a grading of its own with integer weights for all variables."""
+        size = self.ring.size
+        others = [k for k in range(size) if k not in units]
+        for first in others if len(units) < len(self.gradings) else others[:1] or [-1]:
+            order = [*units, *(k for k in (first, *(k for k in others if k != first)) if k >= 0)]
+            table, den, rank = fmpz_mat([[row[k] for k in order] for row in self.gradings]).rref()
+            lines, den = [[int(c) for c in line] for line in table.tolist()[: len(units)]], int(den)
+            if rank >= len(units) and all(c % den == 0 for line in lines for c in line) and all(
+                    lines[i][j] == (den if i == j else 0) for i in range(len(units)) for j in range(len(units))):
+                place = {variable: k for k, variable in enumerate(order)}
+                self.units, self.values = units, {self.ring.names[k]: 1 for k in units}
+                self.weights = [tuple(line[place[k]] // den for line in lines) for k in range(size)]
+                return True
+        return False
+
+    def alike(self, v: int, w: int) -> bool:
+        """Whether two variables may be compared: every grading gives them the same weight."""
+        return all(row[v] == row[w] for row in self.gradings)
 
     def lower(self, poly: fmpz_mpoly) -> fmpz_mpoly:
         """The polynomial with every unit set to 1."""

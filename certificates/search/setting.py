@@ -10,8 +10,9 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from certificates import checker
 
-from .budget import Budget
+from .budget import Budget, Exhausted
 from .condition import Condition, ring_of, to_flint
+from .elimination import projected
 from .found_terms import Known
 from .normal import Normal
 from .quotients import SPARE, Choice, Quotient
@@ -51,7 +52,20 @@ def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str]
         (monomial,) = story.context.values[name].num.terms
         keys[name] = by_place[(monomial.bit_length() - 1) // checker.BITS]
     integers = frozenset(keys[n] for n in story.integers if n in keys) | frozenset(state.context.integers)
-    return Condition.of(story.context, formula, ring_of(story.context, *SPARE)), keys, integers
+    return Condition.of(story.context, formula, ring_of(story.context, *SPARE)).cleared(), keys, integers
+
+
+def failing_goal(task: Task, state: checker.State, condition: Condition, budget: Budget) -> tuple[Condition | None, list[fmpq_mpoly]]:
+    """For a counterexample to what is said to exist: the goals, and the borders of where they can be met."""
+    if task.purpose != "counterexample" or not task.statement.get("exists"):
+        return None, []
+    story = checker.Unfolding(task.statement, checker.Context(state.context, dict(task.base)), task.sharp)
+    goal = Condition.of(story.context, story.goal(True), condition.ring)
+    outer = set(condition.ring.names()) - {name for line in task.statement.get("exists") for name in line}
+    try:
+        return goal, projected(goal, outer, budget.part(50_000))
+    except Exhausted:
+        return goal, []
 
 
 def margins_of(state: checker.State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:

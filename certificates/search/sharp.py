@@ -10,7 +10,7 @@ from flint import fmpq, fmpq_poly
 
 from certificates import checker
 from certificates.statements import SharpRange
-from certificates.terms import Formula
+from certificates.terms import Formula, disjunction
 
 from .algebraic import AlgebraicNumber, simplest_between
 from .budget import Budget, Exhausted, accepted
@@ -19,8 +19,10 @@ from .condition import Condition, evaluate, multivariate, ring_of
 from .elimination import border_polynomials, candidate_numbers
 from .ranges import Line, condition_of, polynomial_term, separators
 from .sharp_certificate import sharp_certificate
-from .solver import ask
+from .solver import RESOURCES, ask
 
+NOWHERE = 300_000  # units of work for one family on the whole domain
+QUICK, PROBES = 100_000, (fmpq(1, 2), fmpq(1, 10), fmpq(9, 10))  # Z3's work, and where a statement has to fail before that is tried
 Known = Mapping[str, checker.Statement]
 Verdicts = dict[str, tuple[bool, ...]]
 
@@ -59,7 +61,7 @@ class Violation:
         goal = Condition.of(story.context, story.goal(True), ring).substituted(ones) if exists else None
         return Violation(statement.name, condition, goal, exists, tuple(sorted(story.integers)))
 
-    def absent(self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget) -> bool | None:
+    def absent(self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES) -> bool | None:
         """Z3's verdict at one value of the parameter: True where there is no violation, None where it has none."""
         condition, goal = self.condition, self.goal
         if isinstance(at, AlgebraicNumber) and at.is_rational:
@@ -74,7 +76,7 @@ class Violation:
             condition = condition.substituted({parameter: at})
             goal = goal.substituted({parameter: at}) if goal is not None else None
         unreachable = (goal, self.bound) if goal is not None else None
-        verdict = ask(condition, budget, self.integers, unreachable=unreachable).verdict
+        verdict = ask(condition, budget, self.integers, resources, unreachable=unreachable).verdict
         return {"sat": False, "unsat": True}.get(verdict)
 
 
@@ -82,7 +84,12 @@ def find_sharp_range(statements: Sequence[checker.Statement], parameter: str, do
                      certify: bool = True) -> Range:
     """The set of one parameter on which all the statements hold, its ends, and a certificate for `checker.check_sharp`."""
     try:
-        line, verdicts = _line(statements, parameter, checker.parse(str(domain)), budget)
+        violations = [Violation.of(s, checker.parse(str(domain)), units=True) for s in statements]
+        failing = [v.name for v in violations if all(v.absent(parameter, at, budget, QUICK) is False for at in PROBES)]
+        never = find_nowhere(statements, parameter, domain, name, known, budget, failing) if certify else None
+        if never is not None:
+            return never
+        line, verdicts = _line(violations, parameter, checker.parse(str(domain)), budget)
     except Exhausted:
         return Range(failure="the budget ran out before the verdicts were known")
     if line is None:
@@ -100,6 +107,22 @@ def find_sharp_range(statements: Sequence[checker.Statement], parameter: str, do
     return result
 
 
+def find_nowhere(statements: Sequence[checker.Statement], parameter: str, domain: Formula, name: str, known: Known, budget: Budget,
+                 failing: Sequence[str]) -> Range | None:
+    """The empty range, where one family breaks a statement on the whole domain; None where a short search finds none."""
+    stated = SharpRange(name, tuple(s.name for s in statements), (parameter,), domain, disjunction([]))
+    statement, line = read(stated), Line((), (False,))
+    for one in (s for s in statements if s.name in failing):
+        try:
+            certificate, _ = _certified(statement, statements, parameter, line, {s.name: (s is not one,) for s in statements}, known,
+                                        budget.part(NOWHERE))
+        except Exhausted:
+            continue
+        if certificate is not None:
+            return Range(stated, [], certificate, line=line)
+    return None
+
+
 def search_sharp(statement: checker.Statement, known: Known, statements: Mapping[str, checker.Statement], budget: Budget
                  ) -> list[Any] | None:
     """A certificate for a sharp range that is already stated, in one parameter, or None."""
@@ -112,7 +135,7 @@ def search_sharp(statement: checker.Statement, known: Known, statements: Mapping
     claimed = Condition.of(context, context.formula(condition))
     own = candidate_numbers(claimed.polys, over[0])
     try:
-        line, verdicts = _line(chosen, over[0], domain, budget, own)
+        line, verdicts = _line([Violation.of(s, domain, units=True) for s in chosen], over[0], domain, budget, own)
     except Exhausted:
         return None
     if line is None or not _agrees(line, claimed, over[0]):
@@ -150,10 +173,9 @@ def _agrees(line: Line, claimed: Condition, parameter: str) -> bool:
     return True
 
 
-def _line(statements: Sequence[checker.Statement], parameter: str, domain: Any, budget: Budget, more: Sequence[AlgebraicNumber] = ()
+def _line(violations: Sequence[Violation], parameter: str, domain: Any, budget: Budget, more: Sequence[AlgebraicNumber] = ()
           ) -> tuple[Line | None, Any]:
     """The line of all verdicts together, with each statement's own; or (None, why)."""
-    violations = [Violation.of(s, domain, units=True) for s in statements]
     context = checker.Context()
     context.declare(parameter)
     allowed = Condition.of(context, context.formula(domain))

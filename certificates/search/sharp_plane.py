@@ -17,7 +17,7 @@ from .algebraic import fraction, sign
 from .base_samples import base_samples
 from .budget import Budget, Exhausted, accepted
 from .closing import search_closing
-from .condition import HOLDS, Condition, coefficients_in, constant_of
+from .condition import HOLDS, Condition, coefficients_in, constant_of, replace
 from .elimination import border_polynomials
 from .families import cover
 from .quotients import Sample
@@ -39,7 +39,7 @@ def find_sharp_region(statements: Sequence[checker.Statement], parameters: Seque
     tree = checker.parse(str(domain))
     state: checker.State = checker.State(checker.Context())
     for parameter in parameters:
-        state.context.declare(parameter)
+        state.context.declare(parameter, any(parameter in line for each in statements for line in each.get("integer")))
     state.assume(state.context.formula(tree))
     try:
         violations = [Violation.of(s, tree, units=True) for s in statements]
@@ -68,7 +68,11 @@ def _borders(state: checker.State, violations: Sequence[Violation], parameters: 
         given = [Condition.of(state.context, ("atom", state.context.polynomial(text), ">"), empty.ring).polys[0] for text in borders]
         return [factor for poly in given for factor, _ in poly.factor()[1]]
     found = border_polynomials([(v.condition, v.goal) for v in violations], parameters, budget)
-    return [p.project_to_context(empty.ring) for p in found][:12]
+    own = [p.project_to_context(empty.ring) for p in found]
+    for name in sorted(state.context.integers):  # of one whole number and the next
+        gen = empty.ring.gen(empty.ring.variable_to_index(name))
+        own += [replace(p, name, gen + 1, empty.ring.constant(1)) for p in own if len(p) > 2]
+    return list({str(q): q for q in own}.values())[:24]
 
 
 def _samples(state: checker.State, polys: Sequence[fmpq_mpoly], parameters: Sequence[str], budget: Budget) -> list[Sample]:
@@ -77,7 +81,7 @@ def _samples(state: checker.State, polys: Sequence[fmpq_mpoly], parameters: Sequ
     inside = [Condition.of(state.context, checker.join("and", [("atom", poly, relation) for poly, relation in state.facts]))]
     for sample in list(found):
         for poly in polys:
-            for name in parameters:
+            for name in sorted(set(parameters) - state.context.integers):
                 parts = coefficients_in(poly.subs({n: v for n, v in sample.items() if n != name}), name)
                 slope = constant_of(parts[1]) if len(parts) == 2 else None
                 rest = constant_of(parts[0])

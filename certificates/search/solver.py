@@ -16,7 +16,7 @@ from .budget import Budget
 from .candidates import Value
 from .condition import Condition, Tree
 
-RESOURCES = 2_000_000  # Z3's own unit of work; about a second
+RESOURCES = 200_000  # Z3's own unit of work; about a tenth of a second where numbers are rational
 
 
 @dataclass
@@ -50,7 +50,7 @@ def ask(condition: Condition, budget: Budget, integers: Iterable[str] = (), reso
     result = str(solver.check())
     statistics = solver.statistics()
     work = next((int(statistics.get_key_value(k)) for k in statistics.keys() if k == "rlimit count"), resources // 10)
-    budget.spend(500 + min(work, resources) // 2)
+    budget.spend(5000 + min(work, resources))
     if result != "sat" or not model:
         return Answer(result if result in ("sat", "unsat") else "unknown")
     values = solver.model()

@@ -33,7 +33,7 @@ def factors(poly: fmpz_mpoly) -> list[tuple[fmpz_mpoly, int]]:
     return [] if not poly or poly.is_constant() else [(p, int(e)) for p, e in poly.factor()[1]]
 
 
-def squares(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int) -> list[fmpz_mpoly]:
+def squares(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST) -> list[fmpz_mpoly]:
     """Candidates for squares, cheapest first: repeated factors, critical lines, variables, differences of variables."""
     pool = Pool()
     used = [v for v in range(ring.size) if v != parameter and any(p.degrees()[v] for p in facts)]
@@ -53,10 +53,10 @@ def squares(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int) -> list[fmp
     for v, w in combinations(used, 2):
         pool.add(ring.gens[v] - ring.gens[w])
         pool.add(ring.gens[v] + ring.gens[w])
-    return pool.polys[:MOST]
+    return pool.polys[:most]
 
 
-def resultants(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int) -> list[fmpz_mpoly]:
+def resultants(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST) -> list[fmpz_mpoly]:
     """Factors of resultants of two facts in a variable that is linear in one of them, smallest first."""
     pool = Pool()
     for v in range(ring.size):
@@ -69,4 +69,4 @@ def resultants(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int) -> list[
                     pool.add(factor)
     found = [p for p in pool.polys if any(p.degrees()[v] for v in range(ring.size) if v != parameter)]
     found.sort(key=lambda p: (len(p), total_degree(p)))
-    return found[:MOST]
+    return found[:most]

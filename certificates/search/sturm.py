@@ -34,8 +34,8 @@ def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> li
 def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
     """Whether the polynomial is positive on the whole closed interval.
 
-    >>> positive_between(fmpq_poly([-2, 0, 1]), Fraction(3, 2), Fraction(2)), positive_between(fmpq_poly([-2, 0, 1]), Fraction(7, 5), Fraction(2))
-    (True, False)
+    >>> [positive_between(fmpq_poly([-2, 0, 1]), Fraction(low, 10), Fraction(2)) for low in (14, 15)]
+    [False, True]
     """
     if low > high:
         return False

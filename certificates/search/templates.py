@@ -9,10 +9,11 @@ from flint import fmpq, fmpq_mpoly
 
 from .budget import Budget
 from .candidates import PARAMETERS, UNITS, favourites, solutions, trials
-from .condition import Condition, coefficients_in, constant_of
-from .quotients import Choice, Quotient, Root, Sample, insert, reduced_by, root_values, square_roots
+from .condition import Condition, coefficients_in, constant_of, replace
+from .quotients import SPARE, Choice, Quotient, Root, Sample, insert, reduced_by, root_values, square_roots
 
 Candidate = tuple[Quotient, Root | None]
+NEGLIGIBLE = fmpq(1, 2**100)  # of values that come from rational approximations of roots
 BESIDE = tuple(fmpq(sign, size) for size in (10, 100, 1000) for sign in (1, -1))  # how far beside a border, in margins
 
 
@@ -31,9 +32,11 @@ class TemplateSearch:
 
     def __init__(self, base: Sequence[str], samples: Sequence[Sample], budget: Budget, integers: frozenset[str] = frozenset(),
                  nodes: int = 400, least: int | None = None, hints: Mapping[str, Sequence[Quotient]] | None = None,
-                 margins: Sequence[fmpq_mpoly] = ()) -> None:
+                 margins: Sequence[fmpq_mpoly] = (), borders: Sequence[fmpq_mpoly] | None = None) -> None:
         self.base, self.samples, self.budget, self.integers = list(base), [dict(s) for s in samples], budget, integers
         self.nodes, self.hints, self.margins = nodes, dict(hints or {}), list(margins)
+        self.given: dict[tuple[int, str], dict[str, fmpq]] = {}  # samples with the values of adjoined roots
+        self.borders = borders  # where these are given, they are tried first
         self.least = len(self.samples) if least is None else least
 
     def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[Choice]:
@@ -61,6 +64,13 @@ class TemplateSearch:
         if adjoined is not None:
             name, poly = adjoined
             yield from self._descend(self._adjoined(partial, name, poly), [n for n in unknowns if n != name])
+            spare = next((n for n in SPARE if n not in [root.name for root in partial.roots]), None)
+            if spare is not None:  # the smaller root, from the larger
+                gen = poly.context().gen(poly.context().variable_to_index(spare))
+                larger = Root(spare, replace(poly, name, gen, gen ** 0))
+                widened = Partial(partial.condition, partial.sampled, partial.steps, [*partial.roots, larger])
+                value = -coefficients_in(poly, name)[1] - gen
+                yield from self._descend(self._with(widened, name, value, gen ** 0), [n for n in unknowns if n != name])
             return
         name, rest = unknowns[0], unknowns[1:]
         for value, root in self._candidates(partial, name, rest):
@@ -70,9 +80,11 @@ class TemplateSearch:
 
     def _plausible(self, partial: Partial, name: str, value: Quotient) -> bool:
         missing = len(self.samples) - self.least
+        self.budget.spend(30)
         for sample, sampled in zip(self.samples, partial.sampled):
+            self.budget.spend(20 + 5 * len(sampled.polys))
             at = value.at(self._given(partial, sample)) if sampled.tree is not False else None
-            missing -= at is None or not possible(sampled, name, at)
+            missing -= at is None or not possible(sampled, name, at, bool(partial.roots))
             if missing < 0:
                 return False
         return True
@@ -90,6 +102,8 @@ class TemplateSearch:
             low, high = bottom.subs(given), top.subs(given)
             if low == 0:
                 sampled.append(Condition(before.ring, before.polys, False))
+            elif partial.roots:
+                sampled.append(before.mapped(lambda p, high=high, low=low: rounded(replace(p, name, high, low))))
             else:
                 sampled.append(before.replaced(name, high, low))
         return Partial(changed, sampled, [*partial.steps, (name, top, bottom)], partial.roots)
@@ -138,12 +152,19 @@ class TemplateSearch:
         for sample, before in zip(self.samples, partial.sampled):
             given = self._given(result, sample)
             failed = before.tree is False or name not in given
-            result.sampled.append(Condition(changed.ring, changed.polys, False) if failed else changed.substituted(given))
+            result.sampled.append(Condition(changed.ring, changed.polys, False) if failed else
+                                  changed.mapped(lambda p, given=given: rounded(p.subs(given))))
         return result
 
     def _given(self, partial: Partial, sample: Sample) -> dict[str, fmpq]:
         """The sample with the values of the adjoined roots there."""
-        return {**sample, **root_values(partial.roots, sample)} if partial.roots else dict(sample)
+        if not partial.roots:
+            return dict(sample)
+        mark = id(sample), "; ".join(str(root.poly) for root in partial.roots)
+        if mark not in self.given:
+            self.budget.spend(100)
+            self.given[mark] = {**sample, **root_values(partial.roots, sample)}
+        return self.given[mark]
 
     # ------------------------------------------------ candidates
 
@@ -157,7 +178,7 @@ class TemplateSearch:
             whole = [Quotient(ring.gen(ring.variable_to_index(n)), one) for n in self.base if n in self.integers]
             return [(q, None) for q in [*plain, *constants, *whole]]
         lines, roots = self._lines(partial, name, rest)
-        plain += [*constants[:3], *lines]
+        plain += [*constants[:3], *lines] if self.borders is None else [*lines, *constants[:3]]
         plain += [Quotient(margin * part, one) for margin in self.margins for part in (1, fmpq(1, 2), fmpq(1, 10), fmpq(1, 100))]
         ordered = self._ordered(partial, [*lines, Quotient(ring.constant(0), one)])
         for left, right in zip(ordered, ordered[1:]):
@@ -166,7 +187,7 @@ class TemplateSearch:
                 plain.append(Quotient.reduced(top, left.bottom * right.bottom))
         for end, shift in ((ordered[:1], -1), (ordered[-1:], 1)):
             plain += [Quotient.reduced(q.top + shift * q.bottom, q.bottom) for q in end]
-        plain += constants[3:]
+        plain += [*constants[3:], *_between(lines)]
         near = [(q, None) for q in lines[:4]] + roots[:4]
         slight = [margin * c for margin in self.margins[:5] for c in BESIDE]
         small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
@@ -201,6 +222,7 @@ class TemplateSearch:
         ring = partial.condition.ring
         place = {n: i for i, n in enumerate(ring.names())}
         polys = [partial.condition.polys[k] for k in partial.condition.used()]
+        polys += self._borders_at(partial)
         polys = [p for p in polys if p.degrees()[place[name]]]
         direct = [p for p in polys if not any(p.degrees()[place[n]] for n in rest)]
         for other in rest:
@@ -227,6 +249,13 @@ class TemplateSearch:
                     roots += [(q, fresh) for q in zeros]
         return sorted(found, key=lambda q: q.size())[:10], sorted(roots, key=lambda pair: pair[0].size())[:8]
 
+    def _borders_at(self, partial: Partial) -> list[fmpq_mpoly]:
+        """The borders after what was decided so far."""
+        borders = list(self.borders or ())
+        for name, top, bottom in partial.steps:
+            borders = [replace(p, name, top, bottom) for p in borders]
+        return [p for p in borders if p != 0]
+
     def _ordered(self, partial: Partial, lines: list[Quotient]) -> list[Quotient]:
         """The quotients in the order of their values at the middle sample, each value once."""
         if not self.samples:
@@ -251,11 +280,32 @@ class TemplateSearch:
         return values
 
 
-def possible(condition: Condition, name: str, value: fmpq) -> bool:
+def possible(condition: Condition, name: str, value: fmpq, nearly: bool = False) -> bool:
     """Whether a condition can still be met with this value of a variable, as far as folding shows."""
-    return condition.substituted({name: value}).tree is not False
+    given = {name: value}
+    return (condition.mapped(lambda p: rounded(p.subs(given))) if nearly else condition.substituted(given)).tree is not False
+
+
+def rounded(poly: fmpq_mpoly) -> fmpq_mpoly:
+    """The polynomial without the coefficients that are 0 but for the accuracy of roots."""
+    if all(abs(c) >= NEGLIGIBLE for c in poly.coeffs()):
+        return poly
+    return poly.context().from_dict({powers: c for powers, c in poly.to_dict().items() if abs(c) >= NEGLIGIBLE})
 
 
 def ring_names(poly: fmpq_mpoly) -> set[str]:
     """The variables that occur in a polynomial."""
     return {name for name, e in zip(poly.context().names(), poly.degrees()) if e}
+
+
+def _between(lines: Sequence[Quotient]) -> list[Quotient]:
+    """For three of them, low + (a - low)*(b - low)/((a - low) + (b - low)): above low, and below a and b where both are above it."""
+    found = []
+    for k, low in enumerate(lines[:3]):
+        above = [Quotient(q.top * low.bottom - low.top * q.bottom, q.bottom * low.bottom) for j, q in enumerate(lines[:5]) if j != k]
+        for i, a in enumerate(above):
+            for b in above[:i]:
+                total = a.top * b.bottom + b.top * a.bottom
+                if total != 0:
+                    found.append(Quotient.reduced(low.top * total + low.bottom * a.top * b.top, low.bottom * total))
+    return found

@@ -65,17 +65,17 @@ def velocity_after_the_impact(printed: Printed) -> Statement:
 
 @claim("sA.1-loss", "A.1", "line 638", printed=r"\dot{\rho} = 0 \\ (1 - \alpha)")
 def part_lost_on_a_table_at_rest(printed: Printed) -> Statement:
-    """On a table at rest a falling ball loses this part of its velocity."""
+    """On a table at rest the ball, whose velocity is turned round, loses this part of it."""
     at_rest, part = pieces(printed, 2)
     lost = value_of(part, PAPER) * -ball
-    return always(equal(-ball - struck(ball, table), lost), given=[at_rest.formula(VELOCITIES), ball < 0])
+    return always(equal(-ball - struck(ball, table), lost), given=[at_rest.formula(VELOCITIES)])
 
 
 @claim("sA.1-sustain", "A.1", "line 638")
 def table_gives_back_what_is_lost() -> Statement:
-    """A falling ball's velocity is sustained exactly when the moving table adds to it what a table at rest would take."""
+    """The ball's velocity is sustained exactly when the moving table adds to it what a table at rest would take."""
     added = struck(ball, table) - struck(ball, 0)
-    return always(iff(equal(struck(ball, table), -ball), equal(added, (1 - alpha) * -ball)), given=[ball < 0])
+    return always(iff(equal(struck(ball, table), -ball), equal(added, (1 - alpha) * -ball)))
 
 
 @claim("sA.1-maximise", "A.1", "line 638")

@@ -7,6 +7,7 @@ from certificates.terms import Formula, Term, conjunction, reals, term
 from proofs.claims import Assertion, Readings, claim
 from proofs.paper.outside import (
     B1_OUTSIDE,
+    BEYOND_R,
     CLOSED_B1,
     CORNER,
     NAMED,
@@ -37,8 +38,8 @@ BOUNDED = [k > 0, -(k - 2) * r <= v, v <= (k - 2) * r]
 
 
 def room(*margins: Term) -> Formula:
-    """There is a small delta by which a state may move before its energy or collision margin changes by so much."""
-    return conjunction([delta < 1, *(k * r**2 * delta < margin for margin in margins)])
+    """Moving by delta changes none of these margins of energy so much that it vanishes."""
+    return conjunction([k * r**2 * delta < margin for margin in margins])
 
 
 @claim("sA.4-distinct", "A.4", "line 716")
@@ -48,24 +49,30 @@ def supremum_and_maximum_differ() -> Statement:
 
 
 @claim("sA.4-leftmost", "A.4", "line 716", repeats="sA.3.2-leftmost")
-def supremum_is_at_the_left() -> Statement:
+def supremum_is_at_the_left() -> list[Statement]:
     """An impact outside R takes less from a lower state of the same velocity, still outside R, so that the supremum is at the left."""
-    return exists_some(["edge"], B1_OUTSIDE(LEFT) & (term(impact_energy_change(LEFT)) > change), within=[edge >= 0, edge < beta],
-                       given=[B1_OUTSIDE(b), beta > 0])
+    ground = Vector((0, v))
+    return [
+        always(B1_OUTSIDE(ground) & (term(impact_energy_change(ground)) > change), given=[B1_OUTSIDE(b), beta > 0, BEYOND_R(ground)],
+               label="down-to-the-edge"),
+        exists_some(["edge"], B1_OUTSIDE(LEFT) & (term(impact_energy_change(LEFT)) > change), within=[edge >= 0, edge < beta],
+                    given=[B1_OUTSIDE(b), ~BEYOND_R(ground)], label="towards-the-arc"),
+    ]
 
 
 @claim("sA.4-open", "A.4", "line 716")
 def impacts_outside_are_open() -> Readings:
     """The states outside R whose impact comes are an open set: of the plane, or of H only."""
-    margins = at(derived("collision_margin"), b), -term(at(derived("region_margin"), b))
+    margins = {"collision": at(derived("collision_margin"), b), "energy": -term(at(derived("region_margin"), b))}
+    # What is room for a delta is room for every smaller one, so that one delta serves both margins.
+    rooms = [exists_some(["delta"], room(margin), within=[delta > 0], given=[B1_OUTSIDE(b), *BOUNDED], label=f"room-for-{name}")
+             for name, margin in margins.items()]
+    near = always(B1_OUTSIDE(NEAR), given=[B1_OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(*margins.values()), H(NEAR)], label="all-near")
     return Readings({
         "of-the-plane": Assertion((
             exists_some(["delta"], B1_OUTSIDE(Vector((beta - delta, v))), within=[delta > 0], given=[B1_OUTSIDE(b)]),
         )),
-        "of-H": Assertion((
-            exists_some(["delta"], room(*margins), within=[delta > 0], given=[B1_OUTSIDE(b), *BOUNDED], label="room"),
-            always(B1_OUTSIDE(NEAR), given=[B1_OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(*margins), H(NEAR)], label="all-near"),
-        )),
+        "of-H": Assertion((*rooms, near)),
     })
 
 
@@ -79,9 +86,9 @@ def boundary_of_the_region(printed: Printed) -> Readings:
         "in-H": Assertion((
             always(R(b), given=[H(b), on_it], label="one-side"),
             both_sides,
-            exists_some(["delta"], room(margin), within=[delta > 0], given=[R(b), ~on_it, *BOUNDED], label="room-inside"),
+            exists_some(["delta"], room(margin), within=[delta > 0, delta < 1], given=[R(b), ~on_it, *BOUNDED], label="room-inside"),
             exists_some(["delta"], room(-margin), within=[delta > 0], given=[OUTSIDE(b), *BOUNDED], label="room-outside"),
-            always(R(NEAR), given=[R(b), *BOUNDED, *WITHIN_DELTA, room(margin), H(NEAR)], label="inside"),
+            always(R(NEAR), given=[R(b), *BOUNDED, *WITHIN_DELTA, delta < 1, room(margin), H(NEAR)], label="inside"),
             always(~R(NEAR), given=[OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(-margin)], label="outside"),
         )),
         "in-the-plane": Assertion((

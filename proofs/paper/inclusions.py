@@ -8,11 +8,11 @@ from __future__ import annotations
 from typing import Any
 
 from certificates.statements import Statement
-from certificates.terms import Formula, equal, iff, term
+from certificates.terms import equal, iff, term
 from proofs.claims import Assertion, Readings, claim
 from proofs.paper.events import height, speed, vector
 from proofs.paper.outside import B1_OUTSIDE, OUTSIDE
-from proofs.paper.relative_motion import RANGE_21, band, c, from_e_1, image, leaves_R_at, on_the_line
+from proofs.paper.relative_motion import RANGE_21, band, c, leaves_R_at, narrow_band_stays, on_the_line
 from proofs.paper.vocabulary import (
     B1,
     B1_MINUS,
@@ -36,7 +36,6 @@ from proofs.paper.vocabulary import (
     f2,
     impact_energy_change,
     is_supremum,
-    next_states,
     r,
     v,
 )
@@ -135,18 +134,19 @@ def point_p_lies_outside() -> Statement:
 
 @claim("region-near", "inclusions", "line 559", parameters=("alpha", "eps"))
 def states_of_the_region_near_e_1_lie_in_b1() -> Readings:
-    """The states of R whose kinetic energy relative to e_1 is small enough lie in B1: so small that they are slower than where R leaves B1.
+    """The states of R whose velocity is near that of e_1 lie in B1: exactly those slower than where R leaves B1 are sure to.
 
-    No larger band will do, as that very state is in R and in B2; with eps in units of r^2 the sharp range says how small is small enough.
+    The second reading is that those lie in B1 whose velocity differs from that of e_1 by at most eps r, whatever eps.
     """
     edge = on_the_line(c)
+    near = (speed(e_1) - eps * r <= v) & (v <= speed(e_1) + eps * r)
     return Readings({
         "exactly-how-near": Assertion((
             always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=RANGE_21, label="slower"),
             always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=RANGE_21, label="e_1-is-slower"),
             always(B2(edge) & R(edge), given=[leaves_R_at(c)], in_range=RANGE_21, label="no-further"),
         )),
-        "every-size": Assertion((always(B1(b), given=[eps > 0, R(b), from_e_1(b) <= eps * r**2], in_range=RANGE_21),)),
+        "every-distance": Assertion((always(B1(b), given=[eps > 0, R(b), near], in_range=RANGE_21),)),
     })
 
 
@@ -156,22 +156,24 @@ def fixed_point_lies_in_both() -> Statement:
     return always(B1(b) & R(b), given=[equals(f1(b), b)], in_range=RANGE_21)
 
 
-@claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"))
-def bands_are_mapped_into_themselves() -> Readings:
-    """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself.
+# Where an image first leaves B1: from height 0, with the closing speed r/alpha, at the edge of the band, or at the energy of R.
+BORDERS = ("(1 - alpha)^2 - 2*eps*alpha^2*(1 + alpha)^2", "(1 - alpha)^4 - 2*alpha^2*(1 + alpha)")
 
-    That is, if it does not reach to where R leaves B1; or whatever its size.
+
+@claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"), hints={"sharp": BORDERS})
+def bands_are_mapped_into_themselves() -> Readings:
+    """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself, if the band does not reach to where R leaves B1.
+
+    Images stay in R and in the band whatever its size; the second reading says that they stay in B1 as well, for every size.
     """
     size = eps * r**2
-    narrow = [leaves_R_at(c), from_e_1(on_the_line(c)) > size]
-
-    def stays(given: list[Formula]) -> Assertion:
-        return Assertion((always(band(size)(vector(f1(b))), given=[eps > 0, *given, band(size)(b)], in_range=RANGE_21),))
-
-    return Readings({"narrow": stays(narrow), "every-size": stays([])})
+    return Readings({
+        "narrow": Assertion(narrow_band_stays(size)),
+        "every-size": Assertion((always(B1(vector(f1(b))), given=[eps > 0, band(size)(b)], in_range=RANGE_21, label="stays-in-B1"),)),
+    })
 
 
 @claim("region-trap", "inclusions", "not printed")
 def trap_is_mapped_into_itself() -> Statement:
-    """The states of B1 whose closing speed is below r/alpha are mapped to such states."""
-    return always(TRAP(image), given=[TRAP(b), next_states(b, image)], in_range=RANGE_21)
+    """The states of B1 whose closing speed is below r/alpha are mapped to such states by f, which is f1 there."""
+    return always(TRAP(vector(f1(b))), given=[TRAP(b)], in_range=RANGE_21)

@@ -94,7 +94,7 @@ def impacts_suffice(rounding: Formula) -> Assertion:
     return Assertion((
         always_counting(R(b_0), given=[H(b_0), rounding, n <= 0], label="none-needed"),
         always_counting(energy(b_0) <= LEVEL + n * loss, given=[H(b_0), rounding], label="losses-cover"),
-        always_counting(energy(f1(b)) <= LEVEL + (m - 1) * loss, given=[B1_OUTSIDE(b), energy(b) <= LEVEL + m * loss], label="each-impact"),
+        always(energy(f1(b)) <= energy(b) - loss, given=[B1_OUTSIDE(b)], label="each-impact"),
     ))
 
 

@@ -5,9 +5,10 @@ K is a function here, the kinetic energy of section 4.3, and not the integer K o
 
 from __future__ import annotations
 
+from certificates.statements import Statement
 from certificates.terms import Formula, Term, conjunction, disjunction, equal, reals, term
 from proofs.paper.events import height, only_at, speed, vector
-from proofs.paper.vocabulary import B1, NAMES, POINTS, R, alpha, at, b, derived, e_1, energy, eps, f1, r
+from proofs.paper.vocabulary import B1, NAMES, POINTS, R, alpha, always, at, b, derived, e_1, energy, eps, f1, r
 from proofs.reading.environment import Environment
 from proofs.reading.notions import Region, StateFunction
 from proofs.reading.values import Matrix, Vector
@@ -48,7 +49,22 @@ def band(size: Term) -> Region:
     return B1 & R & Region(lambda state: from_e_1(state) <= size)
 
 
-NEAR = (leaves_R_at(c), from_e_1(on_the_line(c)) > eps)  # the band of size eps does not reach to where R leaves B1
+def is_narrow(size: Term) -> tuple[Formula, ...]:
+    """The band of this size does not reach to where R leaves B1."""
+    return leaves_R_at(c), from_e_1(on_the_line(c)) > size
+
+
+NEAR = is_narrow(eps)
+
+
+def narrow_band_stays(size: Term) -> tuple[Statement, ...]:
+    """f1 maps a narrow band into itself: its images are in B1, in R, and in the band."""
+    after = vector(f1(b))
+    return (
+        always(B1(after), given=[*is_narrow(size), B1(b), from_e_1(b) <= size], in_range=RANGE_21, label="stays-in-B1"),
+        always(R(after), given=[B1(b), R(b)], in_range=RANGE_21, label="stays-in-R"),
+        always(from_e_1(after) <= size, given=[eps > 0, from_e_1(b) <= size], in_range=RANGE_21, label="stays-in-the-band"),
+    )
 
 
 def boundary_of_band(size: Term) -> Region:

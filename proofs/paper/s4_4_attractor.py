@@ -7,7 +7,7 @@ from certificates.terms import reals
 from proofs.claims import Assertion, Awaiting, Readings, claim
 from proofs.paper.events import height, speed, vector
 from proofs.paper.orbits import within
-from proofs.paper.relative_motion import AROUND_E1, NEAR, RANGE_21, STABILITY, band, image, relative_step, z
+from proofs.paper.relative_motion import AROUND_E1, RANGE_21, STABILITY, image, narrow_band_stays, relative_step, z
 from proofs.paper.vocabulary import T, alpha, always, b, eps, equals, f1, next_states
 from proofs.reading.notions import StateFunction
 from proofs.reading.printed import Printed
@@ -38,12 +38,11 @@ def fixed_point_attracts_the_band() -> Awaiting:
 
     For now: a narrow band is mapped into itself, and each impact multiplies the greater of the differences to e_1 by 2 alpha at most.
     """
-    stays = always(band(eps)(vector(f1(b))), given=[eps > 0, *NEAR, band(eps)(b)], in_range=RANGE_21, label="stays")
     after = relative_step(z)
     before = within(size, height(z)) & within(size, T * speed(z))
     shrunk = within(2 * alpha * size, height(after)) & within(2 * alpha * size, T * speed(after))
     return Awaiting("convergence under an affine contraction", Assertion((
-        stays, always(shrunk, given=[before], in_range=RANGE_21, label="contracts"))))
+        *narrow_band_stays(eps), always(shrunk, given=[before], in_range=RANGE_21, label="contracts"))))
 
 
 @claim("s4.4-global", "4.4", "line 569")

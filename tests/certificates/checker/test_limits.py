@@ -59,8 +59,12 @@ NODES: dict[str, Json] = {
     "many summands after a long one": ["psatz", [[1, [], "(x + y + z + 1)^12"], *[[1, [], "1"]] * 200_000], []],
     "a root count of degree 150": negated(f"{sampled(60, 150)} - 2^61", ["interval", 3, 0, 1]),
     "a root count of degree 40, long coefficients": negated(f"{sampled(4000, 40)} - 2^3999*4", ["interval", 3, 0, 1]),
-    "a long numerator at the end of an interval": negated(f"{BIG}*x + {BIG[:-1]}7", negated("x^3000 - 3", ["interval", 4, 3, 1])),
-    "a long denominator at the end of an interval": negated(f"{BIG}*x - 1", negated("x^3000 - 3", ["interval", 4, 3, 1])),
+    "a long numerator at the end of an interval": negated(
+        f"{BIG}*x + {BIG[:-1]}7", negated("x^3000 - 3", ["interval", 4, 3, 1])
+    ),
+    "a long denominator at the end of an interval": negated(
+        f"{BIG}*x - 1", negated("x^3000 - 3", ["interval", 4, 3, 1])
+    ),
     "denominators without bound": ["psatz", [[f"1/{10**300 + k}", [], "1"] for k in range(300)], []],
     "a power of a fact": ["psatz", [[1, [[0, 4000], [1, 4000], [2, 4000]], "1"]], []],
 }

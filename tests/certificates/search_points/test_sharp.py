@@ -75,3 +75,33 @@ show 10*alpha^3 - 20*alpha^2 + 10*alpha - 1 > 0""")
     assert found.failure == ""
     outcome = checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement})
     assert outcome == "certified"
+
+
+NOWHERE = {
+    "a root of the parameter": f"""statement x/edge
+forall alpha v
+{cases.UNIT}
+root s = sqrt(2*(1 + alpha))
+given v^2 = 2*(1 + alpha)
+show v != -s""",
+    "no room at the boundary": f"""statement x/room
+forall alpha x
+{cases.UNIT}
+given x >= 0
+exists d
+with d > 0
+show x - d >= 0 and alpha*d < 1""",
+    "an equation times what does not vanish": f"""statement x/quotient
+forall alpha h slope v
+{cases.UNIT}
+given h != 0 and alpha*(v + h)^2 - alpha*v^2 - alpha*h^2 = slope*h
+show slope != 2*alpha""",
+}
+
+
+@pytest.mark.parametrize("case", NOWHERE)
+def test_one_family_breaks_a_statement_everywhere(case):
+    statement = cases.read(NOWHERE[case])
+    found = find_sharp_range([statement], "alpha", UNIT, "x/sharp", {}, cases.budget())
+    assert str(found.statement.condition) == "0 = 1"
+    assert checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement}) == "certified"

@@ -13,11 +13,6 @@ forall alpha
 have 1 + alpha > 0
 exists x w
 show x = alpha*(w - x) and w = 2 - alpha*w""", {"w": "2/(alpha + 1)", "x": "(2*alpha)/(alpha + 1)^2"}),
-    "without a licensed denominator": (f"""statement w/inverse
-forall alpha
-{UNIT}
-exists w
-show w = 2 - alpha*w""", {"w": "2*inverse"}),
     "an end of a constraint": ("""statement w/between
 forall w
 given w > 0
@@ -73,3 +68,80 @@ def test_no_witness_for_what_does_not_exist():
     story = checker.Unfolding(statement, checker.Context())
     base = {"a": story.context.values["a"]}
     assert search_found(statement, story.state(), "witness", base, {}, budget(), effort=1) is None
+
+
+def leaves(found: list) -> list[dict[str, str]]:
+    """The terms of every case that is not empty."""
+    if found[0] == "sign":
+        return [terms for part in found[2:] for terms in leaves(part)]
+    return [] if found[0] == "empty" else [found[2]]
+
+
+SIGNS_TOLD_APART = {
+    "a positive denominator that no line names": (f"""statement w/inverse
+forall alpha
+{UNIT}
+exists w
+show w = 2 - alpha*w""", {"w": "2/(alpha + 1)"}),
+    "a denominator positive by two facts together": ("""statement w/meets
+forall r g beta v
+given r > 0 and g > 0
+given beta >= 0
+given g*beta/2 + r*v < r^2
+exists t
+with 0 <= t and t < 2*r/g
+show beta + v*t = r*t""", {"t": "beta/(r - v)"}),
+}
+MARGIN = "r^2*(1 + alpha)/(1 - alpha)^2"
+FALL = "alpha^2*(r - v)^2/2 + r^2/2 + alpha*r*(r - v) - v^2/2"
+NEAR_A_BOUNDARY = {
+    "either of two parallel equations": """statement w/parallel
+forall g v a b
+given g > 0
+given b*(-g) = a*(-v)
+exists lam
+show a = lam*(-g) and b = lam*(-v)""",
+    "two variables near a given state": f"""statement w/beside
+forall alpha r g beta v size
+{UNIT}
+given r > 0 and g > 0
+given beta >= 0
+given beta + (v - r)*2*r/g = 0
+given v < r
+given size > 0
+exists beta0 v0
+show beta0 >= 0 and g*beta0/2 + r*v0 < r^2 and v - size < v0 and v0 < v + size and beta0 = beta""",
+    "beyond a border that holds irrational states": f"""statement w/height
+forall alpha r g eps v
+{UNIT}
+have 1 - alpha > 0
+given r > 0 and g > 0
+given r*v < r^2 and v^2/2 = {MARGIN}
+given eps > 0
+exists height
+with height > 0
+show g*height/2 + r*v < r^2 and (1 + alpha)*g*height < eps""",
+    "a supremum is approached": f"""statement w/supremum
+forall alpha r g eps
+{UNIT}
+have 1 - alpha > 0
+given r > 0 and g > 0
+given eps > 0
+root s = sqrt(2*(1 + alpha))
+exists beta v
+with beta >= 0 and r^2 - g*beta/2 - r*v > 0 and {MARGIN} - g*beta - v^2/2 < 0
+show {FALL} - (1 + alpha)*g*beta > r^2*(s*alpha*(1 + alpha)/(1 - alpha) - (1 + alpha)^3/(2*(1 - alpha))) - eps""",
+}
+
+
+@pytest.mark.parametrize("case", SIGNS_TOLD_APART)
+def test_what_a_term_divides_by_is_told_apart_by_sign(case):
+    text, terms = SIGNS_TOLD_APART[case]
+    assert leaves(witness(read(text))) == [terms]
+
+
+@pytest.mark.parametrize("case", NEAR_A_BOUNDARY)
+def test_a_witness_near_a_boundary(case):
+    statement = read(NEAR_A_BOUNDARY[case])
+    unknown = {name for line in statement.get("exists") for name in line}
+    assert [set(terms) for terms in leaves(witness(statement))] == [unknown]

@@ -22,6 +22,12 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    Case(
+        "a power so high that it would pass for another variable",
+        lines("forall x y", "show " + "*".join(["x^4000"] * 16) + "*x^1536 = y"),
+        proof(CLOSE, at={"x": "0", "y": "0"}),
+        "a polynomial is too large: degree 8000",
+    ),
     Case("a false constant", lines("show 2 < 1"), proof(CLOSE), "nothing false is assumed"),
     Case("a false end of a chain", lines("show 0 < 1 < 1"), proof(CLOSE), "nothing false is assumed"),
     Case(

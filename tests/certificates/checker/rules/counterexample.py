@@ -64,7 +64,9 @@ REJECTED = [
         refuted(values(x="1", y="-2"), goals=OPEN),
         "no term of the certificate is strictly positive",
     ),
-    Case("a value left out", GREATER, refuted(values(x="1")), "a witness gives every variable one value: ['y']"),
+    Case(
+        "a value left out", GREATER, refuted(values(x="1")), "every variable needs one value, an integer one an integer"
+    ),
     Case(
         "a value too many",
         GREATER,
@@ -92,9 +94,19 @@ REJECTED = [
     ),
     Case("a case that is not empty", GREATER, {"refuted": ["empty", CLOSE]}, "nothing false is assumed"),
     Case("the other root", ROOT, refuted(values(x="16", s="-4")), "nothing false is assumed"),
-    Case("a value for what exists", INVERSE, refuted(values(x="1", y="0")), "a witness gives every variable one value"),
+    Case(
+        "a value for what exists",
+        INVERSE,
+        refuted(values(x="1", y="0")),
+        "every variable needs one value, an integer one an integer",
+    ),
     Case("only one candidate excluded", INVERSE, refuted(values(x="1")), "nothing false is assumed"),
-    Case("a half for an integer", GAP, refuted(values(n="1/2")), "an integer variable needs an integer value"),
+    Case(
+        "a half for an integer",
+        GAP,
+        refuted(values(n="1/2")),
+        "every variable needs one value, an integer one an integer",
+    ),
     Case(
         "a false consequence that the statement claims",
         lines("forall x", "have x > 0", "show x != -1"),
@@ -142,13 +154,14 @@ REJECTED = [
         "an adjoined number that is a real, for an integer",
         GAP,
         refuted(values(n="s"), adjoined=[["s", "2*s - 1", "0", "1", CLOSE, CLOSE]]),
-        "an integer variable needs an integer value",
+        "every variable needs one value, an integer one an integer",
     ),
 ]
 
 ADJOINED: list[tuple[str, Json, str]] = [
     ("no change of sign", ["s", "s^2 + 1", "0", "2", CLOSE, CLOSE], "nothing false is assumed"),
     ("the sign changes the other way", ["s", "2 - s^2", "0", "2", CLOSE, CLOSE], "nothing false is assumed"),
+    ("ends swapped, signs that suit", ["s", "1 - s", "2", "0", CLOSE, CLOSE], "nothing false is assumed"),
     ("ends swapped", ["s", "s^2 - 2", "2", "0", CLOSE, CLOSE], "nothing false is assumed"),
     ("both ends above", ["s", "s^2 - 2", "2", "3", CLOSE, CLOSE], "nothing false is assumed"),
     (

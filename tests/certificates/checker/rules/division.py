@@ -18,6 +18,7 @@ LICENSED = [
     ("a negative line", same("given x < 0"), {"x": "-1"}),
     ("a line that says not zero", same("given x != 0"), ONE),
     ("a negated equation", same("given not x = 0"), ONE),
+    ("a sign told after all", lines("forall x", "given x != 0", "given x > 0", "show 1/x > 0"), ONE),
     ("a conjunct", same("given x > 0 and x < 2"), ONE),
     ("a chain", same("given 0 < x < 2"), ONE),
     ("a range", same("range x > 0"), ONE),

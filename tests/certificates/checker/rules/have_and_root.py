@@ -99,7 +99,7 @@ REJECTED = [
         "a root without value at the point",
         ROOT,
         root(UNDER, at={"x": "2"}),
-        "a witness gives every variable one value",
+        "every variable needs one value, an integer one an integer",
     ),
     Case(
         "a root named like a variable",

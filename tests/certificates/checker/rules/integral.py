@@ -1,6 +1,6 @@
 """["integral", i, node]: a strict fact with integer coefficients in integer variables is at least one."""
 
-from tests.certificates.checker.harness import Case, Json, lines, proof
+from tests.certificates.checker.harness import OPEN, Case, Json, lines, proof
 
 GAP = lines("forall n", "integer n", "show n <= 0 or n >= 1")  # facts 0: n > 0, 1: 1 - n > 0
 THIRDS = lines("forall n", "integer n", "show n <= 0 or n/2 >= 1/2")  # fact 1: -n/2 + 1/2 > 0
@@ -32,6 +32,7 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    Case("what remains is left open", GAP, integral(0, OPEN), "no term of the certificate is strictly positive"),
     Case(
         "a real variable",
         lines("forall n", "show n <= 0 or n >= 1"),
@@ -76,6 +77,6 @@ REJECTED = [
         "a point that is no integer",
         lines("forall n", "integer n", "show n = n"),
         proof(["close"], at={"n": "1/2"}),
-        "an integer variable needs an integer value",
+        "every variable needs one value, an integer one an integer",
     ),
 ]

@@ -45,6 +45,18 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    Case(
+        "a bound of degree two that holds elsewhere as well",
+        lines("forall x", "given x^2 + x >= 0", "given x <= 1", "show x > -5"),
+        on(0, 1),
+        "not a bound of the right sense",
+    ),
+    Case(
+        "one point, where the fact holds",
+        lines("forall x", "given x >= 1", "given x <= 1", "show x^2 < 1"),
+        proof(["interval", 2, 0, 1], at={"x": "1"}),
+        "the fact does not fail on the whole interval",
+    ),
     Case("bounds swapped", LINEAR, on(1, 0), "not a bound of the right sense"),
     Case("one bound used twice", LINEAR, on(0, 0), "not a bound of the right sense"),
     Case(

@@ -66,7 +66,23 @@ ACCEPTED = [
     ),
 ]
 
+MAP = lines("forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K", name="rule/map")
+EMPTY = ["empty", CLOSE]
+
 REJECTED = [
+    Case(
+        "a statement of another kind",
+        MAP + "\n" + lines("sharp rule/map", "over x", "domain x > 0", "holds 0 = 0"),
+        sharp({"rule/map": ["proof", [], CLOSE]}, EMPTY, {"x": "1"}),
+        "a sharp range proves each of its earlier statements",
+        {"rule/map": {"certified": []}},
+    ),
+    case(
+        "a statement that does not exist, with a proof",
+        sharp({"rule/none": INSIDE}, found()),
+        "a sharp range proves each of its earlier statements",
+        over("sharp rule/none", *SHARP[1:]),
+    ),
     case("a condition too wide", VALID, "the certificate's sum is not zero", over(*SHARP[:3], "holds a <= 2")),
     case("a condition too narrow", VALID, "the certificate's sum is not zero", over(*SHARP[:3], "holds a < 1/2")),
     case(
@@ -83,7 +99,7 @@ REJECTED = [
         sharp({"rule/squares": INSIDE}, found(), {"a": "10"}),
         "the sample is not in the domain",
     ),
-    case("a sample without value", sharp({"rule/squares": INSIDE}, found(), {}), "an undeclared name: a"),
+    case("a sample without value", sharp({"rule/squares": INSIDE}, found(), {}), "the sample is not in the domain"),
     case(
         "a sample with a value too many", sharp({"rule/squares": INSIDE}, found(), {"a": "1/2", "x": "1"}), "the sample"
     ),
@@ -107,7 +123,7 @@ REJECTED = [
     case(
         "a value for the parameter",
         sharp({"rule/squares": INSIDE}, found(values={"x": "1", "a": "2"})),
-        "a witness gives every variable one value",
+        "every variable needs one value, an integer one an integer",
     ),
     case("nothing inside", sharp({}, found()), "a sharp range proves each of its earlier statements"),
     case(
@@ -140,7 +156,7 @@ REJECTED = [
     ),
     case(
         "a parameter that the statement has not",
-        VALID,
+        sharp({"rule/squares": INSIDE}, found(), {"b": "1/2"}),
         "an undeclared name: b",
         over("sharp rule/squares", "over b", "domain b > 0", "holds b <= 1"),
     ),

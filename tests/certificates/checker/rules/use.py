@@ -100,7 +100,9 @@ REJECTED = [
         "no term",
     ),
     inverse(
-        "a variable left out", use("rule/inverse", {"a": "x"}, {}, ZERO), "an instance gives every variable one value"
+        "a variable left out",
+        use("rule/inverse", {"a": "x"}, {}, ZERO),
+        "every variable needs one value, an integer one an integer",
     ),
     inverse(
         "a variable too many",
@@ -110,12 +112,12 @@ REJECTED = [
     inverse(
         "a universal variable given as fresh",
         use("rule/inverse", {"a": "x"}, {"b": "z"}, ZERO),
-        "an instance gives every variable one value",
+        "only what exists is named afresh",
     ),
     inverse(
         "a variable given twice",
         use("rule/inverse", {"a": "x", "b": "y"}, {"b": "z"}, ZERO),
-        "an instance gives every variable one value",
+        "every variable needs one value, an integer one an integer",
     ),
     inverse(
         "a term that divides by what may vanish",
@@ -131,18 +133,18 @@ REJECTED = [
     gap(
         "a real for an integer",
         use("rule/gap", {"n": "n"}, {}, BETWEEN),
-        "an instance gives every variable one value, an integer one an integer",
+        "every variable needs one value, an integer one an integer",
         integral=False,
     ),
     gap(
         "a half for an integer",
         use("rule/gap", {"n": "1/2"}, {}, BETWEEN),
-        "an instance gives every variable one value, an integer",
+        "every variable needs one value, an integer one an integer",
     ),
     gap(
         "a term for an integer",
         use("rule/gap", {"n": "n + 1"}, {}, BETWEEN),
-        "an instance gives every variable one value, an integer",
+        "every variable needs one value, an integer one an integer",
     ),
     gap("digits and a line break for an integer", use("rule/gap", {"n": "1\n"}, {}, BETWEEN), "unreadable text"),
     case(
@@ -169,7 +171,7 @@ REJECTED = [
         "rule/below",
         NOTHING_BELOW,
         use("rule/below", {"a": "x", "b": "x"}, {}, CLOSE),
-        "an instance gives every variable one value",
+        "only what exists is named afresh",
         x="0",
     ),
     case(

@@ -62,6 +62,14 @@ ACCEPTED = [
     Case("an integer", lines("integer n", "exists n", "show n = 3"), by(found({"n": "3"}), {})),
 ]
 
+ACCEPTED.append(
+    Case(
+        "a goal that divides by what an earlier goal makes nonzero",
+        lines("forall x", "exists y", "with y > 0", "show 1/y = 2"),
+        by(found({"y": "1/2"})),
+    )
+)
+
 REJECTED = [
     Case("a term that fails", ABOVE, by(found({"y": "x - 1"}, SQUARE)), "nothing has this number: 0"),
     Case(
@@ -82,12 +90,12 @@ REJECTED = [
         {"certified": ["", [], CLOSE], "point": [NAME, [], ZERO, CLOSE]},
         "a statement with exists needs",
     ),
-    Case("no term", INVERSE, inverse({}), "a witness gives every variable one value: ['y']"),
+    Case("no term", INVERSE, inverse({}), "every variable needs one value, an integer one an integer"),
     Case(
         "a term for a universal variable",
         INVERSE,
         inverse({"x": "1", "y": "1"}),
-        "a witness gives every variable one value",
+        "every variable needs one value, an integer one an integer",
     ),
     Case(
         "a term for nothing",
@@ -138,13 +146,13 @@ REJECTED = [
         "a real for an integer",
         lines("forall x", "integer n", "exists n", "show n = x"),
         by(found({"n": "x"})),
-        "an integer variable needs an integer value",
+        "every variable needs one value, an integer one an integer",
     ),
     Case(
         "a half for an integer",
         lines("integer n", "exists n", "show 2*n = 1"),
         by(found({"n": "1/2"}), {}),
-        "an integer variable needs an integer value",
+        "every variable needs one value, an integer one an integer",
     ),
     Case(
         "one of two conjuncts",

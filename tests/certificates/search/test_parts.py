@@ -1,0 +1,147 @@
+"""The parts of the proof search: polynomials, units, eliminations, linear programs, interior points."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpz_mpoly
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from certificates import checker
+from certificates.search.budget import Budget, Exhausted, accepted
+from certificates.search.closing import search_closing
+from certificates.search.interior import has_interior_point
+from certificates.search.linear_program import Program, solve
+from certificates.search.polynomials import Packing, Ring, coefficients_in, pseudo_divide
+from certificates.search.problem import Problem
+from certificates.search.scaling import Scaling
+from certificates.search.sturm import positive_between, univariate
+
+RING = Ring(("x", "y", "z"))
+monomials = st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(0, 2))
+polynomials = st.dictionaries(monomials, st.integers(-5, 5).filter(bool), min_size=1, max_size=5).map(RING.ctx.from_dict)
+
+
+def state_of(text: str, names: str, integers: str = "") -> checker.State:
+    context = checker.Context()
+    for name in names.split():
+        context.declare(name, name in integers.split())
+    return checker.State(context).assume(context.formula(checker.parse(text)))
+
+
+@settings(max_examples=50, deadline=None)
+@given(polynomials, polynomials, polynomials)
+def test_pseudo_division_is_an_identity(poly: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly) -> None:
+    x = RING.gens[0]
+    lead, rest = lead.subs({"x": 2}), rest.subs({"x": 1})
+    if not lead:
+        return
+    count, quotient, remainder = pseudo_divide(poly, 0, x, lead, rest)
+    assert lead**count * poly == quotient * (lead * x - rest) + remainder
+    assert not remainder or remainder.degrees()[0] == 0
+
+
+@settings(max_examples=50, deadline=None)
+@given(polynomials)
+def test_coefficients_give_the_polynomial_back(poly: fmpz_mpoly) -> None:
+    x = RING.gens[0]
+    assert sum((c * x**k for k, c in enumerate(coefficients_in(poly, 0, x))), RING.zero) == poly
+
+
+@settings(max_examples=50, deadline=None)
+@given(polynomials, polynomials)
+def test_keys_add_where_monomials_multiply(p: fmpz_mpoly, q: fmpz_mpoly) -> None:
+    packing = Packing(RING, [RING.gens[0] * RING.gens[1] * RING.gens[2]])
+    sums = {int(a) + int(b) for a in packing.row(p)[0] for b in packing.row(q)[0]}
+    assert {int(k) for k in packing.row(p * q)[0]} <= sums
+    assert packing.exponents(packing.row(p)[0]).tolist() == [list(map(int, m)) for m in p.monoms()]
+
+
+@settings(max_examples=50, deadline=None)
+@given(polynomials)
+def test_what_is_lowered_is_lifted_back(poly: fmpz_mpoly) -> None:
+    x, y, z = RING.gens
+    scaling = Scaling(RING, [x**2 - y * z], [0])  # x a unit: y + z has its weight twice
+    assert scaling.units == (0,)
+    lifted = scaling.lift(scaling.lower(poly), scaling.largest(scaling.lower(poly))) if scaling.lower(poly) else None
+    assert lifted is None or scaling.lower(lifted) == scaling.lower(poly)
+
+
+def test_units_are_found_for_lengths_and_times() -> None:
+    ring = Ring(("b", "v", "r", "g", "t"))
+    b, v, r, g, t = ring.gens
+    scaling = Scaling(ring, [g * b + 2 * r * v - 2 * r**2, 2 * b + 2 * v * t - g * t**2, r, g], [2, 3])
+    assert scaling.units == (2, 3)
+    assert str(scaling.lower(g * b + 2 * r * v - 2 * r**2)) == "b + 2*v - 2"
+    assert scaling.lift(b + 2 * v - 2, (2, 0)) == g * b + 2 * r * v - 2 * r**2
+
+
+@pytest.mark.parametrize("text", [
+    "x + y = 3 and x - y = 1 and x != 2",
+    "x*y = 0 and x != 0 and y != 0",
+    "z > 0 and z*x = y and z*x < y",
+    "x^2 = 2 and x^4 != 4",
+    "z > 0 and x*z = 1 and y*z = 1 and x != y",
+    "x = y and y = z and z = x + 1",
+    "z != 0 and z*(x - 1) = 0 and x > 1",
+    "x >= 0 and y >= 0 and z >= 0 and x^2 = y^2 + z and x < y",
+])
+def test_equations_are_used_up(text: str) -> None:
+    state = state_of(text, "x y z")
+    node = search_closing(state, {}, Budget(10**6))
+    assert node is not None and accepted(checker.close, state, node, {})
+
+
+@pytest.mark.parametrize(("text", "integers"), [
+    ("x > 0 and x < 1", "x"), ("2*x + 4*y > 0 and x + 2*y < 1", "x y"), ("z > 0 and z < 3 and x*z >= z and x < 2 and x != 1", "x"),
+])
+def test_strict_facts_in_integers_are_rounded(text: str, integers: str) -> None:
+    state = state_of(text, "x y z", integers)
+    node = search_closing(state, {}, Budget(10**6))
+    assert node is not None and accepted(checker.close, state, node, {})
+    assert search_closing(state_of(text, "x y z"), {}, Budget(10**6)) is None
+
+
+def test_a_state_with_points_is_never_closed() -> None:
+    for text in ("x > 0 and y > 0", "x^2 + y^2 = 1 and x > y", "(x > 1 or x < 0) and x*y = 1", "x^2*y >= 1 and y <= 1"):
+        assert search_closing(state_of(text, "x y"), {}, Budget(10**6)) is None
+
+
+def test_interior_points_are_seen_and_empty_states_are_not() -> None:
+    def seen(text: str) -> bool:
+        return has_interior_point(Problem(state_of(text, "x y"), Ring(("x", "y"))), Budget(10**6))
+
+    assert seen("x > 0 and y > x^2 and y < 2*x")
+    assert not seen("x > 0 and y > x^2 and y < 0")
+    assert not seen("x^2 + y^2 = 1")  # where an equation is left nothing is said
+
+
+def test_a_program_without_solution_has_none() -> None:
+    packing = Packing(RING, RING.gens)
+    program = Program()
+    for poly, strict in ((RING.gens[0] - 2, False), (3 - RING.gens[0], False), (RING.one, True)):
+        program.add(*(part[None, :] for part in packing.row(poly)), [strict], [1.0])
+    assert solve(program, Budget(10**5)) is None
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.lists(st.integers(-4, 4), min_size=2, max_size=6).filter(lambda c: bool(c[-1])))
+def test_positivity_on_an_interval_agrees_with_samples(coefficients: list[int]) -> None:
+    ring = Ring(("x",))
+    x, = ring.gens
+    poly = sum((c * x**k for k, c in enumerate(coefficients)), ring.zero)
+    values = [sum(c * Fraction(k, 16) ** n for n, c in enumerate(coefficients)) for k in range(17)]
+    if positive_between(univariate(poly, 0), Fraction(0), Fraction(1)):
+        assert min(values) > 0
+    if min(values) > 3:  # the derivative is at most 4 * (1 + .. + 5) = 60 and samples are 1/16 apart
+        assert positive_between(univariate(poly, 0), Fraction(0), Fraction(1))
+
+
+def test_parts_of_a_budget_spend_from_the_whole() -> None:
+    whole = Budget(100)
+    part = whole.part(40)
+    with pytest.raises(Exhausted):
+        part.spend(41)
+    assert whole.left == 59

@@ -1,0 +1,71 @@
+"""Every statement of `statements.txt` is proved, but for those whose names end in -false: they have no proof."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from certificates import checker
+from certificates.search.budget import Budget, Exhausted
+from certificates.search.certificate import search_certificate, search_proof
+from certificates.search.closing import Hints, search_closing
+
+STATEMENTS = checker.read_statements((Path(__file__).parent / "statements.txt").read_text())
+BUDGET = 3_000_000
+
+
+@pytest.mark.parametrize("name", STATEMENTS)
+def test_true_statements_are_proved_and_false_ones_are_not(name: str) -> None:
+    proof = search_proof(STATEMENTS[name], {}, Budget(BUDGET))
+    assert (proof is None) == name.endswith("-false")
+    if proof is not None:
+        checker.work_left[0] = checker.MAX_WORK
+        checker.prove(STATEMENTS[name], json.loads(json.dumps(proof)), {})
+
+
+@pytest.mark.parametrize("name", ["rank/falls", "region/f-r-physical", "integers/floor"])
+def test_the_same_certificate_comes_out_every_time(name: str) -> None:
+    texts = {json.dumps(search_proof(STATEMENTS[name], {}, Budget(BUDGET))) for _ in range(2)}
+    assert len(texts) == 1
+
+
+def test_a_false_statement_is_refuted() -> None:
+    certificate = search_certificate(STATEMENTS["region/p-false"], {}, Budget(BUDGET))
+    assert list(certificate) == ["refuted"]
+    outcome, reason = checker.check_one(STATEMENTS["region/p-false"], certificate, {}, {})
+    assert (outcome, reason) == ("refuted", "")
+
+
+def test_a_true_statement_is_certified_with_a_point() -> None:
+    certificate = search_certificate(STATEMENTS["map/h-invariant"], {}, Budget(BUDGET))
+    assert sorted(certificate) == ["certified", "point"]
+    assert checker.check_one(STATEMENTS["map/h-invariant"], certificate, {}, {}) == ("certified", "")
+
+
+def test_too_small_a_budget_ends_as_unknown() -> None:
+    with pytest.raises(Exhausted):
+        search_proof(STATEMENTS["rank/falls"], {}, Budget(1000))
+    assert search_certificate(STATEMENTS["rank/falls"], {}, Budget(1000)) == {"unknown": "the budget of counted work ran out"}
+
+
+def test_a_hint_brings_in_an_earlier_statement() -> None:
+    text = """
+statement h/lemma
+forall y
+given y > 0
+show y^9 + y^4 + 1 > y
+
+statement h/uses
+forall z
+given z^2 + z > 2 and z > 0
+show (z^2 + z - 2)^9 + (z^2 + z - 2)^4 + 3 > z^2 + z
+"""
+    known = checker.read_statements(text)
+    story = checker.Unfolding(known["h/uses"], checker.Context())
+    state = story.state().assume(story.goal(False))
+    hints = Hints((("h/lemma", {"y": "z^2 + z - 2"}),))
+    node = search_closing(state, {"h/lemma": known["h/lemma"]}, Budget(BUDGET), 1, hints)
+    assert node is not None and node[:3] == ["use", "h/lemma", {"y": "z^2 + z - 2"}]
+    checker.close(state, node, {"h/lemma": known["h/lemma"]})
