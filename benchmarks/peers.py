@@ -69,7 +69,7 @@ def coq(statement: checker.Statement, seconds: float) -> bool:
 def nra_goal(statement: checker.Statement) -> str | None:
     """The statement as a Coq goal for nra: conjunctions of polynomial atoms imply one atom; None for other shapes."""
     story = checker.Unfolding(statement, checker.Context())
-    premises = [p for p, _ in story.premises]
+    premises = list(story.premises)
     atoms = [a for p in premises if not isinstance(p, bool) for a in (p[1] if p[0] == "and" else [p])]
     goal = story.goal(True)
     if isinstance(goal, bool) or goal[0] != "atom" or any(a[0] != "atom" for a in atoms):

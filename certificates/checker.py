@@ -64,6 +64,8 @@ class Poly:
         return Poly(terms, den, max(self.deg, other.deg))
 
     def __mul__(self, other):
+        if other is ONE:
+            return self
         sizes = [sum(c.bit_length() for c in poly.terms.values()) for poly in (self, other)]
         spend(len(self.terms) * len(other.terms) + 1 + (sizes[0] * sizes[1] >> 16))
         terms = {}
@@ -85,7 +87,7 @@ class Poly:
     def __pow__(self, exponent):
         if exponent * max(self.deg, 1) > MAX_DEGREE:
             raise Rejected("an exponent is too large", exponent)
-        return prod([self] * exponent, start=ONE)
+        return prod([self] * (exponent - 1), start=self) if exponent else ONE
 
     def constant(self):
         """The value of a constant polynomial; None for any other."""
@@ -124,16 +126,15 @@ def parse(text):
         raise Rejected("unreadable text", text) from None
 
 
+OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
-OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "=": "!=", "!=": "="}
 
 
 def fold(poly, relation):
     """The atom poly relation 0; True or False where the polynomial is constant."""
     value = poly.constant()
-    if value is None:
-        return ("atom", poly, relation)
-    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
+    truth = {} if value is None else {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}
+    return truth.get(relation, ("atom", poly, relation))
 
 
 def join(op, formulas):
@@ -144,7 +145,17 @@ def join(op, formulas):
             return formula
         if not isinstance(formula, bool):
             flat.extend(formula[1] if formula[0] == op else [formula])
+    spend(20 * len(flat) + 100)
     return op == "and" if not flat else flat[0] if len(flat) == 1 else (op, flat)
+
+
+def negate(formula):
+    """The negation, with `not` driven down to atoms."""
+    if isinstance(formula, bool):
+        return not formula
+    if formula[0] == "atom":
+        return ("atom", formula[1] if formula[2] in ("=", "!=") else -formula[1], OPPOSITE[formula[2]])
+    return join("or" if formula[0] == "and" else "and", [negate(part) for part in formula[1]])
 
 
 class Context:
@@ -189,7 +200,7 @@ class Context:
         """The numerator of the ratio over the larger denominator den."""
         num = ratio.num
         for i in sorted(den):
-            num = num * self.licensed[i][0] ** (den[i] - ratio.den.get(i, 0))
+            num = num * self.licensed[i][0] ** (den[i] - ratio.den.get(i, 0)) if den[i] > ratio.den.get(i, 0) else num
         return num
 
     def add(self, a, b):
@@ -255,24 +266,21 @@ class Context:
                 ratio = Ratio(ratio.num * self.licensed[i][0], ratio.den)
         return fold(ratio.num, {"<": ">", "<=": ">="}.get(relation, relation))
 
-    def formula(self, node, truth=True):
-        """The formula, or its negation, with `not` driven down to atoms: ("atom", p, relation), ("and", ..), ("or", ..) or a bool."""
-        spend(100)
-        both, either = ("and", "or") if truth else ("or", "and")
+    def formula(self, node):
+        """The formula with `not` driven down to atoms: ("atom", p, relation), ("and", ..), ("or", ..) or a bool."""
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
-            return self.formula(node.operand, not truth)
+            return negate(self.formula(node.operand))
         if isinstance(node, ast.BoolOp):
-            return join(both if isinstance(node.op, ast.And) else either, [self.formula(part, truth) for part in node.values])
+            return join("and" if isinstance(node.op, ast.And) else "or", [self.formula(part) for part in node.values])
         if isinstance(node, ast.Compare) and all(type(op) in OPERATORS for op in node.ops):
             sides, signs = [self.value(side) for side in (node.left, *node.comparators)], [OPERATORS[type(op)] for op in node.ops]
-            return join(both, [self.atom(a, s if truth else OPPOSITE[s], b) for a, s, b in zip(sides, signs, sides[1:])])
+            return join("and", [self.atom(*atom) for atom in zip(sides, signs, sides[1:])])
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and len(node.args) == 2 and not node.keywords:
-            left, right = node.args
+            left, right = self.formula(node.args[0]), self.formula(node.args[1])
             if node.func.id == "implies":
-                return join(either, [self.formula(left, not truth), self.formula(right, truth)])
+                return join("or", [negate(left), right])
             if node.func.id == "iff":
-                return join("and", [join("or", [self.formula(left, False), self.formula(right, truth)]),
-                                    join("or", [self.formula(left, True), self.formula(right, not truth)])])
+                return join("and", [join("or", [negate(left), right]), join("or", [left, negate(right)])])
         raise Rejected("not a formula", ast.unparse(node))
 
     def show(self, poly):
@@ -330,8 +338,7 @@ def count_roots(p, low, high):
     signs = [[sign for sign in (sign_at(q, at) for q in chain if q) if sign] for at in (low, high)]
     if sign_at(p, low) == 0 or sign_at(p, high) == 0:
         raise Rejected("a polynomial vanishes at an end of the interval")
-    changes = [sum(a != b for a, b in zip(row, row[1:])) for row in signs]
-    return changes[0] - changes[1]
+    return sum(a != b for a, b in zip(signs[0], signs[0][1:])) - sum(a != b for a, b in zip(signs[1], signs[1][1:]))
 
 
 # ------------------------------------------------------------ states
@@ -485,7 +492,7 @@ def close_by_use(state, known, name, arguments, fresh, node):
     one_value_each(state.context, story, arguments, fresh, story.variables)
     if set(arguments) != set(story.universal):
         raise Rejected("only what exists is named afresh", name)
-    close(state.branch(join("or", [story.negated(story.premises), story.goal(True)]), context), node, known)
+    close(state.branch(join("or", [negate(join("and", story.premises)), story.goal(True)]), context), node, known)
 
 
 def one_value_each(context, story, terms, others, needed):
@@ -574,7 +581,7 @@ def read_statements(text):
 
 
 class Unfolding:
-    """A statement's lines in order, as variables, premises, obligations and goals over polynomials; each formula with its negation.
+    """A statement's lines in order, as variables, premises, obligations and goals over polynomials.
 
     A variable whose value the context knows keeps it; any other is declared.  `sharp`: the domain and the condition of a sharp
     range take the place of the statement's own range lines.
@@ -597,7 +604,7 @@ class Unfolding:
             elif keyword == "given" or keyword == "range" and sharp is None:
                 self.assume(said)
             elif keyword == "have":
-                self.obligations.append((len(self.premises), context.formula(said, False)))
+                self.obligations.append((len(self.premises), negate(context.formula(said))))
                 self.assume(said)
             elif keyword == "let":
                 context.define(said[0], context.value(said[1]))
@@ -607,11 +614,10 @@ class Unfolding:
                 self.variable(name, True)
                 root, value = context.values[name], context.value(under)
                 square = context.multiply(root, root)
-                for left, relation, right in ((root, ">=", Ratio(ZERO)), (square, "=", value)):
-                    self.premises.append((context.atom(left, relation, right), context.atom(left, OPPOSITE[relation], right)))
+                self.premises += [context.atom(root, ">=", Ratio(ZERO)), context.atom(square, "=", value)]
             elif keyword in ("with", "show"):
-                self.goals.append((context.formula(said), context.formula(said, False)))
-                context.license(self.goals[-1][0])
+                self.goals.append(context.formula(said))
+                context.license(self.goals[-1])
 
     def variable(self, name, universal):
         if name in self.variables:
@@ -622,18 +628,15 @@ class Unfolding:
             self.context.declare(name, name in self.integers)
 
     def assume(self, node):
-        self.premises.append((self.context.formula(node), self.context.formula(node, False)))
-        self.context.license(self.premises[-1][0])
-
-    def negated(self, pairs):
-        return join("or", [negation for _, negation in pairs])
+        self.premises.append(self.context.formula(node))
+        self.context.license(self.premises[-1])
 
     def goal(self, truth):
-        return join("and", [formula for formula, _ in self.goals]) if truth else self.negated(self.goals)
+        return join("and", self.goals) if truth else negate(join("and", self.goals))
 
     def state(self, count=None):
         """The state that assumes the premises, or the first `count` of them."""
-        return State(self.context).assume(join("and", [formula for formula, _ in self.premises[:count]]))
+        return State(self.context).assume(join("and", self.premises[:count]))
 
 
 # ------------------------------------------------------------ STATEMENT RULES: what settles a statement
@@ -668,9 +671,8 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     ["sign", p, found, found, found] tells p < 0, p = 0 and p > 0 apart first; ["empty", node] closes such a case.
     """
     if found[0] == "sign":
-        for case, part in zip(state.by_sign(found[1]), found[2:], strict=True):
-            find(case, part, known, purpose, statements, base, sharp)
-        return None
+        cases = zip(state.by_sign(found[1]), found[2:], strict=True)
+        return [find(case, part, known, purpose, statements, base, sharp) for case, part in cases]
     if found[0] == "empty":
         return close(state, *found[1:], known)
     name, adjoined, terms, node, *rest = found
@@ -682,7 +684,7 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     values = {variable: state.context.value(parse(text)) for variable, text in terms.items()}
     story = Unfolding(statement, Context(state.context, {**values, **base}), sharp)
     one_value_each(state.context, story, terms, base, story.variables if purpose == "witness" else story.universal)
-    close(state.branch(story.negated(story.goals if purpose == "witness" else story.premises)), node, known)
+    close(state.branch(negate(join("and", story.goals if purpose == "witness" else story.premises))), node, known)
     for last in rest:
         close(state.branch(story.goal(True), story.context), last, known)
 
@@ -725,7 +727,7 @@ def check_sharp(statement, certificate, known, statements):
     for name in names:
         prove(statements[name], inside[name], known, [domain, condition])
     state.assume(state.context.formula(domain))
-    state.assume(state.context.formula(condition, False))
+    state.assume(negate(state.context.formula(condition)))
     base = {parameter: state.context.values[parameter] for parameter in over}
     find(state, outside, known, "counterexample", {name: statements[name] for name in names}, base, [domain])
 
@@ -854,8 +856,8 @@ def main(arguments):
     for name, outcome, reason in results:
         if outcome == "rejected":
             print("rejected ", ascii(f"{name}: {reason}")[1:-1])
-    counts = [f"{sum(o == kind for _, o, _ in results)} {kind}" for kind in ("certified", "refuted", "unknown", "rejected")]
-    print(f"{len(results)} statements: " + ", ".join(counts))
+    kinds = ("certified", "refuted", "unknown", "rejected")
+    print(f"{len(results)} statements: " + ", ".join(f"{sum(o == kind for _, o, _ in results)} {kind}" for kind in kinds))
     return int(not results or any(outcome == "rejected" for _, outcome, _ in results))
 
 

@@ -24,6 +24,7 @@ from proofs.verdicts import Verdict, outcome_of, verdict_of
 DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
+NOT_FOUND = "not found"
 SHARP = 1  # a sharp range takes many proofs and families, each with this part of the budget at most
 
 
@@ -57,6 +58,9 @@ class Judgement:
     def finding(self) -> dict[str, Any]:
         """What a later run may try first: the correction and the votes."""
         data: dict[str, Any] = {"sharp": {prefix: one["text"] for prefix, one in self.sharp.items()}}
+        tried = {prefix: one["tried"] for prefix, one in self.sharp.items() if "tried" in one}
+        if tried:
+            data["not found"] = tried
         if self.correction:
             data["correction"] = self.correction
         if self.recorded:
@@ -238,12 +242,17 @@ class _Judge:
                 self.found.sharp[prefix] = {"text": remembered, "by": [name]}
                 self.found.reused += 1
                 return
+        tried = _voted_on(f"{self.options.budget}\n" + "\n".join(part.text() for part in ranged))
+        remembered = (self.options.findings.get(self.claim.id) or {}).get("not found", {}).get(prefix)
+        if remembered == tried:
+            self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
+            return
         from proofs.ranges import search_sharp_range
 
         borders = self.claim.hints.get("sharp", ())
         result = search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget, borders)
         if result is None:
-            self.found.sharp[prefix] = {"text": "not found", "by": []}
+            self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
             return
         sharp, found, shown = result
         certificate = {"certified": found}

@@ -103,11 +103,11 @@ def _sharp_questions(statement: Any, earlier: Mapping[str, Any]) -> list[Questio
         context.declare(parameter)
     stories = [TRUSTED.Unfolding(earlier[name], TRUSTED.Context(), [domain]) for name in named]
     names = tuple(dict.fromkeys([*over, *(n for story in stories for n in story.context.index)]))
-    outside = [formula_of(f, tuple(over), names) for f in (context.formula(domain), context.formula(condition, False))]
+    outside = [formula_of(f, tuple(over), names) for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))]
     denials = []
     for story in stories:
         own = tuple(story.context.index)
-        held = TRUSTED.join("or", [story.negated(story.premises), story.goal(True)])
+        held = TRUSTED.join("or", [TRUSTED.negate(TRUSTED.join("and", story.premises)), story.goal(True)])
         denials.append(Denial(tuple(n for n in own if n not in over), formula_of(held, own, names)))
     return [*asked, Question(statement.name, "outside", names, frozenset(), flat(outside), tuple(denials))]
 
@@ -133,7 +133,7 @@ def _iterate_questions(statement: Any) -> list[Question]:
 
 
 def _premises(story: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None) -> tuple[Formula, ...]:
-    return flat([formula_of(premise, own, names) for premise, _ in story.premises[:count]])
+    return flat([formula_of(premise, own, names) for premise in story.premises[:count]])
 
 
 def flat(formulas: Sequence[Formula]) -> tuple[Formula, ...]:

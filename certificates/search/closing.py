@@ -57,7 +57,7 @@ def with_uses(state: checker.State, known: dict[str, checker.Statement],
             continue
         values = {variable: state.context.value(checker.parse(text)) for variable, text in terms.items()}
         story = checker.Unfolding(known[name], checker.Context(state.context, values))
-        state = state.branch(checker.join("or", [story.negated(story.premises), story.goal(True)]), story.context)
+        state = state.branch(checker.join("or", [checker.negate(checker.join("and", story.premises)), story.goal(True)]), story.context)
         uses.append((name, dict(terms)))
     return uses, state
 

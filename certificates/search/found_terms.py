@@ -169,7 +169,7 @@ def _with_nodes(wanted: Wanted, state: checker.State, choice: Choice, keys: dict
             adjoined.append(entry)
         values = {variable: own.context.value(checker.parse(text)) for variable, text in terms.items()}
         story = checker.Unfolding(statement, checker.Context(own.context, {**values, **base}), sharp)
-        aims = [own.branch(story.negated(story.goals if purpose == "witness" else story.premises))]
+        aims = [own.branch(checker.negate(checker.join("and", story.goals if purpose == "witness" else story.premises)))]
         aims += [own.branch(story.goal(True), story.context)] if purpose == "counterexample" else []
     except checker.Rejected:
         return None

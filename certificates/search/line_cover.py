@@ -19,12 +19,13 @@ from .closing import search_closing
 from .condition import Condition, constant_of, evaluate, univariate
 from .found_terms import Node, Wanted, confirmed
 from .line_cuts import cut_between, linear_text
+from .near import NEGLIGIBLE
 from .normal import Normal
 from .quotients import Choice, Sample, reduced_by, root_values
 from .ranges import Interval, Line
 from .setting import Task, failing_goal, length, margins_of, setting
 from .solver import ask
-from .templates import NEGLIGIBLE, TemplateSearch
+from .templates import TemplateSearch
 
 NEGLIGIBLE_WIDTH = Fraction(1, 2**200)
 PARTS = (250_000, 1_500_000)  # units of work for closing one piece: for each choice at first, then for the best

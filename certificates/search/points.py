@@ -47,7 +47,7 @@ def search_found(statement: checker.Statement, state: checker.State, purpose: st
         return _found_terms(Task(statement, purpose, base, known, budget, sharp, effort), state)
     story = checker.Unfolding(statement, checker.Context(), sharp)
     exists = bool(statement.get("exists"))
-    parts = [formula for formula, _ in story.premises]
+    parts = list(story.premises)
     names = list(story.universal)
     if purpose == "witness":
         parts, names = [story.goal(True)], sorted(story.variables)
@@ -145,7 +145,7 @@ def _with_nodes(statement: checker.Statement, state: checker.State, found: Found
     """Fills in the nodes at an adjoined number; whether that went well."""
     try:
         state, story = _story(statement, state, found, sharp)
-        branches = [state.branch(story.negated(story.goals if purpose == "witness" else story.premises))]
+        branches = [state.branch(checker.negate(checker.join("and", story.goals if purpose == "witness" else story.premises)))]
         if purpose == "counterexample":
             branches.append(state.branch(story.goal(True), story.context))
         for k, branch in enumerate(branches):

@@ -49,12 +49,13 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
     """The first node that one of the stages finds."""
     if not problem.facts and not problem.reduction.left:
         return None
-    roots: dict[str, list[fmpz_mpoly]] = {"": [], "near": []}
+    roots: dict[str, list[fmpz_mpoly]] = {"": []}
     for degree, bernstein, kind in stages:
-        if kind not in roots:
-            roots[kind] = problem.candidates(kind)
         near = problem.near_goal() if kind == "near" else None
-        if kind == "near" and near is None or kind not in ("", "near") and not roots[kind] or (degree, bernstein, kind) == (2, 2, "") and problem.bounded is None and not problem.reduction.left:
+        if kind not in roots:
+            roots[kind] = problem.candidates(kind) if kind != "near" else []
+        same = bernstein == 2 and degree == 2 and problem.bounded is None and not problem.reduction.left
+        if near is None if kind == "near" else not roots[kind] if kind else same:
             continue  # nothing that a smaller stage did not have
         if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
             continue

@@ -41,7 +41,7 @@ def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str]
         formula = story.goal(True)
         needed = story.variables
     else:
-        premises = checker.join("and", [f for f, _ in story.premises])
+        premises = checker.join("and", list(story.premises))
         exists = task.statement.get("exists")
         formula = checker.join("and", [premises, story.goal(False)]) if task.purpose == "counterexample" and not exists else premises
         needed = set(story.universal)

@@ -62,7 +62,7 @@ def outside_state(statement: checker.Statement) -> checker.State:
     for parameter in over:
         state.context.declare(parameter)
     state.assume(state.context.formula(domain))
-    state.assume(state.context.formula(condition, False))
+    state.assume(checker.negate(state.context.formula(condition)))
     return state
 
 

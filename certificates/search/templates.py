@@ -10,10 +10,10 @@ from flint import fmpq, fmpq_mpoly
 from .budget import Budget
 from .candidates import PARAMETERS, UNITS, favourites, solutions, trials
 from .condition import Condition, coefficients_in, constant_of, replace
+from .near import between, possible, ring_names, rounded
 from .quotients import SPARE, Choice, Quotient, Root, Sample, insert, reduced_by, root_values, square_roots
 
 Candidate = tuple[Quotient, Root | None]
-NEGLIGIBLE = fmpq(1, 2**100)  # of values that come from rational approximations of roots
 BESIDE = tuple(fmpq(sign, size) for size in (10, 100, 1000) for sign in (1, -1))  # how far beside a border, in margins
 
 
@@ -187,7 +187,7 @@ class TemplateSearch:
                 plain.append(Quotient.reduced(top, left.bottom * right.bottom))
         for end, shift in ((ordered[:1], -1), (ordered[-1:], 1)):
             plain += [Quotient.reduced(q.top + shift * q.bottom, q.bottom) for q in end]
-        plain += [*constants[3:], *_between(lines)]
+        plain += [*constants[3:], *between(lines)]
         near = [(q, None) for q in lines[:4]] + roots[:4]
         slight = [margin * c for margin in self.margins[:5] for c in BESIDE]
         small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
@@ -278,34 +278,3 @@ class TemplateSearch:
                 value = insert(value, other, known)
             values[name] = Quotient.reduced(value.top, value.bottom)
         return values
-
-
-def possible(condition: Condition, name: str, value: fmpq, nearly: bool = False) -> bool:
-    """Whether a condition can still be met with this value of a variable, as far as folding shows."""
-    given = {name: value}
-    return (condition.mapped(lambda p: rounded(p.subs(given))) if nearly else condition.substituted(given)).tree is not False
-
-
-def rounded(poly: fmpq_mpoly) -> fmpq_mpoly:
-    """The polynomial without the coefficients that are 0 but for the accuracy of roots."""
-    if all(abs(c) >= NEGLIGIBLE for c in poly.coeffs()):
-        return poly
-    return poly.context().from_dict({powers: c for powers, c in poly.to_dict().items() if abs(c) >= NEGLIGIBLE})
-
-
-def ring_names(poly: fmpq_mpoly) -> set[str]:
-    """The variables that occur in a polynomial."""
-    return {name for name, e in zip(poly.context().names(), poly.degrees()) if e}
-
-
-def _between(lines: Sequence[Quotient]) -> list[Quotient]:
-    """For three of them, low + (a - low)*(b - low)/((a - low) + (b - low)): above low, and below a and b where both are above it."""
-    found = []
-    for k, low in enumerate(lines[:3]):
-        above = [Quotient(q.top * low.bottom - low.top * q.bottom, q.bottom * low.bottom) for j, q in enumerate(lines[:5]) if j != k]
-        for i, a in enumerate(above):
-            for b in above[:i]:
-                total = a.top * b.bottom + b.top * a.bottom
-                if total != 0:
-                    found.append(Quotient.reduced(low.top * total + low.bottom * a.top * b.top, low.bottom * total))
-    return found

@@ -191,8 +191,8 @@ def supremum_by_the_velocity(printed: Printed) -> Statement:
        printed=r"\Delta E_{sup} = [-\frac{1+\alpha}{1-\alpha} + 1 + \alpha - \sqrt{2(1+\alpha)} \frac{\alpha}{1-\alpha}] "
                r"\times (1+\alpha) \dot{\rho}_0^2")
 def supremum_by_alpha(printed: Printed) -> Statement:
-    """The energy change at the corner, by alpha and the table's launch velocity."""
-    return always(printed.formula(AT_CORNER), given=SUPREMAL)
+    """The supremum, which is that of sA.3.2-sup1, by alpha and the table's launch velocity."""
+    return always(printed.formula(PAPER))
 
 
 @claim("sA.3.2-sup4", "A.3.2", "line 710", printed=r"\Delta E_{sup} < 0")

@@ -30,7 +30,7 @@ from proofs.reading.printed import Printed
 from proofs.reading.values import Vector
 
 edge, delta, k, p, q = reals("edge delta k p q")
-LEFT = Vector((edge, v))
+LEFT = Vector((edge, v))  # a state beside b, at another height
 # The states near b: the height moves by at most delta r^2 / g and the velocity by at most delta r; (k - 2) r bounds the velocity of b.
 NEAR = b + Vector((p, q))
 WITHIN_DELTA = [-(r**2) * delta <= g * p, g * p <= r**2 * delta, -r * delta <= q, q <= r * delta]
@@ -70,7 +70,7 @@ def impacts_outside_are_open() -> Readings:
     near = always(B1_OUTSIDE(NEAR), given=[B1_OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(*margins.values()), H(NEAR)], label="all-near")
     return Readings({
         "of-the-plane": Assertion((
-            exists_some(["delta"], B1_OUTSIDE(Vector((beta - delta, v))), within=[delta > 0], given=[B1_OUTSIDE(b)]),
+            exists_some(["edge"], B1_OUTSIDE(LEFT), within=[edge < beta], given=[B1_OUTSIDE(b)]),
         )),
         "of-H": Assertion((*rooms, near)),
     })
@@ -86,14 +86,14 @@ def boundary_of_the_region(printed: Printed) -> Readings:
         "in-H": Assertion((
             always(R(b), given=[H(b), on_it], label="one-side"),
             both_sides,
-            exists_some(["delta"], room(margin), within=[delta > 0, delta < 1], given=[R(b), ~on_it, *BOUNDED], label="room-inside"),
+            exists_some(["delta"], room(margin), within=[delta > 0], given=[R(b), ~on_it, *BOUNDED], label="room-inside"),
             exists_some(["delta"], room(-margin), within=[delta > 0], given=[OUTSIDE(b), *BOUNDED], label="room-outside"),
             always(R(NEAR), given=[R(b), *BOUNDED, *WITHIN_DELTA, delta < 1, room(margin), H(NEAR)], label="inside"),
             always(~R(NEAR), given=[OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(-margin)], label="outside"),
         )),
         "in-the-plane": Assertion((
             both_sides,
-            exists_some(["delta"], R(Vector((beta - delta, v))), within=[delta > 0], given=[R(b), ~on_it], label="inside"),
+            exists_some(["edge"], R(LEFT), within=[edge < beta], given=[R(b), ~on_it], label="inside"),
         )),
     })
 

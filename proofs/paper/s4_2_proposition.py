@@ -49,11 +49,12 @@ from proofs.paper.vocabulary import (
     f1,
     f2,
     impact_energy_change,
-    is_supremum,
     r,
     t,
+    v,
 )
 from proofs.reading.printed import Printed
+from proofs.reading.values import Vector
 
 tau, t_R = real("tau"), real("t_R")
 ATTRACTION = "every orbit that starts outside R enters R after finitely many periods"
@@ -230,10 +231,16 @@ def orbits_do_not_leave_the_region() -> Assertion:
 
 @claim("s4.2-highest-B1plus", "4.2", "line 494")
 def greatest_energy_that_can_gain() -> Readings:
-    """E_max is the greatest energy of the states whose impact gains energy: the least bound of their energies, or one of them."""
-    greatest = derived("E_max")
+    """E_max is the greatest energy of the states whose impact gains energy: the least bound of their energies, or one of them.
+
+    It is the least bound since a ball that comes down to the ground with less energy than that gains.
+    """
+    greatest, coming_down = derived("E_max"), Vector((0, v))
     return Readings({
-        "least-bound": Assertion(tuple(is_supremum(greatest, energy(b), ["beta", "v"], B1_PLUS(b), strict=True))),
+        "least-bound": Assertion((
+            always(energy(b) < greatest, given=[B1_PLUS(b)], label="bound"),
+            always(B1_PLUS(coming_down), given=[v < 0, energy(coming_down) < greatest], label="all-below"),
+        )),
         "attained": Assertion((exists_some(["beta", "v"], equal(energy(b), greatest), within=[B1_PLUS(b)]),)),
     })
 

@@ -30,7 +30,6 @@ from proofs.paper.vocabulary import (
     derived,
     e_1,
     eps,
-    equals,
     f1,
     f2,
     next_states,
@@ -112,9 +111,9 @@ def states_near_e_1_in_kinetic_energy_are_in_b1() -> Readings:
 
 @claim("s4.3.2-f1-applies", "4.3.2", "line 559", repeats="s4.3.2-near-in-B1")
 def map_of_an_impact_applies_there() -> Statement:
-    """The states of R whose kinetic energy relative to e_1 is small enough for that go where f1 leads."""
-    near = [leaves_R_at(c), from_e_1(b) < from_e_1(on_the_line(c))]
-    return always(equals(image, f1(b)), given=[*near, R(b), next_states(b, image)], in_range=RANGE_21)
+    """f is f1, for they lie in B1, at the states of R whose velocity is nearer to that of e_1 than where R leaves B1."""
+    near = from_e_1(b) < from_e_1(on_the_line(c))
+    return always(B1(b), given=[leaves_R_at(c), R(b), near], in_range=RANGE_21)
 
 
 @claim("eq-32", "4.3.2", "(32)",

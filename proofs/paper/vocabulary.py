@@ -157,7 +157,8 @@ NAMES: dict[str, Any] = {
     r"A_{\cdot}": flight_matrix, r"a_{\cdot}": flight_offset, r"F^{\cdot}": flight, r"C_{\cdot}": collide,
     r"R_\alpha": derived("restitution_matrix"), r"\xi_1": derived("xi_1"), r"\epsilon_1": derived("epsilon_1"), r"e_1": e_1,
     r"\tau_c": collision_time, r"\overline f_1": f1, r"\overline f_2": f2, r"E": energy, r"\Delta_1 E": impact_energy_change,
-    r"E_{max}": derived("E_max"), r"\Delta E_{max}": derived("delta_E_max"), r"\Delta E_{sup}": derived("delta_E_sup"), r"\sqrt{2(1+\alpha)}": s,
+    r"E_{max}": derived("E_max"), r"\Delta E_{max}": derived("delta_E_max"), r"\Delta E_{sup}": derived("delta_E_sup"),
+    r"\sqrt{2(1+\alpha)}": s,
     r"\mathcal{H}": H, r"\mathcal{B}_1": B1, r"\mathcal{B}_2": B2, r"\mathcal{R}": R,
     r"R": StateFunction(lambda state: at(derived("region_margin"), state)),
 }

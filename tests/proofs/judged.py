@@ -23,9 +23,9 @@ def content(claim: Claim, latex: str) -> list[Any]:
             statement = checker.read_statements(part.text())[part.name]
             if isinstance(part, Statement):
                 story = checker.Unfolding(statement, checker.Context())
-                goals = normal([p for p, _ in story.goals])
+                goals = normal(list(story.goals))
                 said = str(part.show) if goals in (("True",), ("False",)) else ""  # an identity folds to a constant, its relation with it
-                found.append((part.name, normal([p for p, _ in story.premises]), goals, relations(said), part.exists))
+                found.append((part.name, normal(list(story.premises)), goals, relations(said), part.exists))
             else:
                 found.append(part.text())
     return found

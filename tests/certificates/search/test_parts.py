@@ -122,7 +122,8 @@ def test_a_program_without_solution_has_none() -> None:
     packing = Packing(RING, RING.gens)
     program = Program()
     for poly, strict in ((RING.gens[0] - 2, False), (3 - RING.gens[0], False), (RING.one, True)):
-        program.add(*(part[None, :] for part in packing.row(poly)), [strict], [1.0])
+        keys, values = packing.row(poly)
+        program.add(keys[None, :], values[None, :], [strict], [1.0])
     assert solve(program, Budget(10**5)) is None
 
 
