@@ -16,12 +16,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from certificates import checker  # noqa: E402
-from certificates.routes.questions import questions  # noqa: E402
-from certificates.routes.smtlib import script  # noqa: E402
-from certificates.search.budget import Budget, Exhausted  # noqa: E402
-from certificates.search.certificate import search_certificate  # noqa: E402
-from certificates.store import DEFAULT, Store  # noqa: E402
+from certificates import checker
+from certificates.routes.questions import questions
+from certificates.routes.smtlib import script
+from certificates.search.budget import Budget, Exhausted
+from certificates.search.certificate import search_certificate
+from certificates.store import DEFAULT, Store
 
 
 def ours(statement: checker.Statement, seconds: float) -> bool:

@@ -50,7 +50,7 @@ class Statement:
     def undeclared(self) -> set[str]:
         """Names that occur and are declared nowhere."""
         declared, loose = {*self.forall, *self.exists}, set()
-        for keyword, said in (*self.lines, *self.within, ("show", self.show)):
+        for _, said in (*self.lines, *self.within, ("show", self.show)):
             if isinstance(said, tuple):
                 loose |= names_in(said[1]) - declared
                 declared.add(said[0])

@@ -103,7 +103,10 @@ def as_body(returned: Any, claim_id: str) -> Body:
     if isinstance(returned, (Statement, Iterates)):
         return Assertion((returned,))
     if isinstance(returned, Iterable) and not isinstance(returned, (str, Formula)):
-        parts = [part for item in returned for part in (as_body(item, claim_id).parts if not isinstance(item, Statement) else (item,))]  # type: ignore[union-attr]
+        parts: list[AnyStatement] = []
+        for item in returned:
+            body = item if isinstance(item, Statement) else as_body(item, claim_id)
+            parts += [body] if isinstance(body, Statement) else body.parts if isinstance(body, Assertion) else []
         if parts:
             return Assertion(tuple(parts))
     raise ClaimError(f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such, Readings, Argument or Awaiting")
@@ -153,7 +156,8 @@ def claim(
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription has where it mangles the print.
     `derived` gives the true right-hand side, and `nearby` a true assertion near a false one, with its text: both are tried as corrections
-    where no change of one mark mends the print.  Raises ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, - and dots.
+    where no change of one mark mends the print.  Raises ClaimError for a duplicate name, an empty docstring, or a name that is not
+    letters, digits, - and dots.
     """
     def register(read: Callable[..., Any]) -> Callable[..., Any]:
         if not re.fullmatch(r"[A-Za-z0-9.\-]+", id):

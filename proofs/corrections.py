@@ -99,11 +99,11 @@ def coefficients_on_printed_terms(printed: Term, truth: Term) -> Term | None:
         return None
     terms, rebuild = found
     names = sorted(names_in(printed) | names_in(truth))
-    if "s" in names:
-        return None
     rows = []
     for seed in range(len(terms) + 4):
         point = {name: Fraction(7 * (seed + 2) + 3 * i * (seed + 1), 11 + 5 * i + seed) for i, name in enumerate(names)}
+        if "s" in point:  # the adjoined root of 2 + 2 alpha
+            point["alpha"] = point["s"] ** 2 / 2 - 1
         try:
             row = [_value(rebuild([one]), point) for one in terms]
             rows.append([*row, _value(truth, point)])

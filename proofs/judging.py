@@ -13,19 +13,19 @@ from certificates import checker
 from certificates.routes.votes import Vote, cast_votes, compare
 from certificates.search.budget import Budget, Exhausted
 from certificates.search.certificate import search_certificate
-from certificates.search.closing import search_closing
 from certificates.statements import AnyStatement, Iterates, SharpRange, Statement
 from certificates.store import Store
-from certificates.terms import ClaimError, Formula
+from certificates.terms import ClaimError
 from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions, named_statements
 from proofs.corrections import Candidate, candidates
+from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing
 from proofs.verdicts import Verdict, outcome_of, verdict_of
 
 DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
 NOT_FOUND = "not found"
-SHARP = 1  # a sharp range takes many proofs and families, each with this part of the budget at most
+SHARP = 3  # a sharp range takes many proofs and families, each with this part of the budget at most
 
 
 @dataclass(frozen=True)
@@ -224,7 +224,7 @@ class _Judge:
         if not ranged or outcome_of(self.claim.id, prefix, assertion, self.found.outcomes) == "unknown":
             return
         over = tuple(name for name in self.claim.parameters if all(name in part.forall for part in ranged))
-        whole = all(_has_whole_range(part) for part in ranged)
+        whole = all(has_whole_range(part) for part in ranged)
         if whole and all(self.found.outcomes[part.name] == "certified" for part in ranged):
             self.found.sharp[prefix] = {"text": "0 < alpha < 1", "by": [part.name for part in ranged]}
             return
@@ -264,34 +264,6 @@ class _Judge:
             self.found.sharp[prefix] = {"text": f"not found ({reason})", "by": []}
 
 
-def refuse_what_says_nothing(statement: Statement, outcome: str, known: Mapping[str, checker.Statement], budget: int) -> None:
-    """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep a denominator from vanishing."""
-    from certificates.terms import disjunction
-
-    def settles(part: Statement, outcome: str) -> bool:
-        try:
-            return outcome in search_certificate(read(part.text(), part.name), known, Budget(budget))
-        except Exhausted:
-            return False
-
-    for index, (keyword, said) in enumerate(statement.lines):
-        if keyword == "have" and isinstance(said, Formula):
-            before = Statement(statement.name, statement.forall, statement.lines[:index], said, statement.integer)
-            if settles(before, "refuted"):
-                raise ClaimError(f"{statement.name}: division by what may vanish ({said} does not follow); "
-                                 "add a given that keeps it from 0")
-    if outcome == "refuted":
-        return
-    impossible = Statement(statement.name, statement.forall, statement.lines, disjunction([]), statement.integer)
-    story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
-    try:
-        impossible_for_all = search_closing(story.state(), known, Budget(budget)) is not None
-    except Exhausted:
-        impossible_for_all = False
-    if impossible_for_all:
-        raise ClaimError(f"{statement.name}: its hypotheses contradict one another, so it would say nothing; drop or mend a given")
-
-
 @cache
 def _tools() -> str:
     return " ".join(version(tool) for tool in ("z3-solver", "python-flint", "mpmath"))
@@ -310,38 +282,3 @@ def _renamed(statement: AnyStatement, name: str) -> AnyStatement:
     if isinstance(statement, SharpRange):
         raise ClaimError("a sharp range cannot be renamed")
     return replace(statement, name=name)
-
-
-def _has_whole_range(statement: Statement) -> bool:
-    """Whether the range lines say 0 < alpha < 1 and nothing else, however they are written."""
-    context = checker.Context()
-    for name in statement.forall:
-        context.declare(name)
-    said = [checker.parse(str(formula)) for keyword, formula in statement.lines if keyword == "range"]
-    whole = [checker.parse("alpha > 0"), checker.parse("alpha < 1")] if "alpha" in statement.forall else []
-    return _atoms(context, said) == _atoms(context, whole)
-
-
-def _atoms(context: checker.Context, trees: list[Any]) -> set[Any]:
-    """The atoms of a conjunction, each as its primitive polynomial and relation; anything else as itself."""
-    joined = checker.join("and", [context.formula(tree) for tree in trees])
-    parts = [joined] if isinstance(joined, bool) or joined[0] != "and" else joined[1]
-    found = set()
-    for part in parts:
-        if isinstance(part, bool) or part[0] != "atom":
-            found.add(repr(part))
-        else:
-            content, primitive = part[1].primitive()
-            found.add((tuple(sorted(primitive.terms.items())), content > 0, part[2]))
-    return found
-
-
-def read(text: str, name: str) -> checker.Statement:
-    """The statement as the checker reads it."""
-    statement: checker.Statement = checker.read_statements(text)[name]
-    return statement
-
-
-def ordered_statements(judgements: Sequence[Judgement]) -> list[str]:
-    """The texts of all statements in order: claims in the paper's order, each with its corrections and ranges behind it."""
-    return [text for judgement in judgements for _, text in judgement.statements]

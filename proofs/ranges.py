@@ -9,7 +9,7 @@ from certificates import checker
 from certificates.search.algebraic import AlgebraicNumber
 from certificates.search.budget import Budget, Exhausted
 from certificates.search.ranges import Line
-from certificates.search.sharp import find_sharp_range
+from certificates.search.sharp import Range, find_sharp_range
 from certificates.search.sharp_plane import find_sharp_region
 from certificates.statements import SharpRange, Statement
 from certificates.terms import conjunction, disjunction, real
@@ -24,24 +24,23 @@ def search_sharp_range(
 ) -> tuple[SharpRange, Any, str] | None:
     """The sharp range of the statements, its certificate and how it is told; None where the search does not find one.
 
-    Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1, over alpha and eps in that times eps > 0; where the
-    latter is not found, the alpha for which the statements hold with every eps.  `borders`: polynomials that may bound a plane range.
+    Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1.  Over alpha and eps first the alpha are sought for which
+    the statements hold with every eps > 0, since eps has a dimension as a rule; then pairs.  `borders` may bound a plane range.
     """
     parsed = [checker.read_statements(statement.text())[statement.name] for statement in statements]
+    if "alpha" in over and "K" not in over:
+        try:
+            found = find_sharp_range(parsed, "alpha", DOMAINS["alpha"], name, known, Budget(budget))
+        except Exhausted:
+            found = Range()
+        if found.statement is not None and found.certificate is not None and found.line is not None:
+            return found.statement, found.certificate, told(found.line.simplified(), "alpha")
     if len(over) > 1:
         domain = conjunction([DOMAINS[parameter] for parameter in over])
         region = find_sharp_region(parsed, over, domain, name, known, Budget(budget), borders)
         if region.statement is not None and region.certificate is not None:
             return region.statement, region.certificate, told_plainly(region.statement)
-    if list(over) != ["alpha"] and "eps" not in over:
-        return None
-    try:
-        found = find_sharp_range(parsed, "alpha", DOMAINS["alpha"], name, known, Budget(budget))
-    except Exhausted:
-        return None
-    if found.statement is None or found.certificate is None or found.line is None:
-        return None
-    return found.statement, found.certificate, told(found.line.simplified(), "alpha")
+    return None
 
 
 def told_plainly(statement: SharpRange) -> str:

@@ -204,7 +204,7 @@ def _line(violations: Sequence[Violation], parameter: str, domain: Any, budget: 
 
 
 def _at_number(violation: Violation, parameter: str, number: AlgebraicNumber, before: bool, after: bool, budget: Budget) -> bool:
-    """The verdict at a number between two cells; where Z3 is slow or has none, theirs if they agree: certificates tell whether that is right."""
+    """The verdict at a number between two cells; theirs if they agree and Z3 is slow or has none: certificates tell if that is right."""
     if before == after and not number.is_rational:
         if number.poly.degree() > 2:
             return before

@@ -6,7 +6,7 @@ from certificates.statements import Statement
 from certificates.terms import equal, iff, reals
 from proofs.claims import Assertion, Awaiting, claim
 from proofs.paper.events import after_impact, ball_at, height, only_at, speed, strikes_at, table_at, value_of, vector
-from proofs.paper.said_again import is_the_period, tells_b1, tells_b2
+from proofs.paper.said_again import NEAR_B1, NEAR_B2, is_the_period, tells_b1, tells_b2
 from proofs.paper.vocabulary import PAPER, STRIKES, H, R, T, always, b, beta, collide, energy, equals, f1, f2, flight, t
 from proofs.reading.notions import StateFunction
 from proofs.reading.printed import Printed
@@ -88,13 +88,13 @@ def kinetic_energy_in_the_table(printed: Printed) -> Statement:
     return always(printed.formula(PAPER.extended({"K": moving})))
 
 
-@claim("sB.7-B1", "B.7", "line 854", printed=r"\tau_c < T", repeats="sB.2-B1")
+@claim("sB.7-B1", "B.7", "line 854", nearby=NEAR_B1, printed=r"\tau_c < T", repeats="sB.2-B1")
 def b1_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is less than one period are the region B1 of (7)."""
     return tells_b1(printed.formula(PAPER))
 
 
-@claim("sB.7-B2", "B.7", "line 855", printed=r"\tau_c \ge T", repeats="s2.2.1-B2")
+@claim("sB.7-B2", "B.7", "line 855", nearby=NEAR_B2, printed=r"\tau_c \ge T", repeats="s2.2.1-B2")
 def b2_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is one period or more are what B1 leaves of H."""
     return tells_b2(printed.formula(PAPER))

@@ -9,6 +9,8 @@ from proofs.paper.events import ball_at, height, meet, only_at, speed, table_at
 from proofs.paper.outside import pieces
 from proofs.paper.said_again import (
     LANDS,
+    NEAR_B1,
+    NEAR_B2,
     b1_is_where_the_ball_strikes,
     b2_is_where_it_does_not,
     flown,
@@ -94,7 +96,7 @@ def b1_strikes_in_less_than_a_period() -> Readings:
     return b1_is_where_the_ball_strikes()
 
 
-@claim("sB.2-B1", "B.2", "line 754", printed=r"\mathcal{B}_1 := \{ \overline{b} \in \mathcal{H} \mid \tau_c < T \}",
+@claim("sB.2-B1", "B.2", "line 754", nearby=NEAR_B1, printed=r"\mathcal{B}_1 := \{ \overline{b} \in \mathcal{H} \mid \tau_c < T \}",
        as_it_stands=r"\beta_1 := \{ \overline{b} \in \mathcal{A} \mid \tau_c < T \}")
 def b1_by_time_to_collision(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is less than one period are the region B1 of (7)."""
@@ -110,7 +112,7 @@ def b2_strikes_in_a_period_at_least() -> Readings:
     return b2_is_where_it_does_not()
 
 
-@claim("sB.2-B2", "B.2", "line 758", printed=r"\mathcal{B}_2 := \{ \overline{b} \in \mathcal{H} \mid \tau_c \ge T \}",
+@claim("sB.2-B2", "B.2", "line 758", nearby=NEAR_B2, printed=r"\mathcal{B}_2 := \{ \overline{b} \in \mathcal{H} \mid \tau_c \ge T \}",
        as_it_stands=r"\beta_2 := \{ \overline{b} \in \mathcal{A} \mid \tau_c \ge T \}", repeats="s2.2.1-B2")
 def b2_by_time_to_collision(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is one period or more are what B1 leaves of H."""

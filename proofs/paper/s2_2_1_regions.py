@@ -7,7 +7,7 @@ from certificates.terms import Formula, Term, different, equal, iff, real, term
 from proofs.claims import Assertion, Readings, claim
 from proofs.paper.events import after_impact, as_region, ball_at, height, meet, speed, strikes_at, table_at
 from proofs.paper.outside import pieces
-from proofs.paper.said_again import b1_is_where_the_ball_strikes, b2_is_where_it_does_not, line_of_equal_times, strikes_from
+from proofs.paper.said_again import NEAR_B2, b1_is_where_the_ball_strikes, b2_is_where_it_does_not, line_of_equal_times, strikes_from
 from proofs.paper.vocabulary import (
     B1,
     B1_ZERO,
@@ -71,7 +71,7 @@ def b1_strikes_within_a_period() -> Readings:
     return b1_is_where_the_ball_strikes()
 
 
-@claim("s2.2.1-B2", "2.2.1", "line 125", printed=r"\mathcal{B}_2 = \mathcal{H} - \mathcal{B}_1, \quad T \le \tau_c",
+@claim("s2.2.1-B2", "2.2.1", "line 125", nearby=NEAR_B2, printed=r"\mathcal{B}_2 = \mathcal{H} - \mathcal{B}_1, \quad T \le \tau_c",
        as_it_stands=r"\mathcal{H} - \mathcal{B}_1 \ (T \le \tau_c)")
 def time_to_collision_tells_b2(printed: Printed) -> list[Statement]:
     """B2 is what B1 leaves of H, and there the time to collision is one period at least."""

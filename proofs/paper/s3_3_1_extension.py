@@ -8,6 +8,7 @@ from proofs.claims import Readings, claim
 from proofs.paper.events import ball_at, height, meet, speed, table_at, vector
 from proofs.paper.orbits import is_the_map, strikes_from
 from proofs.paper.outside import pieces
+from proofs.paper.said_again import NEAR_B2
 from proofs.paper.vocabulary import (
     B1,
     B2,
@@ -34,7 +35,7 @@ less = real("less")
 ON_THE_LINE = H(b) & meet(T) & (v < r)  # between B1 and B2, where the ball meets the table as it bounces
 
 
-@claim("s3.3.1-B2", "3.3.1", "lines 315 to 317", repeats="s2.2.1-B2",
+@claim("s3.3.1-B2", "3.3.1", "lines 315 to 317", nearby=NEAR_B2, repeats="s2.2.1-B2",
        printed=r"\mathcal{B}_2 = \mathcal{H} - \mathcal{B}_1, \quad T \le \tau_c(\overline{b})",
        as_it_stands=r"\beta_2 = \mathcal{A} - \beta_1, \quad T \leq \tau_c(\overline{b})")
 def states_outside_b1_meet_the_table_late(printed: Printed) -> list[Statement]:
@@ -47,7 +48,7 @@ def states_outside_b1_meet_the_table_late(printed: Printed) -> list[Statement]:
     ]
 
 
-@claim("eq-11", "3.3.1", "(11)", repeats="s2.2.1-B2",
+@claim("eq-11", "3.3.1", "(11)", nearby=NEAR_B2, repeats="s2.2.1-B2",
        printed=r"\mathcal{B}_2 := \{ \overline{b} \in \mathcal{H} \mid T \le \tau_c(\overline{b}) \}",
        as_it_stands=r"\beta_2 := \{ \overline{b} \in \mathcal{A} \mid T \le \tau_c(\overline{b}) \}")
 def second_region_by_the_time_to_collision(printed: Printed) -> list[Statement]:

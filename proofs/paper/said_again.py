@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from certificates.statements import Statement
-from certificates.terms import Formula, different, equal, iff, real
+from certificates.terms import Formula, different, equal, iff, real, term
 from proofs.claims import Assertion, Readings
 from proofs.paper.events import height, meet, strikes_at, table_at
-from proofs.paper.vocabulary import B1, B2, PAPER, STRIKES, H, T, always, b, exists_some, r, t, v
+from proofs.paper.vocabulary import B1, B2, PAPER, STRIKES, H, T, always, b, collision_time, exists_some, r, t, v
 from proofs.reading.printed import Printed
 
 flown = real("flown")  # a time since the launch of the table
@@ -68,3 +68,19 @@ def tells_b2(late: Formula) -> Statement:
 def is_the_period(printed: Printed) -> Statement:
     """After its launch the table is on the ground again exactly at the time that is printed for T."""
     return always(iff(LANDS, printed.formula(PAPER.extended({"T": flown}))), given=[flown > 0])
+
+
+def b1_by_time_while_closing() -> list[Statement]:
+    """Of the states of H, those with v < r and a time to collision below one period are B1, and no others are."""
+    early = term(collision_time(b)) < T
+    return [always(iff(B1(b), early), given=[H(b), v < r], label="closing"), always(~B1(b), given=[H(b), v >= r], label="not-closing")]
+
+
+def b2_by_time_while_closing() -> list[Statement]:
+    """Of the states of H, those with v >= r, and those with v < r and a time to collision of one period at least, are B2."""
+    late = term(collision_time(b)) >= T
+    return [always(iff(B2(b), late), given=[H(b), v < r], label="closing"), always(B2(b), given=[H(b), v >= r], label="not-closing")]
+
+
+NEAR_B1 = (r"\tau_c < T \text{ and } \dot{\overline\beta} < \dot\rho_0", b1_by_time_while_closing)
+NEAR_B2 = (r"T \le \tau_c \text{ or } \dot{\overline\beta} \ge \dot\rho_0", b2_by_time_while_closing)

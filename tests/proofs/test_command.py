@@ -153,8 +153,8 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
     certify(path)
     folder = tmp_path / "mine.certificates"
     before = {file.name: file.read_bytes() for file in folder.iterdir()}
-    slow = path.read_text(encoding="utf-8") + "\nimport time\n@claim('slow')\ndef slow():\n    '''Slow.'''\n    time.sleep(60)\n    return always(x < x + 1)\n"
-    path.write_text(slow, encoding="utf-8")
+    slow = "\nimport time\n@claim('slow')\ndef slow():\n    '''Slow.'''\n    time.sleep(60)\n    return always(x < x + 1)\n"
+    path.write_text(path.read_text(encoding="utf-8") + slow, encoding="utf-8")
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     process = subprocess.Popen([sys.executable, "-m", "proofs.command.main", "certify", str(path), "--jobs", "2"], stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True)

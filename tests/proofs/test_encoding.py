@@ -18,7 +18,7 @@ from proofs.paper.vocabulary import encoded
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reading"))
 
-from paper_names import value_at  # noqa: E402
+from paper_names import value_at
 
 NAMES = sympy.symbols("x y alpha")
 RATIONALS = st.fractions(min_value=-5, max_value=5, max_denominator=7)

@@ -17,14 +17,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from independent import Independent  # noqa: E402
-from statement_mutants import mutants  # noqa: E402
+from independent import Independent
+from statement_mutants import mutants
 
-from certificates import checker  # noqa: E402
-from certificates.routes.z3_route import vote  # noqa: E402
-from certificates.search.budget import Budget, Exhausted  # noqa: E402
-from certificates.search.certificate import search_certificate  # noqa: E402
-from certificates.store import DEFAULT, Store  # noqa: E402
+from certificates import checker
+from certificates.routes.z3_route import vote
+from certificates.search.budget import Budget, Exhausted
+from certificates.search.certificate import search_certificate
+from certificates.store import DEFAULT, Store
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 SHARE = 1 if ALL else 24  # one certified statement in so many
