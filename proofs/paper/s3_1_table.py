@@ -110,7 +110,9 @@ def launch_speed_is_positive(printed: Printed) -> Statement:
     As printed it is the height at launch, which is zero.
     """
     free = replace(STANDING, givens={"g": (g > 0,)})
-    return always(iff(printed.formula(PAPER.extended({r"\rho_0": height(r_0)})), T > 0), vocabulary=free)
+    rho = real("rho")  # what the print names: the height at launch
+    positive = printed.formula(PAPER.extended({r"\rho_0": rho}))
+    return always(iff(positive, T > 0), given=[equal(rho, height(r_0))], vocabulary=free)
 
 
 @claim("s3.1-note3", "3.1", "footnote 3", printed=r"0 \le t < T")

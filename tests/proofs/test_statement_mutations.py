@@ -29,7 +29,7 @@ from certificates.store import DEFAULT, Store
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 SHARE = 1 if ALL else 24  # one certified statement in so many
 MUTANTS_EACH = 6 if ALL else 4
-BUDGET = 400_000
+BUDGET = 2_000_000
 
 
 def digest(text: str) -> int:
