@@ -223,6 +223,10 @@ class _Judge:
         ranged = [part for part in parts if any(keyword == "range" for keyword, _ in part.lines)]
         if not ranged or outcome_of(self.claim.id, prefix, assertion, self.found.outcomes) == "unknown":
             return
+        always_false = [part.name for part in parts if part not in ranged and self.found.outcomes[part.name] == "refuted"]
+        if always_false:  # refuted whatever alpha is
+            self.found.sharp[prefix] = {"text": "nowhere", "by": always_false}
+            return
         over = tuple(name for name in self.claim.parameters if all(name in part.forall for part in ranged))
         whole = all(has_whole_range(part) for part in ranged)
         if whole and all(self.found.outcomes[part.name] == "certified" for part in ranged):
