@@ -12,11 +12,11 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from independent import Independent  # noqa: E402
-from statement_mutants import mutants  # noqa: E402
+from independent import Independent
+from statement_mutants import mutants
 
-from certificates import checker  # noqa: E402
-from certificates.store import DEFAULT, Store  # noqa: E402
+from certificates import checker
+from certificates.store import DEFAULT, Store
 
 SHARE = 5 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 40
 STORE = Store(DEFAULT)
