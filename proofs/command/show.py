@@ -38,7 +38,7 @@ def explain(claim_id: str) -> int:
     print(f"{claim.id}   section {claim.section} {claim.place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for name in dict.fromkeys(vocabulary.derivations_used):
+    for name in dict.fromkeys([*_constants_in(claim), *vocabulary.derivations_used]):
         print(f"derived     symbolic.{name}: {vocabulary.derivation(name)}")
     print(f"reading     {_reading(body)}")
     store = Store(DEFAULT)
@@ -53,6 +53,22 @@ def explain(claim_id: str) -> int:
         print(f"correction  {entry['correction']}")
     print(f"verdict     {entry.get('verdict', 'not judged')}" + (f"; {entry['detail']}" if "detail" in entry else ""))
     return 0
+
+
+def _constants_in(claim: Claim) -> list[str]:
+    """The derivations behind the constants that the print names."""
+    from proofs.paper.vocabulary import CONSTANTS
+    from proofs.reading.parser import parse_name
+
+    if not claim.printed:
+        return []
+    printed = set()
+    for name in claim.read_print().names:
+        try:
+            printed.add(parse_name(name))
+        except ClaimError:  # a name with a place for an argument is no constant
+            continue
+    return [derivation for latex, derivation in CONSTANTS.items() if parse_name(latex) in printed]
 
 
 def _print_of(claim: Claim) -> None:

@@ -43,7 +43,9 @@ def _derived(name: str, *arguments: Any) -> Any:
 def derivation(name: str) -> str:
     """What the derivation of this name says of itself, and its result."""
     said = (getattr(symbolic, name).__doc__ or "").strip().splitlines()[0]
-    return f"{said} {_derived(name)}"
+    value = _derived(name)
+    rows = value.rows if isinstance(value, Matrix) else [value.entries] if isinstance(value, Vector) else [[value]]
+    return f"{said} " + "; ".join("(" * (len(row) > 1) + ", ".join(map(str, row)) + ")" * (len(row) > 1) for row in rows)
 
 
 def encoded(value: Any) -> Any:
@@ -151,6 +153,10 @@ def equals(left: Vector | Matrix, right: Vector | Matrix) -> Formula:
     return relate(left, "=", right)
 
 
+CONSTANTS = {  # names of prints that stand for what `symbolic` derives
+    r"R_\alpha": "restitution_matrix", r"\xi_1": "xi_1", r"\epsilon_1": "epsilon_1", r"e_1": "e_1", r"E_{max}": "E_max",
+    r"\Delta E_{max}": "delta_E_max", r"r_0": "launch_state", r"T": "period",
+}
 NAMES: dict[str, Any] = {
     r"\alpha": alpha, r"\gamma": g, r"\overline\beta": beta, r"\dot{\overline\beta}": v, r"\dot\rho_0": r, r"t": t, r"T": T,
     r"\overline\beta_0": real("beta0"), r"\dot{\overline\beta}_0": real("v0"), r"I": I, r"r_0": r_0, r"K": K, r"\epsilon": eps,

@@ -6,9 +6,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from certificates import checker
 from certificates.store import DEFAULT, Store
-from proofs.command import readme
+from proofs.command import readme, show
 from proofs.ledger.ledger import check_claims, load_ledger
 from proofs.loading import paper_claims
 from proofs.register import changes, load_register
@@ -64,3 +66,10 @@ def test_change_of_verdict_shows_before_and_after_holds() -> None:
 def test_no_sentence_of_a_claim_names_a_verdict_holds() -> None:
     for claim in paper_claims():
         assert claim.says.endswith((".", "?", ")")), claim.id
+
+
+def test_every_kind_of_claim_is_explained_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    for claim in [*paper_claims()[::20], *(c for c in paper_claims() if c.id in ("eq-10", "eq-37", "sA.3.2-sup3"))]:
+        assert show.explain(claim.id) == 0
+        told = capsys.readouterr().out
+        assert claim.id in told and "verdict" in told and "Term(" not in told, claim.id
