@@ -38,8 +38,8 @@ def explain(claim_id: str) -> int:
     print(f"{claim.id}   section {claim.section} {claim.place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for name in dict.fromkeys([*_constants_in(claim), *vocabulary.derivations_used]):
-        print(f"derived     symbolic.{name}: {vocabulary.derivation(name)}")
+    for name, arguments in dict.fromkeys([*((name, ()) for name in _constants_in(claim)), *vocabulary.derivations_used]):
+        print(f"derived     symbolic.{name}: {vocabulary.derivation(name, arguments)}")
     print(f"reading     {_reading(body)}")
     store = Store(DEFAULT)
     known: dict[str, checker.Statement] = {}

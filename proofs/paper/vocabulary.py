@@ -26,12 +26,12 @@ x, w = reals("x w")
 b = Vector((beta, v))
 
 
-derivations_used: list[str] = []
+derivations_used: list[tuple[str, tuple[Any, ...]]] = []
 
 
 def derived(name: str, *arguments: Any) -> Any:
     """A derived expression of `symbolic` by its function's name: a term, or a vector or matrix of terms."""
-    derivations_used.append(name)
+    derivations_used.append((name, arguments))
     return _derived(name, *arguments)
 
 
@@ -40,10 +40,10 @@ def _derived(name: str, *arguments: Any) -> Any:
     return encoded(getattr(symbolic, name)(*arguments))
 
 
-def derivation(name: str) -> str:
+def derivation(name: str, arguments: tuple[Any, ...] = ()) -> str:
     """What the derivation of this name says of itself, and its result."""
     said = (getattr(symbolic, name).__doc__ or "").strip().splitlines()[0]
-    value = _derived(name)
+    value = _derived(name, *arguments)
     rows = value.rows if isinstance(value, Matrix) else [value.entries] if isinstance(value, Vector) else [[value]]
     return f"{said} " + "; ".join("(" * (len(row) > 1) + ", ".join(map(str, row)) + ")" * (len(row) > 1) for row in rows)
 
