@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Union
 
-from certificates.terms import ClaimError, Formula, Number, Term, conjunction, names_in, term
+from certificates.terms import Formula, Number, Term, conjunction, names_in, term
 
 Line = tuple[str, Union[Formula, tuple[str, Term]]]
 
@@ -110,29 +109,3 @@ def _line(line: Line) -> str:
         return f"{keyword} {said}"
     name, value = said
     return f"{keyword} {name} = " + (f"sqrt({value})" if keyword == "root" else str(value))
-
-
-def always(show: Formula, *, given: Sequence[Formula] = (), in_range: Sequence[Formula] = (), name: str = "") -> Statement:
-    """For all values of the names that occur: range and givens imply what is shown.
-
-    >>> from certificates.terms import reals
-    >>> x, y = reals("x y")
-    >>> always(x * y <= (x**2 + y**2) / 2).forall
-    ('x', 'y')
-    """
-    lines: tuple[Line, ...] = (*(("range", f) for f in in_range), *(("given", f) for f in given))
-    names = set().union(*(names_in(f) for f in (*in_range, *given, show)))
-    return Statement(name, tuple(sorted(names)), lines, show)
-
-
-def write_statements(statements: Sequence[AnyStatement], title: str) -> str:
-    """The statement file: a title and every statement, apart by blank lines.
-
-    Raises ClaimError where a name stands twice or is not ID/part.
-    """
-    seen: set[str] = set()
-    for statement in statements:
-        if not re.fullmatch(r"[\w.\-]+/[\w.\-]+", statement.name, re.ASCII) or statement.name in seen:
-            raise ClaimError(f"the statement name {statement.name!r} stands twice or is not ID/part; rename it")
-        seen.add(statement.name)
-    return "\n\n".join([f"# {title}", *(statement.text() for statement in statements)]) + "\n"

@@ -6,13 +6,13 @@ abbreviation stands for (T = 2 r/g) and which square root a name is.  The lines 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 from certificates import checker
 from certificates.statements import Line, Statement
-from certificates.terms import ClaimError, Formula, Number, Term, conjunction, equal, names_in, real, substitute, term
+from certificates.terms import ClaimError, Formula, Number, Term, equal, names_in, real, substitute, term
 
 
 @dataclass(frozen=True)
@@ -213,9 +213,6 @@ def exists_some(
     return Statement(label, tuple(forall), tuple(lines), show, integers, tuple(exists), tuple(inner))
 
 
-Region = Callable[..., Formula]
-
-
 def is_maximum(
     value: Term, of: Term, state: Mapping[str, Term], at: Mapping[str, Number], on: Formula,
     *, vocabulary: Vocabulary = PLAIN, given: Sequence[Formula] = (), in_range: Sequence[Formula] | None = None,
@@ -252,8 +249,3 @@ def same_set(left: Formula, right: Formula, *, vocabulary: Vocabulary = PLAIN, g
         always(right, given=[*given, left], label="forth", vocabulary=vocabulary, in_range=in_range),
         always(left, given=[*given, right], label="back", vocabulary=vocabulary, in_range=in_range),
     ]
-
-
-def all_equal(pairs: Sequence[tuple[Term, Term]]) -> Formula:
-    """Every pair is equal: a vector or matrix equation entry by entry."""
-    return conjunction([equal(left, right) for left, right in pairs])

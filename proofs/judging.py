@@ -89,7 +89,7 @@ class _Judge:
     def run(self) -> Judgement:
         claim, found = self.claim, self.found
         for name in claim.hints.get("uses", ()):
-            self.known[name] = checker.read_statements(self.options.lemmas[name])[name]
+            self.known[name] = read(self.options.lemmas[name], name)
         body = claim.body()
         for prefix, assertion in assertions(body):
             self.settle_all(prefix, assertion)

@@ -13,6 +13,7 @@ from certificates.search.sharp import Range, find_sharp_range
 from certificates.search.sharp_plane import find_sharp_region
 from certificates.statements import SharpRange, Statement
 from certificates.terms import conjunction, disjunction, real
+from proofs.hypotheses import read
 
 DECIMALS = 12
 DOMAINS = {"alpha": (real("alpha") > 0) & (real("alpha") < 1), "K": real("K") >= 1, "eps": real("eps") > 0}
@@ -27,7 +28,7 @@ def search_sharp_range(
     Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1.  Over alpha and eps first the alpha are sought for which
     the statements hold with every eps > 0, since eps has a dimension as a rule; then pairs.  `borders` may bound a plane range.
     """
-    parsed = [checker.read_statements(statement.text())[statement.name] for statement in statements]
+    parsed = [read(statement.text(), statement.name) for statement in statements]
     if "alpha" in over and "K" not in over:
         try:
             found = find_sharp_range(parsed, "alpha", DOMAINS["alpha"], name, known, Budget(budget))

@@ -11,7 +11,7 @@ from typing import Any
 
 from certificates import checker
 from certificates.statements import Iterates, Statement
-from certificates.store import DEFAULT, STATEMENTS, Store, canonical, write_file, write_store
+from certificates.store import DEFAULT, Store, canonical, write_file, write_store
 from certificates.terms import ClaimError
 from proofs.claims import Claim, assertions, named_statements
 from proofs.command import table
@@ -184,6 +184,3 @@ def _write_reports(options: argparse.Namespace, claims: Sequence[Claim], judgeme
     if options.timings:
         lines = [f"{seconds[judgement.id]:9.3f}  {judgement.id}" for judgement in judgements]
         write_file(options.timings, ("\n".join(lines) + "\n").encode())
-
-
-__all__ = ["STATEMENTS", "certify", "entry"]
