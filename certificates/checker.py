@@ -705,25 +705,29 @@ def adjoin(state, known, name, text, low, high, below, above):
 def check_sharp(statement, certificate, known, statements):
     """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).  [{name: prove}, found, sample].
 
-    A statement's own range lines give way to the domain and the condition.  Inside, each statement is proved; outside, counterexamples to
+    A statement's own range lines give way to the domain and the condition; a parameter is an integer where the statements say so.  Inside, each statement is proved; outside, counterexamples to
     one of them are found.  Each `number` line: its polynomial has exactly one root between its ends, where it changes its sign.
     The sample {parameter: value} is a point of the domain.
     """
     (names,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
     inside, outside, sample = certificate
+    if not names or set(inside) != set(names) or not all(n in statements and statements[n].kind == "universal" for n in names):
+        raise Rejected("a sharp range proves each of its earlier statements", names)
+    whole = [{p for p in over if any(p in line for line in statements[name].get("integer"))} for name in names]
     context = Context()
     for parameter in over:
-        context.declare(parameter)
+        context.declare(parameter, parameter in whole[0])
     state = State(context)
-    if set(sample) != set(over) or Context(None, {name: Ratio(number(rational(value))) for name, value in sample.items()}).formula(domain) is not True:
+    if any(other != whole[0] for other in whole):
+        raise Rejected("a parameter is an integer in one statement of a sharp range and not in another", names)
+    values = {name: Ratio(number(rational(value))) for name, value in sample.items()}
+    if set(sample) != set(over) or any(rational(sample[p]).denominator > 1 for p in whole[0]) or Context(None, values).formula(domain) is not True:
         raise Rejected("the sample is not in the domain of a sharp range", sample)
     for name, (tree, *ends) in statement.get("number"):
         poly, low, high = state.context.value(tree).num, *(state.context.value(end).num.constant() for end in ends)
         p = univariate(state.context, poly, *variables_of(state.context, poly))
         if low >= high or count_roots(p, low, high) != 1 or sign_at(p, low) == sign_at(p, high):
             raise Rejected("not one root, with a change of sign, between the ends of a number", name)
-    if not names or set(inside) != set(names) or not all(n in statements and statements[n].kind == "universal" for n in names):
-        raise Rejected("a sharp range proves each of its earlier statements", names)
     for name in names:
         prove(statements[name], inside[name], known, [domain, condition])
     state.assume(state.context.formula(domain))

@@ -16,7 +16,7 @@ MET = [
 FAILS = ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"]], []]
 LOOSE = ["proof", [], ["psatz", [[1, [[4, 1]], "1"], [1, [[2, 1]], "1"], [1, [[3, 1]], "1"], [1, [[3, 2]], "1"]], []]]
 HALF = {"a": "1/2"}
-EARLIER = {"rule/squares": {"unknown": "holds only in a range"}}
+EARLIER = {name: {"unknown": "holds only in a range"} for name in ("rule/squares", "rule/counts")}
 
 
 def sharp(inside: Json, outside: Json, sample: Json = None) -> Json:
@@ -38,8 +38,23 @@ def over(*rows: str) -> str:
 VALID = sharp({"rule/squares": INSIDE}, found())
 SQRT = ("sharp rule/squares", "over a", "domain a > 0 and a < 9", "number c = root(a^2 - a, 1/2, 2)", "holds a <= 1")
 
+# n <= x for all x >= 1 exactly where n < 2, which is so for integers only
+COUNTS = ("forall n x", "integer n", "given x >= 1", "show x >= n")
+BELOW_2 = ("over n", "domain n > 0 and n < 9", "holds n < 2")
+# facts inside: n > 0, 9 - n > 0, 2 - n > 0, x - 1 >= 0, n - x > 0, 1 - n >= 0; outside: n > 0, 9 - n > 0, n - 2 >= 0, 1 - n >= 0
+COUNTED = ["proof", [], ["integral", 2, ["psatz", [[1, [[k, 1]], "1"] for k in (3, 4, 5)], []]]]
+BEYOND = ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"], [1, [], "1"]], []]
+
+
+def counted(defect: str, expected: str = "certified", rows: tuple[str, ...] = COUNTS, sample: str = "1") -> Case:
+    text = lines(*rows, name="rule/squares") + "\n" + lines("sharp rule/squares", *BELOW_2)
+    met = ["cases", 0, [["psatz", [[1, [[0, 1]], "1"], [1, [[3, 1]], "1"]], []], ["psatz", [[1, [[1, 1]], "1"], [1, [[3, 1]], "1"]], []]]]
+    return Case(defect, text, sharp({"rule/squares": COUNTED}, found(BEYOND, met), {"n": sample}), expected, EARLIER)
+
+
 ACCEPTED = [
     case("inside and outside", VALID),
+    counted("an integer parameter"),
     case("a number", VALID, text=over(*SQRT)),
     case(
         "outside by cases of a sign",
@@ -70,6 +85,15 @@ MAP = lines("forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K"
 EMPTY = ["empty", CLOSE]
 
 REJECTED = [
+    counted("a parameter that is no integer", "not a strict fact with integer coefficients in integers", (COUNTS[0], *COUNTS[2:])),
+    counted("a sample between integers", "the sample is not in the domain", sample="3/2"),
+    case(
+        "a parameter that is an integer in one statement only",
+        sharp({"rule/squares": INSIDE, "rule/counts": COUNTED}, found()),
+        "a parameter is an integer in one statement of a sharp range and not in another",
+        SQUARES + "\n" + lines("forall a x", "integer a", "given x >= 1", "show x >= a", name="rule/counts")
+        + "\n" + lines("sharp rule/squares rule/counts", *SHARP[1:]),
+    ),
     Case(
         "a statement of another kind",
         MAP + "\n" + lines("sharp rule/map", "over x", "domain x > 0", "holds 0 = 0"),
