@@ -17,10 +17,14 @@ TRUSTED: Any = checker  # the trusted file carries no annotations
 
 @dataclass(frozen=True)
 class Denial:
-    """For all values of the bound variables (none for a universal statement): the formula."""
+    """For all values of the bound variables (none for a universal statement) there are values of the `chosen` ones with the formula.
+
+    Only the outside of a sharp range chooses: a named statement with `exists` is assumed there, not denied.
+    """
 
     bound: tuple[str, ...]
     formula: Formula
+    chosen: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -41,12 +45,17 @@ class Question:
     @property
     def bound(self) -> frozenset[str]:
         """The names that a denial binds."""
-        return frozenset(name for denial in self.denials for name in denial.bound)
+        return frozenset(name for denial in self.denials for name in (*denial.bound, *denial.chosen))
 
     @property
     def quantified(self) -> bool:
         """Whether a denial binds variables."""
         return bool(self.bound)
+
+    @property
+    def beyond_routes(self) -> bool:
+        """Whether it has one alternation of quantifiers more, or integers under a quantifier outside a range: only exported, no route asks."""
+        return any(denial.chosen for denial in self.denials) or self.part == "outside" and bool(self.integers)
 
     def occurring(self) -> tuple[str, ...]:
         """The names of the variables that occur, in order."""
@@ -96,20 +105,38 @@ def _sharp_questions(statement: Any, earlier: Mapping[str, Any]) -> list[Questio
     asked: list[Question] = []
     for name in named:
         asked += _universal_questions(earlier[name], statement.name, [domain, condition], f"inside, {name}: ")
-    if any(earlier[name].get("exists") or earlier[name].get("integer") for name in named):
-        return asked  # outside, this would be a third alternation, or integers under a quantifier: no route here decides it
-    context = TRUSTED.Context()
+    return [*asked, _outside(statement.name, over, domain, condition, [earlier[name] for name in named])]
+
+
+def _outside(name: str, over: Sequence[str], domain: Any, condition: Any, named: Sequence[Any]) -> Question:
+    """Is there a parameter in the domain, but outside the range, at which all the named statements hold?"""
+    stories = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
+    names, integers = list[str](over), {p for p in over if p in stories[0].integers}
+    renamed = list[tuple[str, ...]]()
+    for story in stories:  # every denial binds its own variables; a name is shared unless it is an integer in one statement only
+        own = [n if n in over or n not in names or (n in integers) == (n in story.integers) else _fresh(n, {*names, *story.context.index})
+               for n in story.context.index]
+        names += [n for n in own if n not in names]
+        integers |= {n for n, key in zip(own, story.context.index) if key in story.integers}
+        renamed.append(tuple(own))
+    context, order = TRUSTED.Context(), tuple(names)
     for parameter in over:
         context.declare(parameter)
-    stories = [TRUSTED.Unfolding(earlier[name], TRUSTED.Context(), [domain]) for name in named]
-    names = tuple(dict.fromkeys([*over, *(n for story in stories for n in story.context.index)]))
-    outside = [formula_of(f, tuple(over), names) for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))]
+    outside = [formula_of(f, tuple(over), order) for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))]
     denials = []
-    for story in stories:
-        own = tuple(story.context.index)
+    for story, bound in zip(stories, renamed):
         held = TRUSTED.join("or", [TRUSTED.negate(TRUSTED.join("and", story.premises)), story.goal(True)])
-        denials.append(Denial(tuple(n for n in own if n not in over), formula_of(held, own, names)))
-    return [*asked, Question(statement.name, "outside", names, frozenset(), flat(outside), tuple(denials))]
+        of_all = {n for n, key in zip(bound, story.context.index) if key in story.universal}
+        denials.append(Denial(tuple(n for n in bound if n in of_all and n not in over), formula_of(held, bound, order),
+                              tuple(n for n in bound if n not in of_all)))
+    return Question(name, "outside", order, frozenset(integers), flat(outside), tuple(denials))
+
+
+def _fresh(name: str, taken: set[str]) -> str:
+    """The name with underscores until it is none of those taken."""
+    while name in taken:
+        name += "_"
+    return name
 
 
 def _iterate_questions(statement: Any) -> list[Question]:

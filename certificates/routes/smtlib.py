@@ -10,14 +10,11 @@ from typing import Any
 
 from certificates.routes.polynomials import Atom, Formula, Polynomial
 from certificates.routes.questions import Denial, Question, questions
-
-# words that a solver reads as its own: an underscored spelling keeps the variable apart from them
-TAKEN = frozenset("abs div mod ite let forall exists par as xor distinct true false pi euler e exp log sin cos tan to_real to_int is_int "
-                  "is match select store assert push pop reset exit model".split())
+from certificates.routes.smt_terms import number_checks, recurrence, symbol
 
 
 def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
-    """The whole statement as one script: a check for each of its questions, apart by push and pop.
+    """The whole statement as one script: a check for each of its questions, each begun by a reset, so that scripts may be joined.
 
     Formula: the statement holds <=> every check answers unsat.
     Source: SMT-LIB 2.6, logics QF_NRA, NRA, QF_NIA, QF_NIRA, UFNIRA.
@@ -25,26 +22,30 @@ def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
     >>> from certificates.routes.questions import read_statement
     >>> print(script(read_statement("statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2/2 >= x - 1/2")))
     ; statement demo/square: it holds if and only if every check below answers unsat
-    (set-logic QF_NRA)
+    <BLANKLINE>
     ; goal: a solution refutes the statement
-    (push 1)
+    (reset)
+    (set-logic QF_NRA)
     (declare-const x Real)
     (assert (> (+ x (- 1)) 0))
     (assert (> (+ (* (- 1) x x) (* 2 x) (- 1)) 0))
     (check-sat)
-    (pop 1)
     <BLANKLINE>
     """
-    asked = questions(statement, earlier)
     rows = [f"; statement {statement.name}: it holds if and only if every check below answers unsat"]
-    if statement.kind == "sharp" and not any(question.part == "outside" for question in asked):
-        rows.append("; only the part inside the range is written: outside, some named statement fails at every parameter, "
-                    "which asks for one more alternation of quantifiers")
-    rows.append(f"(set-logic {_widest([logic(question) for question in asked])})")
-    for question in asked:
-        rows += [f"; {question.part}: {_meaning(question)}", "(push 1)"]
-        rows += [*declarations(question), *assertions(question), "(check-sat)", "(pop 1)"]
+    if statement.kind == "sharp":
+        rows.append("; sharp range: inside it every named statement holds, outside it one of them fails at every parameter")
+    for question in questions(statement, earlier):
+        asked = recurrence(statement) if statement.kind == "iterates" else [*declarations(question), *assertions(question)]
+        rows += _check(question.part, _meaning(question), logic(question), asked)
+    for name, (polynomial, low, high) in statement.get("number"):
+        for meaning, asked in number_checks(name, polynomial, low, high):
+            rows += _check(f"number {name}", meaning, "QF_NRA", asked)
     return "\n".join(rows) + "\n"
+
+
+def _check(part: str, meaning: str, in_logic: str, asked: Sequence[str]) -> list[str]:
+    return ["", f"; {part}: {meaning}", "(reset)", f"(set-logic {in_logic})", *asked, "(check-sat)"]
 
 
 def question_text(question: Question) -> str:
@@ -55,25 +56,15 @@ def question_text(question: Question) -> str:
 def _meaning(question: Question) -> str:
     if question.part == "outside":
         return "a solution is a parameter outside the range at which all the named statements hold"
+    if question.part == "recurrence":
+        return "a solution is a point at which P(0) is not the identity or the map does not lead from P(K) to P(K + 1)"
     return "a solution refutes the statement" if question.refutes else "a solution shows that this line does not follow from those before"
 
 
 def logic(question: Question) -> str:
-    """The SMT-LIB logic that the question belongs to."""
+    """The SMT-LIB logic that the question belongs to; there is none with quantifiers and both sorts but without functions."""
     arithmetic = "NRA" if not question.integers else "NIA" if question.integers >= set(question.names) else "NIRA"
-    return ("" if question.quantified else "QF_") + arithmetic
-
-
-def _widest(logics: Sequence[str]) -> str:
-    quantified = any(not name.startswith("QF_") for name in logics)
-    kinds = {name.removeprefix("QF_") for name in logics}
-    kind = kinds.pop() if len(kinds) == 1 else "NIRA"
-    return ("UF" if kind == "NIRA" else "") + kind if quantified else f"QF_{kind}"
-
-
-def symbol(name: str) -> str:
-    """The name as an SMT-LIB symbol that no theory has taken; names of statements hold no `!`."""
-    return name + "!" if name in TAKEN else name
+    return ("UF" if arithmetic == "NIRA" else "") + arithmetic if question.quantified else f"QF_{arithmetic}"
 
 
 def declarations(question: Question) -> list[str]:
@@ -89,9 +80,10 @@ def assertions(question: Question) -> list[str]:
 
 def _denial(question: Question, denial: Denial) -> str:
     body = write_formula(denial.formula, question.integers)
-    if not denial.bound:
-        return body
-    return f"(forall ({' '.join(f'({symbol(name)} {_sort(question, name)})' for name in denial.bound)}) {body})"
+    for word, names in (("exists", denial.chosen), ("forall", denial.bound)):
+        if names:
+            body = f"({word} ({' '.join(f'({symbol(name)} {_sort(question, name)})' for name in names)}) {body})"
+    return body
 
 
 def _sort(question: Question, name: str) -> str:

@@ -13,7 +13,8 @@ from certificates.routes.algebraic import Exact, Root, root_number, truth_at
 from certificates.routes.polynomials import Atom, Formula, Polynomial, atom, branches, join, map_atoms
 from certificates.routes.questions import Denial, Question, flat, questions
 from certificates.routes.scaling import at_unit_values, fixed_by_units
-from certificates.routes.smtlib import question_text, symbol
+from certificates.routes.smt_terms import symbol
+from certificates.routes.smtlib import question_text
 from certificates.routes.votes import Budget, Vote
 
 MOST_BRANCHES, MOST_TRIES = 64, 16
@@ -102,14 +103,15 @@ def vote(statement: Any, earlier: Mapping[str, Any] | None = None, budget: Budge
     session = Session((budget or Budget()).rlimit)
     asked, notes, open_lines = asked or questions(statement, earlier), [], False
     for question in asked:
+        if question.beyond_routes:
+            open_lines = True
+            notes.append("outside: not asked")
+            continue
         reply = decide(session, question)
         notes.append(f"{question.part}: {reply.how}")
         if reply.answer == "sat" and question.refutes:
             return _failure(session, question, reply)
         open_lines = open_lines or reply.answer != "unsat"
-    if statement.kind == "sharp" and not any(question.part == "outside" for question in asked):
-        open_lines = True
-        notes.append("outside: not asked")
     if open_lines:
         return Vote("z3", "unknown", "; ".join(note for note in notes if "unsat" not in note), session.spent)
     return Vote("z3", "holds", "; ".join(dict.fromkeys(notes)), session.spent)

@@ -14,6 +14,7 @@ from certificates.terms import ClaimError
 def export_smt2(ids: Sequence[str], folder: Path | None) -> int:
     """Writes the statements of the claims named (or of all) to standard output, or to one file each.
 
+    Every check begins with `(reset)`, so that a solver reads any number of statements as one script.
     Raises ClaimError for a name that neither a claim nor a statement bears.
     """
     store = Store(DEFAULT)
