@@ -74,12 +74,14 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         from proofs.command.export import export_smt2
 
         return export_smt2(parsed.ids, parsed.output)
+    if parsed.command == "errata":
+        from proofs.command.errata import errata
+
+        return errata()
     from proofs.command import show
 
     if parsed.command == "list":
         return show.list_claims()
-    if parsed.command == "errata":
-        return show.errata()
     return show.explain(parsed.id)
 
 

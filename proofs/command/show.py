@@ -1,4 +1,4 @@
-"""`juggleproof list`, `explain ID` and `errata`: what is stored, told without searching again."""
+"""`juggleproof list` and `explain ID`: what is stored, told without searching again."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from certificates import checker
 from certificates.store import DEFAULT, Store
 from certificates.terms import ClaimError
 from proofs.claims import Argument, Assertion, Awaiting, Body, Claim, Readings
-from proofs.command.certify import FINDINGS
 from proofs.loading import paper_claims
 from proofs.register import load_register
 
@@ -116,39 +115,3 @@ def counterexample(found: Any) -> str:
     values = ", ".join(f"{name} = {value}" for name, value in found[2].items())
     adjoined = "".join(f" where {entry[0]} is a root of {entry[1]} between {entry[2]} and {entry[3]}" for entry in found[1])
     return values + adjoined
-
-
-def errata() -> int:
-    """What is printed wrongly: place, print, correction, exact counterexample; possible transcription errors apart."""
-    register = load_register()
-    store = Store(DEFAULT)
-    findings = json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8")) if (DEFAULT / FINDINGS).exists() else {}
-    wrong = [claim for claim in paper_claims() if register.get(claim.id, {}).get("verdict") in ("misprint", "false", "gap")]
-    groups: dict[str, list[Claim]] = {"the paper's own": [], "repeats of these": [], "possible transcription errors": []}
-    for claim in wrong:
-        correction = findings.get(claim.id, {}).get("correction") or {}
-        lost = correction.get("possible transcription error") or bool(claim.as_it_stands)
-        groups["repeats of these" if claim.repeats else "possible transcription errors" if lost else "the paper's own"].append(claim)
-    for title, claims in groups.items():
-        print(f"{title} ({len(claims)})")
-        for claim in claims:
-            _erratum(claim, register[claim.id], findings.get(claim.id, {}).get("correction"), store)
-        print()
-    return 0
-
-
-def _erratum(claim: Claim, entry: Mapping[str, Any], correction: Mapping[str, Any] | None, store: Store) -> None:
-    print(f"  {claim.id}  section {claim.section} {claim.place}  {entry['verdict']}" + (f" (repeats {claim.repeats})" if claim.repeats else ""))
-    print(f"      says        {claim.says}")
-    if claim.printed:
-        print(f"      printed     {claim.printed}")
-    if correction:
-        print(f"      correction  {correction['text']}   ({correction['change']})")
-    if "detail" in entry:
-        print(f"      detail      {entry['detail']}")
-    if "sharp" in entry:
-        print(f"      holds for   {entry['sharp']}")
-    for name, text in store.texts.items():
-        certificate = store.certificate(name, text) if name.split("/")[0] == claim.id else None
-        if isinstance(certificate, dict) and "refuted" in certificate:
-            print(f"      refuted at  {counterexample(certificate['refuted'])}")
