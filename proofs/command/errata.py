@@ -106,10 +106,10 @@ def what_is_wrong(entry: Mapping[str, Any], sharp: Mapping[str, str]) -> list[st
     if readings:
         words = {"holds": "true", "false": "false", "unknown": "open"}
         return [f"read as {name}: {words[word]}{_for_alpha(sharp.get(name + '.', ''), word)}" for name, word in readings.items()]
-    for pattern, words in ((r"^its conclusion is refuted(, and)?", r"the conclusion is false\1"), (r", and (step .*)", r", and so is \1"),
+    for pattern, told in ((r"^its conclusion is refuted(, and)?", r"the conclusion is false\1"), (r", and (step .*)", r", and so is \1"),
                            (r"^step (.*,.*) is false", r"steps \1 are false"), ("conclusion open", "the conclusion stays open"),
                            ("conclusion certified", "the conclusion is certified all the same"), ("conclusion by", "the conclusion stands by")):
-        detail = re.sub(pattern, words, detail)
+        detail = re.sub(pattern, told, detail)
     if detail:
         return [detail]
     return [("false as printed" if verdict == "misprint" else "false") + _for_alpha(sharp.get("", ""), "false")]
