@@ -28,7 +28,7 @@ from certificates.search.certificate import search_certificate
 from certificates.store import DEFAULT, Store
 
 TRIVIAL = "statement peers/start\nforall x\ngiven x > 0\nshow x + 1 > 0"
-SAID = {"certified": "holds", "refuted": "fails"}
+SAID: dict[str, Answer] = {"certified": "holds", "refuted": "fails"}
 NOTES = """\
 settled: of the statements that the method can express (no integers for QEPCAD B; neither integers nor what is said to exist for nra).
 median, total: seconds of those, the limit where nothing was settled in time; start: seconds for x > 0 => x + 1 > 0.  Every peer is a
@@ -89,7 +89,7 @@ def methods() -> list[Method]:
 
 def contradictions(name: str, stored: Any, asked: Sequence[Method]) -> list[str]:
     """One line where the stored certificate and the methods do not all say the same of a statement."""
-    said = {method.title: method.said[name][0] for method in asked}
+    said: dict[str, Answer] = {method.title: method.said[name][0] for method in asked}
     if isinstance(stored, dict):
         said["the stored certificate"] = next((word for key, word in SAID.items() if key in stored), "unsettled")
     if {"holds", "fails"} <= set(said.values()):

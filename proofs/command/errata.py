@@ -49,7 +49,8 @@ def errata() -> int:
         for claim in found:
             print("\n".join(entry_of(claim, register, findings.get(claim.id, {}), store)) + "\n")
     restored = [claim.id for claim in claims if claim.as_it_stands and register.get(claim.id, {}).get("verdict") == "holds"]
-    print(f"Mangled in the transcription, and true as restored ({len(restored)}): {', '.join(restored) or 'none'}")
+    print(textwrap.fill(f"Mangled in the transcription, and true as restored ({len(restored)}): {', '.join(restored) or 'none'}", WIDTH,
+                        break_on_hyphens=False))
     return 0
 
 
@@ -72,9 +73,9 @@ def entry_of(claim: Claim, register: Mapping[str, Mapping[str, Any]], finding: M
     entry = register[claim.id]
     rows = [f"{claim.id}, {_place(claim)}: {entry['verdict']}"]
     if claim.repeats:
-        right = register.get(claim.repeats, {}).get("verdict") == "holds"
-        rows[0] += f"; {claim.repeats} prints it right" if right else f"; repeats {claim.repeats}"
-    rows.append(_row("said", textwrap.fill(claim.says, WIDTH)))
+        holds = register.get(claim.repeats, {}).get("verdict") == "holds"
+        rows[0] += f"; repeats {claim.repeats}" + ("" if not holds else ", which prints it right" if claim.printed else ", which holds")
+    rows.append(_row("said", textwrap.fill(claim.says, WIDTH, break_on_hyphens=False)))
     if claim.as_it_stands:
         rows.append(_row("transcribed", claim.as_it_stands))
     if claim.printed:
