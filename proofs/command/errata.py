@@ -74,7 +74,8 @@ def entry_of(claim: Claim, register: Mapping[str, Mapping[str, Any]], finding: M
     rows = [f"{claim.id}, {_place(claim)}: {entry['verdict']}"]
     if claim.repeats:
         holds = register.get(claim.repeats, {}).get("verdict") == "holds"
-        rows[0] += f"; repeats {claim.repeats}" + ("" if not holds else ", which prints it right" if claim.printed else ", which holds")
+        which = "" if not holds else ", which holds" if entry["verdict"] == "ambiguous" else ", which prints it right"
+        rows[0] += f"; repeats {claim.repeats}{which}"
     rows.append(_row("said", textwrap.fill(claim.says, WIDTH, break_on_hyphens=False)))
     if claim.as_it_stands:
         rows.append(_row("transcribed", claim.as_it_stands))
