@@ -17,6 +17,7 @@ from proofs.reading.environment import Environment
 from proofs.reading.mutations import one_mark_changes
 from proofs.reading.printed import Printed
 
+DERIVED = ("coefficients", "derived")
 LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
 
 
@@ -61,11 +62,23 @@ class Amended(Printed):
         return conjunction(parts)
 
 
-def candidates(claim: Claim) -> Iterator[Candidate]:
-    """Corrections to try, in order: one mark, then the derived form (after coefficients on the printed terms)."""
+def candidates(claim: Claim, first: tuple[str, str] | None = None) -> Iterator[Candidate]:
+    """Corrections to try, in order: one mark, then the derived form (after coefficients on the printed terms).
+
+    `first` is the kind and text of one to try before all others.
+    """
+    if first is not None:
+        ways = (_derived,) if first[0] in DERIVED else (_one_mark,)
+        yield from (one for way in ways for one in way(claim) if (one.kind, one.text) == first)
+    yield from (one for way in (_one_mark, _derived) for one in way(claim) if (one.kind, one.text) != first)
+
+
+def _one_mark(claim: Claim) -> Iterator[Candidate]:
     for change, latex in one_mark_changes(claim.printed):
-        kind = change.split(":")[0]
-        yield Candidate(kind, change, latex, Printed(latex))
+        yield Candidate(change.split(":")[0], change, latex, Printed(latex))
+
+
+def _derived(claim: Claim) -> Iterator[Candidate]:
     if claim.derived is not None:
         truth = claim.derived()
         right = _printed_right(claim)

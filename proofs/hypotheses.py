@@ -6,8 +6,6 @@ from typing import Any
 
 from certificates import checker
 from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import search_certificate
-from certificates.search.closing import search_closing
 from certificates.statements import Statement
 from certificates.terms import ClaimError, Formula, disjunction
 
@@ -20,6 +18,9 @@ def read(text: str, name: str) -> checker.Statement:
 
 def refuse_what_says_nothing(statement: Statement, outcome: str, known: dict[str, checker.Statement], budget: int) -> None:
     """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep a denominator from vanishing."""
+    from certificates.search.certificate import search_certificate
+    from certificates.search.closing import search_closing
+
     def settles(part: Statement, outcome: str) -> bool:
         try:
             return outcome in search_certificate(read(part.text(), part.name), known, Budget(budget))

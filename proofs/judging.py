@@ -7,19 +7,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import version
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from certificates import checker
 from certificates.routes.votes import Vote, cast_votes, compare
 from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import search_certificate
 from certificates.statements import AnyStatement, Iterates, SharpRange, Statement
 from certificates.store import Store
 from certificates.terms import ClaimError
 from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions, named_statements
-from proofs.corrections import Candidate, candidates
 from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing
 from proofs.verdicts import Verdict, outcome_of, verdict_of
+
+if TYPE_CHECKING:
+    from proofs.corrections import Candidate
 
 DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
@@ -30,13 +31,17 @@ SHARP = 3  # a sharp range takes many proofs and families, each with this part o
 
 @dataclass(frozen=True)
 class Options:
-    """How to judge: which routes vote, how much counted work a statement may take, and what an earlier run found."""
+    """How to judge: which routes vote, how much counted work a statement may take, and what an earlier run found.
+
+    `checked` is what the checker said of the stored statements, by name, when it read the whole store at the start of this run.
+    """
 
     routes: tuple[str, ...] = ("exact", "z3", "boxes")
     budget: int = DEFAULT_BUDGET
     store: Store | None = None
     findings: Mapping[str, Any] = field(default_factory=dict)
     lemmas: Mapping[str, str] = field(default_factory=dict)
+    checked: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -108,38 +113,47 @@ class _Judge:
     def settle(self, statement: AnyStatement) -> str:
         """The outcome of one statement, by a stored certificate that is still valid or by a search."""
         name, text = statement.name, statement.text()
-        parsed = read(text, name)
         certificate = self.options.store.certificate(name, text) if self.options.store else None
-        outcome = self.check(parsed, certificate) if certificate is not None else "rejected"
+        outcome = self.stored_outcome(name, text, certificate)
         self.found.reused += outcome != "rejected"
         if outcome == "rejected":
+            parsed = read(text, name)
             certificate = self.search(statement, parsed)
             outcome = self.check(parsed, certificate)
             if outcome == "rejected":
                 certificate, outcome = {"unknown": "the search found no certificate"}, "unknown"
         self.keep(name, text, certificate, outcome)
         if isinstance(statement, Statement):
-            self.found.votes[name] = self.votes(parsed, text, outcome)
+            self.found.votes[name] = self.votes(name, text, outcome)
         return outcome
 
-    def votes(self, parsed: checker.Statement, text: str, outcome: str) -> Sequence[Vote]:
+    def stored_outcome(self, name: str, text: str, certificate: Any) -> str:
+        """What the checker said of the stored certificate when it read the store; it is asked again where it rejected it there."""
+        if certificate is None:
+            return "rejected"
+        outcome = self.options.checked.get(name, "rejected")
+        return outcome if outcome != "rejected" else self.check(read(text, name), certificate)
+
+    def votes(self, name: str, text: str, outcome: str) -> Sequence[Vote]:
         """One vote a route; a vote that an earlier run recorded on this very text, with these tools, is not cast again."""
         routes = [route for route in self.options.routes if route != "exact"]
-        earlier = (self.options.findings.get(self.claim.id) or {}).get("votes", {}).get(parsed.name)
+        earlier = (self.options.findings.get(self.claim.id) or {}).get("votes", {}).get(name)
         if earlier and earlier.get("on") == _voted_on(text) and set(routes) <= {one["route"] for one in earlier["votes"]}:
             recorded = [Vote(one["route"], one["answer"], one["detail"]) for one in earlier["votes"] if one["route"] in routes]
-            compare(parsed.name, outcome, recorded)
-            self.found.recorded[parsed.name] = earlier
+            compare(name, outcome, recorded)
+            self.found.recorded[name] = earlier
             return recorded
-        cast = cast_votes(parsed, outcome, routes, None) if routes else ()
+        cast = cast_votes(read(text, name), outcome, routes, None) if routes else ()
         if set(routes) == {"z3", "boxes"}:
-            self.found.recorded[parsed.name] = {"on": _voted_on(text), "votes": [
+            self.found.recorded[name] = {"on": _voted_on(text), "votes": [
                 {"route": vote.route, "answer": vote.answer, "detail": str(vote)} for vote in cast]}
         return cast
 
     def search(self, statement: AnyStatement, parsed: checker.Statement) -> Any:
         if isinstance(statement, Iterates):
             return {"certified": []}
+        from certificates.search.certificate import search_certificate
+
         try:
             found = search_certificate(parsed, self.known, Budget(self.options.budget), self.claim.hints.get("search"))
         except Exhausted:
@@ -162,8 +176,10 @@ class _Judge:
     def correct(self) -> None:
         """The first candidate print that the same claim certifies; an earlier finding is tried first."""
         remembered = (self.options.findings.get(self.claim.id) or {}).get("correction")
-        tries = sorted(candidates(self.claim) if self.claim.printed else (), key=lambda one: remembered is None or one.text != remembered["text"])
-        for candidate in tries:
+        from proofs.corrections import candidates
+
+        first = (remembered["kind"], remembered["text"]) if remembered else None
+        for candidate in candidates(self.claim, first) if self.claim.printed else ():
             if self.certifies(candidate):
                 self.found.correction = {"kind": candidate.kind, "change": candidate.change, "text": candidate.text,
                                          "possible transcription error": candidate.possible_transcription_error}
@@ -184,9 +200,10 @@ class _Judge:
     def certifies_body(self, body: Body) -> bool:
         """Whether every statement of a corrected body is certified; if so they are kept."""
         try:
-            statements = [part for _, assertion in _with_prefix(body) for part in assertion]
-            parsed = [read(part.text(), part.name) for part in statements]
-            if any(self.is_refuted_by_sampling(one) for one in parsed):
+            statements = [_renamed(part, f"{self.claim.id}/corrected.{part.name.split('/')[1]}")
+                          for _, assertion in _with_prefix(body) for part in assertion]
+            if not all(self.is_stored_certified(part) for part in statements) and any(
+                    self.is_refuted_by_sampling(read(part.text(), part.name)) for part in statements):
                 return False
         except (ClaimError, checker.Rejected):
             return False
@@ -194,7 +211,7 @@ class _Judge:
         trial.known, trial.is_trial = self.known, True
         try:
             for part in statements:
-                if trial.settle(_renamed(part, f"{self.claim.id}/corrected.{part.name.split('/')[1]}")) != "certified":
+                if trial.settle(part) != "certified":
                     return False
         except ClaimError:  # a candidate that contradicts itself, or divides by what may vanish, corrects nothing
             return False
@@ -203,9 +220,14 @@ class _Judge:
         found.certificates.update(tried.certificates)
         found.outcomes.update(tried.outcomes)
         for name, text in tried.statements:
-            found.votes[name] = self.votes(read(text, name), text, tried.outcomes[name])
+            found.votes[name] = self.votes(name, text, tried.outcomes[name])
         found.reused += tried.reused
         return True
+
+    def is_stored_certified(self, statement: AnyStatement) -> bool:
+        """Whether the store holds this very statement, and the checker accepted its proof there: no point can then refute it."""
+        store, name = self.options.store, statement.name
+        return store is not None and store.texts.get(name) == statement.text() and self.options.checked.get(name) == "certified"
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
         from certificates.search.points import search_points
@@ -236,13 +258,11 @@ class _Judge:
             return
         name = f"{self.claim.id}/{prefix}sharp"
         stored = self.options.store.texts.get(name) if self.options.store else None
-        earlier = {part.name: read(part.text(), part.name) for part in ranged}
         if stored is not None and stored.splitlines()[1] == "sharp " + " ".join(part.name for part in ranged):
             certificate = self.options.store.certificate(name, stored) if self.options.store else None
             remembered = (self.options.findings.get(self.claim.id) or {}).get("sharp", {}).get(prefix)
-            outcome, _ = checker.check_one(read(stored, name), certificate, self.known, earlier)
-            if outcome == "certified" and remembered:
-                self.keep(name, stored, certificate, outcome)
+            if remembered and self.sharp_outcome(name, stored, certificate, ranged) == "certified":
+                self.keep(name, stored, certificate, "certified")
                 self.found.sharp[prefix] = {"text": remembered, "by": [name]}
                 self.found.reused += 1
                 return
@@ -260,12 +280,20 @@ class _Judge:
             return
         sharp, found, shown = result
         certificate = {"certified": found}
+        earlier = {part.name: read(part.text(), part.name) for part in ranged}
         outcome, reason = checker.check_one(read(sharp.text(), name), certificate, self.known, earlier)
         if outcome == "certified":
             self.keep(name, sharp.text(), certificate, outcome)
             self.found.sharp[prefix] = {"text": shown, "by": [name]}
         else:
             self.found.sharp[prefix] = {"text": f"not found ({reason})", "by": []}
+
+    def sharp_outcome(self, name: str, stored: str, certificate: Any, ranged: Sequence[Statement]) -> str:
+        """What the checker said of a stored sharp range; it is asked again where a statement that is ranged over is not as stored."""
+        texts = self.options.store.texts if self.options.store else {}
+        if self.options.checked.get(name) == "certified" and all(texts.get(part.name) == part.text() for part in ranged):
+            return "certified"
+        return str(checker.check_one(read(stored, name), certificate, self.known, {one.name: read(one.text(), one.name) for one in ranged})[0])
 
 
 @cache

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from certificates.routes.questions import questions
-
 AGREES = {"certified": "holds", "refuted": "fails"}
 
 
@@ -104,6 +102,8 @@ def cast_votes(statement: Any, outcome: str, routes: Sequence[str] = ("z3", "box
 
     `earlier` gives the statements that a sharp range names.  Raises Disagreement where a vote contradicts the outcome or another vote.
     """
+    from certificates.routes.questions import questions  # only where a vote is cast anew
+
     asked = questions(statement, earlier)
     votes: list[Vote] = []
     for route in routes:

@@ -6,6 +6,7 @@ import argparse
 import json
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from certificates import checker
 from certificates.statements import Iterates, Statement
 from certificates.store import DEFAULT, Store, canonical, write_file, write_store
 from certificates.terms import ClaimError
+from proofs.checking import Reading
 from proofs.claims import Claim, assertions, named_statements
 from proofs.command import table
 from proofs.judging import DEFAULT_BUDGET, Judgement, Options
@@ -36,11 +38,15 @@ def certify(options: argparse.Namespace) -> int:
     claims = _selected(everything, options.only)
     folder = options.store or (options.files[0].with_suffix(".certificates") if own else DEFAULT)
     store = Store(folder)
-    known = Store(folder) if not options.fresh else Store(Path(os.devnull))
-    judged = Options(routes, options.budget or DEFAULT_BUDGET, known, {} if options.fresh else _findings(folder), _lemmas(everything, claims))
-    judgements, seconds = _with_progress(claims, judged, options.jobs, console)
-    _write(folder, store, everything, claims, judgements)
-    problems = [f"{name}: {reason}" for name, outcome, reason in checker.check_folder(str(folder)) if outcome == "rejected"]
+    jobs = options.jobs if options.jobs > 0 else os.cpu_count() or 1
+    with Reading(folder, jobs, nothing=options.fresh) as reading:
+        judged = Options(routes, options.budget or DEFAULT_BUDGET, Store(Path(os.devnull)) if options.fresh else store,
+                         {} if options.fresh else _findings(folder), _lemmas(everything, claims))
+        judged = replace(judged, checked=reading.outcomes())
+    judgements, seconds = _with_progress(claims, judged, jobs, console)
+    changed = _write(folder, store, everything, claims, judgements)
+    results = reading.results if reading.results and not changed else checker.check_folder(str(folder))
+    problems = [f"{name}: {reason}" for name, outcome, reason in results if outcome == "rejected"]
     table.draw(claims, judgements, console)
     print(table.summary(judgements))
     for problem in problems:
@@ -104,9 +110,8 @@ def _lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, s
 def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console: Any) -> tuple[list[Judgement], dict[str, float]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-    count = jobs if jobs > 0 else os.cpu_count() or 1
     if not console.is_terminal:
-        return judge_all(claims, judged, count, lambda claim, judgement: None)
+        return judge_all(claims, judged, jobs, lambda claim, judgement: None)
     columns = (TextColumn("{task.description:24}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("judging", total=len(claims))
@@ -114,11 +119,11 @@ def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console:
         def step(claim: Claim, judgement: Judgement) -> None:
             progress.update(task, advance=1, description=f"{claim.id} {judgement.verdict.word}")
 
-        return judge_all(claims, judged, count, step)
+        return judge_all(claims, judged, jobs, step)
 
 
-def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequence[Claim], judgements: Sequence[Judgement]) -> None:
-    """Writes statements, certificates and findings; claims that were not selected keep what is stored of them."""
+def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequence[Claim], judgements: Sequence[Judgement]) -> int:
+    """Writes statements, certificates and findings; claims that were not selected keep what is stored of them.  Returns the files changed."""
     fresh = {judgement.id: judgement for judgement in judgements}
     texts: list[str] = []
     certificates: dict[str, Mapping[str, Any]] = {}
@@ -136,8 +141,8 @@ def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequ
             if held:
                 certificates[claim.id] = {name: store.certificate(name, text) for name, text in held.items()}
     findings = {claim.id: findings[claim.id] for claim in everything if claim.id in findings}
-    write_store(folder, "\n\n".join([f"# {TITLE}", *texts]) + "\n", certificates)
-    write_file(folder / FINDINGS, canonical(findings))
+    changed = write_store(folder, "\n\n".join([f"# {TITLE}", *texts]) + "\n", certificates)
+    return changed + write_file(folder / FINDINGS, canonical(findings))
 
 
 def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
