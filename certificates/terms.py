@@ -28,11 +28,12 @@ class Term:
     '(x - w)/2 + x^2*(1/3)'
     """
 
-    __slots__ = ("op", "args", "_hash")
+    __slots__ = ("op", "args", "_hash", "_names")
 
     def __init__(self, op: str, *args: Any) -> None:
         self.op, self.args = op, args
         self._hash = hash((op, args))
+        self._names: frozenset[str] | None = None
 
     def __hash__(self) -> int:
         return self._hash
@@ -160,11 +161,12 @@ class Formula:
     'x >= 0 and not x < w'
     """
 
-    __slots__ = ("op", "args", "_hash")
+    __slots__ = ("op", "args", "_hash", "_names")
 
     def __init__(self, op: str, *args: Any) -> None:
         self.op, self.args = op, args
         self._hash = hash((op, args))
+        self._names: frozenset[str] | None = None
 
     def __hash__(self) -> int:
         return self._hash
@@ -279,11 +281,13 @@ def substitute(thing: Any, values: Mapping[str, Number]) -> Any:
 
 def names_in(thing: Any) -> set[str]:
     """The names of the variables that occur."""
-    found: set[str] = set()
+    return set(_names_of(thing))
 
-    def note(name: Term) -> Term:
-        found.add(name.args[0])
-        return name
 
-    transform(thing, note)
-    return found
+def _names_of(thing: Any) -> frozenset[str]:
+    if not isinstance(thing, (Term, Formula)):
+        raise ClaimError(f"{thing!r} is neither a term nor a formula")
+    if thing._names is None:  # kept, since terms never change and share their parts
+        parts = [_names_of(part) for part in thing.args if isinstance(part, (Term, Formula))]
+        thing._names = frozenset((thing.args[0],)) if thing.op == "var" else frozenset().union(*parts)
+    return thing._names

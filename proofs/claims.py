@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Union
 
@@ -139,11 +139,10 @@ def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[A
         full = f"{claim_id}/{prefix}{label}"
         if not re.fullmatch(r"[\w.\-]+/[\w.\-]+", full, re.ASCII):
             raise ClaimError(f"{claim_id}: {full!r} is no name for a statement; use letters, digits, - and .")
-        named.append(part.named(full) if isinstance(part, Statement) else Iterates(full, *[getattr(part, f) for f in _ITERATES]))
+        named.append(replace(part, name=full))
     return named
 
 
-_ITERATES = ("state", "images", "count", "powers", "parameters")
 _registry: list[Claim] = []
 
 

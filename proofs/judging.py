@@ -17,6 +17,7 @@ from certificates.store import Store
 from certificates.terms import ClaimError
 from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions, named_statements
 from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing
+from proofs.records import record_of
 from proofs.verdicts import Verdict, outcome_of, verdict_of
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ class Judgement:
     corrected_as: dict[str, Any] | None = None
     recorded: dict[str, Any] = field(default_factory=dict)
     reused: int = 0
+    record: Any = None
 
     def finding(self) -> dict[str, Any]:
         """What a later run may try first: the correction and the votes."""
@@ -79,13 +81,15 @@ def judge(claim: Claim, options: Options) -> Judgement:
     Raises ClaimError, one line that names the claim, where it cannot be stated; Disagreement where a route contradicts the checker.
     """
     try:
-        return _Judge(claim, options).run()
+        return Judge(claim, options).run()
     except (checker.Rejected, ClaimError) as problem:
         text = str(problem)
         raise ClaimError(f"{claim.where}: " + (text if text.startswith(claim.id) else f"{claim.id}: {text}")) from None
 
 
-class _Judge:
+class Judge:
+    """One claim on its way to a judgement."""
+
     def __init__(self, claim: Claim, options: Options) -> None:
         self.claim, self.options, self.found = claim, options, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
@@ -95,7 +99,7 @@ class _Judge:
         claim, found = self.claim, self.found
         for name in claim.hints.get("uses", ()):
             self.known[name] = read(self.options.lemmas[name], name)
-        body = claim.body()
+        body = self.body()
         for prefix, assertion in assertions(body):
             self.settle_all(prefix, assertion)
         found.verdict = verdict_of(claim.id, body, found.outcomes)
@@ -104,7 +108,16 @@ class _Judge:
             found.verdict = verdict_of(claim.id, body, found.outcomes, corrected=found.correction is not None)
         for prefix, assertion in assertions(body):
             self.find_sharp_range(prefix, assertion)
+        self.record(body)
         return found
+
+    def record(self, body: Body) -> None:
+        """Notes what a later run can know the claim again by."""
+        self.found.record = record_of(self.claim, body, self.found.statements, self.found.votes, self.found.correction)
+
+    def body(self) -> Body:
+        """What the claim asserts."""
+        return self.claim.body()
 
     def settle_all(self, prefix: str, assertion: Assertion) -> None:
         for statement in named_statements(self.claim.id, prefix, assertion):
@@ -143,11 +156,14 @@ class _Judge:
             compare(name, outcome, recorded)
             self.found.recorded[name] = earlier
             return recorded
-        cast = cast_votes(read(text, name), outcome, routes, None) if routes else ()
+        cast = self.cast(name, text, outcome, routes) if routes else ()
         if set(routes) == {"z3", "boxes"}:
             self.found.recorded[name] = {"on": _voted_on(text), "votes": [
                 {"route": vote.route, "answer": vote.answer, "detail": str(vote)} for vote in cast]}
         return cast
+
+    def cast(self, name: str, text: str, outcome: str, routes: Sequence[str]) -> Sequence[Vote]:
+        return cast_votes(read(text, name), outcome, routes, None)
 
     def search(self, statement: AnyStatement, parsed: checker.Statement) -> Any:
         if isinstance(statement, Iterates):
@@ -178,17 +194,26 @@ class _Judge:
         remembered = (self.options.findings.get(self.claim.id) or {}).get("correction")
         from proofs.corrections import candidates
 
+        if remembered and remembered["kind"] == "nearby" and self.nearby_is_certified():
+            return
         first = (remembered["kind"], remembered["text"]) if remembered else None
         for candidate in candidates(self.claim, first) if self.claim.printed else ():
             if self.certifies(candidate):
                 self.found.correction = {"kind": candidate.kind, "change": candidate.change, "text": candidate.text,
                                          "possible transcription error": candidate.possible_transcription_error}
                 return
-        if self.claim.nearby is not None:
-            text, state = self.claim.nearby
-            if self.certifies_body(as_body(state(), self.claim.id)):
-                self.found.correction = {"kind": "nearby", "change": "a true assertion nearby", "text": text,
-                                         "possible transcription error": False}
+        if not (remembered and remembered["kind"] == "nearby"):
+            self.nearby_is_certified()
+
+    def nearby_is_certified(self) -> bool:
+        """Whether the claim names a true assertion nearby that is certified; if so it is the correction."""
+        if self.claim.nearby is None:
+            return False
+        text, state = self.claim.nearby
+        if not self.certifies_body(as_body(state(), self.claim.id)):
+            return False
+        self.found.correction = {"kind": "nearby", "change": "a true assertion nearby", "text": text, "possible transcription error": False}
+        return True
 
     def certifies(self, candidate: Candidate) -> bool:
         """Whether the claim, read with this print, is certified; if so its statements are kept as ID/corrected..."""
@@ -207,7 +232,7 @@ class _Judge:
                 return False
         except (ClaimError, checker.Rejected):
             return False
-        trial = _Judge(self.claim, replace(self.options, routes=("exact",), budget=self.options.budget // TRIAL))
+        trial = Judge(self.claim, replace(self.options, routes=("exact",), budget=self.options.budget // TRIAL))
         trial.known, trial.is_trial = self.known, True
         try:
             for part in statements:
@@ -271,10 +296,7 @@ class _Judge:
         if remembered == tried:
             self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
             return
-        from proofs.ranges import search_sharp_range
-
-        borders = self.claim.hints.get("sharp", ())
-        result = search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget, borders)
+        result = self.search_sharp(name, ranged, over)
         if result is None:
             self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
             return
@@ -287,6 +309,13 @@ class _Judge:
             self.found.sharp[prefix] = {"text": shown, "by": [name]}
         else:
             self.found.sharp[prefix] = {"text": f"not found ({reason})", "by": []}
+
+    def search_sharp(self, name: str, ranged: Sequence[Statement], over: Sequence[str]) -> tuple[SharpRange, Any, str] | None:
+        """The sharp range with its certificate and how it is told, if the search finds one."""
+        from proofs.ranges import search_sharp_range
+
+        borders = self.claim.hints.get("sharp", ())
+        return search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget, borders)
 
     def sharp_outcome(self, name: str, stored: str, certificate: Any, ranged: Sequence[Statement]) -> str:
         """What the checker said of a stored sharp range; it is asked again where a statement that is ranged over is not as stored."""

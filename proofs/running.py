@@ -8,8 +8,9 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 
+from certificates.statements import Iterates, Statement
 from certificates.terms import ClaimError
-from proofs.claims import Claim
+from proofs.claims import Claim, assertions, named_statements
 from proofs.judging import Judgement, Options, judge
 
 _work: tuple[Sequence[Claim], Options] | None = None
@@ -63,3 +64,16 @@ def judge_all(
     if problems:
         raise problems[min(problems)]
     return [results[i] for i in range(len(claims))], seconds
+
+
+def lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, str]:
+    """The texts of the statements that the selected claims use from other claims."""
+    used = {name for claim in claims for name in claim.hints.get("uses", ())}
+    texts: dict[str, str] = {}
+    for claim in everything:
+        if any(name.split("/")[0] == claim.id for name in used):
+            for prefix, assertion in assertions(claim.body()):
+                for part in named_statements(claim.id, prefix, assertion):
+                    if isinstance(part, (Statement, Iterates)):
+                        texts[part.name] = part.text()
+    return {name: texts[name] for name in used if name in texts}

@@ -11,16 +11,16 @@ from pathlib import Path
 from typing import Any
 
 from certificates import checker
-from certificates.statements import Iterates, Statement
 from certificates.store import DEFAULT, Store, canonical, write_file, write_store
 from certificates.terms import ClaimError
 from proofs.checking import Reading
-from proofs.claims import Claim, assertions, named_statements
+from proofs.claims import Claim
 from proofs.command import table
 from proofs.judging import DEFAULT_BUDGET, Judgement, Options
 from proofs.loading import claims_of_file, paper_claims
+from proofs.recall import Records, judge_with_records
 from proofs.register import changes, load_register, write_register
-from proofs.running import judge_all
+from proofs.running import judge_all, lemmas
 
 FINDINGS = "findings"
 TITLE = "Every statement that the claims come to; certificates/checker.py reads this file and believes nothing else."
@@ -33,17 +33,20 @@ def certify(options: argparse.Namespace) -> int:
     routes = _routes(options.routes)
     console = Console(highlight=False)
     own = bool(options.files)
-    everything = [claim for path in options.files for claim in claims_of_file(path)] if own else paper_claims()
-    _refuse_duplicates(everything)
-    claims = _selected(everything, options.only)
     folder = options.store or (options.files[0].with_suffix(".certificates") if own else DEFAULT)
     store = Store(folder)
     jobs = options.jobs if options.jobs > 0 else os.cpu_count() or 1
+    budget = options.budget or DEFAULT_BUDGET
     with Reading(folder, jobs, nothing=options.fresh) as reading:
-        judged = Options(routes, options.budget or DEFAULT_BUDGET, Store(Path(os.devnull)) if options.fresh else store,
-                         {} if options.fresh else _findings(folder), _lemmas(everything, claims))
+        records = Records(None if own or options.fresh else budget, read=not options.accept)
+        everything = records.claims or ([claim for path in options.files for claim in claims_of_file(path)] if own else paper_claims())
+        _refuse_duplicates(everything)
+        claims = _selected(everything, options.only)
+        judged = Options(routes, budget, Store(Path(os.devnull)) if options.fresh else store, {} if options.fresh else _findings(folder),
+                         {} if records.claims else lemmas(everything, claims))
         judged = replace(judged, checked=reading.outcomes())
-    judgements, seconds = _with_progress(claims, judged, jobs, console)
+    judgements, seconds = judge_with_records(claims, judged, records, lambda rest, judged: _with_progress(rest, judged, jobs, console))
+    records.keep(judgements, len(everything))
     changed = _write(folder, store, everything, claims, judgements)
     results = reading.results if reading.results and not changed else checker.check_folder(str(folder))
     problems = [f"{name}: {reason}" for name, outcome, reason in results if outcome == "rejected"]
@@ -92,19 +95,6 @@ def _findings(folder: Path) -> dict[str, Any]:
     except (OSError, ValueError):
         return {}
     return data if isinstance(data, dict) else {}
-
-
-def _lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, str]:
-    """The texts of the statements that the selected claims use from other claims."""
-    used = {name for claim in claims for name in claim.hints.get("uses", ())}
-    texts: dict[str, str] = {}
-    for claim in everything:
-        if any(name.split("/")[0] == claim.id for name in used):
-            for prefix, assertion in assertions(claim.body()):
-                for part in named_statements(claim.id, prefix, assertion):
-                    if isinstance(part, (Statement, Iterates)):
-                        texts[part.name] = part.text()
-    return {name: texts[name] for name in used if name in texts}
 
 
 def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console: Any) -> tuple[list[Judgement], dict[str, float]]:

@@ -1,0 +1,95 @@
+"""A file outside the tree with the records of the last runs, under a digest of all that they depend on; every fault of it only costs time.
+
+What is read back is compared, statement by statement, with the store (`proofs.records`), and the checker reads the store in every run.
+JUGGLEPROOF_CACHE names another folder, or is `off`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from certificates.store import canonical, write_file
+from certificates.terms import ClaimError
+
+VARIABLE = "JUGGLEPROOF_CACHE"
+ROOT = Path(__file__).resolve().parents[1]
+SOURCES = ("symbolic", "proofs", "certificates")
+TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy", "numpy")
+KEPT = 8  # files, each of one state of the sources
+LARGEST = 50_000_000
+
+
+def folder() -> Path | None:
+    """Where records are kept: JUGGLEPROOF_CACHE, or juggleproof in the user's cache folder; None where it is off or there is no home."""
+    chosen = os.environ.get(VARIABLE, "")
+    if chosen == "off":
+        return None
+    if chosen:
+        return Path(chosen)
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "juggleproof"
+    except RuntimeError:
+        return None
+
+
+def key(*settings: object, root: Path = ROOT) -> str:
+    """A digest of the sources, the versions of Python and of the libraries, and the settings."""
+    said = hashlib.sha256(repr((sys.version, [(tool, _version(tool)) for tool in TOOLS], settings)).encode())
+    for path in _sources(root):
+        content = path.read_bytes()
+        said.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
+        said.update(content)
+    return said.hexdigest()
+
+
+def _version(tool: str) -> str:
+    try:
+        return version(tool)
+    except PackageNotFoundError:
+        return "absent"
+
+
+def _sources(root: Path) -> Iterator[Path]:
+    for package in SOURCES:
+        yield from sorted((root / package).rglob("*.py"))
+
+
+def load(key: str) -> list[dict[str, Any]]:
+    """The records that were kept under the key; none where there is no such file, or it is not whole, or not the user's own."""
+    place = folder()
+    if place is None:
+        return []
+    path = place / f"{key}.json"
+    try:
+        found = path.stat()
+        if found.st_size > LARGEST or hasattr(os, "getuid") and (found.st_uid != os.getuid() or found.st_mode & 0o022):
+            return []
+        head, _, rest = path.read_bytes().partition(b"\n")
+        if head.decode() != hashlib.sha256(key.encode() + rest).hexdigest():
+            return []
+        records = json.loads(rest)["records"]
+        return records if isinstance(records, list) and all(isinstance(one, dict) for one in records) else []
+    except (OSError, ValueError, KeyError, TypeError, RecursionError, MemoryError):
+        return []
+
+
+def keep(key: str, records: Sequence[dict[str, Any]]) -> None:
+    """Keeps the records under the key, and only the latest few files; a folder that cannot be written is let be."""
+    place = folder()
+    if place is None:
+        return
+    content = canonical({"records": list(records)})
+    try:
+        write_file(place / f"{key}.json", hashlib.sha256(key.encode() + content).hexdigest().encode() + b"\n" + content)
+        files = sorted(place.glob("[0-9a-f]" * 64 + ".json"), key=lambda path: path.stat().st_mtime, reverse=True)
+        for path in files[KEPT:]:
+            path.unlink()
+    except (OSError, ClaimError):
+        return
