@@ -6,7 +6,7 @@ abbreviation stands for (T = 2 r/g) and which square root a name is.  The lines 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -31,22 +31,33 @@ PLAIN = Vocabulary()
 
 
 class _Writer:
-    """Collects the lines of one statement: each line is preceded by the abbreviations, roots and side conditions that it needs."""
+    """Collects the lines of one statement: each line is preceded by the abbreviations, roots and side conditions that it needs.
+
+    What the checker would know by then is worked out only where a denominator asks for it.
+    """
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self.vocabulary, self.known = vocabulary, set[str]()
         self.context = checker.Context()
+        self.later: list[Callable[[checker.Context], None]] = []
         self.lines: list[Line] = []
 
     def declare(self, names: Sequence[str]) -> None:
         for name in names:
             self.known.add(name)
-            self.context.declare(name, name in self.vocabulary.integers)
+            self.later.append(lambda context, name=name: context.declare(name, name in self.vocabulary.integers))  # type: ignore[misc]
 
     def add(self, keyword: str, formula: Formula) -> None:
         self.prepare(formula)
         self.lines.append((keyword, formula))
-        self.context.license(self.context.formula(checker.parse(str(formula))))
+        self.later.append(lambda context: context.license(context.formula(checker.parse(str(formula)))))
+
+    def by_now(self) -> checker.Context:
+        """What the checker knows after the lines so far."""
+        for learn in self.later:
+            learn(self.context)
+        self.later.clear()
+        return self.context
 
     def prepare(self, thing: Term | Formula) -> None:
         """Adds the lines that the names and denominators of a term or formula need."""
@@ -56,12 +67,13 @@ class _Writer:
                 under = self.vocabulary.roots[name]
                 self.prepare(under)
                 self.lines.append(("root", (name, under)))
-                self.context.declare(name)
+                self.later.append(lambda context, name=name: context.declare(name))  # type: ignore[misc]
             else:
                 value = self.vocabulary.abbreviations[name]
                 self.prepare(value)
                 self.lines.append(("let", (name, value)))
-                self.context.define(name, self.context.value(checker.parse(str(value))))
+                self.later.append(lambda context, name=name, value=value:  # type: ignore[misc]
+                                  context.define(name, context.value(checker.parse(str(value)))))
         for below in _denominators(thing):
             self.license(below)
 
@@ -69,8 +81,9 @@ class _Writer:
         """A denominator that no strict line makes nonzero yet gets a `have` line, factor by factor, which the certificate must prove."""
         if below.op == "num":
             return
+        context = self.by_now()
         try:
-            self.context.reciprocal(checker.parse(str(below)))
+            context.reciprocal(checker.parse(str(below)))
             return
         except checker.Rejected:
             pass
@@ -83,7 +96,7 @@ class _Writer:
             sign = _likely_sign(below, self.vocabulary)
             formula = below > 0 if sign > 0 else below < 0
             self.lines.append(("have", formula))
-            self.context.license(self.context.formula(checker.parse(str(formula))))
+            self.later.append(lambda context: context.license(context.formula(checker.parse(str(formula)))))
 
 
 def _denominators(thing: Term | Formula) -> list[Term]:
