@@ -16,6 +16,7 @@ from certificates.statements import AnyStatement, Iterates, SharpRange, Statemen
 from certificates.store import Store
 from certificates.terms import ClaimError
 from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions, named_statements
+from proofs.derivations import body_and_derivations
 from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing
 from proofs.records import record_of
 from proofs.verdicts import Verdict, outcome_of, verdict_of
@@ -93,6 +94,7 @@ class Judge:
     def __init__(self, claim: Claim, options: Options) -> None:
         self.claim, self.options, self.found = claim, options, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
+        self.derivations: list[str] = []
         self.is_trial = False
 
     def run(self) -> Judgement:
@@ -113,11 +115,13 @@ class Judge:
 
     def record(self, body: Body) -> None:
         """Notes what a later run can know the claim again by."""
-        self.found.record = record_of(self.claim, body, self.found.statements, self.found.votes, self.found.correction)
+        record = record_of(self.claim, body, self.found.statements, self.found.votes, self.found.correction)
+        self.found.record = {**record, "derivations": self.derivations} if record else None
 
     def body(self) -> Body:
-        """What the claim asserts."""
-        return self.claim.body()
+        """What the claim asserts; the derivations that it uses are noted."""
+        body, self.derivations = body_and_derivations(self.claim)
+        return body
 
     def settle_all(self, prefix: str, assertion: Assertion) -> None:
         for statement in named_statements(self.claim.id, prefix, assertion):

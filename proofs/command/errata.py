@@ -12,8 +12,7 @@ from certificates.store import DEFAULT, Store
 from certificates.terms import ClaimError
 from proofs.claims import Claim
 from proofs.command.certify import FINDINGS
-from proofs.command.show import counterexample
-from proofs.loading import paper_claims
+from proofs.command.show import counterexample, kept_claims
 from proofs.register import load_register
 
 ERRORS = ("misprint", "false", "gap")
@@ -41,7 +40,7 @@ def errata() -> int:
     if not register:
         raise ClaimError("no verdict is registered yet; `juggleproof certify --accept` registers them")
     findings = json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8")) if (DEFAULT / FINDINGS).exists() else {}
-    claims = paper_claims()
+    claims = kept_claims()
     print(HEAD)
     for group, title in GROUPS.items():
         found = [claim for claim in claims if group_of(claim, register, findings) == group]

@@ -6,18 +6,21 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from certificates import checker
 from certificates.store import DEFAULT, Store
 from certificates.terms import ClaimError
 from proofs.claims import Argument, Assertion, Awaiting, Body, Claim, Readings
+from proofs.derivations import body_and_derivations
+from proofs.judging import DEFAULT_BUDGET
 from proofs.loading import paper_claims
+from proofs.recall import NOT_AS_KEPT, Records
+from proofs.records import body_of
 from proofs.register import load_register
 
 
 def list_claims() -> int:
     """One line a claim: id, place, registered verdict, what it says."""
     register = load_register()
-    for claim in paper_claims():
+    for claim in kept_claims():
         verdict = register.get(claim.id, {}).get("verdict", "not judged")
         print(f"{claim.id:32} {claim.section + ' ' + claim.place:24} {verdict:12} {claim.says}")
     return 0
@@ -25,27 +28,27 @@ def list_claims() -> int:
 
 def explain(claim_id: str) -> int:
     """One claim whole: print, derivation, reading, statements, certificates or counterexamples, sharp range, verdict."""
-    claims = {claim.id: claim for claim in paper_claims()}
+    records = Records(DEFAULT_BUDGET)
+    claims = {claim.id: claim for claim in records.claims or paper_claims()}
     if claim_id not in claims:
         near = [name for name in claims if claim_id in name][:5]
         raise ClaimError(f"{claim_id}: no such claim" + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them"))
-    claim = claims[claim_id]
-    from proofs.paper import vocabulary
-
-    vocabulary.derivations_used.clear()
-    body = claim.body()
+    claim, store = claims[claim_id], Store(DEFAULT)
+    try:
+        body, lines = body_of(records.by_claim[claim_id], store.texts), list(map(str, records.by_claim[claim_id]["derivations"]))
+    except NOT_AS_KEPT:
+        if records.claims:
+            claim = next(one for one in paper_claims() if one.id == claim_id)
+        body, lines = body_and_derivations(claim)
     print(f"{claim.id}   section {claim.section} {claim.place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for name, arguments in dict.fromkeys([*((name, ()) for name in _constants_in(claim)), *vocabulary.derivations_used]):
-        print(f"derived     symbolic.{name}: {vocabulary.derivation(name, arguments)}")
+    for line in lines:
+        print(f"derived     {line}")
     print(f"reading     {_reading(body)}")
-    store = Store(DEFAULT)
-    known: dict[str, checker.Statement] = {}
-    statements = checker.read_statements("\n\n".join(store.texts.values())) if store.texts else {}
     for name, text in store.texts.items():
         if name.split("/")[0] == claim_id:
-            _statement(name, text, store, statements, known)
+            _statement(name, text, store)
     entry = load_register().get(claim_id, {})
     print(f"sharp range {entry.get('sharp', 'does not depend on alpha')}")
     if "correction" in entry:
@@ -54,20 +57,9 @@ def explain(claim_id: str) -> int:
     return 0
 
 
-def _constants_in(claim: Claim) -> list[str]:
-    """The derivations behind the constants that the print names."""
-    from proofs.paper.vocabulary import CONSTANTS
-    from proofs.reading.parser import parse_name
-
-    if not claim.printed:
-        return []
-    printed = set()
-    for name in claim.read_print().names:
-        try:
-            printed.add(parse_name(name))
-        except ClaimError:  # a name with a place for an argument is no constant
-            continue
-    return [derivation for latex, derivation in CONSTANTS.items() if parse_name(latex) in printed]
+def kept_claims() -> list[Claim]:
+    """The paper's claims as a table tells them: from the records of an earlier run of the same sources, else loaded."""
+    return Records(DEFAULT_BUDGET).claims or paper_claims()
 
 
 def _print_of(claim: Claim) -> None:
@@ -92,7 +84,7 @@ def _reading(body: Body) -> str:
     raise ClaimError("a body of unknown kind")
 
 
-def _statement(name: str, text: str, store: Store, statements: Mapping[str, checker.Statement], known: Mapping[str, Any]) -> None:
+def _statement(name: str, text: str, store: Store) -> None:
     certificate = store.certificate(name, text)
     print()
     for line in text.splitlines():

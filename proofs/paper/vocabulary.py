@@ -40,6 +40,7 @@ def _derived(name: str, *arguments: Any) -> Any:
     return encoded(getattr(symbolic, name)(*arguments))
 
 
+@cache
 def derivation(name: str, arguments: tuple[Any, ...] = ()) -> str:
     """What the derivation of this name says of itself, and its result."""
     said = (getattr(symbolic, name).__doc__ or "").strip().splitlines()[0]
