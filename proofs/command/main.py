@@ -21,7 +21,7 @@ def build_parser() -> argparse.ArgumentParser:
     certify.add_argument("files", nargs="*", type=Path, metavar="FILE.py", help="claims of your own instead of the paper's")
     certify.add_argument("--only", action="append", metavar="ID", help="only this claim (may be given several times)")
     certify.add_argument("--routes", default=",".join(ROUTES), help="exact,z3,boxes (default: all)")
-    certify.add_argument("--fresh", action="store_true", help="search again, ignoring stored certificates")
+    certify.add_argument("--fresh", action="store_true", help="state and search again, ignoring stored certificates and kept records")
     certify.add_argument("--jobs", type=int, default=0, metavar="N", help="processes (default: one a core); results do not depend on it")
     certify.add_argument("--budget", type=int, default=0, metavar="N", help="counted work for each statement (default: enough for the paper)")
     certify.add_argument("--accept", action="store_true", help="write the verdicts into the register, showing before and after")

@@ -1,0 +1,83 @@
+"""The store read in shares gives, to the letter, what the checker says of the whole."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from certificates import checker
+from certificates.store import DEFAULT, canonical
+from proofs.checking import Reading, shares
+
+CLOSE = ["close"]
+TRUE = "forall x\nshow x^2 >= 0"
+ABSURD = "forall a\nshow a < 0"  # false; with it, everything follows
+FOLLOWS = "forall x\nshow x < 0"
+USES = {"certified": ["use", "a/one", {"a": "x"}, {}, ["close"]], "point": ["b/two", [], {"x": "0"}, ["close"]]}
+
+
+def folder_of(place: Path, statements: dict[str, str], certificates: dict[str, object]) -> Path:
+    place.mkdir()
+    (place / "statements.txt").write_text("\n\n".join(f"statement {name}\n{text}" for name, text in statements.items()) + "\n", encoding="utf-8")
+    for claim in {name.split("/")[0] for name in certificates}:
+        (place / f"{claim}.json").write_bytes(canonical({name: one for name, one in certificates.items() if name.split("/")[0] == claim}))
+    return place
+
+
+def read_by(folder: Path, jobs: int) -> list[tuple[str, str, str]]:
+    with Reading(folder, jobs) as reading:
+        reading.outcomes()
+    return reading.results
+
+
+@pytest.fixture
+def some(tmp_path: Path) -> Path:
+    """A part of the committed store."""
+    texts = [block for block in (DEFAULT / "statements.txt").read_text(encoding="utf-8").split("\n\n") if block.startswith("statement s2.2.1")]
+    (tmp_path / "some").mkdir()
+    (tmp_path / "some" / "statements.txt").write_text("\n\n".join(texts) + "\n", encoding="utf-8")
+    for path in DEFAULT.glob("s2.2.1*.json"):
+        shutil.copy(path, tmp_path / "some")
+    return tmp_path / "some"
+
+
+def test_shares_and_the_whole_agree_holds(some: Path) -> None:
+    whole = checker.check_folder(str(some))
+    assert len(whole) > 20 and {outcome for _, outcome, _ in whole} == {"certified", "refuted"}
+    for jobs in (1, 2, 3):
+        assert read_by(some, jobs) == whole
+
+
+def test_every_claim_is_in_one_share_holds(some: Path) -> None:
+    found = shares(some, 3)
+    assert sorted(claim for share in found for claim in share) == sorted(path.stem for path in some.glob("*.json"))
+
+
+def test_rejects_a_lemma_that_another_share_only_assumes(tmp_path: Path) -> None:
+    false = {"certified": CLOSE, "point": ["a/one", [], {"a": "-1"}, CLOSE]}
+    folder = folder_of(tmp_path / "store", {"a/one": ABSURD, "b/two": FOLLOWS}, {"a/one": false, "b/two": USES})
+    assert all(len(share) == 1 for share in shares(folder, 2))
+    outcomes = {name: outcome for name, outcome, _ in read_by(folder, 2)}
+    assert outcomes == {"a/one": "rejected", "b/two": "rejected"}
+    assert read_by(folder, 2) == checker.check_folder(str(folder))
+
+
+def test_rejects_what_is_spoilt_as_the_whole_does(some: Path) -> None:
+    names = sorted(path.name for path in some.glob("*.json"))
+    (some / names[0]).write_bytes(b"{")
+    (some / names[1]).unlink()
+    (some / names[2]).write_bytes(canonical({}))
+    (some / "left-over.json").write_bytes(canonical({"left-over/main": {"unknown": ""}}))
+    (some / names[3]).write_bytes((some / names[4]).read_bytes())
+    whole = checker.check_folder(str(some))
+    assert sum(outcome == "rejected" for _, outcome, _ in whole) > 4
+    for jobs in (1, 2, 3):
+        assert read_by(some, jobs) == whole
+
+
+def test_a_folder_without_statements_comes_to_nothing_holds(tmp_path: Path) -> None:
+    assert read_by(tmp_path, 2) == []
+    (tmp_path / "statements.txt").write_text("statement\n", encoding="utf-8")
+    assert read_by(tmp_path, 1) == read_by(tmp_path, 2) == []
