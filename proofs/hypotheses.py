@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 from certificates import checker
@@ -47,12 +48,16 @@ def refuse_what_says_nothing(statement: Statement, outcome: str, known: dict[str
 
 def has_whole_range(statement: Statement) -> bool:
     """Whether the range lines say 0 < alpha < 1 and nothing else, however they are written."""
+    return _is_whole_range(statement.forall, tuple(str(formula) for keyword, formula in statement.lines if keyword == "range"))
+
+
+@cache
+def _is_whole_range(variables: tuple[str, ...], said: tuple[str, ...]) -> bool:
     context = checker.Context()
-    for name in statement.forall:
+    for name in variables:
         context.declare(name)
-    said = [checker.parse(str(formula)) for keyword, formula in statement.lines if keyword == "range"]
-    whole = [checker.parse("alpha > 0"), checker.parse("alpha < 1")] if "alpha" in statement.forall else []
-    return _atoms(context, said) == _atoms(context, whole)
+    whole = ["alpha > 0", "alpha < 1"] if "alpha" in variables else []
+    return _atoms(context, [checker.parse(text) for text in said]) == _atoms(context, [checker.parse(text) for text in whole])
 
 
 def _atoms(context: checker.Context, trees: list[Any]) -> set[Any]:

@@ -13,7 +13,7 @@ from proofs import cache
 from proofs.claims import Body, Claim
 from proofs.judging import Judge, Judgement, Options
 from proofs.loading import paper_claims
-from proofs.records import Forgotten, body_of, claim_of, stored
+from proofs.records import Forgotten, body_of, claim_of, stored_as
 from proofs.running import lemmas
 
 NOT_AS_KEPT = (Forgotten, KeyError, IndexError, TypeError, ValueError, AttributeError, RecursionError)
@@ -44,12 +44,15 @@ class Records:
 def judge_with_records(claims: Sequence[Claim], options: Options, records: Records, judge_rest: Callable[[Sequence[Claim], Options], Judged],
                        ) -> Judged:
     """The judgements on the claims in order: again by their records where these agree with the store, else from their sources."""
+    stored: dict[str, set[str]] = {}
+    for name in options.store.texts if options.store else ():
+        stored.setdefault(name.split("/")[0], set()).add(name)
     found: dict[str, Judgement] = {}
     seconds: dict[str, float] = {}
     for claim in claims if records.claims else ():
         began = perf_counter()
         try:
-            found[claim.id] = judge_again(records.by_claim[claim.id], options)
+            found[claim.id] = judge_again(records.by_claim[claim.id], options, stored.get(claim.id, set()))
         except NOT_AS_KEPT:
             continue
         seconds[claim.id] = perf_counter() - began
@@ -65,15 +68,15 @@ def judge_with_records(claims: Sequence[Claim], options: Options, records: Recor
     return [found[claim.id] for claim in claims], seconds
 
 
-def judge_again(record: Mapping[str, Any], options: Options) -> Judgement:
-    """The judgement on the claim of a record, by the stored statements and what the checker said of them in this run.
+def judge_again(record: Mapping[str, Any], options: Options, names: set[str]) -> Judgement:
+    """The judgement on the claim of a record, by its stored statements, which have these names, and what the checker said of them in this run.
 
     Raises Forgotten where the stored statements are not exactly the ones that the record knows, or one of them is not settled.
     """
     if options.store is None:
         raise Forgotten
     found = _Again(record, options, options.store).run()
-    if {name for name, _ in found.statements} != {name for name in options.store.texts if name.split("/")[0] == found.id}:
+    if {name for name, _ in found.statements} != names:
         raise Forgotten
     return found
 
@@ -107,7 +110,7 @@ class _Again(Judge):
         if remembered != self.known_by["correction"] or bool(remembered) != bool(self.known_by["corrected"]):
             raise Forgotten
         for name, marked, universal in self.known_by["corrected"]:
-            if name not in self.store.texts or self.settle(stored(name, self.store.texts[name], marked, universal)) != "certified":
+            if name not in self.store.texts or self.settle(stored_as(name, self.store.texts[name], marked, universal)) != "certified":
                 raise Forgotten
         self.found.correction = remembered
 

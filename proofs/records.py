@@ -112,7 +112,7 @@ def _body(data: Any, texts: Mapping[str, str]) -> Any:
         return data
     (kind, inside), = data.items()
     if kind == "Assertion":
-        return Assertion(tuple(stored(label, texts[whole], marked, universal)
+        return Assertion(tuple(stored_as(label, texts[whole], marked, universal)
                                if whole in texts else _forget() for label, whole, marked, universal in inside))
     if kind == "mapping":
         return {_text(key): _body(one, texts) for key, one in inside}
@@ -121,7 +121,7 @@ def _body(data: Any, texts: Mapping[str, str]) -> Any:
     return _BODIES[kind](**{name: _body(one, texts) for name, one in inside.items()})
 
 
-def stored(name: str, text: str, marked: str, universal: bool) -> Any:
+def stored_as(name: str, text: str, marked: str, universal: bool) -> Any:
     """A stored text as a statement of this name; raises Forgotten where the text is not the one that was marked."""
     if digest(text) != marked:
         raise Forgotten
