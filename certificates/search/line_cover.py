@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice
+from itertools import chain, islice
 
 from flint import fmpq, fmpq_mpoly
 
@@ -17,6 +17,7 @@ from .budget import Exhausted
 from .candidates import separate
 from .closing import search_closing
 from .condition import Condition, constant_of, evaluate, univariate
+from .corners import CornerSearch
 from .found_terms import Node, Wanted, confirmed
 from .line_cuts import cut_between, linear_text
 from .near import NEGLIGIBLE
@@ -81,9 +82,10 @@ class LineCover:
     def _gather(self, samples: Sequence[Sample]) -> None:
         """More choices: those that serve at all these samples."""
         task, nodes = self.task, min(self.task.nodes, 150)
-        search = TemplateSearch([self.parameter], samples, task.budget, self.integers, nodes, None, task.hints, self.margins,
-                                self.borders if self.goal is not None else None)
-        for choice in self._failing(search.search(self.condition, list(self.keys.values()))):
+        borders = self.borders if self.goal is not None else None
+        searches = [kind([self.parameter], samples, task.budget, self.integers, nodes, None, task.hints, self.margins, borders)
+                    for kind in (CornerSearch, TemplateSearch)]
+        for choice in self._failing(chain(*(search.search(self.condition, list(self.keys.values())) for search in searches))):
             if all(choice.values != known.values for known, _ in self.served):
                 intervals = self._intervals_of(choice)
                 if intervals:

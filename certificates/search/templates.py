@@ -276,5 +276,7 @@ class TemplateSearch:
             value = Quotient(top, bottom)
             for other, known in values.items():
                 value = insert(value, other, known)
+            for root in partial.roots:
+                value = Quotient(reduced_by(root, value.top), reduced_by(root, value.bottom))
             values[name] = Quotient.reduced(value.top, value.bottom)
         return values
