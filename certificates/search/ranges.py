@@ -6,13 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq_poly
 
+from certificates import checker
 from certificates.terms import Formula, Term, conjunction, disjunction, equal, real, term
 
-from .algebraic import AlgebraicNumber, enclose, fraction, real_roots, simplest_between
+from .algebraic import AlgebraicNumber, fraction, real_roots, simplest_between
+from .candidates import separate
+from .condition import HOLDS, Condition, univariate
 
-MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "="}
+MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 @dataclass(frozen=True)
@@ -73,17 +76,38 @@ def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
         number = line.intervals(False)[0].low
         if number is not None and number.is_rational:
             return Formula("!=", *_rational_sides(number.as_fraction(), parameter))
-    return disjunction([_interval_formula(i, line.numbers, parameter) for i in inside])
+    single = one_relation(line, parameter, domain)
+    return single if single is not None else disjunction([_interval_formula(i, domain, parameter) for i in inside])
 
 
-def _interval_formula(interval: Interval, numbers: Sequence[AlgebraicNumber], parameter: str) -> Formula:
+def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
+    """p relation 0 for the one irreducible polynomial p of all the ends, where that says the same on the domain.
+
+    >>> from certificates.terms import reals
+    >>> (a,) = reals("alpha")
+    >>> ends = real_roots(fmpq_poly([-1, 10, -20, 10]))[:2]
+    >>> str(one_relation(Line(tuple(ends), (False, False, True, False, False)), "alpha", (a > 0) & (a < 1)))
+    '10*alpha^3 - 20*alpha^2 + 10*alpha - 1 > 0'
+    """
+    polys = {tuple(number.coefficients) for number in line.numbers}
+    if len(polys) != 1 or line.numbers[0].is_rational or len(isolated(*polys, domain, parameter)) != len(line.numbers):
+        return None
+    rising = line.numbers[0].sign_of(fmpq_poly(line.numbers[0].poly).derivative()) > 0
+    signs = [0 if k % 2 else 1 if (k // 2 % 2 == 1) == rising else -1 for k in range(len(line.verdicts))]
+    relation = next((r for r in HOLDS if [HOLDS[r](s) for s in signs] == list(line.verdicts)), None)
+    if relation is None:
+        relation = next((MIRRORED[r] for r in HOLDS if [HOLDS[r](-s) for s in signs] == list(line.verdicts)), None)
+    return Formula(relation, polynomial_term(next(iter(polys)), parameter), term(0)) if relation else None
+
+
+def _interval_formula(interval: Interval, domain: Formula, parameter: str) -> Formula:
     if interval.low is not None and interval.low is interval.high:
-        return _bound(interval.low, "=", numbers, parameter)
+        return _bound(interval.low, "=", domain, parameter)
     parts = []
     if interval.low is not None:
-        parts.append(_bound(interval.low, ">=" if interval.low_closed else ">", numbers, parameter))
+        parts.append(_bound(interval.low, ">=" if interval.low_closed else ">", domain, parameter))
     if interval.high is not None:
-        parts.append(_bound(interval.high, "<=" if interval.high_closed else "<", numbers, parameter))
+        parts.append(_bound(interval.high, "<=" if interval.high_closed else "<", domain, parameter))
     return conjunction(parts)
 
 
@@ -104,46 +128,46 @@ def polynomial_term(coefficients: Sequence[int], parameter: str) -> Term:
     return term(0) if total is None else total
 
 
-def _bound(number: AlgebraicNumber, relation: str, numbers: Sequence[AlgebraicNumber], parameter: str) -> Formula:
-    """parameter relation number, exact everywhere: by the sign of the polynomial between separators, by the separators beyond."""
+def _bound(number: AlgebraicNumber, relation: str, domain: Formula, parameter: str) -> Formula:
+    """parameter relation number, exact on the domain: by the sign of the polynomial on the interval on which this is its only root."""
     if number.is_rational:
         return Formula(relation, *_rational_sides(number.as_fraction(), parameter))
     rising = number.sign_of(fmpq_poly(number.poly).derivative()) > 0
     poly, name = polynomial_term(number.coefficients, parameter), real(parameter)
-    low, high = separators(number)
-    near = conjunction([name > low, name < high])
+    intervals = isolated(number.coefficients, domain, parameter)
+    low, high = next(pair for pair in intervals if pair[0] < number < pair[1])
+    parts = [name > low] * (low != intervals[0][0]) + [name < high] * (high != intervals[-1][1])
     if relation == "=":
-        return conjunction([equal(poly, 0), name > low, name < high])
+        return conjunction([equal(poly, 0), *parts])
     own = Formula(relation if rising else MIRRORED[relation], poly, term(0))
-    if single_in_unit(number):
-        return own
-    if relation in ("<", "<="):
-        return disjunction([name <= low, conjunction([near, own])])
-    return disjunction([name >= high, conjunction([near, own])])
+    below = [name <= low] * (low != intervals[0][0])
+    above = [name >= high] * (high != intervals[-1][1])
+    return disjunction([*(below if relation in ("<", "<=") else above), conjunction([*parts, own])])
 
 
-def single_in_unit(number: AlgebraicNumber) -> bool:
-    """Whether the polynomial of a number in (0, 1) has no other root there."""
-    return sum(0 < root < 1 for root in real_roots(fmpq_poly(number.poly))) == 1
+def isolated(coefficients: Sequence[int], domain: Formula, parameter: str) -> list[tuple[Fraction, Fraction]]:
+    """Intervals that fill the domain (or what holds all roots, where it has no ends), each with one root of an irreducible polynomial.
+
+    >>> a = real("alpha")
+    >>> isolated([-1, 10, -20, 10], (a > 0) & (a < 1), "alpha")
+    [(Fraction(0, 1), Fraction(1, 2)), (Fraction(1, 2), Fraction(1, 1))]
+    """
+    bottom, top = ends_of(domain, parameter)
+    roots = [r for r in real_roots(fmpq_poly(list(coefficients))) if (bottom is None or r > bottom) and (top is None or r < top)]
+    separate(roots)
+    low = fraction(roots[0]._low) - 1 if bottom is None else bottom
+    high = fraction(roots[-1]._high) + 1 if top is None else top
+    cuts = [low, *(fraction(simplest_between(left._high, right._low)) for left, right in zip(roots, roots[1:])), high]
+    return list(zip(cuts, cuts[1:]))
 
 
-def separators(number: AlgebraicNumber) -> tuple[Fraction, Fraction]:
-    """Simple rationals on both sides of a number, with its polynomial rising or falling all the way between them."""
-    slope = fmpq_poly(number.poly).derivative()
-    while True:
-        low, high = enclose(slope, number._low, number._high)
-        if low > 0 or high < 0:
-            break
-        number.refine()
-    # Widen to short fractions as long as the slope keeps its sign, so that the root stays the only one.
-    width = number._high - number._low
-    for power in range(1, 40):
-        room = fmpq(1, 2**power)
-        if room < width / 2:
-            break
-        below = simplest_between(number._low - room, number._low)
-        above = simplest_between(number._high, number._high + room)
-        least, most = enclose(slope, below, above)
-        if (least > 0 or most < 0) and below >= 0 and above <= 1:
-            return fraction(below), fraction(above)
-    return number.low, number.high
+def ends_of(domain: Formula, parameter: str) -> tuple[Fraction | None, Fraction | None]:
+    """The rational ends of a domain that bounds the parameter by relations linear in it; None where it has no such end."""
+    context = checker.Context()
+    context.declare(parameter)
+    bounds: dict[bool, list[Fraction]] = {True: [], False: []}
+    for poly, relation in Condition.of(context, context.formula(checker.parse(str(domain)))).facts():
+        line = univariate(poly, parameter)
+        if line.degree() == 1 and relation in (">", ">="):
+            bounds[bool(line[1] > 0)].append(fraction(-line[0] / line[1]))
+    return max(bounds[True], default=None), min(bounds[False], default=None)

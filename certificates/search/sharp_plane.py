@@ -22,9 +22,10 @@ from .elimination import border_polynomials
 from .families import cover
 from .quotients import Sample
 from .setting import Task
-from .sharp import Known, Range, Violation, read
+from .sharp import Known, Range, read
 from .sharp_certificate import outside_state, proofs_inside, sample_of
 from .solver import ask
+from .violations import Violation
 
 RELATIONS = (">", ">=", "=", "!=")
 Guess = tuple[str, list[tuple[fmpq_mpoly, str]]]  # "and" or "or", and relations of border polynomials to 0
