@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from flint import fmpq_poly
 
@@ -152,7 +153,7 @@ def isolated(coefficients: Sequence[int], domain: Formula, parameter: str) -> li
     >>> isolated([-1, 10, -20, 10], (a > 0) & (a < 1), "alpha")
     [(Fraction(0, 1), Fraction(1, 2)), (Fraction(1, 2), Fraction(1, 1))]
     """
-    bottom, top = ends_of(domain, parameter)
+    bottom, top = ends_of(checker.parse(str(domain)), parameter)
     roots = [r for r in real_roots(fmpq_poly(list(coefficients))) if (bottom is None or r > bottom) and (top is None or r < top)]
     separate(roots)
     low = fraction(roots[0]._low) - 1 if bottom is None else bottom
@@ -161,12 +162,12 @@ def isolated(coefficients: Sequence[int], domain: Formula, parameter: str) -> li
     return list(zip(cuts, cuts[1:]))
 
 
-def ends_of(domain: Formula, parameter: str) -> tuple[Fraction | None, Fraction | None]:
-    """The rational ends of a domain that bounds the parameter by relations linear in it; None where it has no such end."""
+def ends_of(domain: Any, parameter: str) -> tuple[Fraction | None, Fraction | None]:
+    """The rational ends of a domain, as the checker parses it, that bounds the parameter by relations linear in it; None where it has no such end."""
     context = checker.Context()
     context.declare(parameter)
     bounds: dict[bool, list[Fraction]] = {True: [], False: []}
-    for poly, relation in Condition.of(context, context.formula(checker.parse(str(domain)))).facts():
+    for poly, relation in Condition.of(context, context.formula(domain)).facts():
         line = univariate(poly, parameter)
         if line.degree() == 1 and relation in (">", ">="):
             bounds[bool(line[1] > 0)].append(fraction(-line[0] / line[1]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 from flint import fmpq_poly
@@ -16,7 +17,7 @@ from .certificate import search_proof
 from .closing import search_closing
 from .condition import Condition
 from .families import cover
-from .ranges import Line
+from .ranges import Line, ends_of
 from .sampler import Sampler
 from .setting import Task
 
@@ -88,13 +89,12 @@ def _outside(state: checker.State, named: Mapping[str, checker.Statement], param
         node = search_closing(state, known, budget, 2)
         return None if node is None else ["empty", node]
     whole = [name for name in sorted(named) if not any(verdicts[name][k] for k in failing)]
-    if failing[-1] - failing[0] + 1 == len(failing):
-        for name in whole:
-            task = Task(named[name], "counterexample", base, known, budget, [domain])
-            found = cover(task, state, base_samples(state, budget), depth=4)
-            if found is not None:
-                return found
-    cut = _cut(line, failing, verdicts, parameter)
+    for name in whole:
+        task = Task(named[name], "counterexample", base, known, budget, [domain])
+        found = cover(task, state, base_samples(state, budget), depth=4)
+        if found is not None:
+            return found
+    cut = _cut(line, failing, verdicts, parameter, domain)
     if cut is None:
         return None
     text, pieces = cut
@@ -108,7 +108,8 @@ def _outside(state: checker.State, named: Mapping[str, checker.Statement], param
     return ["sign", text, *founds]
 
 
-def _cut(line: Line, failing: Sequence[int], verdicts: Mapping[str, Sequence[bool]], parameter: str) -> tuple[str, list[set[int]]] | None:
+def _cut(line: Line, failing: Sequence[int], verdicts: Mapping[str, Sequence[bool]], parameter: str, domain: Any
+         ) -> tuple[str, list[set[int]]] | None:
     """A polynomial of degree 1 or that of a number, and which cells and numbers lie below, on and above its sign change."""
     cells = set(range(len(line.verdicts)))
     gaps = [k for k in cells if failing[0] < k < failing[-1] and line.verdicts[k]]
@@ -126,17 +127,17 @@ def _cut(line: Line, failing: Sequence[int], verdicts: Mapping[str, Sequence[boo
         return None
     k = changes[len(changes) // 2]
     number = line.numbers[k // 2]
-    if not _separates(number, line, failing):
+    if not _separates(number, line, failing, ends_of(domain, parameter)):
         return None
     rising = number.sign_of(_derivative(number)) > 0
     below, above = {i for i in cells if i < k}, {i for i in cells if i > k}
     return number.polynomial_text(parameter), [below if rising else above, {k}, above if rising else below]
 
 
-def _separates(number: AlgebraicNumber, line: Line, failing: Sequence[int]) -> bool:
+def _separates(number: AlgebraicNumber, line: Line, failing: Sequence[int], ends: tuple[Fraction | None, Fraction | None]) -> bool:
     """Whether the number's polynomial has no other root among the failing cells and numbers."""
-    low = line.numbers[failing[0] // 2 - 1] if failing[0] >= 2 else None
-    high = line.numbers[failing[-1] // 2] if failing[-1] // 2 < len(line.numbers) else None
+    low = line.numbers[failing[0] // 2 - 1] if failing[0] >= 2 else ends[0]
+    high = line.numbers[failing[-1] // 2] if failing[-1] // 2 < len(line.numbers) else ends[1]
     others = [r for r in real_roots(fmpq_poly(number.poly)) if r != number]
     return not any((low is None or low < r) and (high is None or r < high) for r in others)
 
