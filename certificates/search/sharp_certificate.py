@@ -22,6 +22,7 @@ from .sampler import Sampler
 from .setting import Task
 
 Node = list[Any]
+FIRST = 600_000  # units of work for a proof with little effort
 OUTSIDE = 2_500_000  # units of work for the families; those that are found at all are found early
 
 
@@ -51,7 +52,13 @@ def proofs_inside(statement: checker.Statement, statements: Sequence[checker.Sta
     (domain,), (condition,) = statement.get("domain"), statement.get("holds")
     inside: dict[str, Any] = {}
     for each in statements:
-        proof = search_proof(each, dict(known), budget, sharp=[domain, condition])
+        proof = None
+        for effort, part in ((1, min(FIRST, budget.left // 3)), (2, budget.left)):
+            try:
+                proof = proof or search_proof(each, dict(known), budget.part(part), sharp=[domain, condition], effort=effort)
+            except Exhausted:
+                if effort == 2:
+                    raise
         if proof is None:
             return None, f"no proof of {each.name} inside the range"
         inside[each.name] = proof
