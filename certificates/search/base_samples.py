@@ -33,7 +33,7 @@ def base_samples(state: checker.State, budget: Budget, count: int = 12) -> list[
     used = condition.variables()
     if len(used) == 1:
         return [{**{n: fmpq(1) for n in names}, **s} for s in _on_a_line(condition, next(iter(used)))]
-    found: list[Sample] = []
+    found: list[Sample] = _close_to_ends(condition, names, used)
     for width, last, nodes in ((4, 3, 300), (9, 3, 3000), (24, 3, 3000)):
         every = list(islice(Sampler(budget, frozenset(state.context.integers), width, last, nodes).search(condition, names), 400))
         for assignment in every[:: max(1, len(every) // count)]:
@@ -44,6 +44,15 @@ def base_samples(state: checker.State, budget: Budget, count: int = 12) -> list[
             break
     found += [s for s in _scattered(condition, names, state.context.integers, count) if s not in found]
     return found + _extreme(condition, found[:1] + found[len(found) // 2:][:1], sorted(used - UNITS - set(state.context.integers)))
+
+
+def _close_to_ends(condition: Condition, names: list[str], used: set[str]) -> list[Sample]:
+    """Where units aside there is one variable: points all along its line, close to the ends too, in units of 1."""
+    ones = {name: fmpq(1) for name in used & UNITS}
+    line = condition.substituted(ones)
+    if len(used - UNITS) != 1 or not ones or line.variables() != used - UNITS:
+        return []
+    return [{**{n: fmpq(1) for n in names}, **s} for s in _on_a_line(line, *(used - UNITS))]
 
 
 def _extreme(condition: Condition, samples: list[Sample], names: list[str]) -> list[Sample]:
