@@ -33,8 +33,8 @@ def sharp_certificate(statement: checker.Statement, statements: Sequence[checker
     (domain,) = statement.get("domain")
     named = {each.name: each for each in statements}
     try:
-        sample = sample_of(statement, budget)
-        outside = _outside(outside_state(statement), named, parameter, line, verdicts, domain, dict(known), budget.part(OUTSIDE))
+        sample = sample_of(statement, statements, budget)
+        outside = _outside(outside_state(statement, statements), named, parameter, line, verdicts, domain, dict(known), budget.part(OUTSIDE))
     except Exhausted:
         sample = outside = None
     if outside is None or sample is None:
@@ -65,25 +65,30 @@ def proofs_inside(statement: checker.Statement, statements: Sequence[checker.Sta
     return inside, ""
 
 
-def outside_state(statement: checker.Statement) -> checker.State:
+def whole_parameters(over: Sequence[str], statements: Sequence[checker.Statement]) -> frozenset[str]:
+    """The parameters that the statements say to be integers."""
+    return frozenset(p for p in over if any(p in line for each in statements for line in each.get("integer")))
+
+
+def outside_state(statement: checker.Statement, statements: Sequence[checker.Statement]) -> checker.State:
     """The state that assumes the domain and not the condition."""
     (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("over", "domain", "holds"))
     state: checker.State = checker.State(checker.Context())
     for parameter in over:
-        state.context.declare(parameter)
+        state.context.declare(parameter, parameter in whole_parameters(over, statements))
     state.assume(state.context.formula(domain))
     state.assume(checker.negate(state.context.formula(condition)))
     return state
 
 
-def sample_of(statement: checker.Statement, budget: Budget) -> dict[str, str] | None:
+def sample_of(statement: checker.Statement, statements: Sequence[checker.Statement], budget: Budget) -> dict[str, str] | None:
     """A simple point of the domain."""
     (over,), (domain,) = statement.get("over"), statement.get("domain")
     context = checker.Context()
     for parameter in over:
         context.declare(parameter)
     condition = Condition.of(context, context.formula(domain))
-    for assignment in Sampler(budget, width=8, nodes=400).search(condition, over):
+    for assignment in Sampler(budget, whole_parameters(over, statements), width=8, nodes=400).search(condition, over):
         return {name: str(fraction(assignment.values[name][0])) for name in over}
     return None
 

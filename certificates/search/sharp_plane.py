@@ -23,7 +23,7 @@ from .families import cover
 from .quotients import Sample
 from .setting import Task
 from .sharp import Known, Range, read
-from .sharp_certificate import outside_state, proofs_inside, sample_of
+from .sharp_certificate import outside_state, proofs_inside, sample_of, whole_parameters
 from .solver import ask
 from .violations import Violation
 
@@ -40,7 +40,7 @@ def find_sharp_region(statements: Sequence[checker.Statement], parameters: Seque
     tree = checker.parse(str(domain))
     state: checker.State = checker.State(checker.Context())
     for parameter in parameters:
-        state.context.declare(parameter, any(parameter in line for each in statements for line in each.get("integer")))
+        state.context.declare(parameter, parameter in whole_parameters(parameters, statements))
     state.assume(state.context.formula(tree))
     try:
         violations = [Violation.of(s, tree, units=True) for s in statements]
@@ -154,7 +154,7 @@ def _certified(statement: checker.Statement, statements: Sequence[checker.Statem
     inside, failure = proofs_inside(statement, statements, known, budget)
     if inside is None:
         return None, failure
-    state = outside_state(statement)
+    state = outside_state(statement, statements)
     (domain,) = statement.get("domain")
     base = {name: state.context.values[name] for name in state.context.index}
     node = search_closing(state, dict(known), budget, 1)
@@ -163,7 +163,7 @@ def _certified(statement: checker.Statement, statements: Sequence[checker.Statem
         outside = cover(Task(each, "counterexample", base, dict(known), budget, [domain]), state, base_samples(state, budget), depth=3)
         if outside is not None:
             break
-    sample = sample_of(statement, budget)
+    sample = sample_of(statement, statements, budget)
     if outside is None or sample is None:
         return None, "no family of counterexamples outside the range"
     certificate = [inside, outside, sample]
