@@ -8,7 +8,7 @@ from typing import Any
 from certificates import checker
 from certificates.search.budget import Budget, Exhausted
 from certificates.statements import Statement
-from certificates.terms import ClaimError, Formula, disjunction
+from certificates.terms import ClaimError, Formula, disjunction, names_in
 
 
 def read(text: str, name: str) -> checker.Statement:
@@ -44,6 +44,12 @@ def refuse_what_says_nothing(statement: Statement, outcome: str, known: dict[str
         impossible_for_all = False
     if impossible_for_all:
         raise ClaimError(f"{statement.name}: its hypotheses contradict one another, so it would say nothing; drop or mend a given")
+
+
+def speaks_of_range(statement: Statement) -> bool:
+    """Whether a statement is about a range of alpha: by a range line, or by a given that bounds alpha alone."""
+    return any(keyword == "range" or keyword == "given" and isinstance(said, Formula) and said.op in ("<", "<=", ">", ">=")
+               and names_in(said) == {"alpha"} for keyword, said in statement.lines)
 
 
 def has_whole_range(statement: Statement) -> bool:

@@ -17,7 +17,7 @@ from certificates.store import Store
 from certificates.terms import ClaimError
 from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions, named_statements
 from proofs.derivations import body_and_derivations
-from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing
+from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing, speaks_of_range
 from proofs.records import record_of
 from proofs.verdicts import Verdict, outcome_of, verdict_of
 
@@ -269,48 +269,52 @@ class Judge:
     # -------------------------------------------------------------- sharp ranges
 
     def find_sharp_range(self, prefix: str, assertion: Assertion) -> None:
-        """The set of parameters in the whole domain on which the assertion holds, settled on both sides by the checker."""
+        """The set of parameters in the whole domain on which the assertion holds, settled on both sides by the checker.
+
+        Statements that are certified with the whole range 0 < alpha < 1 hold on all of it: the others decide.
+        """
         parts = [part for part in named_statements(self.claim.id, prefix, assertion) if isinstance(part, Statement)]
-        ranged = [part for part in parts if any(keyword == "range" for keyword, _ in part.lines)]
+        ranged = [part for part in parts if speaks_of_range(part)]
         if not ranged or outcome_of(self.claim.id, prefix, assertion, self.found.outcomes) == "unknown":
             return
         always_false = [part.name for part in parts if part not in ranged and self.found.outcomes[part.name] == "refuted"]
         if always_false:  # refuted whatever alpha is
             self.found.sharp[prefix] = {"text": "nowhere", "by": always_false}
             return
-        over = tuple(name for name in self.claim.parameters if all(name in part.forall for part in ranged))
-        whole = all(has_whole_range(part) for part in ranged)
-        if whole and all(self.found.outcomes[part.name] == "certified" for part in ranged):
-            self.found.sharp[prefix] = {"text": "0 < alpha < 1", "by": [part.name for part in ranged]}
+        open_parts = [part for part in ranged if not (has_whole_range(part) and self.found.outcomes[part.name] == "certified")]
+        everywhere = [part.name for part in ranged if part not in open_parts]
+        if not open_parts:
+            self.found.sharp[prefix] = {"text": "0 < alpha < 1", "by": everywhere}
             return
+        over = tuple(name for name in self.claim.parameters if all(name in part.forall for part in open_parts))
         if not over:
             return
         name = f"{self.claim.id}/{prefix}sharp"
         stored = self.options.store.texts.get(name) if self.options.store else None
-        if stored is not None and stored.splitlines()[1] == "sharp " + " ".join(part.name for part in ranged):
+        if stored is not None and stored.splitlines()[1] == "sharp " + " ".join(part.name for part in open_parts):
             certificate = self.options.store.certificate(name, stored) if self.options.store else None
             remembered = (self.options.findings.get(self.claim.id) or {}).get("sharp", {}).get(prefix)
-            if remembered and self.sharp_outcome(name, stored, certificate, ranged) == "certified":
+            if remembered and self.sharp_outcome(name, stored, certificate, open_parts) == "certified":
                 self.keep(name, stored, certificate, "certified")
-                self.found.sharp[prefix] = {"text": remembered, "by": [name]}
+                self.found.sharp[prefix] = {"text": remembered, "by": [name, *everywhere]}
                 self.found.reused += 1
                 return
-        tried = _voted_on(f"{self.options.budget}\n" + "\n".join(part.text() for part in ranged))
+        tried = _voted_on(f"{self.options.budget}\n" + "\n".join(part.text() for part in open_parts))
         remembered = (self.options.findings.get(self.claim.id) or {}).get("not found", {}).get(prefix)
         if remembered == tried:
             self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
             return
-        result = self.search_sharp(name, ranged, over)
+        result = self.search_sharp(name, open_parts, over)
         if result is None:
             self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
             return
         sharp, found, shown = result
         certificate = {"certified": found}
-        earlier = {part.name: read(part.text(), part.name) for part in ranged}
+        earlier = {part.name: read(part.text(), part.name) for part in open_parts}
         outcome, reason = checker.check_one(read(sharp.text(), name), certificate, self.known, earlier)
         if outcome == "certified":
             self.keep(name, sharp.text(), certificate, outcome)
-            self.found.sharp[prefix] = {"text": shown, "by": [name]}
+            self.found.sharp[prefix] = {"text": shown, "by": [name, *everywhere]}
         else:
             self.found.sharp[prefix] = {"text": f"not found ({reason})", "by": []}
 

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from certificates import checker
 from certificates.search.algebraic import AlgebraicNumber
 from certificates.search.budget import Budget, Exhausted
-from certificates.search.ranges import Line
+from certificates.search.pinned import pinned
+from certificates.search.ranges import Line, polynomial_term
 from certificates.search.sharp import Range, find_sharp_range
+from certificates.search.sharp_certificate import whole_parameters
 from certificates.search.sharp_plane import find_sharp_region
+from certificates.search.solved import says_domain, solved
 from certificates.statements import SharpRange, Statement
-from certificates.terms import conjunction, disjunction, real
+from certificates.terms import Formula, Term, conjunction, disjunction, real
 from proofs.hypotheses import read
 
 DECIMALS = 12
@@ -25,44 +28,70 @@ def search_sharp_range(
 ) -> tuple[SharpRange, Any, str] | None:
     """The sharp range of the statements, its certificate and how it is told; None where the search does not find one.
 
-    Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1.  Over alpha and eps first the alpha are sought for which
+    Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1.  A whole number that the hypotheses tie to alpha, as floor
+    and ceiling do, joins it, and they bound the domain.  Over alpha and eps first the alpha are sought for which
     the statements hold with every eps > 0, since eps has a dimension as a rule; then pairs.  `borders` may bound a plane range.
     """
     parsed = [read(statement.text(), statement.name) for statement in statements]
+    if "alpha" in over:
+        tied = _tied(parsed, budget)
+        if tied is not None:
+            number, said = tied
+            domain = conjunction([DOMAINS["alpha"], said])
+            region = find_sharp_region(parsed, ("alpha", number), domain, name, known, Budget(budget // 3), borders)
+            if region.statement is not None and region.certificate is not None:
+                return region.statement, region.certificate, told_of_pairs(region.statement, number)
     if "alpha" in over and "K" not in over:
         try:
             found = find_sharp_range(parsed, "alpha", DOMAINS["alpha"], name, known, Budget(budget))
         except Exhausted:
             found = Range()
         if found.statement is not None and found.certificate is not None and found.line is not None:
-            return found.statement, found.certificate, told(found.line.simplified(), "alpha")
+            return found.statement, found.certificate, told(found.line.simplified(), "alpha", found.statement.numbers)
     if len(over) > 1:
         domain = conjunction([DOMAINS[parameter] for parameter in over])
         region = find_sharp_region(parsed, over, domain, name, known, Budget(budget), borders)
         if region.statement is not None and region.certificate is not None:
-            return region.statement, region.certificate, told_plainly(region.statement)
+            return region.statement, region.certificate, told_plainly(region.statement, whole_parameters(over, parsed))
     return None
 
 
-def told_plainly(statement: SharpRange) -> str:
-    """A range over several parameters as a person reads it: its condition, or that it is everything or nothing.
+def _tied(parsed: Sequence[checker.Statement], budget: int) -> tuple[str, Formula] | None:
+    try:
+        return pinned(parsed, "alpha", checker.parse(str(DOMAINS["alpha"])), Budget(budget // 10))
+    except Exhausted:
+        return None
 
-    >>> alpha, size = real("alpha"), real("K")
-    >>> told_plainly(SharpRange("x/sharp", (), ("alpha", "K"), (alpha > 0) & (size >= 1), alpha * size > 1))
-    'alpha*K > 1'
+
+def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
+    """A range over several parameters as a person reads it: solved for alpha, or its condition, or that it is everything or nothing.
+
+    >>> alpha, size = real("alpha"), real("eps")
+    >>> told_plainly(SharpRange("x/sharp", (), ("alpha", "eps"), (alpha > 0) & (size > 0), alpha**2 * size > 1))
+    'alpha^2*eps > 1'
     """
     text = str(statement.condition)
-    return {str(conjunction([])): str(statement.domain), str(disjunction([])): "nowhere"}.get(text, text)
+    plain = {str(conjunction([])): str(statement.domain), str(statement.domain): str(statement.domain), str(disjunction([])): "nowhere"}
+    return plain.get(text) or solved(statement, "alpha", whole) or text
 
 
-def told(line: Line, parameter: str) -> str:
-    """The set as a person reads it: intervals, and for each irrational end its 12 decimals and its equation.
+def told_of_pairs(statement: SharpRange, number: str) -> str:
+    """A range over alpha and a whole number that is tied to it; what ties them is told where the condition does not say it."""
+    text = told_plainly(statement, [number])
+    if text == "nowhere":
+        return text
+    return f"{text} for a whole number {number}" if says_domain(statement, [number]) else f"{text} where {statement.domain}"
+
+
+def told(line: Line, parameter: str, numbers: Sequence[tuple[str, Term, Any, Any]] = ()) -> str:
+    """The set as a person reads it: intervals, and for each irrational end its 12 decimals and its equation, under its name in `numbers`.
 
     >>> from fractions import Fraction
     >>> told(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "alpha")
     '0 < alpha < 1/3'
     """
-    names = {id(number): f"c{k + 1}" for k, number in enumerate(n for n in line.numbers if not n.is_rational)}
+    names = {id(n): next((name for name, poly, low, high in numbers if str(poly) == str(polynomial_term(n.coefficients, parameter))
+                          and low < n < high), f"c{k + 1}") for k, n in enumerate(n for n in line.numbers if not n.is_rational)}
 
     def shown(end: AlgebraicNumber | None, outer: str) -> str:
         if end is None:

@@ -43,7 +43,7 @@ def candidate_numbers(polys: Iterable[fmpq_mpoly], parameter: str) -> list[Algeb
 
 def projected(condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly] = ()) -> list[fmpq_mpoly]:
     """Irreducible polynomials in the parameters on whose roots the projection of one condition can change."""
-    condition, borders = _substituted(condition, parameters, budget, more)
+    condition, borders = without_equations(condition, parameters, budget, more)
     equations = [p for p, relation in condition.facts() if relation == "="]
     polys = _factors([*(condition.polys[k] for k in condition.used()), *borders])
     names = list(condition.ring.names())
@@ -61,7 +61,7 @@ def _cost(polys: Sequence[fmpq_mpoly], place: int) -> tuple[int, int, int]:
     return (max(degrees, default=0), len(degrees), sum(len(p) for p in polys if p.degrees()[place]))
 
 
-def _substituted(condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly]
+def without_equations(condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly]
                  ) -> tuple[Condition, list[fmpq_mpoly]]:
     """The condition after every equation linear in a variable is solved for it; where its coefficient vanishes is a border."""
     borders: list[fmpq_mpoly] = list(more)

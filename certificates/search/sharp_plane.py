@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
-from math import lcm
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
 from certificates import checker
 from certificates.statements import SharpRange
-from certificates.terms import Formula, Term, conjunction, disjunction, real, term
+from certificates.terms import Formula, conjunction, disjunction
 
-from .algebraic import fraction, sign
+from .algebraic import sign
 from .base_samples import base_samples
 from .budget import Budget, Exhausted, accepted
 from .closing import search_closing
@@ -26,8 +25,9 @@ from .sharp import Known, Range, read
 from .sharp_certificate import outside_state, proofs_inside, sample_of, whole_parameters
 from .solver import ask
 from .violations import Violation
+from .writing import relation_of
 
-RELATIONS = (">", ">=", "=", "!=")
+RELATIONS = ("=", "!=", ">", ">=")
 Guess = tuple[str, list[tuple[fmpq_mpoly, str]]]  # "and" or "or", and relations of border polynomials to 0
 
 
@@ -130,23 +130,7 @@ def _guesses(polys: Sequence[fmpq_mpoly], samples: Sequence[Sample], verdicts: S
 
 def _formula(guess: Guess) -> Formula:
     op, atoms = guess
-    return (conjunction if op == "and" else disjunction)([Formula(relation, _term(poly), term(0)) for poly, relation in atoms])
-
-
-def _term(poly: fmpq_mpoly) -> Term:
-    names = poly.context().names()
-    scale = lcm(*(int(c.q) for c in poly.coeffs()))
-    total: Term | None = None
-    for powers, c in (poly * scale).to_dict().items():
-        value = fraction(c)
-        part: Term | None = None
-        for name, e in zip(names, powers):
-            if e:
-                factor: Term = real(name) if e == 1 else real(name) ** int(e)
-                part = factor if part is None else part * factor
-        size: Term = term(abs(value)) if part is None else part if abs(value) == 1 else abs(value) * part
-        total = (size if value > 0 else -size) if total is None else total + size if value > 0 else total - size
-    return term(0) if total is None else total
+    return (conjunction if op == "and" else disjunction)([relation_of(poly, relation) for poly, relation in atoms])
 
 
 def _certified(statement: checker.Statement, statements: Sequence[checker.Statement], samples: Sequence[Sample], known: Mapping[str, Any],

@@ -175,7 +175,8 @@ class TemplateSearch:
         plain = list(self.hints.get(name, ()))
         constants = [Quotient(ring.constant(v), one) for v in self._constants(partial, name, rest)]
         if name in self.integers:
-            whole = [Quotient(ring.gen(ring.variable_to_index(n)), one) for n in self.base if n in self.integers]
+            gens = [ring.gen(ring.variable_to_index(n)) for n in self.base if n in self.integers]
+            whole = [Quotient(gen + shift, one) for shift in (0, 1, -1) for gen in gens]
             return [(q, None) for q in [*plain, *constants, *whole]]
         lines, roots = self._lines(partial, name, rest)
         plain += [*constants[:3], *lines] if self.borders is None else [*lines, *constants[:3]]

@@ -32,7 +32,7 @@ def map_on_the_band_is_linear(printed: Printed) -> Readings:
     })
 
 
-@claim("s4.4-e1-attracts-K", "4.4", "line 569", parameters=())
+@claim("s4.4-e1-attracts-K", "4.4", "line 569")
 def fixed_point_attracts_the_band() -> Awaiting:
     """e_1 is stable and attracts the band.
 
