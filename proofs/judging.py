@@ -322,8 +322,7 @@ class Judge:
         """The sharp range with its certificate and how it is told, if the search finds one."""
         from proofs.ranges import search_sharp_range
 
-        borders = self.claim.hints.get("sharp", ())
-        return search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget, borders)
+        return search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget)
 
     def sharp_outcome(self, name: str, stored: str, certificate: Any, ranged: Sequence[Statement]) -> str:
         """What the checker said of a stored sharp range; it is asked again where a statement that is ranged over is not as stored."""

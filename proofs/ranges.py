@@ -24,13 +24,12 @@ DOMAINS = {"alpha": (real("alpha") > 0) & (real("alpha") < 1), "K": real("K") >=
 
 def search_sharp_range(
     name: str, statements: Sequence[Statement], over: Sequence[str], known: Mapping[str, checker.Statement], budget: int,
-    borders: Sequence[str] = (),
 ) -> tuple[SharpRange, Any, str] | None:
     """The sharp range of the statements, its certificate and how it is told; None where the search does not find one.
 
     Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1.  A whole number that the hypotheses tie to alpha, as floor
     and ceiling do, joins it, and they bound the domain.  Over alpha and eps first the alpha are sought for which
-    the statements hold with every eps > 0, since eps has a dimension as a rule; then pairs.  `borders` may bound a plane range.
+    the statements hold with every eps > 0, since eps has a dimension as a rule; then pairs.
     """
     parsed = [read(statement.text(), statement.name) for statement in statements]
     if "alpha" in over:
@@ -38,7 +37,7 @@ def search_sharp_range(
         if tied is not None:
             number, said = tied
             domain = conjunction([DOMAINS["alpha"], said])
-            region = find_sharp_region(parsed, ("alpha", number), domain, name, known, Budget(budget // 3), borders)
+            region = find_sharp_region(parsed, ("alpha", number), domain, name, known, Budget(budget // 3))
             if region.statement is not None and region.certificate is not None:
                 return region.statement, region.certificate, told_of_pairs(region.statement, number)
     if "alpha" in over and "K" not in over:
@@ -50,7 +49,7 @@ def search_sharp_range(
             return found.statement, found.certificate, told(found.line.simplified(), "alpha", found.statement.numbers)
     if len(over) > 1:
         domain = conjunction([DOMAINS[parameter] for parameter in over])
-        region = find_sharp_region(parsed, over, domain, name, known, Budget(budget), borders)
+        region = find_sharp_region(parsed, over, domain, name, known, Budget(budget))
         if region.statement is not None and region.certificate is not None:
             return region.statement, region.certificate, told_plainly(region.statement, whole_parameters(over, parsed))
     return None

@@ -32,11 +32,8 @@ Guess = tuple[str, list[tuple[fmpq_mpoly, str]]]  # "and" or "or", and relations
 
 
 def find_sharp_region(statements: Sequence[checker.Statement], parameters: Sequence[str], domain: Formula, name: str, known: Known,
-                      budget: Budget, borders: Sequence[str] = ()) -> Range:
-    """The set of several parameters on which all the statements hold, as at most two relations of border polynomials to 0.
-
-    `borders` are polynomials in the parameters to try, as text; without any they come from resultants.
-    """
+                      budget: Budget) -> Range:
+    """The set of several parameters on which all the statements hold, as at most two relations of border polynomials to 0."""
     tree = checker.parse(str(domain))
     state: checker.State = checker.State(checker.Context())
     for parameter in parameters:
@@ -44,7 +41,7 @@ def find_sharp_region(statements: Sequence[checker.Statement], parameters: Seque
     state.assume(state.context.formula(tree))
     try:
         violations = [Violation.of(s, tree, units=True) for s in statements]
-        polys = _borders(state, violations, parameters, borders, budget)
+        polys = _borders(state, violations, parameters, budget)
         samples = _samples(state, polys, parameters, budget)
         verdicts = []
         for sample in samples:
@@ -62,12 +59,9 @@ def find_sharp_region(statements: Sequence[checker.Statement], parameters: Seque
     return Range(failure="no two borders tell the samples apart")
 
 
-def _borders(state: checker.State, violations: Sequence[Violation], parameters: Sequence[str], borders: Sequence[str], budget: Budget
-             ) -> list[fmpq_mpoly]:
+def _borders(state: checker.State, violations: Sequence[Violation], parameters: Sequence[str], budget: Budget) -> list[fmpq_mpoly]:
+    """Polynomials from resultants, and for whole numbers those of the next one."""
     empty = Condition.of(state.context, True)
-    if borders:
-        given = [Condition.of(state.context, ("atom", state.context.polynomial(text), ">"), empty.ring).polys[0] for text in borders]
-        return [factor for poly in given for factor, _ in poly.factor()[1]]
     found = border_polynomials([(v.condition, v.goal) for v in violations], parameters, budget)
     own = [p.project_to_context(empty.ring) for p in found]
     for name in sorted(state.context.integers):  # of one whole number and the next

@@ -14,7 +14,6 @@ from certificates.statements import SharpRange
 from .budget import Budget, Exhausted
 from .closing import search_closing
 from .condition import coefficients_in, ring_of, to_flint
-from .near import ring_names
 from .quotients import Quotient
 from .writing import term_of
 
@@ -87,9 +86,8 @@ def _bound(poly: checker.Poly, relation: str, parameter: str, state: checker.Sta
         return None
     top, bottom = (value.top, value.bottom) if up else (-value.top, -value.bottom)
     scale = lcm(*(int(c.q) for part in (top, bottom) for c in part.coeffs()))
-    texts = [str(term_of(part * scale)) for part in (top, bottom)]
-    shown = [text if not ring_names(part) or len(part) == 1 else f"({text})" for text, part in zip(texts, (top, bottom))]
-    return relation if rising else TURNED[relation], texts[0] if texts[1] == "1" else "/".join(shown)
+    above, below = (term_of(part * scale) for part in (top, bottom))
+    return relation if rising else TURNED[relation], str(above) if str(below) == "1" else str(above / below)
 
 
 def _positive(poly: fmpq_mpoly, state: checker.State) -> bool | None:

@@ -156,11 +156,7 @@ def fixed_point_lies_in_both() -> Statement:
     return always(B1(b) & R(b), given=[equals(f1(b), b)], in_range=RANGE_21)
 
 
-# Where an image first leaves B1: from height 0, with the closing speed r/alpha, at the edge of the band, or at the energy of R.
-BORDERS = ("(1 - alpha)^2 - 2*eps*alpha^2*(1 + alpha)^2", "(1 - alpha)^4 - 2*alpha^2*(1 + alpha)")
-
-
-@claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"), hints={"sharp": BORDERS})
+@claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"))
 def bands_are_mapped_into_themselves() -> Readings:
     """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself, if the band does not reach to where R leaves B1.
 

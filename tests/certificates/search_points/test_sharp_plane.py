@@ -1,4 +1,6 @@
-"""Sharp ranges in two parameters: the border is found, or is given as a hint, and both sides are certified."""
+"""Sharp ranges in two parameters: the border is found, and both sides are certified."""
+
+import pytest
 
 from certificates import checker
 from certificates.search.sharp import read
@@ -37,14 +39,29 @@ def test_the_orbit_of_period_K_exists_from_its_own_ratio_on():
     assert settled(statement, found) == "certified"
 
 
-def test_a_border_given_as_a_hint():
+def test_a_strip_that_grows_with_eps():
     statement = cases.read(STRIP)
-    found = find_sharp_region([statement], ["alpha", "eps"], UNIT & (eps > 0), "plane/sharp", {}, cases.budget(), ["alpha*(2 + eps) - 2"])
+    found = find_sharp_region([statement], ["alpha", "eps"], UNIT & (eps > 0), "plane/sharp", {}, cases.budget())
     assert str(found.statement.condition) == "-alpha*eps - 2*alpha + 2 >= 0"
     assert settled(statement, found) == "certified"
 
 
-def test_a_useless_hint_is_a_named_failure():
-    statement = cases.read(STRIP)
-    found = find_sharp_region([statement], ["alpha", "eps"], UNIT & (eps > 0), "plane/sharp", {}, cases.budget(), ["alpha - 1/7"])
-    assert (found.statement, found.failure) == (None, "no two borders tell the samples apart")
+FLIGHTS = f"""statement plane/flights
+forall alpha K n x
+integer K n
+{cases.UNIT}
+given K >= 1
+given n >= 1
+given K <= n and n <= K
+given x*(1 - alpha) = 1 + alpha
+show n <= x"""
+
+
+def test_a_range_over_a_whole_number_has_a_whole_sample():
+    statement = cases.read(FLIGHTS)
+    found = find_sharp_region([statement], ["alpha", "K"], UNIT & (K >= 1), "plane/sharp", {}, cases.budget())
+    assert str(found.statement.condition) == "alpha*K + alpha - K + 1 >= 0"
+    assert settled(statement, found) == "certified"
+    half = [*found.certificate[:2], {"alpha": "1/2", "K": "3/2"}]
+    with pytest.raises(checker.Rejected, match="sample"):
+        checker.settle(read(found.statement), {"certified": half}, {}, {statement.name: statement})
