@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -47,9 +48,12 @@ def refuse_what_says_nothing(statement: Statement, outcome: str, known: dict[str
 
 
 def speaks_of_range(statement: Statement) -> bool:
-    """Whether a statement is about a range of alpha: by a range line, or by a given that bounds alpha alone."""
-    return any(keyword == "range" or keyword == "given" and isinstance(said, Formula) and said.op in ("<", "<=", ">", ">=")
-               and names_in(said) == {"alpha"} for keyword, said in statement.lines)
+    """Whether a statement is about a range of alpha: by range lines, or by givens that say 0 < alpha < 1."""
+    if any(keyword == "range" for keyword, _ in statement.lines):
+        return True
+    given = [("range", said) for keyword, said in statement.lines
+             if keyword == "given" and isinstance(said, Formula) and names_in(said) == {"alpha"}]
+    return bool(given) and has_whole_range(replace(statement, lines=tuple(given)))
 
 
 def has_whole_range(statement: Statement) -> bool:

@@ -90,15 +90,17 @@ def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
     >>> str(one_relation(Line(tuple(ends), (False, False, True, False, False)), "alpha", (a > 0) & (a < 1)))
     '10*alpha^3 - 20*alpha^2 + 10*alpha - 1 > 0'
     """
-    polys = {tuple(number.coefficients) for number in line.numbers}
-    if len(polys) != 1 or line.numbers[0].is_rational or len(isolated(*polys, domain, parameter)) != len(line.numbers):
+    poly = tuple(line.numbers[0].coefficients) if line.numbers else ()
+    if len(poly) <= 2 or any(tuple(number.coefficients) != poly for number in line.numbers):
+        return None
+    if len(isolated(poly, domain, parameter)) != len(line.numbers):
         return None
     rising = line.numbers[0].sign_of(fmpq_poly(line.numbers[0].poly).derivative()) > 0
     signs = [0 if k % 2 else 1 if (k // 2 % 2 == 1) == rising else -1 for k in range(len(line.verdicts))]
     relation = next((r for r in HOLDS if [HOLDS[r](s) for s in signs] == list(line.verdicts)), None)
     if relation is None:
         relation = next((MIRRORED[r] for r in HOLDS if [HOLDS[r](-s) for s in signs] == list(line.verdicts)), None)
-    return Formula(relation, polynomial_term(next(iter(polys)), parameter), term(0)) if relation else None
+    return Formula(relation, polynomial_term(poly, parameter), term(0)) if relation else None
 
 
 def _interval_formula(interval: Interval, domain: Formula, parameter: str) -> Formula:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
 from flint import fmpq
 
 from certificates import checker
 from certificates.statements import SharpRange
-from certificates.terms import Formula, disjunction
+from certificates.terms import Formula, Term, disjunction
 
 from .algebraic import AlgebraicNumber, simplest_between
 from .budget import Budget, Exhausted, accepted
@@ -22,6 +23,7 @@ from .sharp_lines import QUICK, Lines, Undecided, Verdicts
 from .violations import Violation
 
 EVERYWHERE = 2_500_000  # units of work for proofs on the whole domain
+VERDICTS = 2_000_000  # units of work for the verdicts along the line
 NOWHERE = 300_000  # units of work for one family on the whole domain
 PROBES = (fmpq(1, 2), fmpq(1, 10), fmpq(9, 10))  # where a statement has to fail before a family on the whole domain is tried
 Known = Mapping[str, checker.Statement]
@@ -52,7 +54,7 @@ def find_sharp_range(statements: Sequence[checker.Statement], parameter: str, do
                 statements, parameter, domain, name, known, budget, failing)
             if simple is not None:
                 return simple
-        for line, verdicts in Lines(violations, parameter, tree, budget).guesses():
+        for line, verdicts in Lines(violations, parameter, tree, budget.part(VERDICTS)).guesses():
             stated = stated_range(name, statements, parameter, domain, line)
             result = Range(stated, list(line.simplified().numbers), line=line)
             if certify:
@@ -69,7 +71,7 @@ def find_sharp_range(statements: Sequence[checker.Statement], parameter: str, do
 def stated_range(name: str, statements: Sequence[checker.Statement], parameter: str, domain: Formula, line: Line) -> SharpRange:
     """The range as a statement; its `number` lines account for every root in the domain of the polynomials in its condition."""
     simple = line.simplified()
-    numbers = []
+    numbers: list[tuple[str, Term, Fraction, Fraction]] = []
     for poly in dict.fromkeys(tuple(n.coefficients) for n in simple.numbers if not n.is_rational):
         for low, high in isolated(poly, domain, parameter):
             numbers.append((f"c{len(numbers) + 1}", polynomial_term(poly, parameter), low, high))
@@ -80,7 +82,7 @@ def find_everywhere(statements: Sequence[checker.Statement], parameter: str, dom
                     ) -> Range | None:
     """The whole domain, where all statements are proved on it with a part of the work; None where they are not."""
     stated, line = SharpRange(name, tuple(s.name for s in statements), (parameter,), domain, domain), Line((), (True,))
-    verdicts = {s.name: (True,) for s in statements}
+    verdicts: Verdicts = {s.name: (True,) for s in statements}
     try:
         certificate, _ = _certified(read(stated), statements, parameter, line, verdicts, known, budget.part(EVERYWHERE))
     except Exhausted:

@@ -11,7 +11,7 @@ from tests.certificates.search_points import cases
 UNIT = (alpha > 0) & (alpha < 1)
 
 # c is where the energy R leaves the line on which the ball just closes; e_1 flies with -(1 - alpha)/(1 + alpha).
-LEAVES = f"""given c < 1 and (2 - 2*c)*(1 - alpha)^2 + c^2*(1 - alpha)^2/2 = 1 + alpha
+LEAVES = """given c < 1 and (2 - 2*c)*(1 - alpha)^2 + c^2*(1 - alpha)^2/2 = 1 + alpha
 have 1 + alpha > 0
 let e = (alpha - 1)/(1 + alpha)"""
 
