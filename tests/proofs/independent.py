@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import random
 import re
 from collections.abc import Iterator
+from importlib import import_module
 from math import isqrt
 from typing import Any
 
@@ -12,6 +14,7 @@ from flint import fmpq
 
 Point = dict[str, fmpq]
 NAMES = {"Q": fmpq, "implies": lambda a, b: (not a) or b, "iff": lambda a, b: bool(a) == bool(b), "__builtins__": {}}
+MOST_QUESTIONS = 40  # put to Z3 about one statement with `exists`
 
 
 def python_of(text: str) -> str:
@@ -22,31 +25,97 @@ def python_of(text: str) -> str:
     return re.sub(r"\*\*(I+)", lambda match: f"**{len(match[1])}", text)
 
 
-class Independent:
-    """One universal statement, ready to be put to points."""
+def compiled(text: str) -> Any:
+    return compile(python_of(text), "statement", "eval")
 
-    def __init__(self, text: str) -> None:
+
+class ForZ3(ast.NodeTransformer):
+    """Python's and, or, not and chains of relations as Z3's functions."""
+
+    def visit_BoolOp(self, node: ast.BoolOp) -> ast.AST:
+        return call("And" if isinstance(node.op, ast.And) else "Or", [self.visit(value) for value in node.values])
+
+    def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.AST:
+        self.generic_visit(node)
+        return call("Not", [node.operand]) if isinstance(node.op, ast.Not) else node
+
+    def visit_Compare(self, node: ast.Compare) -> ast.AST:
+        sides = [self.visit(side) for side in (node.left, *node.comparators)]
+        return call("And", [ast.Compare(left, [op], [right]) for left, op, right in zip(sides, node.ops, sides[1:])])
+
+
+def call(name: str, arguments: list[ast.expr]) -> ast.AST:
+    return ast.Call(ast.Name(name, ast.Load()), arguments, [])
+
+
+def for_z3(text: str) -> Any:
+    tree = ForZ3().visit(ast.parse(text, mode="eval"))
+    return compile(ast.fix_missing_locations(tree), "statement", "eval")
+
+
+def named_values(found: Any, names: Point) -> Point | None:
+    """The values that a witness of the checker's form names at a point; None where it adjoins a number or names none."""
+    if found[0] == "sign":
+        value = eval(compiled(found[1]), {**NAMES, **names})
+        return named_values(found[2 + (value >= 0) + (value > 0)], names)
+    if found[0] == "empty" or found[1]:
+        return None
+    return {name: eval(compiled(term), {**NAMES, **names}) for name, term in found[2].items()}
+
+
+class Independent:
+    """One universal statement, ready to be put to points.
+
+    What `exists` asks for is first sought among the values that a witness names, if one is given, and then by Z3 at the point.
+    """
+
+    def __init__(self, text: str, witness: Any = None) -> None:
         self.lines = [line.split(" ", 1) for line in text.splitlines()[1:]]
         self.variables = [name for keyword, said in self.lines if keyword == "forall" for name in said.split()]
         self.integers = {name for keyword, said in self.lines if keyword == "integer" for name in said.split()}
-        self.existential = any(keyword == "exists" for keyword, _ in self.lines)
+        self.existing = [name for keyword, said in self.lines if keyword == "exists" for name in said.split()]
+        self.witness, self.questions = witness, MOST_QUESTIONS
         self.code: list[tuple[str, str, Any]] = []
+        self.moves: dict[int, tuple[str, str, Any]] = {}
+        used: set[str] = set()
         for keyword, said in self.lines:
-            if keyword in ("range", "given", "have", "show"):
-                self.code.append((keyword, "", compile(python_of(said), "statement", "eval")))
-                solved = re.fullmatch(r"([A-Za-z]\w*) = (.*)", said)
-                if keyword == "given" and solved and solved[1] in self.variables and not re.search(rf"\b{solved[1]}\b|[<>=]|and|or", solved[2]):
-                    self.code[-1] = ("solve", solved[1], compile(python_of(solved[2]), "statement", "eval"))
+            if keyword == "exists":
+                self.code.append((keyword, "", None))
             elif keyword in ("let", "root"):
                 name, value = said.split(" = ", 1)
                 value = re.sub(r"^sqrt\((.*)\)$", r"\1", value) if keyword == "root" else value
-                self.code.append((keyword, name, compile(python_of(value), "statement", "eval")))
+                self.code.append((keyword, name, compiled(value)))
+            elif keyword in ("range", "given", "have", "with", "show"):
+                move = self.move(said, used) if keyword == "given" else None
+                if move:
+                    self.moves[len(self.code)] = move
+                self.code.append((keyword, "", compiled(said)))
+            used |= set(re.findall(r"[A-Za-z]\w*", said)) if keyword not in ("forall", "integer", "exists") else set()
 
-    def at(self, point: Point) -> bool | None:
+    def move(self, said: str, used: set[str]) -> tuple[str, str, Any] | None:
+        """How a sampled variable that has not been used yet moves to where a premise holds: x = term, term <= n or n <= term for an integer n."""
+        if re.search(r"\b(and|or)\b", said):
+            return None
+        solved = re.fullmatch(r"([A-Za-z]\w*) = ([^<>=]*)", said)
+        low, high = re.fullmatch(r"([^<>=]*) <=? (\w+)", said), re.fullmatch(r"(\w+) <=? ([^<>=]*)", said)
+        if solved and solved[1] in self.variables and solved[1] not in used | self.integers and not re.search(rf"\b{solved[1]}\b", solved[2]):
+            return "solve", solved[1], compiled(solved[2])
+        for match, name, term, way in ((low, 2, 1, "from"), (high, 1, 2, "to")):
+            if match and match[name] in self.integers - used and not match[term].isdigit():
+                return way, match[name], compiled(match[term])
+        return None
+
+    def at(self, point: Point, moving: bool = True) -> bool | None:
         """Whether the statement holds at the point; None where its premises fail or cannot be evaluated there."""
         names: dict[str, Any] = {**NAMES, **point}
         try:
-            for keyword, name, code in self.code:
+            for place, (keyword, name, code) in enumerate(self.code):
+                if keyword == "exists":
+                    return self.some(names, place + 1)
+                if moving and place in self.moves:
+                    way, moved, term = self.moves[place]
+                    value, third = eval(term, names), int(names[moved].p) % 3
+                    names[moved] = value if way == "solve" else value.ceil() + third if way == "from" else value.floor() - third
                 value = eval(code, names)
                 if keyword in ("range", "given", "have"):
                     if not value:
@@ -63,6 +132,42 @@ class Independent:
         except ZeroDivisionError:
             return None
         return None
+
+    def some(self, names: dict[str, Any], place: int) -> bool | None:
+        """Whether some values of the `exists` variables meet what follows: those of the witness, or else any, by Z3; None where unknown."""
+        try:
+            values = named_values(self.witness, names) if self.witness else None
+            if values is not None:
+                there = {**names, **values}
+                for keyword, name, code in self.code[place:]:
+                    there[name] = eval(code, there)
+                    if keyword != "let" and not there[name]:
+                        break
+                else:
+                    return True
+        except ZeroDivisionError:
+            pass
+        self.questions -= 1
+        return self.by_z3(names, place) if self.questions >= 0 else None
+
+    def by_z3(self, names: dict[str, Any], place: int) -> bool | None:
+        z3 = import_module("z3")
+        context = z3.Context()
+        there: dict[str, Any] = {
+            name: z3.RealVal(f"{value.p}/{value.q}", context) for name, value in names.items() if isinstance(value, fmpq)}
+        there |= {name: (z3.ToReal(z3.Int(name, context)) if name in self.integers else z3.Real(name, context)) for name in self.existing}
+        there |= {"Q": lambda value: z3.RealVal(value, context), "And": z3.And, "Or": z3.Or, "Not": z3.Not,
+                  "implies": z3.Implies, "iff": lambda a, b: a == b}
+        solver = z3.Solver(ctx=context) if self.integers & set(self.existing) else z3.Tactic("qfnra-nlsat", ctx=context).solver()
+        solver.set("rlimit", 200_000)
+        for (keyword, name, _), (_, said) in zip(self.code[place:], self.lines[-len(self.code[place:]):]):
+            said = said.split(" = ", 1)[1] if keyword == "let" else said
+            value = eval(for_z3(python_of(said)), there)
+            if keyword == "let":
+                there[name] = value
+            else:
+                solver.add(value)
+        return {"sat": True, "unsat": False}.get(str(solver.check()))
 
     def points(self, count: int, seed: int) -> Iterator[Point]:
         """Random rational points, small and simple ones first; parameters between 0 and 1 more often than not."""
