@@ -6,7 +6,7 @@ from certificates.statements import Statement
 from certificates.terms import Term, different, equal, reals, term
 from proofs.claims import claim
 from proofs.paper.events import only_at
-from proofs.paper.gains import BOTH_BOUNDS, STEEP, UNKNOWN, are_slopes, dE_dbeta, dE_dv, dE_max, place
+from proofs.paper.gains import GREATEST_GAIN, STEEP, UNKNOWN, are_slopes, dE_dbeta, dE_dv, dE_max, place
 from proofs.paper.outside import b_0, beta0, v0
 from proofs.paper.vocabulary import (
     B1,
@@ -127,6 +127,6 @@ def maximum_holds_without_impacts_too(printed: Printed) -> list[Statement]:
     """Without an impact the energy changes less than that, so that Delta E_max is the greatest change on all of H."""
     greater = printed.formula(UNKNOWN.extended({r"\Delta_2 E": only_at(b, dE_2)}))
     return [
-        always(greater, given=[*BOTH_BOUNDS, B2(b), equal(dE_2, energy(f2(b)) - energy(b))], label="without-impact"),
-        always(energy(f1(b)) - energy(b) <= dE_max, given=[*BOTH_BOUNDS, B1(b)], label="with-impact"),
+        always(greater, given=[GREATEST_GAIN, B2(b), equal(dE_2, energy(f2(b)) - energy(b))], label="without-impact"),
+        always(energy(f1(b)) - energy(b) <= dE_max, given=[GREATEST_GAIN, B1(b)], label="with-impact"),
     ]

@@ -34,7 +34,7 @@ LEFT = Vector((edge, v))  # a state beside b, at another height
 # The states near b: the height moves by at most delta r^2 / g and the velocity by at most delta r; (k - 2) r bounds the velocity of b.
 NEAR = b + Vector((p, q))
 WITHIN_DELTA = [-(r**2) * delta <= g * p, g * p <= r**2 * delta, -r * delta <= q, q <= r * delta]
-BOUNDED = [k > 0, -(k - 2) * r <= v, v <= (k - 2) * r]
+BOUNDED = [-(k - 2) * r <= v, v <= (k - 2) * r]
 
 
 def room(*margins: Term) -> Formula:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from certificates.statements import Statement
-from certificates.terms import Term, different, equal, iff
+from certificates.terms import Formula, different, equal, iff
 from proofs.claims import Argument, Assertion, Readings, claim
 from proofs.paper.events import ball_at, height, meet, only_at, speed, table_at
 from proofs.paper.outside import pieces
@@ -48,10 +48,10 @@ def collision_equation_with_gravity(printed: Printed) -> Readings:
 @claim("sB.1-tau", "B.1", "line 736", printed=r"\tau_c = \frac{\overline{\beta}}{\dot{\rho} - \dot{\overline{\beta}}}")
 def time_to_collision_again(printed: Printed) -> Readings:
     """Ball and table meet at this time and at no other, the table's velocity being that of its launch, or that of the moment."""
-    def reading(names: Environment, velocity: Term) -> Assertion:
-        return Assertion((always(iff(meet(t), printed.formula(names)), given=[t >= 0, different(v, r), different(v, velocity)]),))
+    def reading(names: Environment, *apart: Formula) -> Assertion:
+        return Assertion((always(iff(meet(t), printed.formula(names)), given=[t >= 0, different(v, r), *apart]),))
 
-    return Readings({"launch-speed": reading(LAUNCH_SPEED, r), "speed-then": reading(SPEED_THEN, speed(table_at(t)))})
+    return Readings({"launch-speed": reading(LAUNCH_SPEED), "speed-then": reading(SPEED_THEN, different(v, speed(table_at(t))))})
 
 
 @claim("sB.1-period", "B.1", "line 740", printed=_PERIOD_EQUATION)

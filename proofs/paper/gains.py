@@ -13,7 +13,8 @@ from proofs.reading.values import Vector
 NOT_LOSING = B1_PLUS | B1_ZERO
 E_max, dE_max = reals("E_max dE_max")
 UNKNOWN = PAPER.extended({r"E_{max}": E_max, r"\Delta E_{max}": dE_max})
-BOTH_BOUNDS = [equal(E_max, derived("E_max")), equal(dE_max, derived("delta_E_max"))]
+GREATEST_GAIN = equal(dE_max, derived("delta_E_max"))
+BOTH_BOUNDS = [equal(E_max, derived("E_max")), GREATEST_GAIN]
 
 
 def keeps_energy(state: Vector) -> Formula:
