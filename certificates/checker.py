@@ -16,6 +16,7 @@ import os
 import re
 import sys
 from fractions import Fraction
+from functools import lru_cache
 from math import gcd, lcm, prod
 
 MAX_DEGREE, MAX_VARIABLES, MAX_TERMS, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 10**5, 40000, 2 * 10**7, 16 << 20
@@ -43,46 +44,43 @@ def spend(amount):
 
 
 class Poly:
-    """A polynomial with rational coefficients, and a bound on its total degree."""
+    """A polynomial with rational coefficients, none of its terms zero, and a bound on its total degree."""
+
+    __slots__ = ("terms", "den", "deg")
 
     def __init__(self, terms, den, deg):
         if deg > MAX_DEGREE or den.bit_length() > MAX_BITS:
             raise Rejected("a polynomial is too large", f"degree {deg}")
         self.terms, self.den, self.deg = terms, den, deg
 
-    def __add__(self, other):
-        spend(len(self.terms) + len(other.terms) + 1)
-        den = lcm(self.den, other.den)
-        a, b = den // self.den, den // other.den
-        terms = {m: c * a for m, c in self.terms.items()} if a > 1 else dict(self.terms)
-        for m, c in other.terms.items():
-            total = terms.get(m, 0) + c * b
-            if total:
-                terms[m] = total
-            else:
-                del terms[m]
+    def plus(self, other, factor=1):
+        """self + factor * other, for a rational factor other than 0."""
+        den = lcm(self.den, other.den * factor.denominator)
+        scale, terms = den // self.den, dict(self.terms)
+        if scale > 1:
+            terms = {}
+            add_multiple(terms, scale, self.terms)
+        spend(len(terms))
+        add_multiple(terms, den // (other.den * factor.denominator) * factor.numerator, other.terms)
         return Poly(terms, den, max(self.deg, other.deg))
 
-    def __mul__(self, other):
-        if other is ONE:
-            return self
-        sizes = [sum(c.bit_length() for c in poly.terms.values()) for poly in (self, other)]
-        spend(len(self.terms) * len(other.terms) + 1 + (sizes[0] * sizes[1] >> 16))
-        terms = {}
-        for m, c in self.terms.items():
-            for n, d in other.terms.items():
-                terms[m + n] = terms.get(m + n, 0) + c * d
-            if len(terms) > MAX_TERMS:
-                raise Rejected("a polynomial is too large", f"{len(terms)} terms")
-        if any(c.bit_length() > MAX_BITS for c in terms.values()):
-            raise Rejected("a coefficient is too large")
-        return Poly({m: c for m, c in terms.items() if c}, self.den * other.den, self.deg + other.deg)
+    def __add__(self, other):
+        return self.plus(other)
+
+    def __sub__(self, other):
+        return self.plus(other, -1)
 
     def __neg__(self):
         return Poly({m: -c for m, c in self.terms.items()}, self.den, self.deg)
 
-    def __sub__(self, other):
-        return self + -other
+    def __mul__(self, other):
+        if other is ONE:
+            return self
+        few, many = (self.terms, other.terms) if len(self.terms) < len(other.terms) else (other.terms, self.terms)
+        terms = {}
+        for m, c in few.items():
+            add_multiple(terms, c, many, m)
+        return Poly(terms, self.den * other.den, self.deg + other.deg)
 
     def __pow__(self, exponent):
         if exponent * max(self.deg, 1) > MAX_DEGREE:
@@ -94,9 +92,25 @@ class Poly:
         return Fraction(self.terms.get(0, 0), self.den) if self.terms.keys() <= {0} else None
 
     def primitive(self):
-        """(content, primitive part): coprime integer coefficients, that of the largest monomial positive."""
+        """(c, p) with self = c / den * p, where p has coprime integer coefficients, that of the largest monomial positive."""
         content = gcd(*self.terms.values()) * (-1 if self.terms[max(self.terms)] < 0 else 1)
-        return Fraction(content, self.den), Poly({m: c // content for m, c in self.terms.items()}, 1, self.deg)
+        return content, Poly({m: c // content for m, c in self.terms.items()}, 1, self.deg)
+
+
+def add_multiple(terms, factor, others, shift=0):
+    """terms += factor * x^shift * others, for an integer factor other than 0; all work on polynomials is counted and limited here."""
+    bits = factor.bit_length() + sum(map(int.bit_length, others.values())) if not -2 < factor < 2 else 0
+    spend(1 + len(others) + (factor.bit_length() * bits >> 16))
+    for m, c in others.items():
+        total = terms.get(m + shift, 0) + factor * c
+        if total:
+            terms[m + shift] = total
+        else:
+            del terms[m + shift]
+    if len(terms) > MAX_TERMS:
+        raise Rejected("a polynomial is too large", f"{len(terms)} terms")
+    if bits > MAX_BITS and any(c.bit_length() > MAX_BITS for c in terms.values()):  # bits limits the length of each factor * c
+        raise Rejected("a coefficient is too large")
 
 
 def number(value):
@@ -107,10 +121,34 @@ ONE, ZERO = number(1), number(0)
 
 
 class Ratio:
-    """num / product of licensed polynomials: den maps the number of a polynomial known to be nonzero to its exponent."""
+    """num / product of licences, each (a polynomial known to be nonzero, whether it is known to be > 0), to their exponents in den."""
 
     def __init__(self, num, den=None):
         self.num, self.den = num, den or {}
+
+    def over(self, den):
+        """The numerator over the larger denominator den."""
+        return prod((x[0] ** (e - self.den.get(x, 0)) for x, e in den.items()), start=self.num) if den else self.num
+
+    def __add__(self, other, factor=1):
+        den = {x: max(self.den.get(x, 0), other.den.get(x, 0)) for x in {**self.den, **other.den}}
+        return Ratio(self.over(den).plus(other.over(den), factor), den)
+
+    def __sub__(self, other):
+        return self.__add__(other, -1)
+
+    def __neg__(self):
+        return Ratio(-self.num, self.den)
+
+    def __mul__(self, other):
+        return Ratio(self.num * other.num, {x: self.den.get(x, 0) + other.den.get(x, 0) for x in {**self.den, **other.den}})
+
+    def __pow__(self, exponent):
+        return Ratio(self.num**exponent, {x: e * exponent for x, e in self.den.items() if exponent})
+
+
+VARIABLES = [Ratio(Poly({1 << (BITS * i): 1}, 1, 1)) for i in range(MAX_VARIABLES)]
+ARITHMETIC = {ast.Add: Ratio.__add__, ast.Sub: Ratio.__sub__, ast.Mult: Ratio.__mul__}
 
 
 # ------------------------------------------------------------ text: Python's expression syntax, with ^ and = as in mathematics
@@ -118,7 +156,14 @@ class Ratio:
 
 def parse(text):
     """The syntax tree of a term or formula: integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,), iff(,)."""
-    if not isinstance(text, str) or len(text) > 1 << 20 or re.search(r"[^\w +\-*/^()<>=!,]|\*\*|//|<<|>>|==|<>|\b\d+[A-Za-z_]", text, re.ASCII):
+    if not isinstance(text, str) or len(text) > 1 << 20:
+        raise Rejected("unreadable text", text)
+    return tree(text) if len(text) < 200 else tree.__wrapped__(text)  # what is kept is small
+
+
+@lru_cache(4096)
+def tree(text):
+    if re.search(r"[^\w +\-*/^()<>=!,]|\*\*|//|<<|>>|==|<>|\b\d+[A-Za-z_]", text, re.ASCII):
         raise Rejected("unreadable text", text)
     try:
         return ast.parse(re.sub(r"(?<![<>!])=", "==", text.replace("^", "**")).strip(), mode="eval").body
@@ -132,9 +177,10 @@ OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "="
 
 def fold(poly, relation):
     """The atom poly relation 0; True or False where the polynomial is constant."""
-    value = poly.constant()
-    truth = {} if value is None else {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}
-    return truth.get(relation, ("atom", poly, relation))
+    if not poly.terms.keys() <= {0}:
+        return ("atom", poly, relation)
+    value = poly.terms.get(0, 0)
+    return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[relation]
 
 
 def join(op, formulas):
@@ -162,9 +208,10 @@ class Context:
     """What has been declared so far: variables, the values of names, and the polynomials that a strict line made nonzero."""
 
     def __init__(self, outer=None, values=None):
-        self.index, self.integers = (dict(outer.index), set(outer.integers)) if outer else ({}, set())
-        self.licensed, self.licence = (list(outer.licensed), dict(outer.licence)) if outer else ([], {})
-        self.values = dict(values if values is not None else outer.values if outer else {})
+        self.index, self.integers, self.licensed, self.values = {}, set(), {}, dict(values or {})
+        if outer:
+            self.index, self.integers, self.licensed = dict(outer.index), set(outer.integers), dict(outer.licensed)
+            self.values = dict(outer.values if values is None else values)
 
     def declare(self, name, integral=False):
         """A fresh variable; where another scope has one of this name, its key grows by underscores, so that the two stay apart."""
@@ -173,7 +220,7 @@ class Context:
             key += "_"
         if len(self.index) >= MAX_VARIABLES:
             raise Rejected("too many variables", name)
-        self.define(name, Ratio(Poly({1 << (BITS * len(self.index)): 1}, 1, 1)))
+        self.define(name, VARIABLES[len(self.index)])
         self.index[key] = len(self.index)
         self.integers |= {key} if integral else set()
 
@@ -192,65 +239,45 @@ class Context:
         if formula[0] == "atom" and formula[2] in (">", "!="):
             content, key = formula[1].primitive()
             mark, positive = frozenset(key.terms.items()), formula[2] == ">"
-            if mark not in self.licence or positive and not self.licensed[self.licence[mark]][1]:
-                self.licence[mark] = len(self.licensed)
-                self.licensed.append((key if content > 0 else -key, positive))
-
-    def over(self, ratio, den):
-        """The numerator of the ratio over the larger denominator den."""
-        num = ratio.num
-        for i in sorted(den):
-            num = num * self.licensed[i][0] ** (den[i] - ratio.den.get(i, 0)) if den[i] > ratio.den.get(i, 0) else num
-        return num
-
-    def add(self, a, b):
-        den = {i: max(a.den.get(i, 0), b.den.get(i, 0)) for i in {*a.den, *b.den}}
-        return Ratio(self.over(a, den) + self.over(b, den), den)
-
-    def subtract(self, a, b):
-        return self.add(a, Ratio(-b.num, b.den))
-
-    def multiply(self, a, b):
-        return Ratio(a.num * b.num, {i: a.den.get(i, 0) + b.den.get(i, 0) for i in {*a.den, *b.den}})
+            if mark not in self.licensed or positive and not self.licensed[mark][1]:
+                self.licensed[mark] = (key if content > 0 else -key, positive)
 
     def reciprocal(self, node):
         """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of such."""
         ratio = self.value(node)
-        constant = ratio.num.constant()
-        if constant == 0:
-            raise Rejected("division by zero", ast.unparse(node))
+        upper, constant = Ratio(ONE).over(ratio.den), ratio.num.constant()
+        if constant is not None:
+            if not constant:
+                raise Rejected("division by zero", ast.unparse(node))
+            return Ratio(upper * number(1 / constant))
         content, key = ratio.num.primitive()
-        found = self.licence.get(frozenset(key.terms.items()))
-        if constant is not None or found is not None:
-            if constant is None and self.licensed[found][0].terms != key.terms:
-                content = -content
-            upper = self.over(Ratio(ONE), ratio.den)
-            return Ratio(upper * number(1 / (constant or content)), {found: 1} if constant is None else {})
+        licence = self.licensed.get(frozenset(key.terms.items()))
+        if licence:
+            return Ratio(upper * number(Fraction(ratio.num.den, content if licence[0].terms == key.terms else -content)), {licence: 1})
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
-            return self.multiply(self.reciprocal(node.left), self.reciprocal(node.right))
+            return self.reciprocal(node.left) * self.reciprocal(node.right)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
-            inner = self.reciprocal(node.left)
-            exponent = node.right.value
-            return Ratio(inner.num ** exponent, {i: e * exponent for i, e in inner.den.items()})
+            return self.reciprocal(node.left) ** node.right.value
         raise Rejected("division by what may vanish; no strict line before it makes this nonzero", self.show(ratio.num))
 
     def value(self, node):
         """The value of a term, as a Ratio."""
-        if isinstance(node, ast.Constant) and type(node.value) is int:
-            return Ratio(number(node.value))
-        if isinstance(node, ast.Name) and node.id in self.values:
+        kind = type(node)
+        if kind is ast.Name and node.id in self.values:
             return self.values[node.id]
-        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-            return self.subtract(Ratio(ZERO), self.value(node.operand))
-        if isinstance(node, ast.BinOp):
-            left, op = self.value(node.left), type(node.op)
-            if op is ast.Pow and isinstance(node.right, ast.Constant) and type(node.right.value) is int:
-                exponent = node.right.value
-                return Ratio(left.num**exponent, {i: e * exponent for i, e in left.den.items() if exponent})
-            if op in (ast.Add, ast.Sub, ast.Mult, ast.Div):
-                right = self.reciprocal(node.right) if op is ast.Div else self.value(node.right)
-                return (self.add if op is ast.Add else self.subtract if op is ast.Sub else self.multiply)(left, right)
-        raise Rejected("an undeclared name" if isinstance(node, ast.Name) else "not a term", ast.unparse(node))
+        if kind is ast.Constant and type(node.value) is int:
+            return Ratio(number(node.value))
+        if kind is ast.UnaryOp and type(node.op) is ast.USub:
+            return -self.value(node.operand)
+        if kind is ast.BinOp:
+            left, op, right = self.value(node.left), type(node.op), node.right
+            if op is ast.Pow and type(right) is ast.Constant and type(right.value) is int:
+                return left**right.value
+            if op is ast.Div:
+                return left * self.reciprocal(right)
+            if op in ARITHMETIC:
+                return ARITHMETIC[op](left, self.value(right))
+        raise Rejected("an undeclared name" if kind is ast.Name else "not a term", ast.unparse(node))
 
     def polynomial(self, text):
         ratio = self.value(parse(text))
@@ -260,11 +287,9 @@ class Context:
 
     def atom(self, left, relation, right):
         """left relation right as p > 0, p >= 0, p = 0 or p != 0: the difference times what is positive wherever it is defined."""
-        ratio = self.subtract(right, left) if relation in ("<", "<=") else self.subtract(left, right)
-        for i, exponent in sorted(ratio.den.items()):
-            if exponent % 2 and relation not in ("=", "!=") and not self.licensed[i][1]:
-                ratio = Ratio(ratio.num * self.licensed[i][0], ratio.den)
-        return fold(ratio.num, {"<": ">", "<=": ">="}.get(relation, relation))
+        ratio, relation = (right - left, relation.replace("<", ">")) if "<" in relation else (left - right, relation)
+        signless = (poly for (poly, positive), e in ratio.den.items() if e % 2 and not positive and ">" in relation)
+        return fold(prod(signless, start=ratio.num), relation)
 
     def formula(self, node):
         """The formula with `not` driven down to atoms: ("atom", p, relation), ("and", ..), ("or", ..) or a bool."""
@@ -351,9 +376,8 @@ class State:
     """
 
     def __init__(self, variables, parent=None):
-        self.context = Context(parent.context if parent else None)
-        self.context.index, self.context.integers = dict(variables.index), set(variables.integers)
-        self.context.values = {key: Ratio(Poly({1 << (BITS * i): 1}, 1, 1)) for key, i in variables.index.items()}
+        self.context = Context(variables, {key: VARIABLES[i] for key, i in variables.index.items()})
+        self.context.licensed = dict(parent.context.licensed) if parent else {}
         self.facts, self.choices = (list(parent.facts), list(parent.choices)) if parent else ([], [])
         self.closed = parent.closed if parent else False
 
@@ -410,9 +434,9 @@ def close_by_positivstellensatz(state, known, products, equations):
     """
     total, strict, powers = ZERO, False, {}
     for coefficient, factors, root in products:
-        coefficient, square = rational(coefficient), state.context.polynomial(root)
-        product, positive = number(coefficient), bool(square.constant())
-        if coefficient <= 0:
+        square = ONE if root == "1" else state.context.polynomial(root)
+        weight, product, positive = rational(coefficient), square * square, bool(square.constant())
+        if weight <= 0:
             raise Rejected("a coefficient is not positive", coefficient)
         for index, exponent in factors:
             poly, relation = at(state.facts, index)
@@ -421,7 +445,7 @@ def close_by_positivstellensatz(state, known, products, equations):
             if (index, exponent) not in powers:
                 powers[index, exponent] = poly**exponent
             product, positive = product * powers[index, exponent], positive and relation != ">="
-        total, strict = total + (product if root == "1" else product * square * square), strict or positive
+        total, strict = total.plus(product, weight), strict or positive
     for index, cofactor in equations:
         poly, relation = at(state.facts, index)
         if relation != "=":
@@ -610,11 +634,11 @@ class Unfolding:
                 context.define(said[0], context.value(said[1]))
             elif keyword == "root":
                 name, (under,) = said
-                self.obligations.append((len(self.premises), context.atom(context.value(under), "<", Ratio(ZERO))))
+                value = context.value(under)
+                self.obligations.append((len(self.premises), context.atom(value, "<", Ratio(ZERO))))
                 self.variable(name, True)
-                root, value = context.values[name], context.value(under)
-                square = context.multiply(root, root)
-                self.premises += [context.atom(root, ">=", Ratio(ZERO)), context.atom(square, "=", value)]
+                root = context.values[name]
+                self.premises += [context.atom(root, ">=", Ratio(ZERO)), context.atom(root * root, "=", value)]
             elif keyword in ("with", "show"):
                 self.goals.append(context.formula(said))
                 context.license(self.goals[-1])
@@ -759,7 +783,7 @@ def check_iterates(statement, certificate, known, statements):
     pairs = [*zip(image(powers, {k: Ratio(ZERO)}), (plain[name] for name in arguments)),
              *zip(image(images, dict(zip(arguments, image(powers, {})))), image(powers, {k: context.value(parse(k + " + 1"))}))]
     for left, right in pairs:
-        if context.subtract(left, right).num.terms:
+        if (left - right).num.terms:
             raise Rejected("an iterate does not satisfy its recurrence", statement.name)
 
 

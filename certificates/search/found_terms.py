@@ -46,7 +46,7 @@ class TermWriter:
         size = len(context.index)
         keys = list(context.index)
         self.licensed: list[tuple[fmpq_mpoly, fmpq_mpoly]] = []  # each as it is, and lowered
-        for poly, _ in context.licensed:
+        for poly, _ in context.licensed.values():
             if set(keys) <= set(ring.names()):
                 whole = to_flint(poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size).project_to_context(ring)
                 lowered = normal.lower(whole)
