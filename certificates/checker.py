@@ -27,7 +27,14 @@ class Rejected(Exception):
     """A certificate does not prove its statement, or a statement says nothing: the reason, then the offending object."""
 
     def __init__(self, reason, offender=""):
-        super().__init__(reason + (f": {offender}"[:300] if offender != "" else ""))
+        shown = offender() if callable(offender) else offender
+        super().__init__(reason + (f": {shown}"[:300] if shown != "" else ""))
+
+
+def require(holds, reason, offender=""):
+    """A check on which soundness rests: unlike `assert`, it cannot be switched off.  An offender that is long to show is a function."""
+    if not holds:
+        raise Rejected(reason, offender)
 
 
 work_left = [MAX_WORK]
@@ -44,17 +51,32 @@ def spend(amount):
 
 
 class Poly:
-    """A polynomial with rational coefficients, none of its terms zero, and a bound on its total degree."""
+    """terms / den / product of `under`: a polynomial with rational coefficients, over polynomials that are known to be nonzero.
 
-    __slots__ = ("terms", "den", "deg")
+    terms: {packed exponents: integer other than 0}; deg: a bound on their degree; under: {licence: exponent}, where a licence is
+    (polynomial other than 0, whether it is > 0).  Only a term that divides has an `under`: facts and cofactors are polynomials.
+    """
 
-    def __init__(self, terms, den, deg):
+    __slots__ = ("terms", "den", "deg", "under")
+
+    def __init__(self, terms, den, deg, under=None):
         if deg > MAX_DEGREE or den.bit_length() > MAX_BITS:
             raise Rejected("a polynomial is too large", f"degree {deg}")
-        self.terms, self.den, self.deg = terms, den, deg
+        self.terms, self.den, self.deg, self.under = terms, den, deg, under or {}
+
+    def over(self, under):
+        """The same terms, over other polynomials."""
+        return Poly(self.terms, self.den, self.deg, under)
+
+    def numerator(self, under):
+        """The numerator over a denominator that is a multiple of the present one."""
+        return prod((x[0] ** (e - self.under.get(x, 0)) for x, e in under.items()), start=self.over({}))
 
     def plus(self, other, factor=1):
         """self + factor * other, for a rational factor other than 0."""
+        if self.under or other.under:
+            under = merged(max, self.under, other.under)
+            return self.numerator(under).plus(other.numerator(under), factor).over(under)
         den = lcm(self.den, other.den * factor.denominator)
         scale, terms = den // self.den, dict(self.terms)
         if scale > 1:
@@ -71,7 +93,7 @@ class Poly:
         return self.plus(other, -1)
 
     def __neg__(self):
-        return Poly({m: -c for m, c in self.terms.items()}, self.den, self.deg)
+        return Poly({m: -c for m, c in self.terms.items()}, self.den, self.deg, self.under)
 
     def __mul__(self, other):
         if other is ONE:
@@ -80,7 +102,7 @@ class Poly:
         terms = {}
         for m, c in few.items():
             add_multiple(terms, c, many, m)
-        return Poly(terms, self.den * other.den, self.deg + other.deg)
+        return Poly(terms, self.den * other.den, self.deg + other.deg, merged(sum, self.under, other.under))
 
     def __pow__(self, exponent):
         if exponent * max(self.deg, 1) > MAX_DEGREE:
@@ -88,11 +110,11 @@ class Poly:
         return prod([self] * (exponent - 1), start=self) if exponent else ONE
 
     def constant(self):
-        """The value of a constant polynomial; None for any other."""
-        return Fraction(self.terms.get(0, 0), self.den) if self.terms.keys() <= {0} else None
+        """The value of a constant; None for anything else."""
+        return Fraction(self.terms.get(0, 0), self.den) if not self.under and self.terms.keys() <= {0} else None
 
     def primitive(self):
-        """(c, p) with self = c / den * p, where p has coprime integer coefficients, that of the largest monomial positive."""
+        """(c, p) with terms = c * p, where p has coprime integer coefficients, that of the largest monomial positive."""
         content = gcd(*self.terms.values()) * (-1 if self.terms[max(self.terms)] < 0 else 1)
         return content, Poly({m: c // content for m, c in self.terms.items()}, 1, self.deg)
 
@@ -107,10 +129,15 @@ def add_multiple(terms, factor, others, shift=0):
             terms[m + shift] = total
         else:
             del terms[m + shift]
-    if len(terms) > MAX_TERMS:
+    if len(terms) > MAX_TERMS or bits > MAX_BITS and any(c.bit_length() > MAX_BITS for c in terms.values()):
         raise Rejected("a polynomial is too large", f"{len(terms)} terms")
-    if bits > MAX_BITS and any(c.bit_length() > MAX_BITS for c in terms.values()):  # bits limits the length of each factor * c
-        raise Rejected("a coefficient is too large")
+
+
+def merged(rule, one, other):
+    """Exponents of licences, brought together by a rule: max or sum."""
+    if not one or not other:
+        return one or other
+    return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
 
 
 def number(value):
@@ -118,37 +145,8 @@ def number(value):
 
 
 ONE, ZERO = number(1), number(0)
-
-
-class Ratio:
-    """num / product of licences, each (a polynomial known to be nonzero, whether it is known to be > 0), to their exponents in den."""
-
-    def __init__(self, num, den=None):
-        self.num, self.den = num, den or {}
-
-    def over(self, den):
-        """The numerator over the larger denominator den."""
-        return prod((x[0] ** (e - self.den.get(x, 0)) for x, e in den.items()), start=self.num) if den else self.num
-
-    def __add__(self, other, factor=1):
-        den = {x: max(self.den.get(x, 0), other.den.get(x, 0)) for x in {**self.den, **other.den}}
-        return Ratio(self.over(den).plus(other.over(den), factor), den)
-
-    def __sub__(self, other):
-        return self.__add__(other, -1)
-
-    def __neg__(self):
-        return Ratio(-self.num, self.den)
-
-    def __mul__(self, other):
-        return Ratio(self.num * other.num, {x: self.den.get(x, 0) + other.den.get(x, 0) for x in {**self.den, **other.den}})
-
-    def __pow__(self, exponent):
-        return Ratio(self.num**exponent, {x: e * exponent for x, e in self.den.items() if exponent})
-
-
-VARIABLES = [Ratio(Poly({1 << (BITS * i): 1}, 1, 1)) for i in range(MAX_VARIABLES)]
-ARITHMETIC = {ast.Add: Ratio.__add__, ast.Sub: Ratio.__sub__, ast.Mult: Ratio.__mul__}
+VARIABLES = [Poly({1 << (BITS * i): 1}, 1, 1) for i in range(MAX_VARIABLES)]
+ARITHMETIC = {ast.Add: Poly.__add__, ast.Sub: Poly.__sub__, ast.Mult: Poly.__mul__}
 
 
 # ------------------------------------------------------------ text: Python's expression syntax, with ^ and = as in mathematics
@@ -156,15 +154,13 @@ ARITHMETIC = {ast.Add: Ratio.__add__, ast.Sub: Ratio.__sub__, ast.Mult: Ratio.__
 
 def parse(text):
     """The syntax tree of a term or formula: integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,), iff(,)."""
-    if not isinstance(text, str) or len(text) > 1 << 20:
-        raise Rejected("unreadable text", text)
+    require(isinstance(text, str) and len(text) <= 1 << 20, "unreadable text", text)
     return tree(text) if len(text) < 200 else tree.__wrapped__(text)  # what is kept is small
 
 
 @lru_cache(4096)
 def tree(text):
-    if re.search(r"[^\w +\-*/^()<>=!,]|\*\*|//|<<|>>|==|<>|\b\d+[A-Za-z_]", text, re.ASCII):
-        raise Rejected("unreadable text", text)
+    require(not re.search(r"[^\w +\-*/^()<>=!,]|\*\*|//|<<|>>|==|<>|\b\d+[A-Za-z_]", text, re.ASCII), "unreadable text", text)
     try:
         return ast.parse(re.sub(r"(?<![<>!])=", "==", text.replace("^", "**")).strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -185,12 +181,9 @@ def fold(poly, relation):
 
 def join(op, formulas):
     """The conjunction or disjunction, without constants and without joins of the same kind inside."""
-    flat = []
-    for formula in formulas:
-        if formula is (op == "or"):
-            return formula
-        if not isinstance(formula, bool):
-            flat.extend(formula[1] if formula[0] == op else [formula])
+    if any(formula is (op == "or") for formula in formulas):
+        return op == "or"
+    flat = [part for formula in formulas if not isinstance(formula, bool) for part in (formula[1] if formula[0] == op else [formula])]
     spend(20 * len(flat) + 100)
     return op == "and" if not flat else flat[0] if len(flat) == 1 else (op, flat)
 
@@ -202,6 +195,10 @@ def negate(formula):
     if formula[0] == "atom":
         return ("atom", formula[1] if formula[2] in ("=", "!=") else -formula[1], OPPOSITE[formula[2]])
     return join("or" if formula[0] == "and" else "and", [negate(part) for part in formula[1]])
+
+
+def conjuncts(formula):
+    return formula[1] if not isinstance(formula, bool) and formula[0] == "and" else [formula]
 
 
 class Context:
@@ -218,55 +215,47 @@ class Context:
         key = name
         while key in self.index:
             key += "_"
-        if len(self.index) >= MAX_VARIABLES:
-            raise Rejected("too many variables", name)
+        require(len(self.index) < MAX_VARIABLES, "too many variables", name)
         self.define(name, VARIABLES[len(self.index)])
         self.index[key] = len(self.index)
         self.integers |= {key} if integral else set()
 
-    def define(self, name, ratio):
-        if name in self.values or not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
-            raise Rejected("a name is declared twice, or is none", name)
-        self.values[name] = ratio
+    def define(self, name, value):
+        require(name not in self.values and re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII), "a name is declared twice, or is none", name)
+        self.values[name] = value
 
     def license(self, formula):
         """A strict line, at top level or inside a top-level `and`, makes its polynomial nonzero (and tells its sign)."""
-        if isinstance(formula, bool):
-            return
-        if formula[0] == "and":
-            for part in formula[1]:
-                self.license(part)
-        if formula[0] == "atom" and formula[2] in (">", "!="):
-            content, key = formula[1].primitive()
-            mark, positive = frozenset(key.terms.items()), formula[2] == ">"
-            if mark not in self.licensed or positive and not self.licensed[mark][1]:
-                self.licensed[mark] = (key if content > 0 else -key, positive)
+        for part in conjuncts(formula):
+            if not isinstance(part, bool) and part[0] == "atom" and part[2] in (">", "!="):
+                content, key = part[1].primitive()
+                mark, positive = frozenset(key.terms.items()), part[2] == ">"
+                if mark not in self.licensed or positive and not self.licensed[mark][1]:
+                    self.licensed[mark] = (key if content > 0 else -key, positive)
 
     def reciprocal(self, node):
         """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of such."""
-        ratio = self.value(node)
-        upper, constant = Ratio(ONE).over(ratio.den), ratio.num.constant()
-        if constant is not None:
-            if not constant:
-                raise Rejected("division by zero", ast.unparse(node))
-            return Ratio(upper * number(1 / constant))
-        content, key = ratio.num.primitive()
+        value = self.value(node)
+        require(value.terms, "division by zero", lambda: ast.unparse(node))
+        content, key = value.primitive()
         licence = self.licensed.get(frozenset(key.terms.items()))
-        if licence:
-            return Ratio(upper * number(Fraction(ratio.num.den, content if licence[0].terms == key.terms else -content)), {licence: 1})
+        if licence or key.constant():
+            sign = -1 if licence and licence[0].terms != key.terms else 1
+            upper = ONE.numerator(value.under) * number(Fraction(sign * value.den, content))
+            return upper.over({licence: 1} if licence else {})
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
             return self.reciprocal(node.left) * self.reciprocal(node.right)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
             return self.reciprocal(node.left) ** node.right.value
-        raise Rejected("division by what may vanish; no strict line before it makes this nonzero", self.show(ratio.num))
+        raise Rejected("division by what may vanish; no strict line before it makes this nonzero", self.show(value))
 
     def value(self, node):
-        """The value of a term, as a Ratio."""
+        """The value of a term."""
         kind = type(node)
         if kind is ast.Name and node.id in self.values:
             return self.values[node.id]
         if kind is ast.Constant and type(node.value) is int:
-            return Ratio(number(node.value))
+            return number(node.value)
         if kind is ast.UnaryOp and type(node.op) is ast.USub:
             return -self.value(node.operand)
         if kind is ast.BinOp:
@@ -280,16 +269,15 @@ class Context:
         raise Rejected("an undeclared name" if kind is ast.Name else "not a term", ast.unparse(node))
 
     def polynomial(self, text):
-        ratio = self.value(parse(text))
-        if ratio.den:
-            raise Rejected("expected a polynomial", text)
-        return ratio.num
+        value = self.value(parse(text))
+        require(not value.under, "expected a polynomial", text)
+        return value
 
     def atom(self, left, relation, right):
         """left relation right as p > 0, p >= 0, p = 0 or p != 0: the difference times what is positive wherever it is defined."""
-        ratio, relation = (right - left, relation.replace("<", ">")) if "<" in relation else (left - right, relation)
-        signless = (poly for (poly, positive), e in ratio.den.items() if e % 2 and not positive and ">" in relation)
-        return fold(prod(signless, start=ratio.num), relation)
+        value, relation = (right - left, relation.replace("<", ">")) if "<" in relation else (left - right, relation)
+        signless = (poly for (poly, positive), e in value.under.items() if e % 2 and not positive and ">" in relation)
+        return fold(prod(signless, start=value.over({})), relation)
 
     def formula(self, node):
         """The formula with `not` driven down to atoms: ("atom", p, relation), ("and", ..), ("or", ..) or a bool."""
@@ -326,8 +314,7 @@ def variables_of(context, poly):
 
 def univariate(context, poly, name):
     """The coefficients, up to the positive factor that the denominator is."""
-    if variables_of(context, poly) != {name}:
-        raise Rejected(f"expected a polynomial in {name} alone", context.show(poly))
+    require(not poly.under and variables_of(context, poly) == {name}, f"expected a polynomial in {name} alone", lambda: context.show(poly))
     shift = BITS * context.index[name]
     return [poly.terms.get(k << shift, 0) for k in range((max(poly.terms) >> shift) + 1)]
 
@@ -360,10 +347,10 @@ def count_roots(p, low, high):
     chain = [p, [k * c for k, c in enumerate(p)][1:]]
     while chain[-1]:
         chain.append([-c for c in remainder(chain[-2], chain[-1])])
-    signs = [[sign for sign in (sign_at(q, at) for q in chain if q) if sign] for at in (low, high)]
-    if sign_at(p, low) == 0 or sign_at(p, high) == 0:
-        raise Rejected("a polynomial vanishes at an end of the interval")
-    return sum(a != b for a, b in zip(signs[0], signs[0][1:])) - sum(a != b for a, b in zip(signs[1], signs[1][1:]))
+    signs = [[sign_at(q, at) for q in chain[:-1]] for at in (low, high)]
+    require(signs[0][0] and signs[1][0], "a polynomial vanishes at an end of the interval")
+    below, above = ([sign for sign in row if sign] for row in signs)
+    return sum(a != b for a, b in zip(below, below[1:])) - sum(a != b for a, b in zip(above, above[1:]))
 
 
 # ------------------------------------------------------------ states
@@ -382,16 +369,14 @@ class State:
         self.closed = parent.closed if parent else False
 
     def assume(self, formula):
-        if isinstance(formula, bool):
-            self.closed = self.closed or not formula
-        elif formula[0] == "atom":
-            self.facts.append(formula[1:])
-            self.context.license(formula)
-        elif formula[0] == "and":
-            for part in formula[1]:
-                self.assume(part)
-        else:
-            self.choices.append(formula[1])
+        for part in conjuncts(formula):
+            if isinstance(part, bool):
+                self.closed = self.closed or not part
+            elif part[0] == "atom":
+                self.facts.append(part[1:])
+                self.context.license(part)
+            else:
+                self.choices.append(part[1])
         return self
 
     def branch(self, formula=True, variables=None):
@@ -404,16 +389,15 @@ class State:
 
 
 def at(sequence, index):
-    if type(index) is not int or not 0 <= index < len(sequence):
-        raise Rejected("nothing has this number", index)
+    require(type(index) is int and 0 <= index < len(sequence), "nothing has this number", index)
     return sequence[index]
 
 
 def rational(value):
     """An exact rational: an int, or the text p or p/q."""
-    if type(value) is int or isinstance(value, str) and re.fullmatch(r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?", value, re.ASCII):
-        return Fraction(value)
-    raise Rejected("expected an exact rational", value)
+    exact = type(value) is int or isinstance(value, str) and re.fullmatch(r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?", value, re.ASCII)
+    require(exact, "expected an exact rational", value)
+    return Fraction(value)
 
 
 # ------------------------------------------------------------ PROOF RULES: each closes a state, that is, shows that it has no point
@@ -421,8 +405,7 @@ def rational(value):
 
 def close_at_once(state, known):
     """["close"]: the state assumes a false constant, such as 1 < 0."""
-    if not state.closed:
-        raise Rejected("nothing false is assumed", "; ".join(f"{state.context.show(p)} {r} 0" for p, r in state.facts))
+    require(state.closed, "nothing false is assumed", lambda: "; ".join(f"{state.context.show(p)} {r} 0" for p, r in state.facts))
 
 
 def close_by_positivstellensatz(state, known, products, equations):
@@ -436,11 +419,11 @@ def close_by_positivstellensatz(state, known, products, equations):
     for coefficient, factors, root in products:
         square = ONE if root == "1" else state.context.polynomial(root)
         weight, product, positive = rational(coefficient), square * square, bool(square.constant())
-        if weight <= 0:
-            raise Rejected("a coefficient is not positive", coefficient)
+        require(weight > 0, "a coefficient is not positive", coefficient)
         for index, exponent in factors:
             poly, relation = at(state.facts, index)
-            if type(exponent) is not int or not 0 < exponent <= MAX_DEGREE or relation == "=" or relation == "!=" and exponent % 2:
+            signed = relation in (">", ">=") or relation == "!=" and exponent % 2 == 0
+            if type(exponent) is not int or not 0 < exponent <= MAX_DEGREE or not signed:
                 raise Rejected("a factor of unknown sign", f"({state.context.show(poly)} {relation} 0)^{exponent}")
             if (index, exponent) not in powers:
                 powers[index, exponent] = poly**exponent
@@ -448,21 +431,17 @@ def close_by_positivstellensatz(state, known, products, equations):
         total, strict = total.plus(product, weight), strict or positive
     for index, cofactor in equations:
         poly, relation = at(state.facts, index)
-        if relation != "=":
-            raise Rejected("not an equation", state.context.show(poly))
+        require(relation == "=", "not an equation", lambda poly=poly: state.context.show(poly))
         total = total + poly * state.context.polynomial(cofactor)
-    if total.terms:
-        raise Rejected("the certificate's sum is not zero", state.context.show(total))
-    if not strict:
-        raise Rejected("no term of the certificate is strictly positive")
+    require(not total.terms, "the certificate's sum is not zero", lambda: state.context.show(total))
+    require(strict, "no term of the certificate is strictly positive")
 
 
 def close_by_cases(state, known, index, nodes):
     """["cases", k, [node, ...]]: one node for each alternative of the k-th open disjunction."""
     alternatives, rest = at(state.choices, index), state.branch()
     del rest.choices[index]
-    if len(nodes) != len(alternatives):
-        raise Rejected("a disjunction needs one node for each alternative", len(alternatives))
+    require(len(nodes) == len(alternatives), "a disjunction needs one node for each alternative", len(alternatives))
     for alternative, node in zip(alternatives, nodes):
         close(rest.branch(alternative), node, known)
 
@@ -505,8 +484,7 @@ def close_by_use(state, known, name, arguments, fresh, node):
     The instance is the formula (its range, givens and haves => what it shows) for any terms in place of its variables, an integer
     variable standing for an integer one or a numeral; what it says to exist is named by variables that do not yet occur.
     """
-    if name not in known:
-        raise Rejected("no earlier certified statement of this name", name)
+    require(name in known, "no earlier certified statement of this name", name)
     context = Context(state.context)
     values = {variable: state.context.value(parse(text)) for variable, text in arguments.items()}
     for variable, new in sorted(fresh.items()):
@@ -514,16 +492,15 @@ def close_by_use(state, known, name, arguments, fresh, node):
         values[variable] = context.values[new]
     story = Unfolding(known[name], Context(context, values))
     one_value_each(state.context, story, arguments, fresh, story.variables)
-    if set(arguments) != set(story.universal):
-        raise Rejected("only what exists is named afresh", name)
+    require(set(arguments) == set(story.universal), "only what exists is named afresh", name)
     close(state.branch(join("or", [negate(join("and", story.premises)), story.goal(True)]), context), node, known)
 
 
 def one_value_each(context, story, terms, others, needed):
     """Every variable has one value, by a term or otherwise, and every integer variable with a term has an integer one or a numeral."""
     whole = all(terms[n] in context.integers or re.fullmatch(r"-?\d+", terms[n], re.ASCII) for n in story.integers & set(terms))
-    if set(terms) & set(others) or set(terms) | set(others) != set(needed) or not whole:
-        raise Rejected("every variable needs one value, an integer one an integer", sorted(terms))
+    once = not set(terms) & set(others) and set(terms) | set(others) == set(needed)
+    require(once and whole, "every variable needs one value, an integer one an integer", sorted(terms))
 
 
 RULES = {"close": close_at_once, "psatz": close_by_positivstellensatz, "cases": close_by_cases, "sign": close_by_sign,
@@ -532,8 +509,7 @@ RULES = {"close": close_at_once, "psatz": close_by_positivstellensatz, "cases": 
 
 def close(state, node, known):
     """Shows that the state has no point, by the rule that the node names."""
-    if not isinstance(node, list) or not node or not isinstance(node[0], str) or node[0] not in RULES:
-        raise Rejected("an unknown rule", node)
+    require(isinstance(node, list) and node and isinstance(node[0], str) and node[0] in RULES, "an unknown rule", node)
     RULES[node[0]](state, known, *node[1:])
 
 
@@ -549,8 +525,8 @@ def definition(text):
 def call(text):
     """NAME = sqrt(term), or NAME = root(polynomial, low, high): the name and the arguments."""
     name, node = definition(text)
-    if not isinstance(node, ast.Call) or (ast.unparse(node.func), len(node.args)) not in (("sqrt", 1), ("root", 3)) or node.keywords:
-        raise Rejected("expected sqrt(term) or root(polynomial, low, high)", text)
+    known = isinstance(node, ast.Call) and not node.keywords and (ast.unparse(node.func), len(node.args)) in (("sqrt", 1), ("root", 3))
+    require(known, "expected sqrt(term) or root(polynomial, low, high)", text)
     return name, node.args
 
 
@@ -587,20 +563,18 @@ def read_statements(text):
         keyword, _, rest = line.strip().partition(" ")
         try:
             if keyword == "statement":
-                if not re.fullmatch(r"[\w.\-]+/[\w.\-]+", rest, re.ASCII) or rest in statements:
-                    raise Rejected("a statement's name is not ID/part, or stands twice", rest)
+                named = re.fullmatch(r"[\w.\-]+/[\w.\-]+", rest, re.ASCII) and rest not in statements
+                require(named, "a statement's name is not ID/part, or stands twice", rest)
                 current = statements[rest] = Statement(rest)
             elif keyword and not keyword.startswith("#"):
-                if current is None or keyword not in LINES:
-                    raise Rejected("an unknown kind of line, or one before the first statement", line)
+                require(current and keyword in LINES, "an unknown kind of line, or one before the first statement", line)
                 current.lines.append((keyword, LINES[keyword](rest)))
         except (Rejected, ValueError, TypeError, RecursionError, MemoryError) as reason:
             raise Rejected(f"statements, line {count}: {reason}") from None
     for name, statement in statements.items():
         order = "".join(keyword + " " for keyword, _ in statement.lines)
         statement.kind = next((kind for kind, pattern in ORDERS.items() if re.fullmatch(pattern, order)), "")
-        if not statement.kind:
-            raise Rejected("the lines of a statement are missing or out of order", f"{name}: {order}")
+        require(statement.kind, "the lines of a statement are missing or out of order", f"{name}: {order}")
     return statements
 
 
@@ -616,8 +590,8 @@ class Unfolding:
         self.variables, self.universal, self.given = set(), [], set(context.values)
         self.integers = {name for line in statement.get("integer") for name in line}
         quantified = {name for keyword in ("forall", "exists") for line in statement.get(keyword) for name in line}
-        if not self.integers <= quantified or not self.given <= quantified | {said[0] for said in statement.get("root")}:
-            raise Rejected("an integer, or a value, for what is not a variable", statement.name)
+        valued = self.given <= quantified | {said[0] for said in statement.get("root")}
+        require(self.integers <= quantified and valued, "an integer, or a value, for what is not a variable", statement.name)
         for keyword, said in statement.lines:
             if keyword in ("forall", "exists"):
                 for name in said:
@@ -633,19 +607,17 @@ class Unfolding:
             elif keyword == "let":
                 context.define(said[0], context.value(said[1]))
             elif keyword == "root":
-                name, (under,) = said
-                value = context.value(under)
-                self.obligations.append((len(self.premises), context.atom(value, "<", Ratio(ZERO))))
+                name, value = said[0], context.value(said[1][0])
+                self.obligations.append((len(self.premises), context.atom(value, "<", ZERO)))
                 self.variable(name, True)
                 root = context.values[name]
-                self.premises += [context.atom(root, ">=", Ratio(ZERO)), context.atom(root * root, "=", value)]
+                self.premises += [context.atom(root, ">=", ZERO), context.atom(root * root, "=", value)]
             elif keyword in ("with", "show"):
                 self.goals.append(context.formula(said))
                 context.license(self.goals[-1])
 
     def variable(self, name, universal):
-        if name in self.variables:
-            raise Rejected("a variable is declared twice", name)
+        require(name not in self.variables, "a variable is declared twice", name)
         self.variables.add(name)
         self.universal += [name] if universal else []
         if name not in self.given:
@@ -676,8 +648,7 @@ def prove(statement, certificate, known, sharp=None):
     story = Unfolding(statement, Context(), sharp)
     for (count, negation), node in zip(story.obligations, steps, strict=True):
         close(story.state(count).assume(negation), node, known)
-    if way != ("witness" if statement.get("exists") else "proof"):
-        raise Rejected("a statement with exists needs a witness, any other a proof", way)
+    require(way == ("witness" if statement.get("exists") else "proof"), "a statement with exists needs a witness, any other a proof", way)
     if way == "proof":
         close(story.state().assume(story.goal(False)), last, known)
     else:
@@ -700,8 +671,8 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     if found[0] == "empty":
         return close(state, *found[1:], known)
     name, adjoined, terms, node, *rest = found
-    if name not in statements or len(rest) != (purpose == "counterexample"):
-        raise Rejected("a witness of the wrong shape, or for another statement", name)
+    fits = name in statements and len(rest) == (purpose == "counterexample")
+    require(fits, "a witness of the wrong shape, or for another statement", name)
     statement, state = statements[name], state.branch()
     for entry in adjoined:
         adjoin(state, known, *entry)
@@ -715,14 +686,14 @@ def find(state, found, known, purpose, statements, base, sharp=None):
 
 def adjoin(state, known, name, text, low, high, below, above):
     """Adds a variable with p = 0 and low <= it <= high, after showing that low <= high and p(low) <= 0, and that p(high) >= 0."""
-    context, zero, tree = state.context, Ratio(ZERO), parse(text)
+    context, tree = state.context, parse(text)
     ends = [context.value(parse(end)) for end in (low, high)]
     first, second = (Context(context, {**context.values, name: end}).value(tree) for end in ends)
-    close(state.branch(join("or", [context.atom(ends[0], ">", ends[1]), context.atom(first, ">", zero)])), below, known)
-    close(state.branch(context.atom(second, "<", zero)), above, known)
+    close(state.branch(join("or", [context.atom(ends[0], ">", ends[1]), context.atom(first, ">", ZERO)])), below, known)
+    close(state.branch(context.atom(second, "<", ZERO)), above, known)
     context.declare(name)
     root = context.values[name]
-    for left, relation, right in ((root, ">=", ends[0]), (root, "<=", ends[1]), (context.value(tree), "=", zero)):
+    for left, relation, right in ((root, ">=", ends[0]), (root, "<=", ends[1]), (context.value(tree), "=", ZERO)):
         state.assume(context.atom(left, relation, right))
 
 
@@ -735,23 +706,22 @@ def check_sharp(statement, certificate, known, statements):
     """
     (names,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
     inside, outside, sample = certificate
-    if not names or set(inside) != set(names) or not all(n in statements and statements[n].kind == "universal" for n in names):
-        raise Rejected("a sharp range proves each of its earlier statements", names)
-    whole = [{p for p in over if any(p in line for line in statements[name].get("integer"))} for name in names]
-    context = Context()
+    ours = names and set(inside) == set(names) and all(n in statements and statements[n].kind == "universal" for n in names)
+    require(ours, "a sharp range proves each of its earlier statements", names)
+    whole, *others = [{p for p in over if any(p in line for line in statements[name].get("integer"))} for name in names]
+    alike = all(other == whole for other in others)
+    context, values = Context(), {name: number(rational(value)) for name, value in sample.items()}
     for parameter in over:
-        context.declare(parameter, parameter in whole[0])
+        context.declare(parameter, parameter in whole)
+    require(alike, "a parameter is an integer in one statement of a sharp range and not in another", names)
     state = State(context)
-    if any(other != whole[0] for other in whole):
-        raise Rejected("a parameter is an integer in one statement of a sharp range and not in another", names)
-    values = {name: Ratio(number(rational(value))) for name, value in sample.items()}
-    if set(sample) != set(over) or any(rational(sample[p]).denominator > 1 for p in whole[0]) or Context(None, values).formula(domain) is not True:
-        raise Rejected("the sample is not in the domain of a sharp range", sample)
+    met = set(values) == set(over) and all(values[p].den == 1 for p in whole) and Context(None, values).formula(domain) is True
+    require(met, "the sample is not in the domain of a sharp range", sample)
     for name, (tree, *ends) in statement.get("number"):
-        poly, low, high = state.context.value(tree).num, *(state.context.value(end).num.constant() for end in ends)
+        poly, low, high = state.context.value(tree), *(state.context.value(end).constant() for end in ends)
         p = univariate(state.context, poly, *variables_of(state.context, poly))
-        if low >= high or count_roots(p, low, high) != 1 or sign_at(p, low) == sign_at(p, high):
-            raise Rejected("not one root, with a change of sign, between the ends of a number", name)
+        once = low < high and count_roots(p, low, high) == 1 and sign_at(p, low) != sign_at(p, high)
+        require(once, "not one root, with a change of sign, between the ends of a number", name)
     for name in names:
         prove(statements[name], inside[name], known, [domain, condition])
     state.assume(state.context.formula(domain))
@@ -764,9 +734,9 @@ def check_iterates(statement, certificate, known, statements):
     """The K-th iterate of the map, for every integer K >= 0: P(0) is the identity and map(P(K)) = P(K + 1), as identities.  []"""
     (variables,), (integers,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "integer", "iterates", "after"))
-    if certificate != [] or arguments != variables[:len(arguments)] or not 0 < len(arguments) == len(images) == len(powers) or (
-            count != integers or not set(count) <= set(variables[len(arguments):])):
-        raise Rejected("a map names its variables first, an image for each, and one integer apart", statement.name)
+    shaped = certificate == [] and arguments == variables[:len(arguments)] and 0 < len(arguments) == len(images) == len(powers)
+    apart = count == integers and set(count) <= set(variables[len(arguments):])
+    require(shaped and apart, "a map names its variables first, an image for each, and one integer apart", statement.name)
     context = Context()
     for name in variables:
         context.declare(name)
@@ -778,13 +748,12 @@ def check_iterates(statement, certificate, known, statements):
             inner.define(name, inner.value(tree))
         return [inner.value(tree) for tree in trees]
 
-    if any(k in variables_of(context, ratio.num) for ratio in image(images, {})):
-        raise Rejected("a map that is iterated cannot depend on the number of iterations", statement.name)
-    pairs = [*zip(image(powers, {k: Ratio(ZERO)}), (plain[name] for name in arguments)),
+    still = not any(k in variables_of(context, value) for value in image(images, {}))
+    require(still, "a map that is iterated cannot depend on the number of iterations", statement.name)
+    pairs = [*zip(image(powers, {k: ZERO}), (plain[name] for name in arguments)),
              *zip(image(images, dict(zip(arguments, image(powers, {})))), image(powers, {k: context.value(parse(k + " + 1"))}))]
     for left, right in pairs:
-        if (left - right).num.terms:
-            raise Rejected("an iterate does not satisfy its recurrence", statement.name)
+        require(not (left - right).terms, "an iterate does not satisfy its recurrence", statement.name)
 
 
 def settle(statement, certificate, known, statements):
@@ -799,8 +768,8 @@ def settle(statement, certificate, known, statements):
     if statement.kind == "universal" and kind == ["refuted"]:
         find(start, certificate["refuted"], known, "counterexample", named, {})
         return "refuted"
-    if kind != (["certified", "point"] if statement.kind == "universal" else ["certified"]):
-        raise Rejected("a certificate with missing or left over keys", kind)
+    wanted = ["certified", "point"] if statement.kind == "universal" else ["certified"]
+    require(kind == wanted, "a certificate with missing or left over keys", kind)
     if statement.kind == "universal":
         prove(statement, certificate["certified"], known)
         find(start, certificate["point"], known, "point", named, {})
@@ -813,8 +782,7 @@ def settle(statement, certificate, known, statements):
 
 
 def unique(pairs):
-    if len(dict(pairs)) != len(pairs):
-        raise Rejected("a key stands twice", sorted(key for key, _ in pairs))
+    require(len(dict(pairs)) == len(pairs), "a key stands twice", lambda: sorted(key for key, _ in pairs))
     return dict(pairs)
 
 
@@ -826,11 +794,11 @@ def load(path):
     try:
         with open(path, encoding="ascii") as file:
             text = file.read(MAX_FILE + 1)
-        if len(text) > MAX_FILE or re.search(r"[^\x20-\x7e\n]", text):
-            raise Rejected("a file is too large, or holds other characters than printable ASCII", path)
-        return text
     except (OSError, UnicodeDecodeError) as error:
         raise Rejected("a file cannot be read", f"{path} ({type(error).__name__})") from None
+    fits = len(text) <= MAX_FILE and not re.search(r"[^\x20-\x7e\n]", text)
+    require(fits, "a file is too large, or holds other characters than printable ASCII", path)
+    return text
 
 
 def read_certificates(text):
@@ -838,8 +806,7 @@ def read_certificates(text):
         data = json.loads(text, object_pairs_hook=unique, parse_float=refuse, parse_constant=refuse)
     except (ValueError, RecursionError) as error:
         raise Rejected("not a certificate file", error) from None
-    if not isinstance(data, dict):
-        raise Rejected("not a certificate file")
+    require(isinstance(data, dict), "not a certificate file")
     return data
 
 

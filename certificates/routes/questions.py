@@ -152,7 +152,7 @@ def _iterate_questions(statement: Any) -> list[Question]:
             inner.define(name, inner.value(tree))
         return [inner.value(tree) for tree in trees]
 
-    pairs = [*zip(image(powers, {k: TRUSTED.Ratio(TRUSTED.ZERO)}), (plain[name] for name in arguments)),
+    pairs = [*zip(image(powers, {k: TRUSTED.ZERO}), (plain[name] for name in arguments)),
              *zip(image(images, dict(zip(arguments, image(powers, {})))), image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}))]
     fails = join("or", [formula_of(context.atom(left, "!=", right), names, names) for left, right in pairs])
     # the identities hold for all real K where they hold for all integers, so no variable need be an integer here

@@ -113,7 +113,7 @@ class Wanted:
 
     statement: checker.Statement
     purpose: str
-    base: dict[str, checker.Ratio]
+    base: dict[str, checker.Poly]
     sharp: list[Any] | None
     normal: Normal
 
@@ -225,7 +225,7 @@ def _adjoined_inverse(state: checker.State, name: str, factor: fmpq_mpoly, renam
 
 def _entry(state: checker.State, name: str, text: str, low: str, high: str, known: Known, budget: Budget, effort: int) -> Node | None:
     """The adjoined entry with its nodes; the state then has the new variable."""
-    context, zero, tree = state.context, checker.Ratio(checker.ZERO), checker.parse(text)
+    context, zero, tree = state.context, checker.ZERO, checker.parse(text)
     ends = [context.value(checker.parse(end)) for end in (low, high)]
     first, second = (checker.Context(context, {**context.values, name: end}).value(tree) for end in ends)
     wrong = checker.join("or", [context.atom(ends[0], ">", ends[1]), context.atom(first, ">", zero)])

@@ -40,7 +40,7 @@ def search_points(statement: checker.Statement, known: Known, budget: Budget, ef
     return search_found(statement, state, "point", {}, known, budget, effort=effort), None
 
 
-def search_found(statement: checker.Statement, state: checker.State, purpose: str, base: dict[str, checker.Ratio], known: Known,
+def search_found(statement: checker.Statement, state: checker.State, purpose: str, base: dict[str, checker.Poly], known: Known,
                  budget: Budget, sharp: list[Any] | None = None, effort: int = 1) -> Found | None:
     """Values as `checker.find` takes them for the purpose "point", "counterexample" or "witness"; None where none was found."""
     if base:

@@ -24,7 +24,7 @@ class Task:
 
     statement: checker.Statement
     purpose: str
-    base: dict[str, checker.Ratio]
+    base: dict[str, checker.Poly]
     known: Known
     budget: Budget
     sharp: list[Any] | None = None
@@ -49,7 +49,7 @@ def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str]
     keys = {}
     order = [n for line in (*task.statement.get("forall"), *task.statement.get("exists")) for n in line]
     for name in sorted(needed - set(task.base), key=lambda n: (n not in ("r", "g"), order.index(n) if n in order else len(order))):
-        (monomial,) = story.context.values[name].num.terms
+        (monomial,) = story.context.values[name].terms
         keys[name] = by_place[(monomial.bit_length() - 1) // checker.BITS]
     integers = frozenset(keys[n] for n in story.integers if n in keys) | frozenset(state.context.integers)
     return Condition.of(story.context, formula, ring_of(story.context, *SPARE)).cleared(), keys, integers
