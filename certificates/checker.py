@@ -484,7 +484,7 @@ def close_by_use(state, known, name, arguments, fresh, node):
     The instance is the formula (its range, givens and haves => what it shows) for any terms in place of its variables, an integer
     variable standing for an integer one or a numeral; what it says to exist is named by variables that do not yet occur.
     """
-    require(name in known, "no earlier certified statement of this name", name)
+    require(name in known and known[name].kind == "universal", "no earlier certified statement of this name", name)
     context = Context(state.context)
     values = {variable: state.context.value(parse(text)) for variable, text in arguments.items()}
     for variable, new in sorted(fresh.items()):
@@ -536,24 +536,54 @@ def mapping(text):
     return [ast.unparse(name) for name in names], terms
 
 
+def formula_text(text):
+    """A formula or a term, kept as text; read once by itself, so that it stays one thing inside of parentheses."""
+    parse(text)
+    return text
+
+
+def terms_text(text):
+    return [formula_text(part.strip()) for part in text.split(",")]
+
+
+def piece(text):
+    """GUARD -> TERMS: where the guard holds, the terms are the next state."""
+    guard, images = text.split(" -> ")
+    return formula_text(guard), terms_text(images)
+
+
 LINES = {  # how what follows each keyword is read
     "forall": str.split, "integer": str.split, "exists": str.split, "over": str.split, "sharp": str.split, "let": definition,
     "root": call, "number": call, "range": parse, "given": parse, "have": parse, "with": parse, "show": parse, "domain": parse,
-    "holds": parse, "iterates": mapping, "after": mapping}
+    "holds": parse, "iterates": mapping, "after": mapping, "state": str.split, "piece": piece, "word": lambda text: [int(k) for k in text.split()],
+    **dict.fromkeys(("map", "descent", "contraction", "attraction", "escape"), str),
+    **dict.fromkeys(("space", "rank", "stage", "on", "rate", "radius", "size"), formula_text),
+    **dict.fromkeys(("point", "weights", "start"), terms_text)}
 ORDERS = {  # the lines that each kind of statement has, in this order, so that none can be overlooked
     "universal": r"(forall )?(integer )?((range|given|have|let|root) )*(exists ((with|let) )*)?show ",
     "sharp": r"sharp over domain (number )*holds ",
-    "iterates": r"forall integer (let )*iterates after "}
+    "iterates": r"forall integer (let )*iterates after ",
+    "map": r"over domain state space (piece )+",
+    "descends": r"map domain (root )*rank (stage )+",
+    "contracts": r"map domain (root )*on point weights rate radius size ",
+    "attracts": r"descent contraction ",
+    "escapes": r"map domain (root )*point start word ",
+    "exactly": r"attraction escape "}
 
 
 class Statement:
     """One statement as text: its name, its lines in order as (keyword, what it says), and its kind, which their order tells."""
 
     def __init__(self, name):
-        self.name, self.lines, self.kind = name, [], ""
+        self.name, self.lines, self.texts, self.kind = name, [], [], ""
 
     def get(self, keyword):
         return [said for key, said in self.lines if key == keyword]
+
+    def text(self, keyword=""):
+        """The text of the first line of this keyword, or of the whole statement."""
+        rows = [(key, text) for (key, _), text in zip(self.lines, self.texts)]
+        return next(text for key, text in rows if key == keyword) if keyword else "\n".join(" ".join(row) for row in [("statement", self.name), *rows])
 
 
 def read_statements(text):
@@ -569,6 +599,7 @@ def read_statements(text):
             elif keyword and not keyword.startswith("#"):
                 require(current and keyword in LINES, "an unknown kind of line, or one before the first statement", line)
                 current.lines.append((keyword, LINES[keyword](rest)))
+                current.texts.append(rest)
         except (Rejected, ValueError, TypeError, RecursionError, MemoryError) as reason:
             raise Rejected(f"statements, line {count}: {reason}") from None
     for name, statement in statements.items():
@@ -756,6 +787,199 @@ def check_iterates(statement, certificate, known, statements):
         require(not (left - right).terms, "an iterate does not satisfy its recurrence", statement.name)
 
 
+# ------------------------------------------------------------ MAP RULES: what holds of every orbit, from premises that this file writes
+
+
+def marked(text, names, mark):
+    """The text with a mark at each of these names: the same term or formula at another state."""
+    return re.sub(r"[A-Za-z]\w*", lambda found: found[0] + mark * (found[0] in names), text)
+
+
+class Orbits:
+    """A map with the lines of a statement about it, from which the text of the premises is written."""
+
+    def __init__(self, statement, known):
+        name = statement.name if statement.kind == "map" else statement.text("map")
+        self.map, self.own = statement if statement.kind == "map" else earlier_of("map", name, known), statement
+        (self.parameters,), (self.state,), (self.space,) = (self.map.get(keyword) for keyword in ("over", "state", "space"))
+        self.domain, self.pieces = statement.text("domain"), self.map.get("piece")
+        self.moving, self.roots, self.fixed = set(self.state), [], []
+        for line, (keyword, said) in zip(statement.texts, statement.lines):
+            if keyword == "root":
+                moves = self.moving & set(re.findall(r"[A-Za-z]\w*", line.partition(" = ")[2]))
+                self.moving |= {said[0]} if moves else set()
+                (self.roots if moves else self.fixed).append("root " + line)
+        declared = {*self.parameters, *self.state, "and", "or", "not", "implies", "iff"}
+        if any(len(images) != len(self.state) or set(re.findall(r"[A-Za-z_]\w*", " ".join([guard, *images]))) - declared for guard, images in self.pieces):
+            raise Rejected("a piece gives one term in parameters and state for each state variable", name)
+
+    def next(self, text):
+        return marked(text, self.moving, "_next")
+
+    def for_all(self, *rows, extra="", domain=None):
+        """Text: for all parameters in the domain, with the roots of parameters."""
+        return [f"forall {' '.join(self.parameters)}{extra}", f"range {domain or self.domain}", *self.fixed, *rows]
+
+    def at(self, *rows, extra=""):
+        """Text: for all parameters in the domain and all states of the space."""
+        return self.for_all(f"given {self.space}", *self.roots, *rows, extra="".join(" " + name for name in self.state) + extra)
+
+    def step(self, k):
+        """Text: the k-th piece applies, and gives the next state."""
+        guard, images = self.pieces[k]
+        return [f"given {guard}", *(f"let {name}_next = {image}" for name, image in zip(self.state, images))]
+
+    def stepped(self, k, *rows, show, extra=""):
+        """Text: at a state to which the k-th piece applies, something is shown of the next state, which is in the space by the map's premises."""
+        return self.at(*rows, *self.step(k), "given " + self.next(self.space), *map(self.next, self.roots), "show " + show, extra=extra)
+
+    def own_terms(self, keyword):
+        (terms,) = self.own.get(keyword)
+        if len(terms) != len(self.state):
+            raise Rejected("one term for each state variable is expected", self.own.name)
+        return terms
+
+    def domains(self):
+        """The premises that the domain is not empty, and is part of the map's."""
+        inside = {} if self.own is self.map else {"inside": self.for_all("show " + self.map.text("domain"))}
+        return {"possible": [f"exists {' '.join(self.parameters)}", "show " + self.domain], **inside}
+
+
+def earlier_of(kind, name, known):
+    if name not in known or known[name].kind != kind:
+        raise Rejected(f"no earlier certified statement of kind {kind} has this name", name)
+    return known[name]
+
+
+def premises_of_map(statement, known):
+    """A map f of the space into itself: for all parameters in the domain, each state of the space has exactly one piece whose guard
+    holds, f(state) is given by that piece, and f(state) is in the space.
+    """
+    f = Orbits(statement, known)
+    pieces = list(enumerate(guard for guard, _ in f.pieces))
+    return {**f.domains(), "covers": f.at("show " + " or ".join(f"({guard})" for _, guard in pieces)),
+            **{f"apart-{i + 1}-{k + 1}": f.at(f"given {one}", f"given {other}", "show 0 = 1") for i, one in pieces for k, other in pieces[:i]},
+            **{f"stays-{k + 1}": f.at(*f.step(k), "show " + f.next(f.space)) for k, _ in pieces}}
+
+
+def premises_of_descent(statement, known):
+    """Descent of a rank to a trap: stages A_1, .., A_m.  For all parameters in the domain and all states s of the space,
+    f^N(s) is in A_m for every integer N >= rank(s) + m - 1.
+
+    Premises: rank >= 0; outside of all stages rank(f(s)) <= rank(s) - 1; f takes A_k into A_(k+1), and A_m into itself.
+    So the first visit to a stage is after at most rank(s) steps, and m - 1 more steps, or fewer, lead to A_m.
+    """
+    f, (rank,), stages = Orbits(statement, known), statement.get("rank"), statement.get("stage")
+    outside = "given not (" + " or ".join(f"({stage})" for stage in stages) + ")"
+    premises = {**f.domains(), "bounded": f.at(f"show ({rank}) >= 0")}
+    for k in range(len(f.pieces)):
+        premises[f"falls-{k + 1}"] = f.stepped(k, outside, show=f"({f.next(rank)}) <= ({rank}) - 1")
+        for i, (stage, after) in enumerate(zip(stages, [*stages[1:], stages[-1]])):
+            premises[f"stage-{i + 1}-{k + 1}"] = f.stepped(k, f"given {stage}", show=f.next(after))
+    return premises
+
+
+def premises_of_contraction(statement, known):
+    """Contraction in a weighted sup norm, |s - e| = max |s_j - e_j| / weight_j, e the point.  For all parameters in the domain: f(e) = e;
+    for all states s of the space in the set `on` and all integers n >= 0, f^n(s) is in it and |f^n(s) - e| <= rate^n |s - e| <= rate^n size;
+    and all states of the space with |s - e| <= radius are in it.  So e is stable, and attracts the set.
+
+    Premises: 0 <= rate < 1, weights > 0, radius > 0, size > 0; e is in the space; `on` holds where |s - e| <= radius, is taken into itself, and has
+    |s - e| <= size; and on it |s - e| <= distance implies |f(s) - e| <= rate distance, for every distance >= 0.
+    """
+    f, (on,), (rate,), (radius,), (size,) = Orbits(statement, known), *(statement.get(key) for key in ("on", "rate", "radius", "size"))
+    point, weights = f.own_terms("point"), f.own_terms("weights")
+
+    def within(distance, names=f.state):
+        return " and ".join(f"-({distance})*({weight}) <= {name} - ({e}) and {name} - ({e}) <= ({distance})*({weight})"
+                            for name, e, weight in zip(names, point, weights))
+
+    after = [f.next(name) for name in f.state]
+    premises = {
+        **f.domains(),
+        "constants": f.for_all("show " + " and ".join(f"({c}) > 0" for c in [*weights, radius, size]) + f" and ({rate}) >= 0 and ({rate}) < 1"),
+        "point": f.for_all(*(f"let {name}_next = {e}" for name, e in zip(f.state, point)), "show " + marked(f.space, f.state, "_next")),
+        "surrounds": f.at("given " + within(radius), "show " + on),
+        "size": f.at("given " + on, "show " + within(size))}
+    for k in range(len(f.pieces)):
+        premises[f"stays-{k + 1}"] = f.stepped(k, "given " + on, show=f.next(on))
+        premises[f"closer-{k + 1}"] = f.stepped(
+            k, "given " + on, "given distance >= 0", "given " + within("distance"), show=within(f"({rate})*distance", after), extra=" distance")
+    return premises
+
+
+def premises_of_attraction(statement, known):
+    """A descent whose last stage lies in the set of a contraction of the same map.  For all parameters in the descent's domain, the point is
+    stable, f^n(s) tends to it for all states s of the space, and |f^(N+k)(s) - e| <= rate^k size for all integers N >= rank(s) + m - 1, k >= 0.
+    """
+    (descent,), (contraction,) = statement.get("descent"), statement.get("contraction")
+    descent, contraction = earlier_of("descends", descent, known), earlier_of("contracts", contraction, known)
+    f, other = same_map(descent, contraction, known)
+    roots = [root for root in other.fixed + other.roots if root not in f.fixed + f.roots]
+    return {"inside": f.for_all("show " + other.domain),
+            "enters": f.at(*roots, f"given {descent.get('stage')[-1]}", f"show {contraction.get('on')[0]}")}
+
+
+def premises_of_escape(statement, known):
+    """A periodic orbit: for all parameters in the domain the start is in the space, f^n(start) = start for the length n of the word of pieces,
+    and start is not the point; so the orbit of the start does not tend to the point.
+    """
+    f, (word,) = Orbits(statement, known), statement.get("word")
+    here, rows, guards = f.own_terms("start"), [f"let {name}_point = {e}" for name, e in zip(f.state, f.own_terms("point"))], []
+    if not word:
+        raise Rejected("a periodic orbit has at least one step", statement.name)
+    for count, k in enumerate(word):
+        guard, images = at(f.pieces, k - 1)
+        rows += [f"let {name}_{count} = {term}" for name, term in zip(f.state, here)]
+        guards.append(marked(guard, f.state, f"_{count}"))
+        here = [marked(image, f.state, f"_{count}") for image in images]
+    shown = [marked(f.space, f.state, "_0"), *guards, *(f"{name}_0 = ({last})" for name, last in zip(f.state, here)),
+             " or ".join(f"{name}_0 != {name}_point" for name in f.state)]
+    return {**f.domains(), "start": f.for_all(*rows, "show " + " and ".join(f"({one})" for one in shown))}
+
+
+def premises_of_sharpness(statement, known):
+    """An attraction and an escape, from the same point of the same map, on domains that make up the map's.  For all parameters in the map's
+    domain: the point is stable and attracts every state of the space <=> the parameters are in the domain of the attraction's descent.
+    """
+    (attraction,), (escape,) = statement.get("attraction"), statement.get("escape")
+    attraction, escape = earlier_of("attracts", attraction, known), earlier_of("escapes", escape, known)
+    f, other = same_map(known[attraction.get("descent")[0]], escape, known)
+    _, inner = same_map(escape, known[attraction.get("contraction")[0]], known)
+    roots = [root for root in inner.fixed if root not in other.fixed]
+    same = " and ".join(f"({one}) = ({two})" for one, two in zip(inner.own_terms("point"), other.own_terms("point")))
+    return {"covers": [f"forall {' '.join(f.parameters)}", f"range {f.map.text('domain')}", f"show ({f.domain}) or ({other.domain})"],
+            "same-point": other.for_all(*roots, "show " + same)}
+
+
+def same_map(one, two, known):
+    if one.text("map") != two.text("map"):
+        raise Rejected("two statements about different maps are joined", f"{one.name}, {two.name}")
+    return Orbits(one, known), Orbits(two, known)
+
+
+MAP_RULES = {"map": premises_of_map, "descends": premises_of_descent, "contracts": premises_of_contraction,
+             "attracts": premises_of_attraction, "escapes": premises_of_escape, "exactly": premises_of_sharpness}
+
+
+def premises_of(statement, known):
+    """The premises of a map rule, as statements that a certificate has to prove: {name: statement}."""
+    texts = MAP_RULES[statement.kind](statement, known).items()
+    return {name: read_statements("\n".join([f"statement {statement.name}.{name}", *rows]))[f"{statement.name}.{name}"] for name, rows in texts}
+
+
+def check_map_rule(statement, certificate, known, statements):
+    """{premise: prove}: each of the premises that the rule asks for is proved, and there is no other."""
+    premises = premises_of(statement, known)
+    if set(certificate) != set(premises):
+        raise Rejected("the premises of a rule are missing or left over", sorted(set(certificate) ^ set(premises)))
+    for name, premise in premises.items():
+        try:
+            prove(premise, certificate[name], known)
+        except Rejected as reason:
+            raise Rejected(f"premise {name} of {statement.name}: {reason}") from None
+
+
 def settle(statement, certificate, known, statements):
     """The outcome: {"unknown": why}, {"refuted": found}, {"certified": proof} or, for all but sharp and iterates, {.., "point": found}.
 
@@ -774,7 +998,8 @@ def settle(statement, certificate, known, statements):
         prove(statement, certificate["certified"], known)
         find(start, certificate["point"], known, "point", named, {})
     else:
-        {"sharp": check_sharp, "iterates": check_iterates}[statement.kind](statement, certificate["certified"], known, statements)
+        rule = {"sharp": check_sharp, "iterates": check_iterates}.get(statement.kind, check_map_rule)
+        rule(statement, certificate["certified"], known, statements)
     return "certified"
 
 
@@ -835,7 +1060,7 @@ def check_folder(folder):
         outcome, reason = check_one(statement, certificate, known, earlier)
         results.append((name, outcome, reason if certificate else "no certificate"))
         earlier[name] = statement
-        if outcome == "certified" and statement.kind == "universal":
+        if outcome == "certified":
             known[name] = statement
     left = [name for rest in files.values() for name in rest]
     left += sorted(f for f in os.listdir(folder) if f.endswith(".json") and f[:-5] not in files)

@@ -100,7 +100,28 @@ class Iterates:
             f"iterates {tuple_of(self.state)} -> {tuple_of(self.images)}", f"after {self.count} -> {tuple_of(self.powers)}"])
 
 
-AnyStatement = Union[Statement, SharpRange, Iterates]
+@dataclass(frozen=True)
+class MapRule:
+    """What holds of every orbit of a map, by a rule of the checker that writes its own premises: the lines as (keyword, text).
+
+    >>> print(MapRule("demo/halves", (("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))).text())
+    statement demo/halves
+    over a
+    domain a > 0
+    state x
+    space x >= 0
+    piece x >= 0 -> x/2
+    """
+
+    name: str
+    rows: tuple[tuple[str, str], ...]
+
+    def text(self) -> str:
+        """The statement as the checker reads it."""
+        return "\n".join([f"statement {self.name}", *(f"{keyword} {said}" for keyword, said in self.rows)])
+
+
+AnyStatement = Union[Statement, SharpRange, Iterates, MapRule]
 
 
 def _line(line: Line) -> str:

@@ -1,7 +1,7 @@
 """Claims: an assertion with its place and print, and the formal reading that is judged.
 
 A claim is a function from its parsed print to statements.  What it returns is an assertion (all its statements hold), readings
-(a sentence that can be read in several ways), an argument (steps and a conclusion), or a limit that awaits a theorem.
+(a sentence that can be read in several ways), an argument (steps and a conclusion), or what follows from map rules.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Union
 
-from certificates.statements import AnyStatement, Iterates, SharpRange, Statement
+from certificates.statements import AnyStatement, Iterates, MapRule, SharpRange, Statement
 from certificates.terms import ClaimError, Formula
 
 
@@ -33,22 +33,29 @@ class Readings:
 
 @dataclass(frozen=True)
 class Argument:
-    """Steps, each with its label, that are said to give the conclusion; `rescue` names the claim by which it stands if a step fails."""
+    """Steps, each with its label, that are said to give the conclusion.
+
+    If a step fails, the conclusion stands by its own certificate, by the claim `rescue`, or by the map rules that it `rests_on`.
+    """
 
     steps: Mapping[str, Assertion]
     conclusion: Assertion | None = None
     rescue: str = ""
+    rests_on: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
-class Awaiting:
-    """A limit or a stability statement that needs a theorem which is not there yet; what can be said before it is asserted."""
+class Following:
+    """A limit or a stability statement that is the conclusion of map rules, named by their statements, together with what is asserted beside.
 
-    theorem: str
-    meanwhile: Assertion | None = None
+    The last rule named is the one whose conclusion the sentence is: where its domain ends, the sentence's range ends.
+    """
+
+    rests_on: tuple[str, ...]
+    beside: Assertion | None = None
 
 
-Body = Union[Assertion, Readings, Argument, Awaiting]
+Body = Union[Assertion, Readings, Argument, Following]
 
 
 @dataclass(frozen=True)
@@ -98,9 +105,9 @@ class Claim:
 
 def as_body(returned: Any, claim_id: str) -> Body:
     """What a claim function returned, as a body."""
-    if isinstance(returned, (Assertion, Readings, Argument, Awaiting)):
+    if isinstance(returned, (Assertion, Readings, Argument, Following)):
         return returned
-    if isinstance(returned, (Statement, Iterates)):
+    if isinstance(returned, (Statement, Iterates, MapRule)):
         return Assertion((returned,))
     if isinstance(returned, Iterable) and not isinstance(returned, (str, Formula)):
         parts: list[AnyStatement] = []
@@ -109,7 +116,7 @@ def as_body(returned: Any, claim_id: str) -> Body:
             parts += [body] if isinstance(body, Statement) else body.parts if isinstance(body, Assertion) else []
         if parts:
             return Assertion(tuple(parts))
-    raise ClaimError(f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such, Readings, Argument or Awaiting")
+    raise ClaimError(f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such, Readings, Argument or Following")
 
 
 def assertions(body: Body) -> list[tuple[str, Assertion]]:
@@ -118,8 +125,8 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
         return [("", body)]
     if isinstance(body, Readings):
         return [(f"{name}.", assertion) for name, assertion in body.of.items()]
-    if isinstance(body, Awaiting):
-        return [("meanwhile.", body.meanwhile)] if body.meanwhile else []
+    if isinstance(body, Following):
+        return [("beside.", body.beside)] if body.beside else []
     steps = [(f"{name}.", assertion) for name, assertion in body.steps.items()]
     return steps + ([("conclusion.", body.conclusion)] if body.conclusion else [])
 

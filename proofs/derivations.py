@@ -8,7 +8,7 @@ from proofs.claims import Body, Claim
 
 def body_and_derivations(claim: Claim) -> tuple[Body, list[str]]:
     """What the claim asserts, and a line for each derivation used: the constants that its print names, then what its reading asks for."""
-    if not claim.source.startswith("proofs.paper."):
+    if not claim.source.startswith(("proofs.paper.", "proofs.theorem.")):
         return claim.body(), []
     from proofs.paper import vocabulary
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 from certificates import checker
 from certificates.routes.votes import Vote, cast_votes, compare
 from certificates.search.budget import Budget, Exhausted
-from certificates.statements import AnyStatement, Iterates, SharpRange, Statement
+from certificates.statements import AnyStatement, Iterates, MapRule, SharpRange, Statement
 from certificates.store import Store
 from certificates.terms import ClaimError
-from proofs.claims import Assertion, Body, Claim, Readings, as_body, assertions, named_statements
+from proofs.claims import Argument, Assertion, Body, Claim, Following, Readings, as_body, assertions, named_statements
 from proofs.derivations import body_and_derivations
+from proofs.following import range_of_rule
 from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing, speaks_of_range
 from proofs.records import record_of
 from proofs.verdicts import Verdict, outcome_of, verdict_of
@@ -60,6 +61,9 @@ class Judgement:
     correction: dict[str, Any] | None = None
     corrected_as: dict[str, Any] | None = None
     recorded: dict[str, Any] = field(default_factory=dict)
+    rests_on: tuple[str, ...] = ()  # map rules, as a rule of other claims
+    by_rules: Verdict = field(default_factory=lambda: Verdict("unknown"))  # the verdict if they are certified
+    follows: bool = False
     reused: int = 0
     record: Any = None
 
@@ -99,7 +103,7 @@ class Judge:
 
     def run(self) -> Judgement:
         claim, found = self.claim, self.found
-        for name in claim.hints.get("uses", ()):
+        for name in (name for name in claim.hints.get("uses", ()) if name.split("/")[0] != claim.id):
             self.known[name] = read(self.options.lemmas[name], name)
         body = self.body()
         for prefix, assertion in assertions(body):
@@ -108,8 +112,12 @@ class Judge:
         if found.verdict.word == "false" and (claim.printed or claim.nearby) and isinstance(body, (Assertion, Readings)):
             self.correct()
             found.verdict = verdict_of(claim.id, body, found.outcomes, corrected=found.correction is not None)
+        if isinstance(body, (Following, Argument)):
+            found.rests_on, found.follows = body.rests_on, isinstance(body, Following)
+            found.by_rules = verdict_of(claim.id, body, {**found.outcomes, **dict.fromkeys(body.rests_on, "certified")})
         for prefix, assertion in assertions(body):
-            self.find_sharp_range(prefix, assertion)
+            if not found.follows:  # what stands beside a conclusion of map rules has no range of its own
+                self.find_sharp_range(prefix, assertion)
         self.record(body)
         return found
 
@@ -142,6 +150,12 @@ class Judge:
         self.keep(name, text, certificate, outcome)
         if isinstance(statement, Statement):
             self.found.votes[name] = self.votes(name, text, outcome)
+        if isinstance(statement, MapRule) and outcome == "certified":
+            self.known[name] = read(text, name)
+            for premise in checker.premises_of(self.known[name], self.known).values():
+                self.found.votes[premise.name] = self.votes(premise.name, premise.text(), outcome)
+        elif outcome == "certified" and name in self.claim.hints.get("uses", ()):
+            self.known[name] = read(text, name)
         return outcome
 
     def stored_outcome(self, name: str, text: str, certificate: Any) -> str:
@@ -172,6 +186,10 @@ class Judge:
     def search(self, statement: AnyStatement, parsed: checker.Statement) -> Any:
         if isinstance(statement, Iterates):
             return {"certified": []}
+        if isinstance(statement, MapRule):
+            from certificates.search.map_rules import search_map_rule
+
+            return search_map_rule(parsed, self.known, self.options.budget, self.claim.hints.get("premises"))
         from certificates.search.certificate import search_certificate
 
         try:
@@ -273,6 +291,11 @@ class Judge:
 
         Statements that are certified with the whole range 0 < alpha < 1 hold on all of it: the others decide.
         """
+        rules = [part.name for part in named_statements(self.claim.id, prefix, assertion) if isinstance(part, MapRule)]
+        if rules:
+            if self.found.outcomes[rules[-1]] == "certified":
+                self.found.sharp[prefix] = {"text": range_of_rule(rules[-1], dict(self.found.statements)), "by": rules[-1:]}
+            return
         parts = [part for part in named_statements(self.claim.id, prefix, assertion) if isinstance(part, Statement)]
         ranged = [part for part in parts if speaks_of_range(part)]
         if not ranged or outcome_of(self.claim.id, prefix, assertion, self.found.outcomes) == "unknown":

@@ -109,8 +109,8 @@ class _Again(Judge):
         remembered = (self.options.findings.get(self.claim.id) or {}).get("correction")
         if remembered != self.known_by["correction"] or bool(remembered) != bool(self.known_by["corrected"]):
             raise Forgotten
-        for name, marked, universal in self.known_by["corrected"]:
-            if name not in self.store.texts or self.settle(stored_as(name, self.store.texts[name], marked, universal)) != "certified":
+        for name, marked, kind in self.known_by["corrected"]:
+            if name not in self.store.texts or self.settle(stored_as(name, self.store.texts[name], marked, kind)) != "certified":
                 raise Forgotten
         self.found.correction = remembered
 

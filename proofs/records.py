@@ -11,7 +11,7 @@ import hashlib
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, get_args
 
-from certificates.statements import Statement
+from certificates.statements import MapRule, Statement
 from proofs.claims import Assertion, Body, Claim, assertions, named_statements
 
 TOLD = ("id", "section", "place", "says", "printed", "as_it_stands", "repeats", "source")
@@ -69,11 +69,11 @@ def record_of(claim: Claim, body: Body, statements: Sequence[tuple[str, str]], v
     """The record of a claim that was just judged."""
     named: dict[int, list[Any]] = {}
     for prefix, assertion in assertions(body):
-        named[id(assertion)] = [[part.name, whole.name, digest(whole.text()), isinstance(part, Statement)]
+        named[id(assertion)] = [[part.name, whole.name, digest(whole.text()), type(part).__name__]
                                 for part, whole in zip(assertion.parts, named_statements(claim.id, prefix, assertion))]
     if len(named) != len(assertions(body)):
         return {}
-    corrected = [[name, digest(text), name in voted] for name, text in statements if name.startswith(f"{claim.id}/corrected.")]
+    corrected = [[name, digest(text), "Statement" if name in voted else "Iterates"] for name, text in statements if name.startswith(f"{claim.id}/corrected.")]
     return {**{name: getattr(claim, name) for name in TOLD}, "parameters": list(claim.parameters), "nearby": claim.nearby is not None,
             "body": _plain(body, named), "correction": dict(correction) if correction else None, "corrected": corrected}
 
@@ -112,8 +112,8 @@ def _body(data: Any, texts: Mapping[str, str]) -> Any:
         return data
     (kind, inside), = data.items()
     if kind == "Assertion":
-        return Assertion(tuple(stored_as(label, texts[whole], marked, universal)
-                               if whole in texts else _forget() for label, whole, marked, universal in inside))
+        return Assertion(tuple(stored_as(label, texts[whole], marked, kind)
+                               if whole in texts else _forget() for label, whole, marked, kind in inside))
     if kind == "mapping":
         return {_text(key): _body(one, texts) for key, one in inside}
     if kind == "tuple":
@@ -121,12 +121,14 @@ def _body(data: Any, texts: Mapping[str, str]) -> Any:
     return _BODIES[kind](**{name: _body(one, texts) for name, one in inside.items()})
 
 
-def stored_as(name: str, text: str, marked: str, universal: bool) -> Any:
+def stored_as(name: str, text: str, marked: str, kind: str) -> Any:
     """A stored text as a statement of this name; raises Forgotten where the text is not the one that was marked."""
     if digest(text) != marked:
         raise Forgotten
     rest = text.partition("\n")[2]
-    if not universal:
+    if kind == "MapRule":
+        return MapRule(name, tuple((keyword, said) for keyword, _, said in (line.partition(" ") for line in rest.split("\n"))))
+    if kind not in ("Statement", "StoredStatement"):
         return StoredRule(name, rest)
     lines: Any = tuple((keyword, Quoted(said)) for keyword, _, said in (line.partition(" ") for line in rest.split("\n")))
     forall, integer = (tuple(str(said).split()) for keyword in ("forall", "integer") for said in [_said(lines, keyword)])

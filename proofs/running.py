@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 
-from certificates.statements import Iterates, Statement
+from certificates.statements import SharpRange
 from certificates.terms import ClaimError
 from proofs.claims import Claim, assertions, named_statements
 from proofs.judging import Judgement, Options, judge
@@ -74,6 +74,6 @@ def lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, st
         if any(name.split("/")[0] == claim.id for name in used):
             for prefix, assertion in assertions(claim.body()):
                 for part in named_statements(claim.id, prefix, assertion):
-                    if isinstance(part, (Statement, Iterates)):
+                    if not isinstance(part, SharpRange):
                         texts[part.name] = part.text()
     return {name: texts[name] for name in used if name in texts}

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from proofs.claims import Argument, Assertion, Awaiting, Body, Readings, named_statements
+from proofs.claims import Argument, Assertion, Body, Following, Readings, named_statements
 
 VERDICTS = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
 
@@ -43,20 +43,27 @@ def verdict_of(claim_id: str, body: Body, outcomes: Mapping[str, str], corrected
         same = len(set(words.values())) == 1
         return Verdict(("misprint" if corrected and "holds" not in words.values() else next(iter(words.values()))) if same else "ambiguous",
                        detail)
-    if isinstance(body, Awaiting):
-        meanwhile = word("meanwhile.", body.meanwhile) if body.meanwhile else "holds"
-        return Verdict("false" if meanwhile == "false" else "unknown", f"awaits {body.theorem}")
-    return _argument(body, word)
+    if isinstance(body, Following):
+        beside = word("beside.", body.beside) if body.beside else "holds"
+        found = by_rules(body.rests_on, outcomes)
+        return Verdict(beside if beside != "holds" else found, ("by " if found == "holds" else "awaits ") + ", ".join(body.rests_on))
+    return _argument(body, word, by_rules(body.rests_on, outcomes))
 
 
-def _argument(body: Argument, word: Callable[[str, Assertion], str]) -> Verdict:
+def by_rules(rests_on: Sequence[str], outcomes: Mapping[str, str]) -> str:
+    """holds where every map rule that is named was certified, else unknown."""
+    return "holds" if rests_on and all(outcomes.get(name) == "certified" for name in rests_on) else "unknown"
+
+
+def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str) -> Verdict:
     steps = {name: word(f"{name}.", step) for name, step in body.steps.items()}
     conclusion = word("conclusion.", body.conclusion) if body.conclusion else ""
     broken = [name for name, one in steps.items() if one == "false"]
     if conclusion == "false":
         return Verdict("false", "its conclusion is refuted" + (f", and step {broken[0]}" if broken else ""))
     if broken:
-        stands = "conclusion certified" if conclusion == "holds" else f"conclusion by {body.rescue}" if body.rescue else "conclusion open"
+        stands = ("conclusion certified" if conclusion == "holds" else f"conclusion by {body.rescue}" if body.rescue
+                  else f"conclusion by {', '.join(body.rests_on)}" if rules == "holds" else "conclusion open")
         return Verdict("gap", f"step {', '.join(broken)} is false; {stands}")
     if "unknown" in (*steps.values(), conclusion):
         return Verdict("unknown")

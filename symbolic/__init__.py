@@ -31,7 +31,8 @@ _NAMES = {
     " table_speed_at_fixed_point",
     "energy": "energy_at energy_change_1 energy_change_2 energy_change_at_impact energy_gradient energy_in_flight"
     " relative_kinetic_energy relative_kinetic_energy_change total_energy zero_change_height zero_change_speed",
-    "normal_form": "normal_collision_time normal_energy normal_energy_change normal_f1 normal_f2 normal_fixed_point"
+    "normal_form": "normal_collision_time normal_e_1 normal_e_2 normal_energy normal_energy_change normal_f1 normal_f2 normal_fixed_point"
+    " normal_margin"
     " normal_flight_power normal_impact_fixed_point scaled scaled_state scaling unscaling",
     "signs": "reduced sign_for_lossy_impacts simplest_roots",
     "extrema": "Candidate candidates falls_without_bound greatest",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from functools import cache
 
-from sympy import Expr
+from sympy import Expr, Integer
 
 from symbolic.algebra import State, apply, lowest_terms, solution_of, state
-from symbolic.collision import collision_time
+from symbolic.collision import collision_margin, collision_time
 from symbolic.energy import energy_change_1, total_energy
-from symbolic.fixed_points import fixed_point, impact_fixed_point
+from symbolic.fixed_points import e_1, fixed_point, impact_fixed_point
 from symbolic.maps import f1, f2, flight_power
 from symbolic.symbols import K, beta, r, v, w, x
 from symbolic.table import period
@@ -85,6 +85,36 @@ def normal_flight_power(periods: Expr = K) -> State:
     Matrix([[-K**2 - K*w + K + x, 2*K + w]])
     """
     return _conjugate(flight_power(periods))
+
+
+@cache
+def normal_margin() -> Expr:
+    """What is positive exactly in B1, by inequality (7), in units of r^2: w - x.
+
+    >>> normal_margin()
+    w - x
+    """
+    return scaled(collision_margin(), r**2)
+
+
+@cache
+def normal_e_1() -> State:
+    """The fixed point e_1 in normal form: (2 alpha / (1 + alpha)^2, 2 / (1 + alpha)).
+
+    >>> normal_e_1()[1]
+    2/(alpha + 1)
+    """
+    return scaled_state(e_1())
+
+
+@cache
+def normal_e_2() -> State:
+    """The orbit of e_2 where its impact comes, in normal form: (2 (3 alpha - 1) / (1 + alpha)^2, 4 / (1 + alpha)).
+
+    >>> normal_e_2()[1]
+    4/(alpha + 1)
+    """
+    return scaled_state(impact_fixed_point().xreplace({K: Integer(2)}))
 
 
 @cache

@@ -92,7 +92,9 @@ def search_proof(statement: checker.Statement, known: dict[str, checker.Statemen
     story = unfolded(statement, sharp)
     steps = []
     for count, negation in story.obligations:
-        node = search_closing(story.state(count).assume(negation), known, budget, effort, hints, confirm=False)
+        node = search_closing(story.state(count).assume(negation), known, budget, effort, None, confirm=False)
+        if node is None and hints is not None:  # as a rule a side condition needs no lemma, and cases of one only delay it
+            node = search_closing(story.state(count).assume(negation), known, budget, effort, hints, confirm=False)
         if node is None:
             return None
         steps.append(node)

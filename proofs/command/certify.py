@@ -16,6 +16,7 @@ from certificates.terms import ClaimError
 from proofs.checking import Reading
 from proofs.claims import Claim
 from proofs.command import table
+from proofs.following import settle_by_rules
 from proofs.judging import DEFAULT_BUDGET, Judgement, Options
 from proofs.loading import claims_of_file, paper_claims
 from proofs.recall import Records, judge_with_records
@@ -49,6 +50,7 @@ def certify(options: argparse.Namespace) -> int:
     records.keep(judgements, len(everything))
     changed = _write(folder, store, everything, claims, judgements)
     results = reading.results if reading.results and not changed else checker.check_folder(str(folder))
+    settle_by_rules(judgements, {name: outcome for name, outcome, _ in results}, Store(folder).texts)
     problems = [f"{name}: {reason}" for name, outcome, reason in results if outcome == "rejected"]
     table.draw(claims, judgements, console)
     print(table.summary(judgements))

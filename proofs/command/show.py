@@ -7,7 +7,7 @@ from typing import Any
 
 from certificates.store import DEFAULT, Store
 from certificates.terms import ClaimError
-from proofs.claims import Argument, Assertion, Awaiting, Body, Claim, Readings
+from proofs.claims import Argument, Assertion, Body, Claim, Following, Readings
 from proofs.derivations import body_and_derivations
 from proofs.judging import DEFAULT_BUDGET
 from proofs.loading import paper_claims
@@ -76,8 +76,8 @@ def _reading(body: Body) -> str:
         return f"all of {len(body.parts)} statement{'s' if len(body.parts) > 1 else ''} hold"
     if isinstance(body, Readings):
         return "can be read as " + ", or as ".join(body.of)
-    if isinstance(body, Awaiting):
-        return f"awaits {body.theorem}"
+    if isinstance(body, Following):
+        return "the conclusion of " + ", ".join(body.rests_on)
     if isinstance(body, Argument):
         return "argued from " + ", ".join(body.steps) + (f"; rescued by {body.rescue}" if body.rescue else "")
     raise ClaimError("a body of unknown kind")

@@ -18,11 +18,12 @@ def settled_by(judgement: Judgement) -> str:
     counts = [(sum(o == word for o in own.values()), label) for word, label in
               (("certified", "certificate"), ("refuted", "counterexample"), ("unknown", "open"))]
     parts = [f"{count} {label}{'s' if count > 1 and label != 'open' else ''}" for count, label in counts if count]
-    votes = [vote for name, cast in judgement.votes.items() if name in own for vote in cast]
+    votes = [vote for name, cast in judgement.votes.items() if "/corrected." not in name for vote in cast]
     for route in ("z3", "boxes"):
         cast = [vote for vote in votes if vote.route == route]
         decided = sum(vote.answer in ("holds", "fails") for vote in cast)
         parts += [f"{route} {decided}/{len(cast)}"] if cast and decided else []
+    parts += [f"rule {name}" for name in judgement.rests_on]
     return ", ".join(parts) or "no statement"
 
 

@@ -33,9 +33,10 @@ SECTIONS = (
 
 
 def load_claims() -> None:
-    """Registers every claim of the paper, in the paper's order."""
-    for section in SECTIONS:
-        name = f"{__name__}.{section}"
+    """Registers every claim of the paper, in the paper's order, and the theorem's after them."""
+    from proofs import theorem
+
+    for name in (*(f"{__name__}.{section}" for section in SECTIONS), *(f"{theorem.__name__}.{section}" for section in theorem.SECTIONS)):
         module = import_module(name)
         if getattr(module, "_registered", False):
             reload(module)

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from certificates.statements import Statement
 from certificates.terms import equal, iff, reals
-from proofs.claims import Assertion, Awaiting, claim
+from proofs.claims import Assertion, Following, claim
 from proofs.paper.events import after_impact, ball_at, height, only_at, speed, strikes_at, table_at, value_of, vector
+from proofs.paper.outside import ATTRACTION
+from proofs.paper.relative_motion import STABILITY, lies_around_e_1, narrow_band_stays
 from proofs.paper.said_again import NEAR_B1, NEAR_B2, is_the_period, tells_b1, tells_b2
-from proofs.paper.vocabulary import PAPER, STRIKES, H, R, T, always, b, beta, collide, energy, equals, f1, f2, flight, t
+from proofs.paper.vocabulary import PAPER, STRIKES, H, R, T, always, b, beta, collide, energy, eps, equals, f1, f2, flight, t
 from proofs.reading.notions import StateFunction
 from proofs.reading.printed import Printed
 from proofs.reading.values import Matrix, ShapeError, Vector
 
 since, until = reals("since until")
-ATTRACTS_R = "every orbit that starts outside R enters R after finitely many periods"
-ATTRACTS_K = "every orbit enters the region K after finitely many periods"
 
 
 @claim("sB.7-T", "B.7", "line 824", printed=r"T := 2\dot{\rho}_0/\gamma", repeats="s3.1-T")
@@ -101,15 +101,15 @@ def b2_in_the_table(printed: Printed) -> Statement:
 
 
 @claim("sB.7-R", "B.7", "line 856", repeats="prop-1")
-def region_r_in_the_table() -> Awaiting:
+def region_r_in_the_table() -> Following:
     """Every orbit is attracted to R; once in it, it stays."""
-    return Awaiting(ATTRACTS_R, meanwhile=Assertion((
+    return Following(ATTRACTION, beside=Assertion((
         always(R(f1(b)), given=[R(b), STRIKES(b)], label="with-impact"),
         always(R(f2(b)), given=[R(b), ~STRIKES(b)], label="without-impact"),
     )))
 
 
 @claim("sB.7-K-region", "B.7", "line 857", repeats="s4.3.2-K-attracts")
-def region_k_in_the_table() -> Awaiting:
-    """Every orbit is attracted to the region K, and stays in it."""
-    return Awaiting(ATTRACTS_K)
+def region_k_in_the_table() -> Following:
+    """Every orbit is attracted to the region K, and stays in it, if K is narrow."""
+    return Following(STABILITY, Assertion((lies_around_e_1(eps), *narrow_band_stays(eps))))

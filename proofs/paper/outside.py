@@ -31,6 +31,7 @@ ON_R = Region(lambda state: equal(at(derived("region_margin"), state), 0))
 CORNER = B1 & ON_R & Region(lambda state: equal(state.component(1), 0))
 change, least = term(impact_energy_change(b)), term(impact_energy_change(b_0))  # the least loss is that at the corner b_0
 SUPREMAL = [CORNER(b_0), equal(dE_sup, least)]
+ATTRACTION = ("theorem-region/enters",)  # from some period on, every orbit is in R
 LEVEL: Term = derived("region_energy")
 NAMED = PAPER.extended({r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
 worst_wait: Term = at(derived("hang_time"), {"v": u})  # the flight from the ground up and back that has all the energy of b_0

@@ -8,15 +8,15 @@ from __future__ import annotations
 from certificates.statements import Statement
 from certificates.terms import Formula, Term, conjunction, disjunction, equal, reals, term
 from proofs.paper.events import height, only_at, speed, vector
-from proofs.paper.vocabulary import B1, NAMES, POINTS, R, alpha, always, at, b, derived, e_1, energy, eps, f1, r
+from proofs.paper.vocabulary import B1, NAMES, POINTS, R, alpha, always, at, b, derived, e_1, energy, eps, f1, g, r
 from proofs.reading.environment import Environment
 from proofs.reading.notions import Region, StateFunction
 from proofs.reading.values import Matrix, Vector
 
-z1, z2, c, change = reals("z1 z2 c change")
+z1, z2, c, d, change = reals("z1 z2 c d change")
 z = Vector((z1, z2))
 image = Vector(reals("beta_next v_next"))  # a state that follows b, for whichever branch of f applies
-STABILITY = "global asymptotic stability of e_1 for alpha < 1/3"
+STABILITY = ("theorem-in-units/exactly",)  # e_1 is stable and attracts every state of H <=> alpha < 1/3
 RANGE_21 = (alpha > 0, alpha < derived("restitution_threshold", 2))  # (21): e_1 is the only fixed point
 
 
@@ -65,6 +65,14 @@ def narrow_band_stays(size: Term) -> tuple[Statement, ...]:
         always(R(after), given=[B1(b), R(b)], in_range=RANGE_21, label="stays-in-R"),
         always(from_e_1(after) <= size, given=[eps > 0, from_e_1(b) <= size], in_range=RANGE_21, label="stays-in-the-band"),
     )
+
+
+def lies_around_e_1(size: Term) -> Statement:
+    """The band, however narrow, holds all states of H near e_1: an orbit that tends to e_1 comes into it."""
+    height_off, speed_off = (term(entry) for entry in b - e_1)
+    close = [-d <= speed_off, speed_off <= d, d <= r / 16, d**2 <= 2 * size]
+    low = [-r**2 / 8 <= height_off * g, height_off * g <= r**2 / 8]
+    return always(band(size)(b), given=[height(b) >= 0, d >= 0, *low, *close], in_range=RANGE_21, label="lies-around-e_1")
 
 
 def boundary_of_band(size: Term) -> Region:

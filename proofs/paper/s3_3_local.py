@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from certificates.statements import Statement
 from certificates.terms import Formula, Term, different, iff, reals, term
-from proofs.claims import Argument, Assertion, Awaiting, claim
+from proofs.claims import Argument, Assertion, Following, claim
 from proofs.paper.events import speed, value_of, vector
 from proofs.paper.orbits import b_0, eigenvalue_of, is_fixed_point, next_bounce, offset_with, strikes_from, within
 from proofs.paper.vocabulary import (
@@ -165,11 +165,11 @@ def small_boxes_stay_in_b1() -> Statement:
 
 
 @claim("s3.3-takes-e1-as-limit", "3.3", "line 313")
-def neighbourhood_shrinks_to_the_fixed_point() -> Awaiting:
+def neighbourhood_shrinks_to_the_fixed_point() -> Following:
     """What starts in the neighbourhood tends to e_1."""
     def box(state: Vector, scale: Term) -> Formula:
         height, speed = (term(entry) for entry in state - b_0)
         return within(scale, height) & within((1 - alpha) * scale, 2 * alpha * T * speed)
 
     shrunk = always(box(f1(b), (1 + alpha) / 2 * size), given=[FIXED_0, box(b, size)], label="a-period-shrinks-boxes")
-    return Awaiting("convergence under an affine contraction", Assertion((shrunk,)))
+    return Following(("theorem-nearby/contracts",), Assertion((shrunk,)))

@@ -6,9 +6,10 @@ from fractions import Fraction
 
 from certificates.statements import Statement
 from certificates.terms import Formula, different, equal, real
-from proofs.claims import Assertion, Awaiting, Readings, claim
+from proofs.claims import Assertion, Following, Readings, claim
 from proofs.paper.events import ball_at, height, only_at
 from proofs.paper.outside import (
+    ATTRACTION,
     B1_OUTSIDE,
     LEVEL,
     NAMED,
@@ -57,7 +58,6 @@ from proofs.reading.printed import Printed
 from proofs.reading.values import Vector
 
 tau, t_R = real("tau"), real("t_R")
-ATTRACTION = "every orbit that starts outside R enters R after finitely many periods"
 
 
 def stays(in_range: list[Formula] | None = None) -> Assertion:
@@ -77,9 +77,9 @@ def loses_outside() -> tuple[Statement, Statement]:
 
 
 @claim("prop-1", "4.2", "Proposition 1, line 476")
-def region_attracts_and_is_invariant() -> Awaiting:
+def region_attracts_and_is_invariant() -> Following:
     """For alpha below 1/3 every orbit is attracted to R, and R is mapped into itself."""
-    return Awaiting(ATTRACTION, meanwhile=stays([alpha > 0, alpha < Fraction(1, 3)]))
+    return Following(ATTRACTION, beside=stays([alpha > 0, alpha < Fraction(1, 3)]))
 
 
 @claim("prop-1-outside-in-B1minus", "4.2", "line 478")
@@ -106,16 +106,16 @@ def flights_end_in_b1_outside_the_region() -> Readings:
 
 
 @claim("prop-1-lose-energy", "4.2", "line 478")
-def outside_states_are_attracted_as_they_lose() -> Awaiting:
+def outside_states_are_attracted_as_they_lose() -> Following:
     """Outside R every impact takes energy and flights keep it, so that states outside are attracted to R."""
-    return Awaiting(ATTRACTION, meanwhile=Assertion(loses_outside()))
+    return Following(ATTRACTION, beside=Assertion(loses_outside()))
 
 
 @claim("prop-1-finite", "4.2", "line 478")
-def finite_states_arrive_in_finite_time() -> Awaiting:
+def finite_states_arrive_in_finite_time() -> Following:
     """Every state enters R in finite time: its flights end, and its impacts outside R take an energy bounded away from zero."""
     loss = derived("delta_E_sup")
-    return Awaiting(ATTRACTION, meanwhile=Assertion((
+    return Following(ATTRACTION, beside=Assertion((
         always(energy(f1(b)) - energy(b) < loss, given=[B1_OUTSIDE(b)], label="takes-at-least"),
         always(loss < 0, label="bounded-from-zero"),
         always_counting(~B2(flown(n)), given=[H(b_0), n * T > worst_wait], label="flights-end"),
@@ -257,8 +257,8 @@ def greatest_gain_does_not_lead_out() -> list[Statement]:
 
 
 @claim("s4.2-invariant", "4.2", "line 494")
-def region_is_attracting_and_invariant() -> Awaiting:
+def region_is_attracting_and_invariant() -> Following:
     """R is attracting and f maps it into itself."""
-    return Awaiting(ATTRACTION, meanwhile=stays())
+    return Following(ATTRACTION, beside=stays())
 
 

@@ -11,6 +11,7 @@ from proofs.paper.relative_motion import (
     BOUNDARY_OF_R,
     NEAR,
     RANGE_21,
+    STABILITY,
     c,
     from_e_1,
     image,
@@ -192,4 +193,4 @@ def band_attracts_the_region() -> Argument:
     return Argument(steps={
         "falls-at-impacts": Assertion((always(from_e_1(vector(f1(b))) < from_e_1(b), given=[B1(b), *outside], in_range=RANGE_21),)),
         "falls-in-flight": Assertion((always(from_e_1(vector(f2(b))) < from_e_1(b), given=[B2(b), *outside], in_range=RANGE_21),)),
-    })
+    }, rests_on=STABILITY)

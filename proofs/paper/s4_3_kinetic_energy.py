@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from certificates.statements import Statement
 from certificates.terms import ClaimError, Term, conjunction, equal, iff, real, term
-from proofs.claims import Argument, Assertion, Awaiting, Readings, claim
+from proofs.claims import Argument, Assertion, Following, Readings, claim
 from proofs.paper.events import only_at, vector
 from proofs.paper.outside import pieces
 from proofs.paper.relative_motion import (
@@ -17,10 +17,12 @@ from proofs.paper.relative_motion import (
     image,
     kinetic_energy,
     kinetic_energy_change,
+    lies_around_e_1,
+    narrow_band_stays,
     relative_step,
     z,
 )
-from proofs.paper.vocabulary import B1, B2, R, alpha, always, at, b, derived, e_1, equals, f1, f2, next_states, r
+from proofs.paper.vocabulary import B1, B2, R, alpha, always, at, b, derived, e_1, eps, equals, f1, f2, next_states, r
 from proofs.reading.notions import LimitValue
 from proofs.reading.printed import Printed
 from proofs.reading.relations import relate
@@ -31,9 +33,12 @@ ORIGIN = Vector((0, 0))
 
 
 @claim("s4.3-decay-to-K", "4.3", "line 498")
-def orbits_decay_to_the_band() -> Awaiting:
-    """Every orbit that has entered R comes into the invariant band of states whose kinetic energy is close to that of e_1."""
-    return Awaiting(STABILITY)
+def orbits_decay_to_the_band() -> Following:
+    """Every orbit that has entered R comes into the invariant band of states whose kinetic energy is close to that of e_1.
+
+    It tends to e_1, and the band holds all states of H near e_1; a narrow band is mapped into itself.
+    """
+    return Following(STABILITY, Assertion((lies_around_e_1(eps), *narrow_band_stays(eps))))
 
 
 def impact_shrinks() -> Statement:
@@ -42,9 +47,9 @@ def impact_shrinks() -> Statement:
 
 
 @claim("s4.3.1-approach-constant", "4.3.1", "line 500")
-def velocity_at_impacts_settles() -> Awaiting:
-    """In R the kinetic energy at the impacts tends to a constant; for now: each impact brings it closer to that of e_1."""
-    return Awaiting(STABILITY, Assertion((impact_shrinks(),)))
+def velocity_at_impacts_settles() -> Following:
+    """In R the kinetic energy at the impacts tends to a constant: the orbit tends to e_1, and each impact brings K closer to that of e_1."""
+    return Following(STABILITY, Assertion((impact_shrinks(),)))
 
 
 @claim("eq-27", "4.3.1", "(27)", printed="z = b - e_1")
@@ -175,16 +180,16 @@ def kinetic_energy_tends_to_zero(printed: Printed) -> Argument:
         "falls-at-impacts": Assertion((always(from_e_1(vector(f1(b))) < from_e_1(b), given=[B1(b), R(b)], in_range=RANGE_21),)),
         "falls-in-flight": Assertion((always(from_e_1(vector(f2(b))) < from_e_1(b), given=[B2(b), R(b)], in_range=RANGE_21),)),
         "impacts-only": Assertion((always(iff(equal(following - d, alpha**2 * (value - d)), relate(d, sign, limit))),)),
-    })
+    }, rests_on=STABILITY)
 
 
 @claim("s4.3.1-lim-b", "4.3.1", "lines 537 to 539", printed=r"\lim_{k\to\infty} K(b_k) = K(e_1).")
-def kinetic_energy_tends_to_that_of_the_fixed_point(printed: Printed) -> Awaiting:
-    """The kinetic energy tends to that of e_1; for now: it differs little where that of the difference to e_1 is small."""
+def kinetic_energy_tends_to_that_of_the_fixed_point(printed: Printed) -> Following:
+    """The kinetic energy tends to that of e_1, since the state tends to e_1: where that of the difference to e_1 is small, it differs little."""
     value, sign, limit = _limit(printed)
     little = d * (r + d / 2)
     close = relate(value, sign, limit) if sign != "=" else conjunction([value <= limit + little, limit - little <= value])
-    return Awaiting(STABILITY, Assertion((always(close, given=[d >= 0, term(kinetic_energy(z)) <= d**2 / 2]),)))
+    return Following(STABILITY, Assertion((always(close, given=[d >= 0, term(kinetic_energy(z)) <= d**2 / 2]),)))
 
 
 @claim("s4.3.1-B2-approach", "4.3.1", "line 541")
@@ -206,6 +211,6 @@ def flight_in_the_region_approaches_too() -> Readings:
 
 
 @claim("s4.3.1-plain-english", "4.3.1", "line 543", repeats="s4.3.1-lim-b")
-def kinetic_energy_settles_in_the_region() -> Awaiting:
-    """In R the kinetic energy of an orbit tends to that of the fixed point of f1; for now: each impact brings it closer."""
-    return Awaiting(STABILITY, Assertion((impact_shrinks(),)))
+def kinetic_energy_settles_in_the_region() -> Following:
+    """In R the kinetic energy of an orbit tends to that of the fixed point of f1, and each impact brings it closer."""
+    return Following(STABILITY, Assertion((impact_shrinks(),)))

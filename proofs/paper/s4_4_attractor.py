@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from certificates.statements import Statement
 from certificates.terms import reals
-from proofs.claims import Assertion, Awaiting, Readings, claim
+from proofs.claims import Assertion, Following, Readings, claim
 from proofs.paper.events import height, speed, vector
 from proofs.paper.orbits import within
 from proofs.paper.relative_motion import AROUND_E1, RANGE_21, STABILITY, image, narrow_band_stays, relative_step, z
@@ -33,19 +33,19 @@ def map_on_the_band_is_linear(printed: Printed) -> Readings:
 
 
 @claim("s4.4-e1-attracts-K", "4.4", "line 569")
-def fixed_point_attracts_the_band() -> Awaiting:
-    """e_1 is stable and attracts the band.
+def fixed_point_attracts_the_band() -> Following:
+    """e_1 is stable and attracts the band; a narrow band is mapped into itself, and each impact brings its states closer to e_1.
 
-    For now: a narrow band is mapped into itself, and each impact multiplies the greater of the differences to e_1 by 2 alpha at most.
+    An impact multiplies the greater of the differences to e_1, in height and in speed times T, by 2 alpha at most.
     """
     after = relative_step(z)
     before = within(size, height(z)) & within(size, T * speed(z))
     shrunk = within(2 * alpha * size, height(after)) & within(2 * alpha * size, T * speed(after))
-    return Awaiting("convergence under an affine contraction", Assertion((
+    return Following(STABILITY, Assertion((
         *narrow_band_stays(eps), always(shrunk, given=[before], in_range=RANGE_21, label="contracts"))))
 
 
 @claim("s4.4-global", "4.4", "line 569")
-def fixed_point_is_a_global_attractor() -> Awaiting:
+def fixed_point_is_a_global_attractor() -> Following:
     """Every orbit on H tends to e_1."""
-    return Awaiting(STABILITY)
+    return Following(STABILITY)

@@ -1,0 +1,67 @@
+"""What follows from map rules: verdicts that wait for rules of other claims, and the range of alpha for which a rule speaks."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from certificates import checker
+
+if TYPE_CHECKING:
+    from proofs.judging import Judgement
+
+
+def settle_by_rules(judgements: Sequence[Judgement], outcomes: Mapping[str, str], texts: Mapping[str, str]) -> None:
+    """Gives each judgement that rests on map rules its verdict and range, now that the outcomes of all statements are known."""
+    for one in judgements:
+        if one.rests_on and all(outcomes.get(name) == "certified" for name in one.rests_on):
+            one.verdict = one.by_rules
+        if one.follows:
+            one.sharp[""] = {"text": range_of_rule(one.rests_on[-1], texts) if one.verdict.word == "holds" else "not found", "by": list(one.rests_on)}
+
+
+def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
+    """The domain of a map rule's conclusion as text, and whether the rule says that outside of it the conclusion is false."""
+    rows = dict(row.partition(" ")[::2] for row in texts[name].splitlines())
+    for inner in ("attraction", "descent"):
+        if inner in rows:
+            return rule_domain(rows[inner], texts)[0], inner == "attraction"
+    return rows["domain"], False
+
+
+def range_of_rule(name: str, texts: Mapping[str, str]) -> str:
+    """The alpha in (0, 1) for which the rule's conclusion is proved, told as sharp where it is refuted for all others.
+
+    >>> range_of_rule("t/map", {"t/map": "statement t/map\\nover alpha r\\ndomain alpha > 0 and 3*alpha < 1 and r > 0"})
+    'at least 0 < alpha < 1/3'
+    """
+    domain, is_sharp = rule_domain(name, texts)
+    low, high = alpha_interval(domain)
+    if low[0] == high[0]:
+        return f"alpha = {low[0]}"
+    whole = low == ("0", "<") and high == ("1", "<")
+    return ("" if is_sharp or whole else "at least ") + f"{low[0]} {low[1]} alpha {high[1]} {high[0]}"
+
+
+def alpha_interval(domain: str) -> tuple[tuple[str, str], tuple[str, str]]:
+    """The ends, with < or <=, of the interval in (0, 1) that the conditions on alpha alone make; each has to be linear in alpha.
+
+    >>> alpha_interval("3*alpha >= 1 and alpha < 1 and g > 0")
+    (('1/3', '<='), ('1', '<'))
+    """
+    context = checker.Context()
+    for name in sorted({node.id for node in ast.walk(checker.parse(domain)) if isinstance(node, ast.Name)}):
+        context.declare(name)
+    formula = context.formula(checker.parse(domain))
+    low, high = (Fraction(0), "<"), (Fraction(1), "<")
+    for _, poly, relation in formula[1] if formula[0] == "and" else [formula]:
+        if checker.variables_of(context, poly) == {"alpha"}:
+            constant, slope = checker.univariate(context, poly, "alpha")
+            end, sign = Fraction(-constant, slope), "<" if relation == ">" else "<="
+            if slope > 0 or relation == "=":
+                low = max(low, (end, sign), key=lambda bound: (bound[0], bound[1] == "<"))
+            if slope < 0 or relation == "=":
+                high = min(high, (end, sign), key=lambda bound: (bound[0], bound[1] != "<"))
+    return (str(low[0]), low[1]), (str(high[0]), high[1])

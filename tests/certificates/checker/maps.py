@@ -1,0 +1,126 @@
+"""Two maps that are not the paper's, with all that the map rules say of them, and certificates that the search finds."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from certificates import checker
+from certificates.search.map_rules import search_map_rule
+
+Json = Any
+BUDGET = 300_000
+
+# One is subtracted until what is left is less than 1, and that is multiplied by a: to 0 exactly for a < 1.
+SUBTRACT = """
+statement demo/map
+over a
+domain a > 0 and a <= 1
+state x
+space x >= 0
+piece x >= 1 -> x - 1
+piece x < 1 -> a*x
+
+statement demo/descends
+map demo/map
+domain a > 0 and a < 1
+rank x
+stage x < 1
+
+statement demo/contracts
+map demo/map
+domain a > 0 and a < 1
+on x < 1
+point 0
+weights 1
+rate a
+radius 1/2
+size 1
+
+statement demo/attracts
+descent demo/descends
+contraction demo/contracts
+
+statement demo/escapes
+map demo/map
+domain a = 1
+point 0
+start 1/2
+word 2
+
+statement demo/exactly
+attraction demo/attracts
+escape demo/escapes
+"""
+
+# Three variables: a count that runs down, and a point of the plane that is turned meanwhile, then drawn to (1/2, 0) with a shear.
+TURN = """
+statement turn/map
+over b
+domain b >= 0 and 8*b < 1
+state n x y
+space n >= 0 and x >= -1 and x <= 1 and y >= -1 and y <= 1
+piece n >= 1 -> n - 1, -y, x
+piece n < 1 -> n/2, 1/4 + x/2 + b*y, y/3
+
+statement turn/descends
+map turn/map
+domain b >= 0 and 8*b < 1
+root d = sqrt(4*n^2)
+rank d/2
+stage n < 1
+
+statement turn/contracts
+map turn/map
+domain b >= 0 and 8*b < 1 and 1 - 2*b > 0
+on n < 1
+point 0, 1/2, 0
+weights 2, 2, 1
+rate 5/8
+radius 1/4
+size 1
+
+statement turn/attracts
+descent turn/descends
+contraction turn/contracts
+"""
+
+
+def read(text: str) -> dict[str, checker.Statement]:
+    """The statements of a text."""
+    statements: dict[str, checker.Statement] = checker.read_statements(text)
+    return statements
+
+
+@cache
+def searched(text: str) -> dict[str, Json]:
+    """{name: certificate or the reason why none was found} for the statements of a text in order, as far as those before are certified."""
+    known: dict[str, checker.Statement] = {}
+    found: dict[str, Json] = {}
+    for name, statement in read(text).items():
+        found[name] = search_map_rule(statement, known, BUDGET)
+        if "unknown" in found[name]:
+            break
+        known[name] = statement
+    return found
+
+
+def checked(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, str]]:
+    """{name: (outcome, reason)} by the checker alone."""
+    known: dict[str, checker.Statement] = {}
+    results: dict[str, tuple[str, str]] = {}
+    for name, statement in read(text).items():
+        results[name] = checker.check_one(statement, certificates.get(name, {}), known, {})
+        if results[name][0] == "certified":
+            known[name] = statement
+    return results
+
+
+def edited(text: str, kind: str, old: str, new: str) -> str:
+    """The text with one change in the statement of this kind."""
+    blocks = text.strip().split("\n\n")
+    index = next(i for i, block in enumerate(blocks) if block.split("\n")[0].endswith("/" + kind))
+    if old not in blocks[index]:
+        raise ValueError(f"{old!r} does not stand in {kind}")
+    blocks[index] = blocks[index].replace(old, new)
+    return "\n\n".join(blocks) + "\n"

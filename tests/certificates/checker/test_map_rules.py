@@ -1,0 +1,161 @@
+"""The map rules on two other maps: accepted as they are, rejected with the premise's name where one premise fails, and nothing can be left out."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from certificates import checker
+from tests.certificates.checker.maps import SUBTRACT, TURN, checked, edited, read, searched
+
+Json = Any
+
+ON = "on x < 1\npoint 0\nweights 1\nrate a\nradius 1/2\nsize 1"
+# (statement, what stands there, what is put in its place, the premise that fails)
+FAILING = [
+    ("map", "domain a > 0 and a <= 1", "domain a > 0 and a < 0", "possible"),
+    ("map", "piece x >= 1", "piece x > 1", "covers"),
+    ("map", "piece x < 1", "piece x <= 1", "apart-2-1"),
+    ("map", "x - 1", "x - 2", "stays-1"),
+    ("map", "a*x", "-a*x", "stays-2"),
+    ("descends", "domain a > 0 and a < 1", "domain a > 0 and a < 0", "possible"),
+    ("descends", "domain a > 0 and a < 1", "domain a > 0 and a < 2", "inside"),
+    ("descends", "rank x", "rank x - 1", "bounded"),
+    ("descends", "rank x", "rank x/2", "falls-1"),
+    ("descends", "stage x < 1", "stage x < 1/2", "falls-2"),
+    ("descends", "stage x < 1", "stage x < 1 or x > 9", "stage-1-1"),
+    ("descends", "stage x < 1", "stage x < 1\nstage x < 1/4", "stage-1-2"),
+    ("contracts", "domain a > 0 and a < 1", "domain a > 0 and a < 0", "possible"),
+    ("contracts", "domain a > 0 and a < 1", "domain a > 0 and a < 1 or a = 2", "inside"),
+    ("contracts", "rate a", "rate 1", "constants"),
+    ("contracts", "weights 1", "weights 0", "constants"),
+    ("contracts", "radius 1/2", "radius 0", "constants"),
+    ("contracts", "point 0", "point -1", "point"),
+    ("contracts", "radius 1/2", "radius 2", "surrounds"),
+    ("contracts", "size 1", "size 1/2", "size"),
+    ("contracts", "on x < 1", "on x < 1 or x = 3", "size"),
+    ("contracts", ON, ON.replace("x < 1", "x < 1 or x = 3").replace("size 1", "size 3"), "stays-1"),
+    ("contracts", ON, ON.replace("x < 1", "x < 3/2").replace("size 1", "size 2"), "closer-1"),
+    ("contracts", "on x < 1", "on x <= 1/2 or x > 3/4 and x < 1", "stays-2"),
+    ("contracts", "rate a", "rate a/2", "closer-2"),
+    ("escapes", "start 1/2", "start 0", "start"),
+    ("escapes", "start 1/2", "start 3/2", "start"),
+    ("escapes", "word 2", "word 1", "start"),
+    ("escapes", "domain a = 1", "domain a = 2", "inside"),
+    ("escapes", "domain a = 1", "domain a < a", "possible"),
+]
+# What joins two statements fails through the one or the other: (statement changed, from, to, statement that fails, premise)
+JOINS = [
+    ("contracts", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "attracts", "inside"),
+    ("contracts", "on x < 1", "on x < 3/4", "attracts", "enters"),
+    ("escapes", "point 0", "point 1/3", "exactly", "same-point"),
+    ("descends", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "exactly", "covers"),
+]
+
+
+@pytest.mark.parametrize("text", [SUBTRACT, TURN], ids=["subtract", "turn"])
+def test_every_rule_holds_on_another_map(text: str) -> None:
+    results = checked(text, searched(text))
+    assert {outcome for outcome, _ in results.values()} == {"certified"}, results
+
+
+@pytest.mark.parametrize(("kind", "old", "new", "premise"), FAILING, ids=[f"{row[0]}: {row[3]} ({row[2][:24]})" for row in FAILING])
+def test_a_rule_fails_without_its_premise(kind: str, old: str, new: str, premise: str) -> None:
+    text, name = edited(SUBTRACT, kind, old, new), f"demo/{kind}"
+    assert searched(text)[name] == {"unknown": f"no proof of the premise {premise} was found"}
+    outcome, reason = checked(text, searched(SUBTRACT))[name]
+    assert outcome == "rejected"
+    assert reason.startswith(("premise ", "the premises of a rule are missing or left over"))
+
+
+@pytest.mark.parametrize(("kind", "old", "new", "joined", "premise"), JOINS, ids=[f"{row[3]}: {row[4]}" for row in JOINS])
+def test_joined_statements_fail_without_what_joins_them(kind: str, old: str, new: str, joined: str, premise: str) -> None:
+    text = edited(SUBTRACT, kind, old, new)
+    found = searched(text)
+    assert found[f"demo/{joined}"] == {"unknown": f"no proof of the premise {premise} was found"}
+    outcome, reason = checked(text, {**found, f"demo/{joined}": searched(SUBTRACT)[f"demo/{joined}"]})[f"demo/{joined}"]
+    assert (outcome, reason.split(":")[0]) == ("rejected", f"premise {premise} of demo/{joined}")
+
+
+def test_rejects_a_missing_or_left_over_premise() -> None:
+    for name, certificate in searched(SUBTRACT).items():
+        for premise in certificate["certified"]:
+            fewer = {"certified": {key: proof for key, proof in certificate["certified"].items() if key != premise}}
+            outcome, reason = checked(SUBTRACT, {**searched(SUBTRACT), name: fewer})[name]
+            assert (outcome, reason) == ("rejected", f"the premises of a rule are missing or left over: ['{premise}']")
+        more = {"certified": {**certificate["certified"], "falls-9": ["proof", [], ["close"]]}}
+        assert checked(SUBTRACT, {**searched(SUBTRACT), name: more})[name][1].endswith("left over: ['falls-9']")
+
+
+def test_rejects_whatever_rests_on_what_is_not_certified() -> None:
+    after = {"map": {"descends", "contracts", "attracts", "escapes", "exactly"}, "descends": {"attracts", "exactly"},
+             "contracts": {"attracts", "exactly"}, "attracts": {"exactly"}, "escapes": {"exactly"}, "exactly": set()}
+    for kind, resting in after.items():
+        without = {name: one for name, one in searched(SUBTRACT).items() if name != f"demo/{kind}"}
+        lost = {name for name, (outcome, _) in checked(SUBTRACT, without).items() if outcome != "certified"}
+        assert lost == {f"demo/{one}" for one in {kind, *resting}}
+
+
+MALFORMED = [
+    ("descends", "map demo/map", "map demo/descends", "no earlier certified statement of kind map has this name: demo/descends"),  # a circle
+    ("descends", "map demo/map", "map demo/contracts", "no earlier certified statement of kind map has this name: demo/contracts"),
+    ("attracts", "demo/contracts", "demo/descends", "no earlier certified statement of kind contracts has this name"),
+    ("exactly", "demo/attracts", "demo/exactly", "no earlier certified statement of kind attracts has this name"),
+    ("map", "a*x", "a*x, x", "a piece gives one term in parameters and state for each state variable"),
+    ("map", "a*x", "a*x_next", "a piece gives one term in parameters and state for each state variable"),
+    ("map", "a*x", "a*distance", "a piece gives one term in parameters and state for each state variable"),
+    ("map", "x < 1", "x < 1 and z > 0", "a piece gives one term in parameters and state for each state variable"),
+    ("descends", "rank x", "rank x_next + x", "premise bounded"),
+    ("descends", "rank x", "rank z", "premise bounded"),
+    ("descends", "stage x < 1", "stage x_next < 1", "premise falls-1"),
+    ("descends", "rank x", "rank 0 <= x", "premise bounded"),
+    ("descends", "rank x", "rank x >= 0 and x", "premise bounded"),
+    ("contracts", "point 0", "point x", "premise point"),
+    ("contracts", "point 0", "point 0, 0", "one term for each state variable is expected"),
+    ("contracts", "weights 1", "weights 1 + x", "premise constants"),
+    ("contracts", "rate a", "rate a*x", "premise constants"),
+    ("contracts", "radius 1/2", "radius x/2", "premise constants"),
+    ("contracts", "size 1", "size 1 + x", "premise constants"),
+    ("contracts", "on x < 1", "on x < 1 and distance < 1", "premise surrounds"),
+    ("contracts", "on x < 1", "on x_next < 1", "premise surrounds"),
+    ("escapes", "word 2", "word 3", "nothing has this number"),
+    ("escapes", "word 2", "word 0", "nothing has this number"),
+    ("escapes", "point 0", "point x_0 + 1", "premise start"),
+]
+
+
+@pytest.mark.parametrize(("kind", "old", "new", "expected"), MALFORMED, ids=[f"{row[0]}: {row[2]}" for row in MALFORMED])
+def test_rejects_names_that_mean_nothing_there(kind: str, old: str, new: str, expected: str) -> None:
+    outcome, reason = checked(edited(SUBTRACT, kind, old, new), searched(SUBTRACT))[f"demo/{kind}"]
+    assert (outcome, reason[:len(expected)]) == ("rejected", expected)
+
+
+@pytest.mark.parametrize(("kind", "old", "new"), [
+    ("descends", "stage x < 1", "stage x < 1) or (0 = 0"), ("contracts", "rate a", "rate a) - (1"), ("escapes", "word 2", "word"),
+    ("contracts", "point 0", "point 0 -> 1"), ("map", "piece x < 1 -> a*x", "piece x < 1 a*x"), ("map", "space x >= 0", "space x >= 0\nspace x >= 1"),
+    ("descends", "rank x", "rank x\nrank x - 1"), ("attracts", "descent demo/descends\n", ""), ("escapes", "word 2", "word two"),
+])
+def test_rejects_unreadable_lines(kind: str, old: str, new: str) -> None:
+    with pytest.raises(checker.Rejected):
+        text = edited(SUBTRACT, kind, old, new)
+        read(text)
+        outcome, reason = checked(text, searched(SUBTRACT))[f"demo/{kind}"]
+        raise checker.Rejected(reason) if outcome == "rejected" else AssertionError(outcome)
+
+
+@given(a=st.fractions(Fraction(1, 100), Fraction(99, 100)), x=st.fractions(0, 30, max_denominator=50), more=st.integers(0, 6))
+def test_what_the_rules_conclude_holds_of_orbits(a: Fraction, x: Fraction, more: int) -> None:
+    def step(y: Fraction) -> Fraction:
+        return y - 1 if y >= 1 else a * y
+
+    y = x
+    for _ in range(-(-x.numerator // x.denominator)):
+        y = step(y)
+    assert y < 1
+    for _ in range(more):
+        y = step(y)
+    assert y <= a**more
