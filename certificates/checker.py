@@ -422,8 +422,7 @@ def close_by_positivstellensatz(state, known, products, equations):
         require(weight > 0, "a coefficient is not positive", coefficient)
         for index, exponent in factors:
             poly, relation = at(state.facts, index)
-            signed = relation in (">", ">=") or relation == "!=" and exponent % 2 == 0
-            if type(exponent) is not int or not 0 < exponent <= MAX_DEGREE or not signed:
+            if type(exponent) is not int or not 0 < exponent <= MAX_DEGREE or relation == "=" or relation == "!=" and exponent % 2:
                 raise Rejected("a factor of unknown sign", f"({state.context.show(poly)} {relation} 0)^{exponent}")
             if (index, exponent) not in powers:
                 powers[index, exponent] = poly**exponent
