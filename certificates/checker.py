@@ -7,7 +7,7 @@ This file is all that must be believed.  It uses the standard library only, exac
 
 DIR holds `statements.txt`, which an auditor reads, and one `ID.json` of certificates for each claim.  The statement
 `ID/part` is settled by the entry of that name in `ID.json`.  Exit 0: nothing rejected; 1: a certificate rejected or
-missing; 2: unusable input.  PROOF RULES and STATEMENT RULES below state every rule in full where it is applied.
+missing; 2: unusable input.  PROOF RULES, STATEMENT RULES and ORBIT RULES below state every rule in full where it is applied.
 """
 
 import ast
@@ -481,7 +481,7 @@ def close_by_use(state, known, name, arguments, fresh, node):
     """["use", name, {variable: term}, {variable: fresh name}, node]: an instance of an earlier certified statement.
 
     The instance is the formula (its range, givens and haves => what it shows) for any terms in place of its variables, an integer
-    variable standing for an integer one or a numeral; what it says to exist is named by variables that do not yet occur.
+    variable standing for an integer polynomial in integer ones; what it says to exist is named by variables that do not yet occur.
     """
     require(name in known and known[name].kind == "universal", "no earlier certified statement of this name", name)
     context = Context(state.context)
@@ -496,8 +496,9 @@ def close_by_use(state, known, name, arguments, fresh, node):
 
 
 def one_value_each(context, story, terms, others, needed):
-    """Every variable has one value, by a term or otherwise, and every integer variable with a term has an integer one or a numeral."""
-    whole = all(terms[n] in context.integers or re.fullmatch(r"-?\d+", terms[n], re.ASCII) for n in story.integers & set(terms))
+    """Every variable has one value, by a term or otherwise, and every integer variable with a term an integer polynomial in integers."""
+    values = [context.polynomial(terms[name]) for name in story.integers & set(terms)]
+    whole = all(value.den == 1 and variables_of(context, value) <= context.integers for value in values)
     once = not set(terms) & set(others) and set(terms) | set(others) == set(needed)
     require(once and whole, "every variable needs one value, an integer one an integer", sorted(terms))
 
@@ -529,35 +530,29 @@ def call(text):
     return name, node.args
 
 
+def written(node):
+    """The text of a tree, which `parse` reads back as the same tree: one thing, whatever stands around it in parentheses."""
+    return ast.unparse(node).replace("**", "^").replace("==", "=")
+
+
+def listed(text):
+    node = parse(text)
+    return [written(part) for part in (node.elts if isinstance(node, ast.Tuple) else [node])]
+
+
 def mapping(text):
-    """NAMES -> TERMS, each a tuple or a single one."""
-    names, terms = (node.elts if isinstance(node, ast.Tuple) else [node] for node in map(parse, text.split(" -> ")))
-    return [ast.unparse(name) for name in names], terms
-
-
-def formula_text(text):
-    """A formula or a term, kept as text; read once by itself, so that it stays one thing inside of parentheses."""
-    parse(text)
-    return text
-
-
-def terms_text(text):
-    return [formula_text(part.strip()) for part in text.split(",")]
-
-
-def piece(text):
-    """GUARD -> TERMS: where the guard holds, the terms are the next state."""
-    guard, images = text.split(" -> ")
-    return formula_text(guard), terms_text(images)
+    """NAMES -> TERMS or GUARD -> TERMS, as text: what the terms are the next state of, or where they are."""
+    left, right = text.split(" -> ")
+    return listed(left), listed(right)
 
 
 LINES = {  # how what follows each keyword is read
     "forall": str.split, "integer": str.split, "exists": str.split, "over": str.split, "sharp": str.split, "let": definition,
     "root": call, "number": call, "range": parse, "given": parse, "have": parse, "with": parse, "show": parse, "domain": parse,
-    "holds": parse, "iterates": mapping, "after": mapping, "state": str.split, "piece": piece, "word": lambda text: [int(k) for k in text.split()],
+    "holds": parse, "iterates": mapping, "after": mapping, "state": str.split, "piece": mapping, "word": lambda text: [int(k) for k in text.split()],
     **dict.fromkeys(("map", "descent", "contraction", "attraction", "escape"), str),
-    **dict.fromkeys(("space", "rank", "stage", "on", "rate", "radius", "size"), formula_text),
-    **dict.fromkeys(("point", "weights", "start"), terms_text)}
+    **dict.fromkeys(("space", "rank", "stage", "on", "rate", "radius", "size"), lambda text: written(parse(text))),
+    **dict.fromkeys(("point", "weights", "start"), listed)}
 ORDERS = {  # the lines that each kind of statement has, in this order, so that none can be overlooked
     "universal": r"(forall )?(integer )?((range|given|have|let|root) )*(exists ((with|let) )*)?show ",
     "sharp": r"sharp over domain (number )*holds ",
@@ -730,8 +725,8 @@ def adjoin(state, known, name, text, low, high, below, above):
 def check_sharp(statement, certificate, known, statements):
     """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).  [{name: prove}, found, sample].
 
-    A statement's own range lines give way to the domain and the condition; a parameter is an integer where the statements say so.  Inside, each statement is proved; outside, counterexamples to
-    one of them are found.  Each `number` line: its polynomial has exactly one root between its ends, where it changes its sign.
+    A statement's own range lines give way to the domain and the condition; a parameter is an integer where the statements say so.
+    Inside, each statement is proved; outside, counterexamples to one of them are found.  Each `number` line: its polynomial has exactly one root between its ends, where it changes its sign.
     The sample {parameter: value} is a point of the domain.
     """
     (names,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
@@ -760,94 +755,86 @@ def check_sharp(statement, certificate, known, statements):
     find(state, outside, known, "counterexample", {name: statements[name] for name in names}, base, [domain])
 
 
-def check_iterates(statement, certificate, known, statements):
-    """The K-th iterate of the map, for every integer K >= 0: P(0) is the identity and map(P(K)) = P(K + 1), as identities.  []"""
-    (variables,), (integers,), ((arguments, images),), ((count, powers),) = (
-        statement.get(keyword) for keyword in ("forall", "integer", "iterates", "after"))
-    shaped = certificate == [] and arguments == variables[:len(arguments)] and 0 < len(arguments) == len(images) == len(powers)
-    apart = count == integers and set(count) <= set(variables[len(arguments):])
+# ------------------------------------------------------------ ORBIT RULES: what holds of every orbit of a map, from premises that this file writes
+
+
+def put(text, values):
+    """The text with other text in place of some names."""
+    return re.sub(r"[A-Za-z]\w*", lambda found: values.get(found[0], found[0]), text)
+
+
+def names_in(*texts):
+    return set(re.findall(r"[A-Za-z_]\w*", " ".join(texts))) - {"and", "or", "not", "implies", "iff"}
+
+
+def premises_of_iterates(statement, known):
+    """The K-th iterate of the map, for every integer K >= 0.  Premises: P(0) is the identity, and map(P(K)) = P(K + 1)."""
+    (variables,), (counts,), ((state, images),), ((count, powers),) = map(statement.get, ("forall", "integer", "iterates", "after"))
+    lets = [f"let {text}" for (keyword, _), text in zip(statement.lines, statement.texts) if keyword == "let"]
+    shaped = state == variables[:len(state)] and 0 < len(state) == len(images) == len(powers)
+    apart = count == counts and set(count) <= set(variables[len(state):])
     require(shaped and apart, "a map names its variables first, an image for each, and one integer apart", statement.name)
-    context = Context()
-    for name in variables:
-        context.declare(name)
-    plain, (k,) = dict(context.values), count
-
-    def image(trees, changes):
-        inner = Context(context, {**plain, **changes})
-        for name, tree in statement.get("let"):
-            inner.define(name, inner.value(tree))
-        return [inner.value(tree) for tree in trees]
-
-    still = not any(k in variables_of(context, value) for value in image(images, {}))
+    still = not names_in(*images) & set(count) and not names_in(*lets) & {*count, *state}
     require(still, "a map that is iterated cannot depend on the number of iterations", statement.name)
-    pairs = [*zip(image(powers, {k: ZERO}), (plain[name] for name in arguments)),
-             *zip(image(images, dict(zip(arguments, image(powers, {})))), image(powers, {k: context.value(parse(k + " + 1"))}))]
-    for left, right in pairs:
-        require(not (left - right).terms, "an iterate does not satisfy its recurrence", statement.name)
-
-
-# ------------------------------------------------------------ MAP RULES: what holds of every orbit, from premises that this file writes
-
-
-def marked(text, names, mark):
-    """The text with a mark at each of these names: the same term or formula at another state."""
-    return re.sub(r"[A-Za-z]\w*", lambda found: found[0] + mark * (found[0] in names), text)
+    (k,), after = count, {name: name + "_next" for name in state}
+    head = [f"forall {' '.join(variables)}", f"integer {k}", *lets]
+    step = [f"({put(image, after)}) = ({put(power, {k: f'({k} + 1)'})})" for image, power in zip(images, powers)]
+    return {"start": [*head, "show " + " and ".join(f"({put(power, {k: '0'})}) = {name}" for name, power in zip(state, powers))],
+            "step": [*head, *(f"let {name}_next = {power}" for name, power in zip(state, powers)), "show " + " and ".join(step)]}
 
 
 class Orbits:
     """A map with the lines of a statement about it, from which the text of the premises is written."""
 
     def __init__(self, statement, known):
-        name = statement.name if statement.kind == "map" else statement.text("map")
-        self.map, self.own = statement if statement.kind == "map" else earlier_of("map", name, known), statement
-        (self.parameters,), (self.state,), (self.space,) = (self.map.get(keyword) for keyword in ("over", "state", "space"))
-        self.domain, self.pieces = statement.text("domain"), self.map.get("piece")
-        self.moving, self.roots, self.fixed = set(self.state), [], []
-        for line, (keyword, said) in zip(statement.texts, statement.lines):
-            if keyword == "root":
-                moves = self.moving & set(re.findall(r"[A-Za-z]\w*", line.partition(" = ")[2]))
-                self.moving |= {said[0]} if moves else set()
-                (self.roots if moves else self.fixed).append("root " + line)
-        declared = {*self.parameters, *self.state, "and", "or", "not", "implies", "iff"}
-        if any(len(images) != len(self.state) or set(re.findall(r"[A-Za-z_]\w*", " ".join([guard, *images]))) - declared for guard, images in self.pieces):
-            raise Rejected("a piece gives one term in parameters and state for each state variable", name)
+        self.own, self.map = statement, statement if statement.kind == "map" else earlier_of("map", statement.text("map"), known)
+        (self.parameters,), (self.state,), (self.space,) = map(self.map.get, ("over", "state", "space"))
+        self.domain, self.pieces, self.moving, self.roots, self.fixed = statement.text("domain"), self.map.get("piece"), set(self.state), [], []
+        for line in (text for (keyword, _), text in zip(statement.lines, statement.texts) if keyword == "root"):
+            name, _, under = line.partition(" = ")
+            moves = self.moving & names_in(under)
+            self.moving |= {name} if moves else set()
+            (self.roots if moves else self.fixed).append("root " + line)
+        fits = all(len(guard) == 1 and len(images) == len(self.state) for guard, images in self.pieces)
+        own = names_in(*(text for piece in self.pieces for side in piece for text in side)) <= {*self.parameters, *self.state}
+        require(fits and own, "a piece gives one term in parameters and state for each state variable", self.map.name)
 
     def next(self, text):
-        return marked(text, self.moving, "_next")
+        return put(text, {name: name + "_next" for name in self.moving})
 
-    def for_all(self, *rows, extra="", domain=None):
-        """Text: for all parameters in the domain, with the roots of parameters."""
-        return [f"forall {' '.join(self.parameters)}{extra}", f"range {domain or self.domain}", *self.fixed, *rows]
+    def for_all(self, *rows, extra=()):
+        """For all parameters in the domain, with the roots of parameters."""
+        return ["forall " + " ".join([*self.parameters, *extra]), f"range {self.domain}", *self.fixed, *rows]
 
-    def at(self, *rows, extra=""):
-        """Text: for all parameters in the domain and all states of the space."""
-        return self.for_all(f"given {self.space}", *self.roots, *rows, extra="".join(" " + name for name in self.state) + extra)
+    def at(self, *rows, extra=()):
+        """For all parameters in the domain and all states of the space."""
+        return self.for_all(f"given {self.space}", *self.roots, *rows, extra=[*self.state, *extra])
 
-    def step(self, k):
-        """Text: the k-th piece applies, and gives the next state."""
-        guard, images = self.pieces[k]
-        return [f"given {guard}", *(f"let {name}_next = {image}" for name, image in zip(self.state, images))]
+    def step(self, k, *rows, show, extra=()):
+        """Where the k-th piece applies: something of the next state, which is in the space by the map's premises."""
+        (guard,), images = self.pieces[k]
+        known = [] if self.own is self.map else ["given " + self.next(self.space), *map(self.next, self.roots)]
+        image = [f"let {name}_next = {image}" for name, image in zip(self.state, images)]
+        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
 
-    def stepped(self, k, *rows, show, extra=""):
-        """Text: at a state to which the k-th piece applies, something is shown of the next state, which is in the space by the map's premises."""
-        return self.at(*rows, *self.step(k), "given " + self.next(self.space), *map(self.next, self.roots), "show " + show, extra=extra)
-
-    def own_terms(self, keyword):
+    def terms(self, keyword):
         (terms,) = self.own.get(keyword)
-        if len(terms) != len(self.state):
-            raise Rejected("one term for each state variable is expected", self.own.name)
+        require(len(terms) == len(self.state), "one term for each state variable is expected", self.own.name)
         return terms
 
-    def domains(self):
-        """The premises that the domain is not empty, and is part of the map's."""
+    def with_domain(self, premises):
+        """Beside other premises: the domain is not empty, and is part of the map's."""
         inside = {} if self.own is self.map else {"inside": self.for_all("show " + self.map.text("domain"))}
-        return {"possible": [f"exists {' '.join(self.parameters)}", "show " + self.domain], **inside}
+        return {"possible": ["exists " + " ".join(self.parameters), f"show {self.domain}"], **inside, **premises}
 
 
 def earlier_of(kind, name, known):
-    if name not in known or known[name].kind != kind:
-        raise Rejected(f"no earlier certified statement of kind {kind} has this name", name)
+    require(name in known and known[name].kind == kind, f"no earlier certified statement of kind {kind} has this name", name)
     return known[name]
+
+
+def all_of(parts, op=" and "):
+    return op.join(f"({part})" for part in parts)
 
 
 def premises_of_map(statement, known):
@@ -855,10 +842,12 @@ def premises_of_map(statement, known):
     holds, f(state) is given by that piece, and f(state) is in the space.
     """
     f = Orbits(statement, known)
-    pieces = list(enumerate(guard for guard, _ in f.pieces))
-    return {**f.domains(), "covers": f.at("show " + " or ".join(f"({guard})" for _, guard in pieces)),
-            **{f"apart-{i + 1}-{k + 1}": f.at(f"given {one}", f"given {other}", "show 0 = 1") for i, one in pieces for k, other in pieces[:i]},
-            **{f"stays-{k + 1}": f.at(*f.step(k), "show " + f.next(f.space)) for k, _ in pieces}}
+    guards = [guard for (guard,), _ in f.pieces]
+    pairs = [(i, k) for i in range(len(guards)) for k in range(i)]
+    return f.with_domain({
+        "covers": f.at("show " + all_of(guards, " or ")),
+        **{f"apart-{i + 1}-{k + 1}": f.at(f"given {guards[i]}", f"given {guards[k]}", "show 0 = 1") for i, k in pairs},
+        **{f"stays-{k + 1}": f.step(k, show=f.next(f.space)) for k in range(len(guards))}})
 
 
 def premises_of_descent(statement, known):
@@ -869,13 +858,12 @@ def premises_of_descent(statement, known):
     So the first visit to a stage is after at most rank(s) steps, and m - 1 more steps, or fewer, lead to A_m.
     """
     f, (rank,), stages = Orbits(statement, known), statement.get("rank"), statement.get("stage")
-    outside = "given not (" + " or ".join(f"({stage})" for stage in stages) + ")"
-    premises = {**f.domains(), "bounded": f.at(f"show ({rank}) >= 0")}
+    premises = {"bounded": f.at(f"show ({rank}) >= 0")}
     for k in range(len(f.pieces)):
-        premises[f"falls-{k + 1}"] = f.stepped(k, outside, show=f"({f.next(rank)}) <= ({rank}) - 1")
+        premises[f"falls-{k + 1}"] = f.step(k, f"given not ({all_of(stages, ' or ')})", show=f"({f.next(rank)}) <= ({rank}) - 1")
         for i, (stage, after) in enumerate(zip(stages, [*stages[1:], stages[-1]])):
-            premises[f"stage-{i + 1}-{k + 1}"] = f.stepped(k, f"given {stage}", show=f.next(after))
-    return premises
+            premises[f"stage-{i + 1}-{k + 1}"] = f.step(k, f"given {stage}", show=f.next(after))
+    return f.with_domain(premises)
 
 
 def premises_of_contraction(statement, known):
@@ -886,37 +874,34 @@ def premises_of_contraction(statement, known):
     Premises: 0 <= rate < 1, weights > 0, radius > 0, size > 0; e is in the space; `on` holds where |s - e| <= radius, is taken into itself, and has
     |s - e| <= size; and on it |s - e| <= distance implies |f(s) - e| <= rate distance, for every distance >= 0.
     """
-    f, (on,), (rate,), (radius,), (size,) = Orbits(statement, known), *(statement.get(key) for key in ("on", "rate", "radius", "size"))
-    point, weights = f.own_terms("point"), f.own_terms("weights")
+    f, (on,), (rate,), (radius,), (size,) = Orbits(statement, known), *map(statement.get, ("on", "rate", "radius", "size"))
+    point, weights = f.terms("point"), f.terms("weights")
 
     def within(distance, names=f.state):
-        return " and ".join(f"-({distance})*({weight}) <= {name} - ({e}) and {name} - ({e}) <= ({distance})*({weight})"
-                            for name, e, weight in zip(names, point, weights))
+        return all_of(f"-({distance})*({weight}) <= {name} - ({e}) and {name} - ({e}) <= ({distance})*({weight})"
+                      for name, e, weight in zip(names, point, weights))
 
-    after = [f.next(name) for name in f.state]
     premises = {
-        **f.domains(),
-        "constants": f.for_all("show " + " and ".join(f"({c}) > 0" for c in [*weights, radius, size]) + f" and ({rate}) >= 0 and ({rate}) < 1"),
-        "point": f.for_all(*(f"let {name}_next = {e}" for name, e in zip(f.state, point)), "show " + marked(f.space, f.state, "_next")),
-        "surrounds": f.at("given " + within(radius), "show " + on),
-        "size": f.at("given " + on, "show " + within(size))}
+        "constants": f.for_all("show " + all_of([f"({rate}) >= 0", f"({rate}) < 1", *(f"({c}) > 0" for c in [*weights, radius, size])])),
+        "point": f.for_all(*(f"let {name}_next = {e}" for name, e in zip(f.state, point)), "show " + put(f.space, {n: n + "_next" for n in f.state})),
+        "surrounds": f.at("given " + within(radius), f"show {on}"), "size": f.at(f"given {on}", "show " + within(size))}
+    near, after = ["given distance >= 0", "given " + within("distance")], [name + "_next" for name in f.state]
     for k in range(len(f.pieces)):
-        premises[f"stays-{k + 1}"] = f.stepped(k, "given " + on, show=f.next(on))
-        premises[f"closer-{k + 1}"] = f.stepped(
-            k, "given " + on, "given distance >= 0", "given " + within("distance"), show=within(f"({rate})*distance", after), extra=" distance")
-    return premises
+        premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
+        premises[f"closer-{k + 1}"] = f.step(k, f"given {on}", *near, show=within(f"({rate})*distance", after), extra=["distance"])
+    return f.with_domain(premises)
 
 
 def premises_of_attraction(statement, known):
     """A descent whose last stage lies in the set of a contraction of the same map.  For all parameters in the descent's domain, the point is
     stable, f^n(s) tends to it for all states s of the space, and |f^(N+k)(s) - e| <= rate^k size for all integers N >= rank(s) + m - 1, k >= 0.
     """
-    (descent,), (contraction,) = statement.get("descent"), statement.get("contraction")
-    descent, contraction = earlier_of("descends", descent, known), earlier_of("contracts", contraction, known)
-    f, other = same_map(descent, contraction, known)
+    f = Orbits(earlier_of("descends", statement.text("descent"), known), known)
+    other = Orbits(earlier_of("contracts", statement.text("contraction"), known), known)
+    require(f.map is other.map, "two statements about different maps are joined", statement.name)
     roots = [root for root in other.fixed + other.roots if root not in f.fixed + f.roots]
-    return {"inside": f.for_all("show " + other.domain),
-            "enters": f.at(*roots, f"given {descent.get('stage')[-1]}", f"show {contraction.get('on')[0]}")}
+    return {"inside": f.for_all(f"show {other.domain}"),
+            "enters": f.at(*roots, f"given {f.own.get('stage')[-1]}", f"show {other.own.get('on')[0]}")}
 
 
 def premises_of_escape(statement, known):
@@ -924,54 +909,45 @@ def premises_of_escape(statement, known):
     and start is not the point; so the orbit of the start does not tend to the point.
     """
     f, (word,) = Orbits(statement, known), statement.get("word")
-    here, rows, guards = f.own_terms("start"), [f"let {name}_point = {e}" for name, e in zip(f.state, f.own_terms("point"))], []
-    if not word:
-        raise Rejected("a periodic orbit has at least one step", statement.name)
-    for count, k in enumerate(word):
-        guard, images = at(f.pieces, k - 1)
-        rows += [f"let {name}_{count} = {term}" for name, term in zip(f.state, here)]
-        guards.append(marked(guard, f.state, f"_{count}"))
-        here = [marked(image, f.state, f"_{count}") for image in images]
-    shown = [marked(f.space, f.state, "_0"), *guards, *(f"{name}_0 = ({last})" for name, last in zip(f.state, here)),
-             " or ".join(f"{name}_0 != {name}_point" for name in f.state)]
-    return {**f.domains(), "start": f.for_all(*rows, "show " + " and ".join(f"({one})" for one in shown))}
+    require(word, "a periodic orbit has at least one step", statement.name)
+    here, rows, shown = f.terms("start"), [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))], []
+    for count, number_of_piece in enumerate(word):
+        (guard,), images = at(f.pieces, number_of_piece - 1)
+        now = {name: f"{name}_{count}" for name in f.state}
+        rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
+        shown += [put(guard, now)] if count else [put(f.space, now), put(guard, now), all_of((f"{n}_0 != {n}_point" for n in f.state), " or ")]
+        here = [put(image, now) for image in images]
+    shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
+    return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
 
 
 def premises_of_sharpness(statement, known):
     """An attraction and an escape, from the same point of the same map, on domains that make up the map's.  For all parameters in the map's
     domain: the point is stable and attracts every state of the space <=> the parameters are in the domain of the attraction's descent.
     """
-    (attraction,), (escape,) = statement.get("attraction"), statement.get("escape")
-    attraction, escape = earlier_of("attracts", attraction, known), earlier_of("escapes", escape, known)
-    f, other = same_map(known[attraction.get("descent")[0]], escape, known)
-    _, inner = same_map(escape, known[attraction.get("contraction")[0]], known)
+    attraction = earlier_of("attracts", statement.text("attraction"), known)
+    f, inner = (Orbits(known[attraction.text(line)], known) for line in ("descent", "contraction"))
+    other = Orbits(earlier_of("escapes", statement.text("escape"), known), known)
+    require(f.map is other.map, "two statements about different maps are joined", statement.name)
     roots = [root for root in inner.fixed if root not in other.fixed]
-    same = " and ".join(f"({one}) = ({two})" for one, two in zip(inner.own_terms("point"), other.own_terms("point")))
-    return {"covers": [f"forall {' '.join(f.parameters)}", f"range {f.map.text('domain')}", f"show ({f.domain}) or ({other.domain})"],
-            "same-point": other.for_all(*roots, "show " + same)}
+    same = all_of(f"({one}) = ({two})" for one, two in zip(inner.terms("point"), other.terms("point")))
+    return {"covers": Orbits(f.map, known).for_all(f"show ({f.domain}) or ({other.domain})"), "same-point": other.for_all(*roots, f"show {same}")}
 
 
-def same_map(one, two, known):
-    if one.text("map") != two.text("map"):
-        raise Rejected("two statements about different maps are joined", f"{one.name}, {two.name}")
-    return Orbits(one, known), Orbits(two, known)
-
-
-MAP_RULES = {"map": premises_of_map, "descends": premises_of_descent, "contracts": premises_of_contraction,
-             "attracts": premises_of_attraction, "escapes": premises_of_escape, "exactly": premises_of_sharpness}
+ORBIT_RULES = {"iterates": premises_of_iterates, "map": premises_of_map, "descends": premises_of_descent, "contracts": premises_of_contraction,
+               "attracts": premises_of_attraction, "escapes": premises_of_escape, "exactly": premises_of_sharpness}
 
 
 def premises_of(statement, known):
-    """The premises of a map rule, as statements that a certificate has to prove: {name: statement}."""
-    texts = MAP_RULES[statement.kind](statement, known).items()
-    return {name: read_statements("\n".join([f"statement {statement.name}.{name}", *rows]))[f"{statement.name}.{name}"] for name, rows in texts}
+    """The premises of an orbit rule, as statements that a certificate has to prove: {name: statement}."""
+    premises = {name: [f"statement {statement.name}.{name}", *rows] for name, rows in ORBIT_RULES[statement.kind](statement, known).items()}
+    return {name: read_statements("\n".join(rows))[rows[0][10:]] for name, rows in premises.items()}
 
 
-def check_map_rule(statement, certificate, known, statements):
+def check_orbit_rule(statement, certificate, known, statements):
     """{premise: prove}: each of the premises that the rule asks for is proved, and there is no other."""
     premises = premises_of(statement, known)
-    if set(certificate) != set(premises):
-        raise Rejected("the premises of a rule are missing or left over", sorted(set(certificate) ^ set(premises)))
+    require(set(certificate) == set(premises), "the premises of a rule are missing or left over", sorted(set(certificate) ^ set(premises)))
     for name, premise in premises.items():
         try:
             prove(premise, certificate[name], known)
@@ -997,8 +973,7 @@ def settle(statement, certificate, known, statements):
         prove(statement, certificate["certified"], known)
         find(start, certificate["point"], known, "point", named, {})
     else:
-        rule = {"sharp": check_sharp, "iterates": check_iterates}.get(statement.kind, check_map_rule)
-        rule(statement, certificate["certified"], known, statements)
+        (check_sharp if statement.kind == "sharp" else check_orbit_rule)(statement, certificate["certified"], known, statements)
     return "certified"
 
 

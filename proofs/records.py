@@ -73,7 +73,8 @@ def record_of(claim: Claim, body: Body, statements: Sequence[tuple[str, str]], v
                                 for part, whole in zip(assertion.parts, named_statements(claim.id, prefix, assertion))]
     if len(named) != len(assertions(body)):
         return {}
-    corrected = [[name, digest(text), "Statement" if name in voted else "Iterates"] for name, text in statements if name.startswith(f"{claim.id}/corrected.")]
+    corrected = [[name, digest(text), "Statement" if name in voted else "Iterates"]
+                 for name, text in statements if name.startswith(f"{claim.id}/corrected.")]
     return {**{name: getattr(claim, name) for name in TOLD}, "parameters": list(claim.parameters), "nearby": claim.nearby is not None,
             "body": _plain(body, named), "correction": dict(correction) if correction else None, "corrected": corrected}
 

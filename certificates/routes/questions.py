@@ -141,6 +141,7 @@ def _fresh(name: str, taken: set[str]) -> str:
 
 def _iterate_questions(statement: Any) -> list[Question]:
     (variables,), ((arguments, images),), ((count, powers),) = (statement.get(keyword) for keyword in ("forall", "iterates", "after"))
+    images, powers = ([TRUSTED.parse(text) for text in terms] for terms in (images, powers))
     context = TRUSTED.Context()
     for name in variables:
         context.declare(name)

@@ -9,6 +9,8 @@ import ast
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from certificates.checker import parse
+
 OPERATORS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
 # words that a solver reads as its own: an underscored spelling keeps the variable apart from them
@@ -43,6 +45,7 @@ def write_term(tree: Any, values: Mapping[str, str]) -> str:
 def recurrence(statement: Any) -> list[str]:
     """P(0) is not the identity, or map(P(K)) is not P(K + 1); for all real K, where what is meant is an integer: it is an identity."""
     (variables,), ((arguments, images),), ((count, powers),) = (statement.get(keyword) for keyword in ("forall", "iterates", "after"))
+    images, powers = ([parse(text) for text in terms] for terms in (images, powers))
     plain = {name: symbol(name) for name in variables}
     k = count[0]
 

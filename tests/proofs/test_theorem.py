@@ -71,7 +71,7 @@ def test_theorem_fails_without_a_premise(name: str, premise: str) -> None:
     assert found["theorem/exactly"][0] == "rejected"
 
 
-@pytest.mark.parametrize("name", [name for name in TEXTS])
+@pytest.mark.parametrize("name", list(TEXTS))
 def test_theorem_fails_without_a_certificate(name: str) -> None:
     found = results(TEXTS, {key: one for key, one in CERTIFICATES.items() if key != name})
     assert found[name][0] == found["theorem/exactly"][0] == "rejected"

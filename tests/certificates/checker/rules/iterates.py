@@ -1,8 +1,9 @@
 """Iterates: P(0) is the identity and map(P(K)) = P(K + 1), for all K, as identities."""
 
-from tests.certificates.checker.harness import Case, Json, lines
+from tests.certificates.checker.harness import CLOSE, Case, Json, lines
 
-DONE: Json = {"certified": []}
+DONE: Json = {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}
+MORE: Json = {"certified": {**DONE["certified"], "more": ["proof", [], CLOSE]}}
 SHIFT = ("forall x w K", "integer K", "iterates (x, w) -> (x - w, w + 2)", "after K -> (x - K*w - K*(K - 1), w + 2*K)")
 
 
@@ -20,17 +21,17 @@ ACCEPTED = [
     ),
 ]
 
-WRONG = "an iterate does not satisfy its recurrence"
+START, STEP = (f"premise {name} of rule/case: nothing false is assumed" for name in ("start", "step"))
 NAMES = "a map names its variables first, an image for each, and one integer apart"
 ORDER = "the lines of a statement are missing or out of order"
 REJECTED = [
-    case("a wrong step", *SHIFT[:3], "after K -> (x - K*w - K*(K + 1), w + 2*K)", expected=WRONG),
-    case("a wrong start", *SHIFT[:3], "after K -> (x - K*w - K*(K - 1), w + 2*K + 1)", expected=WRONG),
-    case("the right start only", *SHIFT[:3], "after K -> (x - K*w, w + 2*K)", expected=WRONG),
+    case("a wrong step", *SHIFT[:3], "after K -> (x - K*w - K*(K + 1), w + 2*K)", expected=STEP),
+    case("a wrong start", *SHIFT[:3], "after K -> (x - K*w - K*(K - 1), w + 2*K + 1)", expected=START),
+    case("the right start only", *SHIFT[:3], "after K -> (x - K*w, w + 2*K)", expected=STEP),
     case(
-        "the right step only", "forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K + 1", expected=WRONG
+        "the right step only", "forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K + 1", expected=START
     ),
-    case("images swapped", "forall x w K", "integer K", "iterates (x, w) -> (w + 2, x - w)", SHIFT[3], expected=WRONG),
+    case("images swapped", "forall x w K", "integer K", "iterates (x, w) -> (w + 2, x - w)", SHIFT[3], expected=STEP),
     case(
         "a map that depends on the number of iterations",
         "forall x K",
@@ -96,7 +97,7 @@ REJECTED = [
         "integer K",
         "iterates (x, x) -> (x, x)",
         "after K -> (x, x)",
-        expected="a name is declared twice",
+        expected="premise start of rule/case: a variable is declared twice",
     ),
     case(
         "an abbreviation named like a variable",
@@ -105,7 +106,7 @@ REJECTED = [
         "let x = 0",
         "iterates x -> x",
         "after K -> x",
-        expected="a name is declared twice",
+        expected="a map that is iterated cannot depend",
     ),
     case(
         "a quotient",
@@ -113,7 +114,7 @@ REJECTED = [
         "integer K",
         "iterates x -> x/x",
         "after K -> x",
-        expected="division by what may vanish",
+        expected="premise step of rule/case: division by what may vanish",
     ),
     case(
         "a relation for an image",
@@ -121,9 +122,9 @@ REJECTED = [
         "integer K",
         "iterates x -> x > 0",
         "after K -> x",
-        expected="not a term",
+        expected="premise step of rule/case: not a term",
     ),
-    case("a starred image", "forall x K", "integer K", "iterates x -> (*x,)", "after K -> x", expected="not a term"),
+    case("a starred image", "forall x K", "integer K", "iterates x -> (*x,)", "after K -> x", expected="statements, line 5: unreadable text"),
     case(
         "an arrow too many",
         "forall x K",
@@ -133,12 +134,12 @@ REJECTED = [
         expected="statements, line 4",
     ),
     case("no arrow", "forall x K", "integer K", "iterates x", "after K -> x", expected="statements, line 4"),
-    case("something left over", *SHIFT, expected=NAMES, certificate={"certified": [1]}),
+    case("a proof left over", *SHIFT, expected="the premises of a rule are missing or left over", certificate=MORE),
     case(
         "a point",
         *SHIFT,
         expected="a certificate with missing or left over keys",
-        certificate={"certified": [], "point": []},
+        certificate={**DONE, "point": []},
     ),
     case("a refutation", *SHIFT, expected="a certificate with missing or left over keys", certificate={"refuted": []}),
     case("a given line", *SHIFT, "given x > 0", expected=ORDER),
