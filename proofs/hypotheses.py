@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 from certificates import checker
 from certificates.search.budget import Budget, Exhausted
 from certificates.statements import Statement
-from certificates.terms import ClaimError, Formula, disjunction, names_in
+from certificates.terms import ClaimError, Formula, disjunction
 
 
 def read(text: str, name: str) -> checker.Statement:
@@ -51,14 +52,18 @@ def speaks_of_range(statement: Statement) -> bool:
     """Whether a statement is about a range of alpha: by range lines, or by givens that say 0 < alpha < 1."""
     if any(keyword == "range" for keyword, _ in statement.lines):
         return True
-    given = [("range", said) for keyword, said in statement.lines
-             if keyword == "given" and isinstance(said, Formula) and names_in(said) == {"alpha"}]
+    given = [("range", said) for keyword, said in statement.lines if keyword == "given" and _names_of(str(said)) == {"alpha"}]
     return bool(given) and has_whole_range(replace(statement, lines=tuple(given)))
 
 
 def has_whole_range(statement: Statement) -> bool:
     """Whether the range lines say 0 < alpha < 1 and nothing else, however they are written."""
     return _is_whole_range(statement.forall, tuple(str(formula) for keyword, formula in statement.lines if keyword == "range"))
+
+
+@cache
+def _names_of(text: str) -> set[str]:
+    return {node.id for node in ast.walk(checker.parse(text)) if isinstance(node, ast.Name)}
 
 
 @cache

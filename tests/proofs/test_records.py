@@ -19,8 +19,9 @@ from proofs.derivations import body_and_derivations
 from proofs.judging import DEFAULT_BUDGET
 from proofs.records import claim_of
 
-# Readings, misprints corrected in each way, a recurrence, a gap, one that awaits a theorem, one that nothing corrects, sharp ranges.
-CHOSEN = ("s2.2.1-H", "s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "s3.5.3-jacobian", "sA.3.2-sup3", "sB.7-C", "sB.1-so-that", "s4.2-invariant")
+# Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem and one, one that nothing corrects, sharp ranges.
+CHOSEN = ("s2.2.1-H", "s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "s3.5.3-jacobian", "sA.3.2-sup3", "sB.7-C", "sB.1-so-that", "s4.2-invariant",
+          "eq-26", "theorem-roots", "theorem")
 PAPER = [claim for claim in loading.paper_claims() if claim.id in CHOSEN]
 
 
