@@ -143,8 +143,11 @@ class Judge:
         self.found.reused += outcome != "rejected"
         if outcome == "rejected":
             parsed = read(text, name)
-            certificate = self.search(statement, parsed)
+            certificate = self.search(statement, parsed, confirm=False)
             outcome = self.check(parsed, certificate)
+            if outcome == "rejected":
+                certificate = self.search(statement, parsed, confirm=True)
+                outcome = self.check(parsed, certificate)
             if outcome == "rejected":
                 certificate, outcome = {"unknown": "the search found no certificate"}, "unknown"
         self.keep(name, text, certificate, outcome)
@@ -183,7 +186,7 @@ class Judge:
     def cast(self, name: str, text: str, outcome: str, routes: Sequence[str]) -> Sequence[Vote]:
         return cast_votes(read(text, name), outcome, routes, None)
 
-    def search(self, statement: AnyStatement, parsed: checker.Statement) -> Any:
+    def search(self, statement: AnyStatement, parsed: checker.Statement, confirm: bool) -> Any:
         if isinstance(statement, (Iterates, MapRule)):
             from certificates.search.map_rules import search_map_rule
 
@@ -191,7 +194,7 @@ class Judge:
         from certificates.search.certificate import search_certificate
 
         try:
-            found = search_certificate(parsed, self.known, Budget(self.options.budget), self.claim.hints.get("search"))
+            found = search_certificate(parsed, self.known, Budget(self.options.budget), self.claim.hints.get("search"), confirm)
         except Exhausted:
             found = {"unknown": f"the budget of {self.options.budget} units ran out"}
         if "certified" not in found and isinstance(statement, Statement) and not self.is_trial:
@@ -275,12 +278,14 @@ class Judge:
         return store is not None and store.texts.get(name) == statement.text() and self.options.checked.get(name) == "certified"
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
-        from certificates.search.points import search_points
+        from certificates.search.points import search_found
+        from certificates.search.stories import unfolded
 
         if parsed.kind != "universal":
             return False
-        checker.Unfolding(parsed, checker.Context())
-        return search_points(parsed, self.known, Budget(QUICK_BUDGET), 0)[1] is not None
+        unfolded(parsed)
+        start: checker.State = checker.State(checker.Context())
+        return search_found(parsed, start, "counterexample", {}, self.known, Budget(QUICK_BUDGET), effort=0) is not None
 
     # -------------------------------------------------------------- sharp ranges
 

@@ -101,7 +101,7 @@ class _Again(Judge):
     def cast(self, name: str, text: str, outcome: str, routes: Sequence[str]) -> Any:
         raise Forgotten
 
-    def search(self, statement: AnyStatement, parsed: Any) -> Any:
+    def search(self, statement: AnyStatement, parsed: Any, confirm: bool) -> Any:
         raise Forgotten
 
     def correct(self) -> None:

@@ -71,12 +71,15 @@ def _fails(fact: Atom, p: Polynomial, box: Sequence[Interval]) -> bool:
 
 def _propagate(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval]) -> bool:
     """Moves ends inwards, in a few rounds, and to finite values where it can; False where an interval becomes empty."""
+    known: dict[tuple[int, int], tuple[tuple[Interval, ...], tuple[Rational | None, Rational | None]]] = {}
     for _ in range(ROUNDS):
         changed = False
-        for _, p in sides:
+        for number, (_, p) in enumerate(sides):
             for i in p.used:
-                for direction in (1, -1):
-                    end = _end_along(p, i, direction, box)
+                others = tuple(box[j] for j in p.used if j != i)
+                if (number, i) not in known or known[number, i][0] != others:
+                    known[number, i] = others, _ends_along(p, i, box)
+                for direction, end in zip((1, -1), known[number, i][1]):
                     if end is None:
                         continue
                     low, high = box[i]
@@ -98,17 +101,24 @@ def _worth(old: Interval, new: Interval) -> bool:
     return not _infinite(old) and bool(16 * (new[1][1] - new[0][1]) < 15 * (old[1][1] - old[0][1]))
 
 
-def _end_along(p: Polynomial, i: int, direction: int, box: list[Interval]) -> Rational | None:
-    """t such that p >= 0 fails for direction * x_i > direction * t, or None where none is found."""
+def _ends_along(p: Polynomial, i: int, box: list[Interval]) -> tuple[Rational | None, Rational | None]:
+    """(t, s) such that p >= 0 fails for x_i > t and for x_i < s; None where none is found."""
+    spans = [(k, span(coefficient, box), bool(coefficient.used)) for k, coefficient in reversed(p.collected(i))]
+    constant = p.degrees[i] == 1 and not any(k == 1 and varies for k, _, varies in spans)
+    up = _end(spans, p.degrees[i], 1, constant)
+    down = _end(spans, p.degrees[i], -1, constant)
+    return up, None if down is None else -down
+
+
+def _end(spans: Sequence[tuple[int, Interval, bool]], degree: int, direction: int, constant: bool) -> Rational | None:
+    """t such that p >= 0 fails for direction * x > t, from what the coefficients of the powers of x lie between."""
     none = rational(0)
-    tops, constant = [none] * (p.degrees[i] + 1), p.degrees[i] == 1
-    for k, coefficient in reversed(p.collected(i)):
-        least, most = span(coefficient, box)
+    tops = [none] * (degree + 1)
+    for k, (least, most), _ in spans:
         top = most if direction > 0 or k % 2 == 0 else (-least[0], -least[1])
         if top[0] > 0:
             return None
         tops[k] = top[1]
-        constant = constant and (k != 1 or not coefficient.used)
     while len(tops) > 1 and tops[-1] == 0:
         tops.pop()
     if len(tops) < 2 or tops[-1] > 0:
@@ -116,7 +126,7 @@ def _end_along(p: Polynomial, i: int, direction: int, box: list[Interval]) -> Ra
     if len(tops) == 2:
         # a line falls everywhere, so its zero bounds x on either side of 0 only where p is one line: c_1 a constant
         zero = -tops[0] / tops[1]
-        return direction * (zero if constant else max(zero, none))
+        return zero if constant else max(zero, none)
     end = 1 + max(max(c, none) for c in tops[:-1]) / -tops[-1]
     low = none
     for _ in range(SHIFTS):  # Cauchy's bound, then the least shift that is seen to be beyond all roots
@@ -125,7 +135,7 @@ def _end_along(p: Polynomial, i: int, direction: int, box: list[Interval]) -> Ra
             end = middle
         else:
             low = middle
-    return direction * end
+    return end
 
 
 def rounded(value: Rational, up: bool) -> Rational:

@@ -11,6 +11,7 @@ from typing import Any
 
 from certificates import checker
 from certificates.routes.polynomials import Formula, Polynomial, atom, atoms, conjuncts, join
+from certificates.search.stories import unfolded
 
 TRUSTED: Any = checker  # the trusted file carries no annotations
 
@@ -89,7 +90,7 @@ def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[
 
 
 def _universal_questions(statement: Any, name: str, sharp: Sequence[Any] | None, where: str) -> list[Question]:
-    story = TRUSTED.Unfolding(statement, TRUSTED.Context(), sharp)
+    story: Any = unfolded(statement, sharp if sharp is None else list(sharp))
     own, universal = tuple(story.context.index), set(story.universal)
     free, integers = tuple(n for n in own if n in universal), frozenset(story.integers)
     asked = []

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from certificates.routes.polynomials import Atom, Formula, Polynomial
-from certificates.routes.questions import Denial, Question, questions
+from certificates.routes.questions import TRUSTED, Denial, Question, questions
 from certificates.routes.smt_terms import number_checks, recurrence, symbol
 
 
@@ -35,6 +35,11 @@ def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
     rows = [f"; statement {statement.name}: it holds if and only if every check below answers unsat"]
     if statement.kind == "sharp":
         rows.append("; sharp range: inside it every named statement holds, outside it one of them fails at every parameter")
+    if statement.kind in TRUSTED.ORBIT_RULES and statement.kind != "iterates":
+        rows[0] += ", which are the premises of its rule, beside the statements that it names"
+        for premise in TRUSTED.premises_of(statement, earlier or {}).values():
+            rows += script(premise).splitlines()[1:]
+        return "\n".join(rows) + "\n"
     for question in questions(statement, earlier):
         asked = recurrence(statement) if statement.kind == "iterates" else [*declarations(question), *assertions(question)]
         rows += _check(question.part, _meaning(question), logic(question), asked)

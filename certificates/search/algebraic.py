@@ -22,7 +22,7 @@ def exact(value: int | Fraction) -> fmpq:
 
 def sign(value: fmpq) -> int:
     """-1, 0 or 1."""
-    return int(value > 0) - int(value < 0)
+    return 0 if not value else 1 if value > 0 else -1
 
 
 @total_ordering

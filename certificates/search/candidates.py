@@ -59,10 +59,21 @@ class Cells:
         return [*outer, (self.roots[-1]._high, self.roots[-1]._high + 2)]
 
     def signs(self, at: Value) -> dict[int, int]:
-        """The sign of every polynomial at a value."""
-        if isinstance(at, AlgebraicNumber):
-            return {k: at.sign_of(p) for k, p in self.polys.items()}
-        return {k: sign(p(at)) for k, p in self.polys.items()}
+        """The sign of every polynomial at a value, found where it is asked for."""
+        return Signs(self.polys, at)
+
+
+class Signs(dict[int, int]):
+    """The signs of polynomials at a value; most conditions are decided by a few of them."""
+
+    def __init__(self, polys: Mapping[int, fmpq_poly], at: Value) -> None:
+        super().__init__()
+        self.polys, self.at = polys, at
+
+    def __missing__(self, k: int) -> int:
+        at = self.at
+        self[k] = found = at.sign_of(self.polys[k]) if isinstance(at, AlgebraicNumber) else sign(self.polys[k](at))
+        return found
 
 
 def separate(roots: list[AlgebraicNumber]) -> None:

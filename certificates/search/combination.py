@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as choices
 from math import lcm, prod
@@ -12,8 +14,8 @@ from flint import fmpz_mpoly
 
 from .budget import Budget
 from .lifting import Term, finish
-from .linear_program import Program, solve
-from .polynomials import Packing, Row, collect, multiply, total_degree
+from .linear_program import Mask, Program, solve
+from .polynomials import Keys, Packing, Row, collect, multiply, total_degree
 from .problem import Problem
 from .reduction import Factors, merge, power
 from .signs import Fact, Sum, times
@@ -28,7 +30,7 @@ class Combination:
     def __init__(self, problem: Problem, degree: int, bernstein: int, roots: list[fmpz_mpoly],
                  only: list[int] | None = None) -> None:
         self.problem, self.roots, self.program = problem, roots, Program()
-        self.columns: list[tuple[Factors, int]] = []  # facts and root (-1 for 1) of every column
+        self.blocks: list[Block] = []
         self.cofactors: list[Cofactor] = []
         facts, bounded = problem.facts, problem.bounded if bernstein else None
         others, degrees = only if only is not None else list(range(len(facts))), [0] * len(facts)
@@ -41,21 +43,22 @@ class Combination:
         heights = [2 * self._height(root) for root in roots]
         own_heights = [self._height(fact.poly) for fact in facts]
         highest = max([2, *own_heights])
-        products = Products([facts[k] for k in others], others, self.packing)
+        products = Products(problem, others, self.packing)
+        in_bounded, in_others = np.array(degrees, dtype=np.int64), np.array(own_heights, dtype=np.int64)
         levels: dict[int, Level] = {}
         for count in range(degree + 1):
             if count:
                 products = products.times_facts()
-            rooms = [most - sum(degrees[k] for k in chosen) for chosen in products.chosen]
-            for room in sorted(set(rooms)):
-                part = products.only([k for k, other in enumerate(rooms) if other == room])
+            rooms = most - in_bounded[products.chosen].sum(axis=1)
+            for room in np.unique(rooms).tolist():
+                part = products.only(rooms == room)
                 for level in {0, room} if room >= 0 else ():
                     if level not in levels:
                         levels[level] = Level(problem, level, self.packing)
                     self._add(levels[level], part, -1)
                     for which, square in enumerate(squares if count < 2 else ()):
-                        low = [k for k, chosen in enumerate(part.chosen) if heights[which] + sum(own_heights[i] for i in chosen) <= highest]
-                        if low:
+                        low = heights[which] + in_others[part.chosen].sum(axis=1) <= highest
+                        if low.any():
                             self._add(levels[level], part.only(low).times_row(square), which)
         basis = problem.reduction.basis() if self.packing.exact else []
         for equation in basis:
@@ -74,14 +77,20 @@ class Combination:
 
     def _add(self, level: Level, products: Products, root: int) -> None:
         """A block of columns: every product times every Bernstein polynomial of one degree."""
-        count, size, length = len(products.chosen), len(level.strict), products.keys.shape[1]
-        width = len(level.keys)
-        keys = np.broadcast_to((products.keys[:, :, None] + level.keys)[:, None], (count, size, length, width))
-        values = products.values[:, None, :, None] * level.table[None, :, None, :]
-        strict = [root < 0 and s and t for s in products.strict for t in level.strict]
-        costs = [1.0 + w / 4 + len(chosen) + level.degree / 8 for w, chosen in zip(products.widths, products.chosen) for _ in level.strict]
-        self.program.add(keys.reshape(count * size, -1), values.reshape(count * size, -1), strict, costs)
-        self.columns += [(merge(own, more), root) for own in map(powers_of, products.chosen) for more in level.factors]
+        count, size = len(products.places), len(level.strict)
+        columns = (products.at[:, None] * size + level.at).ravel()
+        keys = (products.keys[:, None] + level.keys).ravel()
+        values = (products.values[:, None] * level.values).ravel()
+        strict = np.outer(products.strict, level.strict).ravel() if root < 0 else np.zeros(count * size, dtype=bool)
+        costs = 1.0 + products.widths / 4 + products.places.shape[1] + level.degree / 8
+        self.blocks.append(Block(self.program.count, level, products.chosen, root))
+        self.program.add(columns, keys, values, strict, np.repeat(costs, size))
+
+    def _column(self, place: int) -> tuple[Factors, int]:
+        """The facts and the root (-1 for 1) of a column."""
+        block = self.blocks[bisect_right(self.blocks, place, key=lambda one: one.start) - 1]
+        product, power_of_bounds = divmod(place - block.start, len(block.level.strict))
+        return merge(powers_of(tuple(block.chosen[product].tolist())), block.level.factors[power_of_bounds]), block.root
 
     def _add_equations(self, places: list[int], degree: int, bernstein: int) -> None:
         """Adds equations that are left, times monomials, as free columns."""
@@ -97,72 +106,88 @@ class Combination:
             monomials = [exponents for exponents in choices(*ranges) if sum(exponents) <= room]
             keys, values = self.packing.row(equation.poly)
             self.cofactors += [(place, exponents) for exponents in monomials]
-            self.program.add_free(self.packing.keys(monomials)[:, None] + keys, np.broadcast_to(values, (len(monomials), len(values))))
+            self.program.add_free(len(monomials), (self.packing.keys(monomials)[:, None] + keys).ravel(), np.tile(values, len(monomials)))
 
     def node(self, budget: Budget) -> Node | None:
         """Solves the program, and gives the node of its solution."""
-        budget.spend(3 * len(self.columns) + 3 * len(self.cofactors))
+        budget.spend(3 * self.program.count + 3 * len(self.cofactors))
         found = solve(self.program, budget)
         if found is None:
             return None
-        used = [(self.columns[k], c) for k, c in found[0].items()]
+        used = [(self._column(k), c) for k, c in found[0].items()]
         cofactors = [(self.cofactors[k], c) for k, c in found[1].items()]
         return lift(self.problem, used, cofactors, self.roots)
 
 
+@dataclass
+class Block:
+    """Columns that were added together: the number of the first, the facts of every product, and what each was multiplied by."""
+
+    start: int
+    level: Level
+    chosen: Keys
+    root: int
+
+
 class Products:
-    """Products of the same number of facts as rows of keys and values, padded with zeros."""
+    """Products of the same number of facts: what stands in each as rows of keys and values, one after another."""
 
-    def __init__(self, facts: list[Fact], others: list[int], packing: Packing) -> None:
-        length = max((len(fact.poly) for fact in facts), default=1)
-        self.own_keys, self.own_values = np.zeros((len(facts), length), np.int64), np.zeros((len(facts), length))
-        for k, fact in enumerate(facts):
-            width = len(fact.poly)
-            self.own_keys[k, :width], self.own_values[k, :width] = packing.row(fact.poly)
-        self.own_strict = [fact.strict for fact in facts]
-        self.others = others
-        self.places: list[tuple[int, ...]] = [()]  # the facts of every product, by their places among the others
-        self.chosen: list[tuple[int, ...]] = [()]
-        self.strict = [True]
-        self.keys, self.values = np.zeros((1, 1), np.int64), np.ones((1, 1))
-        self.widths = [1]
+    def __init__(self, problem: Problem, others: list[int], packing: Packing) -> None:
+        rows = [problem.row(problem.facts[k].poly, packing) for k in others]
+        self.lengths = np.array([len(keys) for keys, _ in rows], dtype=np.int64)
+        self.own_keys = np.concatenate([np.zeros(0, np.int64), *(keys for keys, _ in rows)])
+        self.own_values = np.concatenate([np.zeros(0), *(values for _, values in rows)])
+        self.own_strict = np.array([problem.facts[k].strict for k in others], dtype=bool)
+        self.others = np.array(others, dtype=np.int64)
+        self.places = np.zeros((1, 0), np.int64)  # the facts of every product, by their places among the others
+        self.strict: Mask = np.ones(1, dtype=bool)
+        self.at, self.keys, self.values = np.zeros(1, np.int64), np.zeros(1, np.int64), np.ones(1)
+        self.widths = np.ones(1, np.int64)
 
-    def _copy(self) -> Products:
+    @property
+    def chosen(self) -> Keys:
+        """The facts of every product."""
+        return self.others[self.places]
+
+    def _changed(self, places: Keys, strict: Mask, at: Keys, keys: Keys, values: Any) -> Products:
         new = object.__new__(Products)
         new.__dict__.update(self.__dict__)
+        new.places, new.strict, new.at, new.keys, new.values = places, strict, at, keys, values
+        new.widths = np.bincount(at, minlength=len(places))
         return new
 
     def times_facts(self) -> Products:
         """The products with one fact more, each once."""
-        pairs = [(i, k) for i, place in enumerate(self.places) for k in range(place[-1] if place else 0, len(self.others))]
-        old, fact = [i for i, _ in pairs], [k for _, k in pairs]
-        new = self._copy()
-        new.places = [(*self.places[i], k) for i, k in pairs]
-        new.chosen = [(*self.chosen[i], self.others[k]) for i, k in pairs]
-        new.strict = [self.strict[i] and self.own_strict[k] for i, k in pairs]
-        length = self.keys.shape[1] * self.own_keys.shape[1]
-        new.keys = (self.keys[old][:, :, None] + self.own_keys[fact][:, None, :]).reshape(len(pairs), length)
-        new.values = (self.values[old][:, :, None] * self.own_values[fact][:, None, :]).reshape(new.keys.shape)
-        new.widths = np.count_nonzero(new.values, axis=1).tolist()
-        return new
+        last = self.places[:, -1] if self.places.shape[1] else np.zeros(len(self.places), np.int64)
+        counts = len(self.others) - last
+        old = np.repeat(np.arange(len(last)), counts)
+        fact = counted(counts) + last[old]
+        lengths = self.lengths[fact]
+        whole = self.widths[old] * lengths
+        at, inner = np.repeat(np.arange(len(old)), whole), counted(whole)
+        here, there = np.divmod(inner, lengths[at])
+        here += (np.cumsum(self.widths) - self.widths)[old[at]]
+        there += (np.cumsum(self.lengths) - self.lengths)[fact[at]]
+        return self._changed(np.hstack([self.places[old], fact[:, None]]), self.strict[old] & self.own_strict[fact],
+                             at, self.keys[here] + self.own_keys[there], self.values[here] * self.own_values[there])
 
-    def only(self, kept: list[int]) -> Products:
+    def only(self, kept: Mask) -> Products:
         """Some of the products."""
-        if len(kept) == len(self.chosen):
+        if kept.all():
             return self
-        new = self._copy()
-        new.keys, new.values = self.keys[kept], self.values[kept]
-        new.places, new.chosen = [self.places[k] for k in kept], [self.chosen[k] for k in kept]
-        new.strict, new.widths = [self.strict[k] for k in kept], [self.widths[k] for k in kept]
-        return new
+        inside = kept[self.at]
+        new_place = np.cumsum(kept) - 1
+        return self._changed(self.places[kept], self.strict[kept], new_place[self.at[inside]], self.keys[inside], self.values[inside])
 
     def times_row(self, row: Row) -> Products:
         """All of the products times one polynomial."""
-        new = self._copy()
-        new.keys = (self.keys[:, :, None] + row[0]).reshape(len(self.keys), -1)
-        new.values = (self.values[:, :, None] * row[1]).reshape(len(self.keys), -1)
-        new.widths = [width * len(row[0]) for width in self.widths]
-        return new
+        at = np.repeat(self.at, len(row[0]))
+        return self._changed(self.places, self.strict, at, (self.keys[:, None] + row[0]).ravel(), (self.values[:, None] * row[1]).ravel())
+
+
+def counted(counts: Keys) -> Keys:
+    """0, 1, .., c - 1 for every count c in turn."""
+    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def powers_of(chosen: tuple[int, ...]) -> Factors:
@@ -171,14 +196,14 @@ def powers_of(chosen: tuple[int, ...]) -> Factors:
 
 
 class Level:
-    """The Bernstein polynomials low^i * high^(degree - i) as a table of coefficients of the powers of the bounded variable."""
+    """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded variable, and how often."""
 
     def __init__(self, problem: Problem, degree: int, packing: Packing) -> None:
         self.degree = degree
         bounded, facts = problem.bounded, problem.facts
         if bounded is None or degree == 0:
             self.factors: list[Factors] = [()]
-            self.strict, self.keys, self.table = [True], np.zeros(1, np.int64), np.ones((1, 1))
+            self.strict, self.at, self.keys, self.values = np.ones(1, dtype=bool), np.zeros(1, np.int64), np.zeros(1, np.int64), np.ones(1)
             return
         lines = []
         for k in (bounded.low, bounded.high):
@@ -187,11 +212,12 @@ class Level:
             for _ in range(degree):
                 line.append(np.convolve(line[-1], base))
             lines.append(line)
-        self.table = np.array([np.convolve(lines[0][i], lines[1][degree - i]) for i in range(degree + 1)])
-        self.keys = np.arange(degree + 1, dtype=np.int64) * packing.weights[bounded.variable]
+        table = np.array([np.convolve(lines[0][i], lines[1][degree - i]) for i in range(degree + 1)])
+        self.at, powers = np.nonzero(table)
+        self.keys, self.values = powers * packing.weights[bounded.variable], table[self.at, powers]
         pairs = [((bounded.low, i), (bounded.high, degree - i)) for i in range(degree + 1)]
         self.factors = [tuple(sorted((k, e) for k, e in pair if e)) for pair in pairs]
-        self.strict = [all(facts[k].strict for k, _ in own) for own in self.factors]
+        self.strict = np.array([all(facts[k].strict for k, _ in own) for own in self.factors], dtype=bool)
 
 
 def lift(problem: Problem, used: list[tuple[tuple[Factors, int], Fraction]], cofactors: list[tuple[Cofactor, Fraction]],

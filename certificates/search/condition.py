@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
@@ -11,6 +12,7 @@ from certificates import checker
 
 from .algebraic import AlgebraicNumber, fraction, sign
 
+ZERO = fmpq(0)
 Tree = Any  # bool, (index of a polynomial, relation), or ("and" | "or", [Tree, ...])
 HOLDS = {
     ">": lambda s: s > 0, ">=": lambda s: s >= 0, "=": lambda s: s == 0, "!=": lambda s: s != 0,
@@ -20,6 +22,22 @@ HOLDS = {
 def ring_of(context: checker.Context, *more: str) -> fmpq_mpoly_ctx:
     """The polynomial ring in the variables of a context, in their order, and in further ones."""
     return fmpq_mpoly_ctx.get([*context.index, *more] or ["none"], Ordering.lex)
+
+
+@lru_cache(maxsize=512)
+def places(ring: fmpq_mpoly_ctx) -> dict[str, int]:
+    """The number of every variable of a ring; flint takes numbers far quicker than names."""
+    return {name: place for place, name in enumerate(ring.names())}
+
+
+def valued(poly: fmpq_mpoly, given: Mapping[str, fmpq]) -> fmpq | None:
+    """The value of a polynomial at a point; None where it has a variable that the point does not give."""
+    place = places(poly.context())
+    if len(given) < len(place):
+        degrees = poly.degrees()
+        if any(degrees[i] > 0 and name not in given for name, i in place.items()):  # the degrees of 0 are -1
+            return None
+    return poly(*[given.get(name, ZERO) for name in place])
 
 
 def to_flint(poly: checker.Poly, ring: fmpq_mpoly_ctx, size: int) -> fmpq_mpoly:
@@ -90,7 +108,11 @@ class Condition:
 
     def substituted(self, values: Mapping[str, fmpq]) -> Condition:
         """The condition with numbers in place of variables, folded."""
-        given = dict(values)
+        place, ring = places(self.ring), self.ring
+        if len(values) == len(place):
+            point = [values[name] for name in place]
+            return self.mapped(lambda p: ring.constant(p(*point)))
+        given = {place[name]: value for name, value in values.items()}
         return self.mapped(lambda p: p.subs(given))
 
     def replaced(self, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Condition:
@@ -104,7 +126,7 @@ class Condition:
         def changed(k: int) -> fmpq_mpoly:
             if k not in done:
                 done.add(k)
-                if not polys[k].is_constant():
+                if polys[k].total_degree() > 0:
                     polys[k] = change(polys[k])
             return polys[k]
 
@@ -117,8 +139,10 @@ class Condition:
 
     def variables(self) -> set[str]:
         """The variables that still occur."""
-        names = self.ring.names()
-        return {names[i] for k in self.used() for i, e in enumerate(self.polys[k].degrees()) if e}
+        names, found = list(places(self.ring)), set[int]()
+        for k in self.used():
+            found.update(i for i, e in enumerate(self.polys[k].degrees()) if e)
+        return {names[i] for i in found}
 
     def facts(self) -> list[tuple[fmpq_mpoly, str]]:
         """The relations that hold on their own: those at top level or in a top-level `and`."""
@@ -197,10 +221,9 @@ def fold(tree: Tree, poly_of: Callable[[int], fmpq_mpoly]) -> Tree:
         return tree
     if isinstance(tree[0], int):
         poly = poly_of(tree[0])
-        if not poly.is_constant():
+        if poly.total_degree() > 0:
             return tree
-        value = poly.leading_coefficient() if poly != 0 else fmpq(0)
-        return HOLDS[tree[1]](sign(value))
+        return HOLDS[tree[1]](sign(poly.coefficient(0)) if poly else 0)
     parts = []
     for part in tree[1]:
         folded = fold(part, poly_of)
@@ -223,8 +246,10 @@ def evaluate(tree: Tree, signs: Any) -> bool:
 
 def univariate(poly: fmpq_mpoly, name: str) -> fmpq_poly:
     """A polynomial in one variable of its ring, as a dense one."""
-    place = poly.context().variable_to_index(name)
-    coefficients: dict[int, fmpq] = {powers[place]: c for powers, c in poly.to_dict().items()}
+    place = places(poly.context())[name]
+    if len(poly) == poly.total_degree() + 1:  # no power is missing, so they stand in falling order
+        return fmpq_poly(poly.coeffs()[::-1])
+    coefficients: dict[int, fmpq] = {powers[place]: c for powers, c in zip(poly.monoms(), poly.coeffs())}
     return fmpq_poly([coefficients.get(k, 0) for k in range(max(coefficients, default=0) + 1)])
 
 
@@ -236,21 +261,26 @@ def multivariate(poly: fmpq_poly, ring: fmpq_mpoly_ctx, name: str) -> fmpq_mpoly
 
 def coefficients_in(poly: fmpq_mpoly, name: str) -> list[fmpq_mpoly]:
     """The coefficients of a polynomial as one in this variable, from the constant up."""
-    ring = poly.context()
-    place = ring.variable_to_index(name)
-    parts: dict[int, dict[tuple[int, ...], fmpq]] = {}
-    for powers, c in poly.to_dict().items():
-        rest = tuple(0 if i == place else e for i, e in enumerate(powers))
-        parts.setdefault(powers[place], {})[rest] = c
-    return [ring.from_dict(parts.get(k, {})) for k in range(max(parts, default=0) + 1)]
+    place = places(poly.context())[name]
+    degree = poly.degrees()[place] if poly else 0
+    found, rest, factorial = [], poly, 1
+    for k in range(degree + 1):  # Taylor's formula
+        if k:
+            rest, factorial = rest.derivative(place), factorial * k
+        c = rest if k == degree else rest.subs({place: 0})
+        found.append(c / factorial if factorial > 1 else c)
+    return found
 
 
 def replace(poly: fmpq_mpoly, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> fmpq_mpoly:
     """The polynomial at top/bottom, times the least even power of the bottom that clears it."""
+    place = places(poly.context())[name]
+    if not poly or not poly.degrees()[place]:
+        return poly
+    if bottom == 1 and top.total_degree() <= 0:
+        return poly.subs({place: top.coefficient(0) if top else 0})
     coefficients = coefficients_in(poly, name)
     degree = len(coefficients) - 1
-    if degree == 0:
-        return poly
     if bottom == 1:
         result = coefficients[-1]
         for c in reversed(coefficients[:-1]):
@@ -269,6 +299,6 @@ def replace(poly: fmpq_mpoly, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) ->
 
 def constant_of(poly: fmpq_mpoly) -> fmpq | None:
     """The value of a constant polynomial; None for any other."""
-    if not poly.is_constant():
+    if poly.total_degree() > 0:
         return None
-    return poly.leading_coefficient() if poly != 0 else fmpq(0)
+    return poly.coefficient(0) if poly else ZERO

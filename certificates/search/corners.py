@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 from flint import fmpq_mpoly
 
 from .candidates import UNITS
-from .condition import Condition, Tree, coefficients_in
-from .near import ring_names
+from .condition import Condition, Tree, coefficients_in, valued
+from .near import Trial, ring_names
+from .partial import Partial
 from .quotients import Choice, Quotient, Root, square_roots
-from .templates import Partial, TemplateSearch
+from .templates import TemplateSearch
 
 STEPS = 120  # substitutions in one search
 MOST_FACTORS = 200  # a polynomial with more terms is not factored
@@ -63,8 +64,9 @@ class CornerSearch(TemplateSearch):
         for name, value, root in moves:
             self.steps -= 1
             self.budget.spend(100 + 60 * len(self.samples) * (1 + len(partial.condition.polys)))
-            widened = partial if root is None else Partial(partial.condition, partial.sampled, partial.steps, [*partial.roots, root])
-            if (ring_names(value.top) | ring_names(value.bottom)) & set(unknowns) or self._plausible(widened, name, value):
+            widened = partial if root is None else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
+            rows = [Trial(sampled, name) if sampled.tree is not False else None for sampled in partial.sampled]
+            if (ring_names(value.top) | ring_names(value.bottom)) & set(unknowns) or self._plausible(widened, rows, value, None, {}):
                 self.seen = set(seen) if len(moves) > 1 else seen
                 yield from self._corner(self._with(widened, name, value.top, value.bottom), [n for n in unknowns if n != name], chosen)
         self.seen = seen
@@ -95,7 +97,7 @@ class CornerSearch(TemplateSearch):
         parts = coefficients_in(factor, name)
         if len(parts) != 2 or ring_names(parts[1]) & set(unknowns):
             return []
-        if any(parts[1].subs(self._given(partial, sample)) == 0 for sample in self.samples):
+        if any(valued(parts[1], self._given(partial, sample)) == 0 for sample in self.samples):
             return []
         return [(name, Quotient.reduced(-parts[0], parts[1]), None)]
 

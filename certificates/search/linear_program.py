@@ -27,30 +27,33 @@ class Program:
     """Find c >= 0 for the columns and any m for the free ones with sum c * column + sum m * free = 0, and a strict c > 0."""
 
     def __init__(self) -> None:
+        self.places: list[Any] = []  # of every block, the columns, monomials and values of its entries
         self.keys: list[Any] = []
         self.values: list[Any] = []
-        self.shapes: list[tuple[int, int]] = []  # columns, and entries of each, of every block
-        self.strict: list[bool] = []
-        self.costs: list[float] = []
+        self.strict: list[Any] = []  # an array for every block
+        self.costs: list[Any] = []
         self.rewritings: list[tuple[Keys, Keys, Any]] = []
         self.exponents: Callable[[Keys], Keys] = _no_exponents
         self.count = 0  # of the columns that are not free; they come first
+        self.columns = 0
 
-    def add(self, keys: Any, values: Any, strict: list[bool], costs: list[float]) -> None:
-        """Columns that may be used with positive coefficients, one a row of the arrays; a zero value says nothing."""
+    def add(self, places: Any, keys: Any, values: Any, strict: Any, costs: Any) -> None:
+        """Columns that may be used with positive coefficients; `places` counts them from the first of these."""
+        self._entries(places, keys, values)
+        self.strict.append(strict)
+        self.costs.append(costs)
+        self.count += len(strict)
+        self.columns += len(strict)
+
+    def add_free(self, count: int, keys: Any, values: Any) -> None:
+        """Columns with the same number of entries that may be used with any coefficients; these come last."""
+        self._entries(np.repeat(np.arange(count), len(keys) // max(1, count)), keys, values)
+        self.columns += count
+
+    def _entries(self, places: Any, keys: Any, values: Any) -> None:
+        self.places.append(places + self.columns)
         self.keys.append(keys)
         self.values.append(values)
-        self.shapes.append(keys.shape)
-        self.strict += strict
-        self.costs += costs
-        self.count += len(keys)
-
-    def add_free(self, keys: Any, values: Any) -> None:
-        """Columns that may be used with any coefficients, one a row of the arrays; these come last."""
-        self.keys.append(keys)
-        self.values.append(values)
-        self.shapes.append(keys.shape)
-
 
     def add_rewriting(self, leading: Keys, keys: Keys, values: Any) -> None:
         """An equation, its leading monomial first: columns are compared after its multiples are taken off."""
@@ -69,18 +72,19 @@ def solve(program: Program, budget: Budget) -> Solution | None:
     >>> packing = Packing(ring, [x])
     >>> program = Program()
     >>> for p, strict in ((x - 2, False), (1 - x, False), (ring.one, True)):
-    ...     program.add(*(part[None, :] for part in packing.row(p)), [strict], [1.0])
+    ...     keys, values = packing.row(p)
+    ...     program.add(0 * keys, keys, values, np.array([strict]), np.ones(1))
     >>> solve(program, Budget(1000))
     ({0: Fraction(1, 1), 1: Fraction(1, 1), 2: Fraction(1, 1)}, {})
     """
-    count, columns = program.count, sum(shape[0] for shape in program.shapes)
+    count, columns = program.count, program.columns
     matrix = assemble(program, budget)
     if matrix is None:
         return None
     strict = np.zeros(columns, dtype=bool)
-    strict[:count] = program.strict
+    strict[:count] = np.concatenate(program.strict) if count else ()
     costs = np.zeros(columns)
-    costs[:count] = program.costs
+    costs[:count] = np.concatenate(program.costs) if count else ()
     alive = presolve(matrix, count, strict[:count])
     if alive is None:
         return None
@@ -109,17 +113,14 @@ NOISE = np.random.default_rng(7).random(20000)
 
 def assemble(program: Program, budget: Budget) -> Matrix | None:
     """The coefficients as a matrix, one row for each monomial; None if it is too large."""
-    columns = sum(shape[0] for shape in program.shapes)
-    values = np.concatenate([block.ravel() for block in program.values])
-    used = np.flatnonzero(values)
-    keys, inverse = np.unique(np.concatenate([block.ravel() for block in program.keys])[used], return_inverse=True)
+    columns, values = program.columns, np.concatenate(program.values)
+    keys, inverse = np.unique(np.concatenate(program.keys), return_inverse=True)
     rows = len(keys)
-    budget.spend(20 + len(used) // 4 + rows * columns // 50)
+    budget.spend(20 + len(values) // 4 + rows * columns // 50)
     if rows * columns > 6_000_000 or columns > len(NOISE):
         return None
-    lengths = np.repeat([shape[1] for shape in program.shapes], [shape[0] for shape in program.shapes])
-    where = inverse * columns + np.repeat(np.arange(columns), lengths)[used]
-    matrix: Matrix = np.bincount(where, values[used], rows * columns).astype(np.float64, copy=False).reshape(rows, columns)
+    where = inverse * columns + np.concatenate(program.places)
+    matrix: Matrix = np.bincount(where, values, rows * columns).astype(np.float64, copy=False).reshape(rows, columns)
     return rewritten(matrix, keys, program, budget) if program.rewritings else matrix
 
 

@@ -19,6 +19,7 @@ from .number_closing import Adjoined, close_at_number
 from .sampler import Assignment, Sampler
 from .setting import Task
 from .solver import ask
+from .stories import unfolded
 
 Found = list[Any]
 Known = dict[str, checker.Statement]
@@ -45,7 +46,7 @@ def search_found(statement: checker.Statement, state: checker.State, purpose: st
     """Values as `checker.find` takes them for the purpose "point", "counterexample" or "witness"; None where none was found."""
     if base:
         return _found_terms(Task(statement, purpose, base, known, budget, sharp, effort), state)
-    story = checker.Unfolding(statement, checker.Context(), sharp)
+    story = unfolded(statement, sharp)
     exists = bool(statement.get("exists"))
     parts = list(story.premises)
     names = list(story.universal)
@@ -76,7 +77,13 @@ def _beyond(goal: Condition, assignment: Assignment, names: Sequence[str], integ
     """Whether Z3 thinks that no values of the `exists` variables meet the goals at a rational point."""
     values = {name: assignment.rational(name) for name in names}
     exact = {name: value for name, value in values.items() if value is not None}
-    return len(exact) == len(names) and ask(goal.substituted(exact), budget, integers, 200_000).verdict == "unsat"
+    if len(exact) < len(names):
+        return False
+    there = goal.substituted(exact)
+    rest = sorted(there.variables())
+    if next(Sampler(budget, integers, *ROUNDS[0][0]).search(there, rest), None) is not None:
+        return False  # so simple values that meet the goals need not be asked for
+    return ask(there, budget, integers, 200_000).verdict == "unsat"
 
 
 def _found_terms(task: Task, state: checker.State) -> Found | None:

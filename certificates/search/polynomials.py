@@ -34,6 +34,9 @@ class Ring:
         self.size = max(1, len(names))
         self.form = struct.Struct(f"<{self.size}H")
         self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
+        self.differences: dict[int, tuple[fmpz_mpoly, frozenset[tuple[int, ...]]]] = {}  # what was found of units, for all states of a search
+        self.lowered: dict[tuple[int, tuple[int, ...]], tuple[fmpz_mpoly, fmpz_mpoly]] = {}
+        self.scalings: dict[Any, Any] = {}
         self.one = self.ctx.constant(1)
         self.zero = self.ctx.constant(0)
 

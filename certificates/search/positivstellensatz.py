@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from fractions import Fraction
 from math import prod
 
@@ -16,6 +16,8 @@ from .problem import Problem
 from .reduction import merge, power
 
 MOST_FOR_TRIPLES = 10
+MOST_FAILED = 5000
+_failed: dict[tuple[Hashable, int, int, str], int] = {}  # (facts, stage) -> the work that it takes to find nothing
 # (products of facts, extra Bernstein degree, kind of squares; or "near": no squares, and only facts in the goal's variables)
 Stage = tuple[int, int, str]
 QUICK: tuple[Stage, ...] = ((1, 0, ""),)
@@ -49,8 +51,14 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
     """The first node that one of the stages finds."""
     if not problem.facts and not problem.reduction.left:
         return None
+    key = problem.content()
     roots: dict[str, list[fmpz_mpoly]] = {"": []}
     for degree, bernstein, kind in stages:
+        stage = (key, degree, bernstein, kind)
+        if stage in _failed:  # the same facts come back, in other cases and at greater effort: the work counts, but is not done again
+            budget.spend(_failed[stage])
+            continue
+        left = budget.left
         near = problem.near_goal() if kind == "near" else None
         if kind not in roots:
             roots[kind] = problem.candidates(kind) if kind != "near" else []
@@ -62,4 +70,7 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
         node = Combination(problem, degree, bernstein, roots[kind], near).node(budget)
         if node is not None:
             return node
+        if len(_failed) >= MOST_FAILED:
+            _failed.clear()
+        _failed[stage] = left - budget.left
     return None

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from fractions import Fraction
 from itertools import combinations
+from typing import Any
 
+import numpy as np
 from flint import fmpz_mpoly
 
 from certificates import checker
 
 from .lifting import Source
-from .polynomials import Ring, constant_of, total_degree
+from .polynomials import Keys, Packing, Ring, Row, constant_of, total_degree
 from .reduction import Factors, Reduction, Signed
 from .scaling import Scaling
 from .signs import Bounded, Fact, Signs, Sum, times
@@ -51,6 +53,7 @@ class Problem:
         kept = integers | self._bounded_variables(lowered, relations)
         self.reduction = Reduction(ring, equations, signed if equations else [], kept)
         self.facts: list[Fact] = []
+        self.rows: dict[int, tuple[fmpz_mpoly, Keys, Any]] = {}
         self.contradiction: Fact | None = None
         for index, (poly, relation) in enumerate(zip(lowered, relations)):
             if relation != "=" and index not in self.idle:
@@ -98,6 +101,20 @@ class Problem:
     def polys(self) -> list[fmpz_mpoly]:
         """The polynomials of the equations left and of the facts."""
         return [equation.poly for equation in self.reduction.left] + [fact.poly for fact in self.facts]
+
+    def content(self) -> Hashable:
+        """What a search for a combination depends on."""
+        facts = tuple((str(fact.poly), fact.strict) for fact in self.facts)
+        equations = tuple(str(equation.poly) for equation in self.reduction.left)
+        before = tuple(str(p) for k, p in enumerate(self.source.lowered) if k not in self.idle) if self.reduction.steps else ()
+        return facts, equations, self.bounded, before
+
+    def row(self, poly: fmpz_mpoly, packing: Packing) -> Row:
+        """A polynomial as arrays; its exponents are read once."""
+        known = self.rows.get(id(poly))
+        if known is None:
+            known = self.rows[id(poly)] = poly, np.array(poly.monoms(), dtype=np.int64), np.array(list(map(int, poly.coeffs())), dtype=np.float64)
+        return known[1] @ packing.weights, known[2]
 
     def near_goal(self) -> list[int] | None:
         """The facts in the variables of the last one alone; None where that is all of them, or few are."""

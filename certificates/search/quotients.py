@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import isqrt
+from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
-from .condition import coefficients_in, constant_of
+from .condition import ZERO, coefficients_in, places, valued
 
 Sample = Mapping[str, fmpq]
+MARKS = tuple(fmpq(31 * k + 17, 7 * k + 3) for k in range(80))
 SPARE = ("root1", "root2")  # names in the ring for square roots that a search adjoins
 
 
@@ -24,22 +27,65 @@ class Quotient:
     @staticmethod
     def reduced(top: fmpq_mpoly, bottom: fmpq_mpoly) -> Quotient:
         """The same quotient without common factors, its bottom with leading coefficient 1."""
-        common = top.gcd(bottom)
-        top, bottom = top / common, bottom / common
+        if bottom.total_degree() > 0:
+            common = top.gcd(bottom)
+            if common.total_degree() > 0:
+                top, bottom = top / common, bottom / common
         lead = bottom.leading_coefficient()
-        return Quotient(top / lead, bottom / lead)
+        return Quotient(top, bottom) if lead == 1 else Quotient(top / lead, bottom / lead)
 
     def at(self, sample: Sample) -> fmpq | None:
         """The value at a sample of the base; None where the bottom vanishes."""
-        given = dict(sample)
-        bottom = constant_of(self.bottom.subs(given))
-        top = constant_of(self.top.subs(given))
+        top = valued(self.top, sample)
+        if self.bottom == 1:
+            return top
+        bottom = valued(self.bottom, sample)
         return None if not bottom or top is None else top / bottom
+
+    @cached_property
+    def used(self) -> frozenset[int]:
+        """The numbers of the variables that occur."""
+        return frozenset(i for i, d in enumerate(zip(self.top.degrees(), self.bottom.degrees())) if d[0] > 0 or d[1] > 0)
+
+    def within(self, point: Point) -> fmpq | None:
+        """The value at a point; None where the bottom vanishes or a value is missing."""
+        if not self.used <= point.known:
+            return None
+        if self.bottom == 1:
+            return self.top(*point.values)
+        bottom = self.bottom(*point.values)
+        return self.top(*point.values) / bottom if bottom else None
+
+    def plus(self, other: Quotient) -> Quotient:
+        """The sum of two quotients."""
+        if other.bottom == 1:
+            return Quotient.reduced(self.top + other.top * self.bottom, self.bottom)
+        return Quotient.reduced(self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
+
+    def mark(self) -> tuple[Any, ...]:
+        """The same for the same quotient, and but by an unlikely chance no other's."""
+        point = MARKS[:len(places(self.top.context()))]
+        top, bottom = self.top(*point), self.bottom(*point)
+        return int(top.p), int(top.q), int(bottom.p), int(bottom.q)
 
     def size(self) -> tuple[int, int]:
         """How long it is to read."""
         coefficients = [*self.top.coeffs(), *self.bottom.coeffs()]
         return int(self.top.total_degree() + self.bottom.total_degree()), sum(int(c.height_bits()) + 2 for c in coefficients)
+
+
+@dataclass(frozen=True)
+class Point:
+    """Values of all variables of a ring in their order, 0 where none is known, and the numbers of those that are."""
+
+    values: list[fmpq]
+    known: frozenset[int]
+
+    @staticmethod
+    def of(ring: fmpq_mpoly_ctx, given: Mapping[str, fmpq]) -> Point:
+        """The point that a mapping by names gives."""
+        place = places(ring)
+        return Point([given.get(name, ZERO) for name in place], frozenset(place[name] for name in given))
 
 
 @dataclass
@@ -64,7 +110,8 @@ def root_values(roots: Sequence[Root], sample: Sample) -> dict[str, fmpq]:
     """Rational values close to the adjoined roots at a sample; the larger root of each equation."""
     values: dict[str, fmpq] = {}
     for root in roots:
-        parts = [constant_of(c.subs({**sample, **values})) for c in coefficients_in(root.poly, root.name)]
+        given = {**sample, **values}
+        parts = [valued(c, given) for c in coefficients_in(root.poly, root.name)]
         if len(parts) != 3 or any(c is None for c in parts):
             return values
         half = -parts[1] / 2  # type: ignore[operator]

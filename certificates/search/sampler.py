@@ -10,7 +10,7 @@ from flint import fmpq, fmpq_mpoly, fmpq_poly
 from .algebraic import AlgebraicNumber, real_roots
 from .budget import Budget
 from .candidates import PARAMETERS, UNITS, Value, favourites, solutions, trials
-from .condition import Condition, coefficients_in, constant_of, fold, univariate
+from .condition import Condition, coefficients_in, constant_of, fold, places, univariate
 
 Steps = list[tuple[str, fmpq_mpoly]]  # what was decided for each variable, in order
 Theta = tuple[str, AlgebraicNumber] | None  # the variable that stands for the adjoined number
@@ -107,7 +107,7 @@ class Sampler:
 
     @staticmethod
     def _index(condition: Condition, name: str) -> int:
-        return int(condition.ring.variable_to_index(name))
+        return places(condition.ring)[name]
 
     def _settled(self, condition: Condition, theta: Theta) -> Condition:
         """The condition with polynomials in the adjoined number alone decided."""
@@ -122,10 +122,9 @@ class Sampler:
         return Condition(condition.ring, changed, fold(condition.tree, changed.__getitem__))
 
     def _equation_in_one(self, condition: Condition, theta: Theta) -> tuple[str, fmpq_poly] | None:
-        names = condition.ring.names()
         for poly, relation in condition.facts():
             if relation == "=":
-                used = [names[i] for i, e in enumerate(poly.degrees()) if e]
+                used = [name for name, e in zip(places(condition.ring), poly.degrees()) if e]
                 if len(used) == 1 and (theta is None or used[0] != theta[0]):
                     return used[0], univariate(poly, used[0])
         return None

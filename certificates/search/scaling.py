@@ -26,12 +26,26 @@ class Scaling:
         self.ring = ring
         self.units: tuple[int, ...] = ()
         self.weights: list[Weight] = []  # of every variable
-        self.values: dict[str | int, int] = {}
+        self.values: dict[int, int] = {}
         self.gradings: list[list[int]] = []  # of all of which the polynomials are homogeneous
-        differences: set[tuple[int, ...]] = set()
-        for poly in polys:
+        differences = frozenset[tuple[int, ...]]().union(*map(self._differences, polys))
+        key = differences, tuple(positive)
+        if key not in ring.scalings:  # most states of a search have the same units
+            self._find(differences, positive)
+            ring.scalings[key] = self.units, self.weights, self.values, self.gradings
+        self.units, self.weights, self.values, self.gradings = ring.scalings[key]
+
+    def _differences(self, poly: fmpz_mpoly) -> frozenset[tuple[int, ...]]:
+        """The first monomial less each of the others."""
+        known = self.ring.differences.get(id(poly))
+        if known is None:
             first, *others = poly.monoms()
-            differences.update(tuple(a - b for a, b in zip(first, other)) for other in others)
+            found = frozenset(tuple(a - b for a, b in zip(first, other)) for other in others)
+            known = self.ring.differences[id(poly)] = poly, found  # holding the polynomial keeps its id from being used again
+        return known[1]
+
+    def _find(self, differences: frozenset[tuple[int, ...]], positive: Sequence[int]) -> None:
+        ring = self.ring
         if differences:
             basis, rank = fmpz_mat(sorted(differences)).nullspace()
             self.gradings = [[int(c) for c in line] for line in zip(*basis.tolist())][:rank]
@@ -53,7 +67,7 @@ class Scaling:
             if rank >= len(units) and all(c % den == 0 for line in lines for c in line) and all(
                     lines[i][j] == (den if i == j else 0) for i in range(len(units)) for j in range(len(units))):
                 place = {variable: k for k, variable in enumerate(order)}
-                self.units, self.values = units, {self.ring.names[k]: 1 for k in units}
+                self.units, self.values = units, dict.fromkeys(units, 1)
                 self.weights = [tuple(line[place[k]] // den for line in lines) for k in range(size)]
                 return True
         return False
@@ -64,7 +78,12 @@ class Scaling:
 
     def lower(self, poly: fmpz_mpoly) -> fmpz_mpoly:
         """The polynomial with every unit set to 1."""
-        return poly.subs(self.values) if self.units else poly
+        if not self.units:
+            return poly
+        key = id(poly), self.units
+        if key not in self.ring.lowered:
+            self.ring.lowered[key] = poly, poly.subs(self.values)
+        return self.ring.lowered[key][1]
 
     def of_monomial(self, monomial: Sequence[int]) -> Weight:
         """The weight of one monomial."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import lcm
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import z3
 from flint import fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
@@ -29,66 +30,89 @@ class Answer:
 
 def ask(condition: Condition, budget: Budget, integers: Iterable[str] = (), resources: int = RESOURCES, model: bool = False,
         unreachable: tuple[Condition, Sequence[str]] | None = None) -> Answer:
-    """Z3's answer within a fixed amount of its own work, in a context of its own.
+    """Z3's answer within a fixed amount of its own work.
 
     `unreachable`, a condition with some of its variables, asks besides that no values of these meet it.
     """
     if condition.tree is False or condition.tree is True and unreachable is None:
         return Answer("sat" if condition.tree else "unsat")
-    integers = set(integers) & condition.variables()
-    context = z3.Context()
-    tactic = "nlqsat" if unreachable else "qfnra-nlsat"
-    solver = z3.Solver(ctx=context) if integers else z3.Tactic(tactic, ctx=context).solver()
+    names = [name for name in condition.ring.names() if name in condition.variables()]
+    whole = frozenset(integers) & set(names)
+    session = _session(budget)
+    solver = z3.Solver(ctx=session.context) if whole else z3.Tactic("nlqsat" if unreachable else "qfnra-nlsat", ctx=session.context).solver()
     solver.set("rlimit", resources)
-    writer = _Writer(condition, context, integers)
-    solver.add(writer.formula(condition.tree))
+    rows = [f"(declare-const |{name}| {_sort(name, whole)})" for name in names]
+    rows.append(f"(assert {_formula(condition, condition.tree, whole)})")
     if unreachable is not None:
-        inner = _Writer(unreachable[0], context, integers)
-        bound = [inner.variables[name] for name in unreachable[1] if name in inner.variables]
-        goal = z3.Not(inner.formula(unreachable[0].tree))
-        solver.add(z3.ForAll(bound, goal) if bound else goal)
+        goal = unreachable[0]
+        inner = goal.variables()
+        bound = [f"(|{name}| {_sort(name, whole)})" for name in unreachable[1] if name in inner]
+        rows += [f"(declare-const |{name}| {_sort(name, whole)})" for name in sorted(inner - set(names) - set(unreachable[1]))]
+        text = f"(not {_formula(goal, goal.tree, whole)})"
+        rows.append(f"(assert (forall ({' '.join(bound)}) {text}))" if bound else f"(assert {text})")
+    solver.from_string("\n".join(rows))
     result = str(solver.check())
-    statistics = solver.statistics()
-    work = next((int(statistics.get_key_value(k)) for k in statistics.keys() if k == "rlimit count"), resources // 10)
-    budget.spend(5000 + min(work, resources))
+    budget.spend(5000 + min(session.work(solver, resources), resources))
     if result != "sat" or not model:
         return Answer(result if result in ("sat", "unsat") else "unknown")
     values = solver.model()
-    return Answer(result, {name: _value(values.eval(variable, model_completion=True)) for name, variable in writer.variables.items()})
+    found = {declared.name(): values[declared] for declared in values.decls()}
+    return Answer(result, {name: _value(found[name]) if name in found else fmpq(0) for name in names})
 
 
-class _Writer:
-    def __init__(self, condition: Condition, context: Any, integers: Iterable[str]) -> None:
-        self.condition, self.context = condition, context
-        self.variables = {
-            name: z3.Int(name, ctx=context) if name in set(integers) else z3.Real(name, ctx=context)
-            for name in condition.ring.names() if name in condition.variables()
-        }
-        self.terms = {k: self._term(condition.polys[k]) for k in condition.used()}
+class _Session:
+    """A context of Z3 that the questions of one search share, since it takes longer to make one than to answer most of them."""
 
-    def _term(self, poly: fmpq_mpoly) -> Any:
-        scale = 1
-        for c in poly.coeffs():
-            scale = lcm(scale, int(c.q))
-        total = []
-        names = self.condition.ring.names()
-        for powers, c in poly.to_dict().items():
-            product = [z3.RealVal(int(c * scale), ctx=self.context)]
-            for name, e in zip(names, powers):
-                if e:
-                    variable = self.variables[name]
-                    product += [z3.ToReal(variable) if z3.is_int(variable) else variable] * e
-            total.append(z3.Product(product) if len(product) > 1 else product[0])
-        return z3.Sum(total) if len(total) > 1 else total[0]
+    def __init__(self) -> None:
+        self.context, self.before = z3.Context(), 0  # the context's counter goes on from question to question
 
-    def formula(self, tree: Tree) -> Any:
-        if isinstance(tree, bool):
-            return z3.BoolVal(tree, ctx=self.context)
-        if isinstance(tree[0], int):
-            term = self.terms[tree[0]]
-            return {">": lambda: term > 0, ">=": lambda: term >= 0, "=": lambda: term == 0, "!=": lambda: term != 0}[tree[1]]()
-        parts = [self.formula(part) for part in tree[1]]
-        return z3.And(*parts) if tree[0] == "and" else z3.Or(*parts)
+    def work(self, solver: Any, resources: int) -> int:
+        """What Z3 has spent since it was asked for the last time."""
+        statistics = solver.statistics()
+        total = next((int(statistics.get_key_value(k)) for k in statistics.keys() if k == "rlimit count"), None)
+        if total is None:
+            return resources // 10
+        spent, self.before = total - self.before, total
+        return max(0, spent)
+
+
+_sessions: WeakKeyDictionary[Budget, _Session] = WeakKeyDictionary()
+
+
+def _session(budget: Budget) -> _Session:
+    """The session of the whole search that a budget belongs to."""
+    whole = budget
+    while whole.whole is not None:
+        whole = whole.whole
+    if whole not in _sessions:
+        _sessions[whole] = _Session()
+    return _sessions[whole]
+
+
+def _sort(name: str, integers: frozenset[str]) -> str:
+    return "Int" if name in integers else "Real"
+
+
+def _formula(condition: Condition, tree: Tree, integers: frozenset[str]) -> str:
+    """A condition as an s-expression."""
+    if isinstance(tree, bool):
+        return "true" if tree else "false"
+    if isinstance(tree[0], int):
+        text = f"({'=' if tree[1] == '!=' else tree[1]} {_term(condition.polys[tree[0]], integers)} 0.0)"
+        return f"(not {text})" if tree[1] == "!=" else text
+    return f"({tree[0]} {' '.join(_formula(condition, part, integers) for part in tree[1])})"
+
+
+def _term(poly: fmpq_mpoly, integers: frozenset[str]) -> str:
+    """A polynomial times its denominator; a relation to 0 is the same for it."""
+    names = [f"(to_real |{name}|)" if name in integers else f"|{name}|" for name in poly.context().names()]
+    scale = lcm(1, *(int(c.q) for c in poly.coeffs()))
+    total = []
+    for powers, c in zip(poly.monoms(), poly.coeffs()):
+        number = int(c * scale)
+        factors = [f"{number}.0" if number >= 0 else f"(- {-number}.0)", *(name for name, e in zip(names, powers) for _ in range(e))]
+        total.append(f"(* {' '.join(factors)})" if len(factors) > 1 else factors[0])
+    return f"(+ {' '.join(total)})" if len(total) > 1 else total[0] if total else "0.0"
 
 
 def _value(value: Any) -> Value:

@@ -3,28 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
 from .budget import Budget
 from .candidates import PARAMETERS, UNITS, favourites, solutions, trials
-from .condition import Condition, coefficients_in, constant_of, replace
-from .near import between, possible, ring_names, rounded
-from .quotients import SPARE, Choice, Quotient, Root, Sample, insert, reduced_by, root_values, square_roots
+from .condition import Condition, coefficients_in, constant_of, places, replace, valued
+from .near import Trial, among, between, partly, ring_names, rounded
+from .partial import Partial
+from .quotients import SPARE, Choice, Point, Quotient, Root, Sample, insert, reduced_by, root_values, square_roots
 
-Candidate = tuple[Quotient, Root | None]
+Candidate = tuple[Quotient, Quotient | None, Root | None]  # a quotient, what is added to it, and the root adjoined for it
+UNKNOWN = fmpq(0)  # itself stands for a value that was not asked for yet
 BESIDE = tuple(fmpq(sign, size) for size in (10, 100, 1000) for sign in (1, -1))  # how far beside a border, in margins
-
-
-@dataclass
-class Partial:
-    """A condition on its way: symbolic, and at every sample."""
-
-    condition: Condition
-    sampled: list[Condition]
-    steps: list[tuple[str, fmpq_mpoly, fmpq_mpoly]] = field(default_factory=list)
-    roots: list[Root] = field(default_factory=list)
 
 
 class TemplateSearch:
@@ -36,12 +28,18 @@ class TemplateSearch:
         self.base, self.samples, self.budget, self.integers = list(base), [dict(s) for s in samples], budget, integers
         self.nodes, self.hints, self.margins = nodes, dict(hints or {}), list(margins)
         self.given: dict[tuple[int, str], dict[str, fmpq]] = {}  # samples with the values of adjoined roots
+        self.points: dict[tuple[int, ...], tuple[list[Root], list[Point]]] = {}
+        self.shifts: dict[tuple[int, int], fmpq | None] = {}
+        self.slight = [Quotient(margin * c, margin ** 0) for margin in self.margins[:5] for c in BESIDE]
+        small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
+        self.small = [Quotient(m * sign, m + k) for m, k in small for sign in (1, -1)]
         self.borders = borders  # where these are given, they are tried first
         self.least = len(self.samples) if least is None else least
 
     def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[Choice]:
         """Choices of terms for the unknowns that meet the condition on enough samples, in the order that they are met."""
-        start = Partial(condition, [condition.substituted(s) for s in self.samples])
+        start = Partial(lambda: condition, [condition.substituted(s) for s in self.samples])
+        self.ring = condition.ring
         yield from self._descend(start, list(unknowns))
 
     def _descend(self, partial: Partial, unknowns: list[str]) -> Iterator[Choice]:
@@ -51,7 +49,7 @@ class TemplateSearch:
         if not unknowns:
             serves = [i for i, c in enumerate(partial.sampled) if c.tree is True]
             if len(serves) >= self.least:
-                yield Choice(self._completed(partial), partial.roots, serves, partial.condition.ring)
+                yield Choice(self._completed(partial), partial.roots, serves, self.ring)
             return
         self.nodes -= 1
         self.budget.spend(100 + 60 * len(self.samples) * (1 + len(partial.condition.polys)))
@@ -68,51 +66,89 @@ class TemplateSearch:
             if spare is not None:  # the smaller root, from the larger
                 gen = poly.context().gen(poly.context().variable_to_index(spare))
                 larger = Root(spare, replace(poly, name, gen, gen ** 0))
-                widened = Partial(partial.condition, partial.sampled, partial.steps, [*partial.roots, larger])
+                widened = Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, larger])
                 value = -coefficients_in(poly, name)[1] - gen
                 yield from self._descend(self._with(widened, name, value, gen ** 0), [n for n in unknowns if n != name])
             return
         name, rest = unknowns[0], unknowns[1:]
-        for value, root in self._candidates(partial, name, rest):
-            widened = partial if root is None else Partial(partial.condition, partial.sampled, partial.steps, [*partial.roots, root])
-            if self._plausible(widened, name, value):
+        rows = [Trial(sampled, name) if sampled.tree is not False else None for sampled in partial.sampled]
+        values: dict[tuple[int, int], fmpq | None] = {}
+        tried: set[tuple[Any, ...]] = set()
+        for value, more, root in self._candidates(partial, name, rest):
+            if self.nodes < 0:
+                return
+            widened = partial if root is None else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
+            mark = () if more else value.mark()
+            if mark in tried or not self._plausible(widened, rows, value, more, values):
+                continue
+            if more is not None:
+                value = value.plus(more)
+                mark = value.mark()
+            if mark not in tried:
+                tried.add(mark)
                 yield from self._descend(self._with(widened, name, value.top, value.bottom), rest)
 
-    def _plausible(self, partial: Partial, name: str, value: Quotient) -> bool:
-        missing = len(self.samples) - self.least
+    def _plausible(self, partial: Partial, rows: Sequence[Trial | None], value: Quotient, more: Quotient | None,
+                   values: dict[tuple[int, int], fmpq | None]) -> bool:
+        """Whether value + more may serve at enough samples; `values` keeps what a quotient of this node is at each."""
+        missing, points = len(self.samples) - self.least, self._points(partial)
         self.budget.spend(30)
-        for sample, sampled in zip(self.samples, partial.sampled):
-            self.budget.spend(20 + 5 * len(sampled.polys))
-            at = value.at(self._given(partial, sample)) if sampled.tree is not False else None
-            missing -= at is None or not possible(sampled, name, at, bool(partial.roots))
+        for k, row in enumerate(rows):
+            at = None
+            if row is not None:
+                self.budget.spend(20 + 5 * row.size)
+                at = value.within(points[k]) if more is None else values.get((id(value), k), UNKNOWN)
+                if at is UNKNOWN:
+                    at = values[id(value), k] = value.within(points[k])
+                if more is not None and at is not None:
+                    extra = self._shift(more, k)
+                    at = None if extra is None else at + extra
+            missing -= row is None or at is None or row.fails(at, bool(partial.roots))
             if missing < 0:
                 return False
         return True
 
+    def _points(self, partial: Partial) -> list[Point]:
+        """The samples with the values of the adjoined roots, as points of the ring."""
+        mark = tuple(map(id, partial.roots))
+        if mark not in self.points:  # the roots are kept with their points, so that their ids stay theirs
+            self.points[mark] = partial.roots, [Point.of(self.ring, self._given(partial, sample)) for sample in self.samples]
+        return self.points[mark][1]
+
+    def _shift(self, more: Quotient, k: int) -> fmpq | None:
+        mark = id(more), k
+        if mark not in self.shifts:
+            self.shifts[mark] = more.at(self.samples[k])
+        return self.shifts[mark]
+
     def _with(self, partial: Partial, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Partial:
-        changed = partial.condition.replaced(name, top, bottom)
-        for root in partial.roots:
-            changed = changed.mapped(lambda p, root=root: reduced_by(root, p))
-        sampled = []
+        def make() -> Condition:
+            changed = partial.condition.replaced(name, top, bottom)
+            for root in partial.roots:
+                changed = changed.mapped(lambda p, root=root: reduced_by(root, p))
+            return changed
+
+        sampled, one = [], bottom == 1
         for sample, before in zip(self.samples, partial.sampled):
             if before.tree is False:
                 sampled.append(before)
                 continue
             given = self._given(partial, sample)
-            low, high = bottom.subs(given), top.subs(given)
+            low, high = bottom if one else partly(bottom, given), partly(top, given)
             if low == 0:
                 sampled.append(Condition(before.ring, before.polys, False))
             elif partial.roots:
                 sampled.append(before.mapped(lambda p, high=high, low=low: rounded(replace(p, name, high, low))))
             else:
-                sampled.append(before.replaced(name, high, low))
-        return Partial(changed, sampled, [*partial.steps, (name, top, bottom)], partial.roots)
+                number = constant_of(low)
+                sampled.append(before.replaced(name, high, low) if number is None else before.replaced(name, high / number, low ** 0))
+        return Partial(make, sampled, [*partial.steps, (name, top, bottom)], partial.roots)
 
     # ------------------------------------------------ equations
 
     def _equation(self, partial: Partial, unknowns: Sequence[str]) -> tuple[str, fmpq_mpoly, fmpq_mpoly] | None:
         """An equation linear in an unknown, its coefficient free of unknowns and nonzero at the samples."""
-        place = {n: i for i, n in enumerate(partial.condition.ring.names())}
+        place = places(partial.condition.ring)
         best: tuple[tuple[int, int], tuple[str, fmpq_mpoly, fmpq_mpoly]] | None = None
         for poly, relation in partial.condition.facts():
             if relation != "=":
@@ -124,8 +160,7 @@ class TemplateSearch:
                 rest, slope = coefficients_in(poly, name)
                 if any(slope.degrees()[place[n]] for n in unknowns):
                     continue
-                values = [slope.subs(self._given(partial, s)) for s in self.samples]
-                if all(v != 0 for v in values):
+                if all(valued(slope, self._given(partial, s)) != 0 for s in self.samples):
                     size = (sum(rest.degrees()[place[n]] for n in unknowns), len(poly))
                     if best is None or size < best[0]:
                         best = size, (name, -rest, slope)
@@ -133,7 +168,7 @@ class TemplateSearch:
 
     def _square_equation(self, partial: Partial, unknowns: Sequence[str]) -> tuple[str, fmpq_mpoly] | None:
         """An equation of degree 2 in one unknown alone, over the base: its root is adjoined."""
-        place = {n: i for i, n in enumerate(partial.condition.ring.names())}
+        place = places(partial.condition.ring)
         for poly, relation in partial.condition.facts():
             degrees = poly.degrees()
             present = [n for n in unknowns if degrees[place[n]]]
@@ -148,18 +183,18 @@ class TemplateSearch:
         root = Root(name, poly)
         changed = partial.condition.mapped(lambda p: reduced_by(root, p))
         roots = [*partial.roots, root]
-        result = Partial(changed, [], partial.steps, roots)
+        result = Partial(lambda: changed, [], partial.steps, roots)
         for sample, before in zip(self.samples, partial.sampled):
             given = self._given(result, sample)
             failed = before.tree is False or name not in given
             result.sampled.append(Condition(changed.ring, changed.polys, False) if failed else
-                                  changed.mapped(lambda p, given=given: rounded(p.subs(given))))
+                                  changed.mapped(lambda p, given=given: rounded(partly(p, given))))
         return result
 
-    def _given(self, partial: Partial, sample: Sample) -> dict[str, fmpq]:
+    def _given(self, partial: Partial, sample: Sample) -> Sample:
         """The sample with the values of the adjoined roots there."""
         if not partial.roots:
-            return dict(sample)
+            return sample
         mark = id(sample), "; ".join(str(root.poly) for root in partial.roots)
         if mark not in self.given:
             self.budget.spend(100)
@@ -168,45 +203,35 @@ class TemplateSearch:
 
     # ------------------------------------------------ candidates
 
-    def _candidates(self, partial: Partial, name: str, rest: Sequence[str]) -> list[Candidate]:
-        ring, one = partial.condition.ring, partial.condition.ring.constant(1)
+    def _candidates(self, partial: Partial, name: str, rest: Sequence[str]) -> Iterator[Candidate]:
+        """Quotients to try for an unknown, made only as far as they are asked for."""
+        one = self.ring.constant(1)
         if name in UNITS:
-            return [(Quotient(one, one), None)]
+            yield Quotient(one, one), None, None
+            return
         plain = list(self.hints.get(name, ()))
-        constants = [Quotient(ring.constant(v), one) for v in self._constants(partial, name, rest)]
+        likely = [Quotient(self.ring.constant(v), one) for v in favourites(name, name in self.integers)[:8]]
         if name in self.integers:
-            gens = [ring.gen(ring.variable_to_index(n)) for n in self.base if n in self.integers]
+            gens = [self.ring.gen(places(self.ring)[n]) for n in self.base if n in self.integers]
             whole = [Quotient(gen + shift, one) for shift in (0, 1, -1) for gen in gens]
-            return [(q, None) for q in [*plain, *constants, *whole]]
+            yield from ((q, None, None) for q in [*plain, *likely, *self._constants(partial, name), *whole])
+            return
         lines, roots = self._lines(partial, name, rest)
-        plain += [*constants[:3], *lines] if self.borders is None else [*lines, *constants[:3]]
-        plain += [Quotient(margin * part, one) for margin in self.margins for part in (1, fmpq(1, 2), fmpq(1, 10), fmpq(1, 100))]
-        ordered = self._ordered(partial, [*lines, Quotient(ring.constant(0), one)])
-        for left, right in zip(ordered, ordered[1:]):
-            for weight in (fmpq(1, 2), fmpq(1, 4), fmpq(3, 4)):
-                top = left.top * right.bottom * (1 - weight) + right.top * left.bottom * weight
-                plain.append(Quotient.reduced(top, left.bottom * right.bottom))
-        for end, shift in ((ordered[:1], -1), (ordered[-1:], 1)):
-            plain += [Quotient.reduced(q.top + shift * q.bottom, q.bottom) for q in end]
-        plain += [*constants[3:], *between(lines)]
-        near = [(q, None) for q in lines[:4]] + roots[:4]
-        slight = [margin * c for margin in self.margins[:5] for c in BESIDE]
-        small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
-        slight_near = [(Quotient.reduced(q.top * (k + m) + sign * m * q.bottom, q.bottom * (k + m)), root)
-                       for q, root in near for m, k in small for sign in (1, -1)]
-        beside = slight_near + [(Quotient.reduced(q.top + shift * q.bottom, q.bottom), root) for q, root in near for shift in slight]
-        unique: list[Candidate] = []
-        seen: set[tuple[str, str]] = set()
-        for candidate in [*((q, None) for q in plain), *roots, *beside]:
-            mark = (str(candidate[0].top), str(candidate[0].bottom))
-            if mark not in seen:
-                seen.add(mark)
-                unique.append(candidate)
-        return unique
+        plain += [*likely[:3], *lines] if self.borders is None else [*lines, *likely[:3]]
+        yield from ((q, None, None) for q in plain)
+        parts = (fmpq(1), fmpq(1, 2), fmpq(1, 10), fmpq(1, 100))
+        yield from ((Quotient(margin * part, one), None, None) for margin in self.margins for part in parts)
+        yield from ((q, None, None) for q in among(self._ordered(partial, [*lines, Quotient(self.ring.constant(0), one)])))
+        yield from ((q, None, None) for q in [*likely[3:], *self._constants(partial, name)])
+        yield from ((q, None, None) for q in between(lines))
+        yield from ((q, None, root) for q, root in roots)
+        near = [*((q, None) for q in lines[:4]), *roots[:4]]
+        for more in (self.small, self.slight):
+            yield from ((q, shift, root) for q, root in near for shift in more)
 
-    def _constants(self, partial: Partial, name: str, rest: Sequence[str]) -> list[fmpq]:
-        """Favourites, and numbers that serve at the middle sample or at the first and the last."""
-        found = list(favourites(name, name in self.integers)[:8])
+    def _constants(self, partial: Partial, name: str) -> list[Quotient]:
+        """Numbers that serve at the middle sample or at the first and the last."""
+        found: list[fmpq] = []
         alive = [c for c in partial.sampled if c.tree is not False]
         for condition in {id(c): c for c in (alive[len(alive) // 2], alive[0], alive[-1])}.values() if alive else ():
             if condition.tree is True or name not in condition.variables():
@@ -216,12 +241,11 @@ class TemplateSearch:
             else:
                 values = trials(condition, name, name in self.integers, 2)
             found += [v for v in values if v not in found]
-        return found
+        return [Quotient(self.ring.constant(v), self.ring.constant(1)) for v in found]
 
-    def _lines(self, partial: Partial, name: str, rest: Sequence[str]) -> tuple[list[Quotient], list[Candidate]]:
+    def _lines(self, partial: Partial, name: str, rest: Sequence[str]) -> tuple[list[Quotient], list[tuple[Quotient, Root | None]]]:
         """The zeros, as quotients or with square roots, of polynomials and of resultants of two of them, as functions of the base."""
-        ring = partial.condition.ring
-        place = {n: i for i, n in enumerate(ring.names())}
+        place = places(partial.condition.ring)
         polys = [partial.condition.polys[k] for k in partial.condition.used()]
         polys += self._borders_at(partial)
         polys = [p for p in polys if p.degrees()[place[name]]]
@@ -237,7 +261,7 @@ class TemplateSearch:
                         if resultant != 0 and resultant.degrees()[place[name]] and not any(resultant.degrees()[place[n]] for n in rest):
                             direct.append(resultant)
         found: list[Quotient] = []
-        roots: list[Candidate] = []
+        roots: list[tuple[Quotient, Root | None]] = []
         for p in direct:
             for factor, _ in p.factor()[1] if len(p) <= 200 else ():
                 if factor.degrees()[place[name]] == 1:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from flint import fmpz_mpoly
 from hypothesis import given, settings
@@ -123,7 +124,7 @@ def test_a_program_without_solution_has_none() -> None:
     program = Program()
     for poly, strict in ((RING.gens[0] - 2, False), (3 - RING.gens[0], False), (RING.one, True)):
         keys, values = packing.row(poly)
-        program.add(keys[None, :], values[None, :], [strict], [1.0])
+        program.add(0 * keys, keys, values, np.array([strict]), np.ones(1))
     assert solve(program, Budget(10**5)) is None
 
 
