@@ -22,6 +22,7 @@ from proofs.theorem.rules import NORMAL, descends, the_map
 W, after = reals("W after")
 FACTOR = (1 + alpha) * W / (2 * ((1 - alpha) * W - 2))
 LITTLE = 4 * x + (w - 1) ** 2 <= (W - 1) ** 2
+RANK_THERE = 5 * (W - 1) / 2  # what the rank of the theorem is at most, where there is little energy
 TO_LITTLE_ENERGY = Descent(FACTOR * u + (1 - w) / 2, (LITTLE,), (SPEED,))
 WITH_W = replace(NORMAL, parameters=(alpha, W), positive=(W > 2, (1 - alpha) * W - 2 > 0))
 OUTSIDE = (W - 1, u)
@@ -38,6 +39,6 @@ def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
         forms.always(W * (u - after) >= w * ((1 - alpha) * W - 2), given=high, in_range=[], label="loses", vocabulary=STANDING),
         the_map("map", WITH_W),
         descends("to-little-energy", "theorem-sharper/map", WITH_W, WHOLE, TO_LITTLE_ENERGY),
-        forms.always(TO_THE_POINT.rank <= 5 * (W - 1) / 2, given=[*least, u >= 0, u**2 <= (W - 1) ** 2, -u <= w - 1], label="rank-there",
+        forms.always(TO_THE_POINT.rank <= RANK_THERE, given=[*least, u >= 0, u**2 <= (W - 1) ** 2, -u <= w - 1], label="rank-there",
                      vocabulary=STANDING),
     ]

@@ -1,0 +1,66 @@
+"""Exact numbers as a user writes them, and as they are shown, rounded."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+from certificates.terms import ClaimError
+
+DIGITS = 12  # shown of a number that is longer
+MAX_BITS = 12000  # of a number that is read
+_WHOLE = r"(\d{1,1000})(?:\^(\d{1,5}))?"
+_EXACT = re.compile(rf"(-?){_WHOLE}(?:/{_WHOLE})?", re.ASCII)
+_DECIMAL = re.compile(r"-?(\d{1,30}\.?\d{0,30}|\.\d{1,30})(e[+-]?\d{1,2})?", re.ASCII | re.IGNORECASE)
+
+
+def exact(text: str, name: str) -> Fraction:
+    """The number that is written as p, p/q or p^k, such as -41, 3/10 or 10^300.
+
+    >>> exact("-3/10", "x"), exact("2^5", "x")
+    (Fraction(-3, 10), Fraction(32, 1))
+
+    Raises ClaimError, one line that tells how to write it, for anything else.
+    """
+    text = text.strip()
+    found = _EXACT.fullmatch(text)
+    if not found:
+        if _DECIMAL.fullmatch(text):
+            raise ClaimError(f"{name} = {text} is a rounded number; write it exactly, as {Fraction(text)}")
+        raise ClaimError(f"{name} = {text[:40]!r} is no number; write it exactly, as 3/10, -41 or 10^300")
+    sign, top, top_power, bottom, bottom_power = found.groups()
+    return (-1 if sign else 1) * Fraction(_power(top, top_power, name), _power(bottom or "1", bottom_power, name, zero=False))
+
+
+def _power(base: str, exponent: str | None, name: str, zero: bool = True) -> int:
+    whole, power = int(base), int(exponent or "1")
+    if whole.bit_length() * power > MAX_BITS:
+        raise ClaimError(f"{name} is longer than {MAX_BITS} bits; choose a shorter number")
+    if whole == 0 and not zero:
+        raise ClaimError(f"{name} divides by 0; write it exactly, as 3/10")
+    return int(whole**power)
+
+
+def shown(value: Fraction | int, digits: int = DIGITS) -> str:
+    """The number with so many digits, rounded half to even where it has more.
+
+    >>> shown(Fraction(1, 3)), shown(75), shown(-Fraction(81, 1000)), shown(Fraction(10**20 + 1)), shown(Fraction(2, 3 * 10**9), 3)
+    ('0.333333333333', '75', '-0.081', '1.00000000000e20', '6.67e-10')
+    """
+    value = Fraction(value)
+    if value == 0:
+        return "0"
+    sign, value = "-" if value < 0 else "", abs(value)
+    power = (value.numerator.bit_length() - value.denominator.bit_length()) * 3 // 10 - 1
+    while value >= Fraction(10) ** (power + 1):
+        power += 1
+    while value < Fraction(10) ** power:
+        power -= 1
+    scaled = round(value / Fraction(10) ** (power - digits + 1))
+    power, scaled = (power + 1, scaled // 10) if scaled == 10**digits else (power, scaled)
+    text = str(scaled)
+    if -5 <= power < digits:
+        whole, part = (text[:power + 1], text[power + 1:]) if power >= 0 else ("0", "0" * (-power - 1) + text)
+        part = part if scaled * Fraction(10) ** (power - digits + 1) != value else part.rstrip("0")
+        return sign + whole + ("." + part if part else "")
+    return f"{sign}{text[0]}.{text[1:]}e{power}"
