@@ -16,6 +16,7 @@ from certificates.terms import ClaimError
 from proofs.checking import Reading
 from proofs.claims import Claim
 from proofs.command import table
+from proofs.command.tree import theorem_line
 from proofs.following import settle_by_rules
 from proofs.judging import DEFAULT_BUDGET, Judgement, Options
 from proofs.loading import claims_of_file, paper_claims
@@ -54,6 +55,8 @@ def certify(options: argparse.Namespace) -> int:
     problems = [f"{name}: {reason}" for name, outcome, reason in results if outcome == "rejected"]
     table.draw(claims, judgements, console)
     print(table.summary(judgements))
+    line = "" if own else theorem_line(Store(folder), {name: outcome for name, outcome, _ in results})
+    print(line, end="\n" if line else "")
     for problem in problems:
         print(f"rejected by the checker: {problem}")
     code = 1 if problems else _own_result(judgements) if own else _against_register(claims, judgements, options)

@@ -35,6 +35,10 @@ def build_parser() -> argparse.ArgumentParser:
     commands.add_parser("list", help="the claims, with place and registered verdict")
     explain = commands.add_parser("explain", help="one claim whole")
     explain.add_argument("id", metavar="ID")
+    explain.add_argument("--premises", action="store_true", help="the texts of the premises that the checker's map rules write")
+    explain.add_argument("--alpha", metavar="A", help="with `theorem`: the restitution, exactly, such as 3/10")
+    explain.add_argument("--state", metavar="S", help="with `theorem`: x=..,w=.. or beta=..,v=..,r=..,g=.., exactly: what is certified, and the orbit")
+    explain.add_argument("--bounds", action="store_true", help="with `theorem`: the paper's bounds and ours against the worst of stated orbits")
     commands.add_parser("errata", help="what the paper prints wrongly, with correction and exact counterexample")
     export = commands.add_parser("export", help="statements for other tools")
     export.add_argument("format", choices=["smt2"])
@@ -82,7 +86,29 @@ def _dispatch(parsed: argparse.Namespace) -> int:
 
     if parsed.command == "list":
         return show.list_claims()
-    return show.explain(parsed.id)
+    return _explain(parsed)
+
+
+def _explain(parsed: argparse.Namespace) -> int:
+    from certificates.terms import ClaimError
+    from proofs.command import show
+
+    of_theorem = [option for option in ("alpha", "state", "bounds") if getattr(parsed, option) not in (None, False)]
+    if of_theorem and parsed.id != "theorem":
+        raise ClaimError(f"--{of_theorem[0]} goes with `explain theorem` only")
+    if parsed.bounds:
+        if len(of_theorem) > 1 or parsed.premises:
+            raise ClaimError("--bounds stands alone; it has its own alphas and states")
+        from proofs.command.bounds import explain_bounds
+
+        return explain_bounds()
+    if of_theorem:
+        if len(of_theorem) < 2 or parsed.premises:
+            raise ClaimError("give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41")
+        from proofs.command.theorem import explain_state
+
+        return explain_state(parsed.alpha, parsed.state)
+    return show.explain(parsed.id, with_premises=parsed.premises)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from typing import Any
 from certificates.store import DEFAULT, Store
 from certificates.terms import ClaimError
 from proofs.claims import Argument, Assertion, Body, Claim, Following, Readings
+from proofs.command.tree import print_tree
 from proofs.derivations import body_and_derivations
 from proofs.judging import DEFAULT_BUDGET
 from proofs.loading import paper_claims
@@ -25,8 +26,8 @@ def list_claims() -> int:
     return 0
 
 
-def explain(claim_id: str) -> int:
-    """One claim whole: print, derivation, reading, statements, certificates or counterexamples, sharp range, verdict."""
+def explain(claim_id: str, with_premises: bool = False) -> int:
+    """One claim whole: print, derivation, reading, statements, certificates or counterexamples, sharp range, verdict; the tree of its rules."""
     records = Records(DEFAULT_BUDGET)
     claims = {claim.id: claim for claim in records.claims or paper_claims()}
     if claim_id not in claims:
@@ -53,6 +54,7 @@ def explain(claim_id: str) -> int:
     if "correction" in entry:
         print(f"correction  {entry['correction']}")
     print(f"verdict     {entry.get('verdict', 'not judged')}" + (f"; {entry['detail']}" if "detail" in entry else ""))
+    print_tree(claim_id, getattr(body, "rests_on", ()), store, with_premises)
     return 0
 
 

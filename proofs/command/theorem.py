@@ -1,0 +1,193 @@
+"""`juggleproof explain theorem --alpha A --state S`: what is certified of one state, and its actual orbit beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from certificates.terms import ClaimError, term
+from proofs.command.numbers import DIGITS, exact, shown
+from proofs.paper.vocabulary import derived
+from proofs.theorem import quantities
+from proofs.theorem.closed_form import SHEARED, from_the_fixed_point
+from proofs.theorem.definition import FIXED, NEARBY, OTHER, SPEED, TO_THE_POINT, TRAP
+from proofs.theorem.exact import holds_at, value_of
+from proofs.theorem.orbits import MAX_BITS, MAX_IMPACTS, Move, State, a_state, moves
+from proofs.theorem.rules import PHYSICAL
+
+NORMAL_FORM, UNITS = ("x", "w"), ("beta", "v", "r", "g")
+HEAD, TAIL, AFTER = 8, 3, 5  # moves shown of the start, before the end of interest, and after it
+LATER = (0, 1, 2, 5, 10, 20)  # periods after the certified number
+MAX_POWER = 3000  # the greatest power of alpha that is computed
+FOLLOWED = 200  # impacts that an orbit is followed for where nothing is certified of it
+
+
+def read_alpha(text: str) -> Fraction:
+    """The restitution, strictly between 0 and 1."""
+    alpha = exact(text, "alpha")
+    if not 0 < alpha < 1:
+        raise ClaimError(f"alpha = {shown(alpha)} is not between 0 and 1; the restitution has 0 < alpha < 1")
+    return alpha
+
+
+def read_state(alpha: Fraction, text: str) -> State:
+    """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the normal form."""
+    given: dict[str, Fraction] = {}
+    for part in text.split(","):
+        name, equals, value = (piece.strip() for piece in part.partition("="))
+        if not equals or name not in NORMAL_FORM + UNITS:
+            raise ClaimError(f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or beta=..,v=..,r=..,g=..")
+        if name in given:
+            raise ClaimError(f"{name} is given twice; give each component of the state once")
+        given[name] = exact(value, name)
+    names = UNITS if set(given) & set(UNITS) else NORMAL_FORM
+    if set(given) != set(names):
+        odd = [*(f"{name} is missing" for name in names if name not in given), *(f"{name} does not belong there" for name in given if name not in names)]
+        raise ClaimError(f"{odd[0]}; a state has {', '.join(names[:-1])} and {names[-1]}")
+    if names == NORMAL_FORM:
+        return a_state(alpha, given["x"], given["w"])
+    for name in ("r", "g"):
+        if given[name] <= 0:
+            raise ClaimError(f"{name} = {shown(given[name])} is not positive; the launch speed r and gravity g are")
+    if not holds_at(PHYSICAL.space, given):
+        raise ClaimError(f"beta = {shown(given['beta'])} is below the table; a state has beta >= 0")
+    x, w = (value_of(term(entry), given) for entry in PHYSICAL.place.entries)
+    return a_state(alpha, x, w)
+
+
+def explain_state(alpha_text: str, state_text: str) -> int:
+    """Prints what is certified of the state, and its orbit."""
+    alpha = read_alpha(alpha_text)
+    state = read_state(alpha, state_text)
+    fixed = state.moved(FIXED)
+    print(f"alpha       {alpha}" if len(str(alpha)) < 40 else f"alpha       about {shown(alpha)}")
+    print(f"state       x = {shown(state.x)}, w = {shown(state.w)}, u^2 = {SPEED[1]} = {shown(state.speed_squared)}, in units of r T and r")
+    print(f"e_1         x = {shown(fixed.x)}, w = {shown(fixed.w)}")
+    print(f"numbers are exact and shown rounded to {DIGITS} digits")
+    print()
+    if quantities.converges(state):
+        _certified(state)
+        _orbit_to_the_trap(state)
+    else:
+        _not_certified(state)
+    return 0
+
+
+def _certified(state: State) -> None:
+    claim = "theorem" if quantities.attracted(state.alpha) else "theorem-one-third"
+    plain, sharper, best = quantities.by_the_theorem(state), quantities.best_way(state), quantities.certified(state)
+    print("certified   trap: " + str(TRAP))
+    print(f"  {claim}/descends: with the rank {TO_THE_POINT.rank}, in the trap after every N >= {shown(plain.trap)} periods,")
+    print(f"      and there within 1 of e_1 after every N >= {shown(plain.core)}")
+    print(f"  theorem-sharper/descends with W = {shown(sharper.W)}: u <= W - 1 after {shown(sharper.to_little)} periods, where that rank is at most")
+    print(f"      {shown(sharper.then)}: in the trap after every N >= {shown(sharper.bound.trap)}, within 1 of e_1 after every N >= {shown(sharper.bound.core)}")
+    print(f"  {claim}/attracts: after N + k periods, N = {shown(best.core)}, within (2 alpha)^k of e_1; theorem-closed-form: within (1 + k) alpha^k")
+    print()
+
+
+def _orbit_to_the_trap(state: State) -> None:
+    found = _until(state, MAX_IMPACTS, AFTER)
+    entered = next((count for count, move in enumerate(found) if move.state.is_in(TRAP)), None)
+    print("orbit")
+    best = quantities.certified(state)
+    _lines(found, entered, " (the trap)")
+    if entered is None:
+        print(f"  not followed further: {MAX_IMPACTS} impacts or {MAX_BITS} bits of a number are the limit; it enters the trap by the theorem")
+        return
+    at = found[entered]
+    print(f"  in the trap from n = {shown(at.start)} on; certified: n = {shown(best.trap)}" +
+          (f", which is {shown(Fraction(best.trap, at.start), 4)} times as many" if at.start else ""))
+    print()
+    _after_the_certified_number(at, best.core, state.alpha)
+
+
+def _until(state: State, impacts: int, more: int = 0) -> list[Move]:
+    """The moves of the orbit up to the trap, and some more."""
+    found: list[Move] = []
+    left = -1
+    for move in moves(state, impacts):
+        found.append(move)
+        left = left - 1 if left >= 0 else more if move.state.is_in(TRAP) else -1
+        if left == 0:
+            break
+    return found
+
+
+def _lines(found: Sequence[Move], turn: int | None, note: str = "") -> None:
+    """The first moves, those around the turn, and a line for what is left out between them."""
+    print(f"  {'n':>20} {'x':>20} {'w':>20} {'distance to e_1':>20}  then")
+    last = len(found) if turn is None else turn
+    gap = range(HEAD, last - TAIL)
+    for count, move in enumerate(found):
+        if count not in gap:
+            _line(move, note if count == turn else "")
+        elif count == gap.start:
+            periods = found[gap.stop].start - move.start
+            print(f"  {'...':>20} {len(gap)} moves, {shown(periods)} periods, are left out")
+
+
+def _line(move: Move, note: str) -> None:
+    then = "impact" if move.impact else f"flight of {shown(move.periods)} period" + "s" * (move.periods > 1)
+    print(f"  {shown(move.start):>20} {shown(move.state.x):>20} {shown(move.state.w):>20} {shown(move.state.distance):>20}  {then}{note}")
+
+
+def _after_the_certified_number(entry: Move, core: int, alpha: Fraction) -> None:
+    """Actual distances after the certified number of periods, by the closed form from the entry in the trap on."""
+    print(f"after N + k periods, N = {shown(core)}")
+    print(f"  {'k':>4} {'actual distance':>20} {'(2 alpha)^k':>20} {'(1 + k) alpha^k':>20}")
+    for k in LATER:
+        passed = core + k - entry.start
+        actual = shown(later(entry.state, passed).distance) if passed <= MAX_POWER else "not computed"
+        print(f"  {k:>4} {actual:>20} {shown(quantities.by_the_rate(alpha, k)):>20} {shown(quantities.by_the_closed_form(alpha, k)):>20}")
+    if core - entry.start + LATER[-1] > MAX_POWER:
+        print(f"  where it is not computed, more than {MAX_POWER} periods have passed since the trap was entered")
+
+
+def later(state: State, periods: int) -> State:
+    """The state of the trap so many periods later, by the closed form."""
+    fixed = state.moved(FIXED)
+    p, q = state.x - fixed.x, state.w - fixed.w
+    n, power = Fraction(periods), (-state.alpha) ** periods
+    offsets = [value_of(part, {"p": p, "q": q, "n": n}) for part in SHEARED]
+    return fixed.moved(from_the_fixed_point(term(power), (term(offsets[0]), term(offsets[1]))))
+
+
+def _not_certified(state: State) -> None:
+    other = state.moved(OTHER)
+    print("certified   theorem/escapes: from alpha = 1/3 on e_1 is not globally attracting, for the orbit of e_2 has period 2:")
+    print(f"      x = {shown(other.x)}, w = {shown(other.w)}, an impact and a flight by turns")
+    if quantities.is_exception(state):
+        print("  theorem-one-third/attracts: at alpha = 1/3 e_1 is stable and attracts all states but three, of which this is one")
+    near = (shown(value_of(weight * NEARBY.radius, state.point())) for weight in NEARBY.weights)
+    print("  theorem-nearby/contracts: e_1 is stable, and attracts all states within {} in x and {} in w of it".format(*near))
+    print()
+    found, turn, said = follow(state)
+    print("orbit")
+    _lines(found, turn)
+    print(f"  {said}")
+
+
+def follow(state: State) -> tuple[list[Move], int | None, str]:
+    """The orbit until its end is known, where that is, and what is known of it."""
+    found: list[Move] = []
+    seen: dict[tuple[Fraction, Fraction], int] = {}
+    for move in moves(state, FOLLOWED):
+        here = move.state
+        found.append(move)
+        if quantities.is_nearby(here):
+            return found, len(found) - 1, f"tends to e_1: at n = {shown(move.start)} it is in the neighbourhood of theorem-nearby"
+        if move.impact and (here.x, here.w) in seen:
+            first = seen[here.x, here.w]
+            return found, len(found) - 1, (f"does not tend to e_1: from n = {shown(first)} on it has period {shown(move.start - first)}"
+                                           + _known_as(here))
+        if move.impact:
+            seen[here.x, here.w] = move.start
+    return found, None, (f"not known: {FOLLOWED} impacts or {MAX_BITS} bits of a number are the limit, and it has neither come near e_1 "
+                         "nor met a periodic orbit")
+
+
+def _known_as(state: State) -> str:
+    """Which fixed point of the paper has its impact at this state."""
+    K = state.w * (1 + state.alpha) / 2
+    there = state.moved(derived("normal_impact_fixed_point"), K=K)
+    return f", the orbit of e_{K}" if K.denominator == 1 and (there.x, there.w) == (state.x, state.w) else ""
