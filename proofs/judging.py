@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from certificates import checker
 from certificates.routes.votes import Vote, cast_votes, compare
@@ -15,15 +15,12 @@ from certificates.search.budget import Budget, Exhausted
 from certificates.statements import AnyStatement, Iterates, MapRule, SharpRange, Statement
 from certificates.store import Store
 from certificates.terms import ClaimError
-from proofs.claims import Argument, Assertion, Body, Claim, Following, Readings, as_body, assertions, named_statements
+from proofs.claims import Argument, Assertion, Body, Claim, Following, Readings, assertions, named_statements
 from proofs.derivations import body_and_derivations
 from proofs.following import range_of_rule
 from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing, speaks_of_range
 from proofs.records import record_of
 from proofs.verdicts import Verdict, outcome_of, verdict_of
-
-if TYPE_CHECKING:
-    from proofs.corrections import Candidate
 
 DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
@@ -214,68 +211,15 @@ class Judge:
 
     def correct(self) -> None:
         """The first candidate print that the same claim certifies; an earlier finding is tried first."""
-        remembered = (self.options.findings.get(self.claim.id) or {}).get("correction")
-        from proofs.corrections import candidates
+        from proofs.correcting import correct
 
-        if remembered and remembered["kind"] == "nearby" and self.nearby_is_certified():
-            return
-        first = (remembered["kind"], remembered["text"]) if remembered else None
-        for candidate in candidates(self.claim, first) if self.claim.printed else ():
-            if self.certifies(candidate):
-                self.found.correction = {"kind": candidate.kind, "change": candidate.change, "text": candidate.text,
-                                         "possible transcription error": candidate.possible_transcription_error}
-                return
-        if not (remembered and remembered["kind"] == "nearby"):
-            self.nearby_is_certified()
+        correct(self)
 
-    def nearby_is_certified(self) -> bool:
-        """Whether the claim names a true assertion nearby that is certified; if so it is the correction."""
-        if self.claim.nearby is None:
-            return False
-        text, state = self.claim.nearby
-        if not self.certifies_body(as_body(state(), self.claim.id)):
-            return False
-        self.found.correction = {"kind": "nearby", "change": "a true assertion nearby", "text": text, "possible transcription error": False}
-        return True
-
-    def certifies(self, candidate: Candidate) -> bool:
-        """Whether the claim, read with this print, is certified; if so its statements are kept as ID/corrected..."""
-        try:
-            return self.certifies_body(self.claim.body(candidate.printed))
-        except (ClaimError, checker.Rejected):
-            return False
-
-    def certifies_body(self, body: Body) -> bool:
-        """Whether every statement of a corrected body is certified; if so they are kept."""
-        try:
-            statements = [_renamed(part, f"{self.claim.id}/corrected.{part.name.split('/')[1]}")
-                          for _, assertion in _with_prefix(body) for part in assertion]
-            if not all(self.is_stored_certified(part) for part in statements) and any(
-                    self.is_refuted_by_sampling(read(part.text(), part.name)) for part in statements):
-                return False
-        except (ClaimError, checker.Rejected):
-            return False
+    def trial(self) -> Judge:
+        """A judge of the same claim that settles what may correct it, with less work."""
         trial = Judge(self.claim, replace(self.options, routes=("exact",), budget=self.options.budget // TRIAL))
         trial.known, trial.is_trial = self.known, True
-        try:
-            for part in statements:
-                if trial.settle(part) != "certified":
-                    return False
-        except ClaimError:  # a candidate that contradicts itself, or divides by what may vanish, corrects nothing
-            return False
-        found, tried = self.found, trial.found
-        found.statements += tried.statements
-        found.certificates.update(tried.certificates)
-        found.outcomes.update(tried.outcomes)
-        for name, text in tried.statements:
-            found.votes[name] = self.votes(name, text, tried.outcomes[name])
-        found.reused += tried.reused
-        return True
-
-    def is_stored_certified(self, statement: AnyStatement) -> bool:
-        """Whether the store holds this very statement, and the checker accepted its proof there: no point can then refute it."""
-        store, name = self.options.store, statement.name
-        return store is not None and store.texts.get(name) == statement.text() and self.options.checked.get(name) == "certified"
+        return trial
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
         from certificates.search.points import search_found
@@ -366,13 +310,3 @@ def _tools() -> str:
 def _voted_on(text: str) -> str:
     """What a vote is about: the text of the statement, and the versions of the tools that voted."""
     return hashlib.sha256(f"{_tools()}\n{text}".encode()).hexdigest()[:16]
-
-
-def _with_prefix(body: Body) -> list[tuple[str, list[AnyStatement]]]:
-    return [(prefix, named_statements("x", prefix, assertion)) for prefix, assertion in assertions(body)]
-
-
-def _renamed(statement: AnyStatement, name: str) -> AnyStatement:
-    if isinstance(statement, SharpRange):
-        raise ClaimError("a sharp range cannot be renamed")
-    return replace(statement, name=name)
