@@ -11,9 +11,11 @@ from typing import Any
 
 import pytest
 
+from certificates import checker
 from proofs import cache, loading, recall
 from proofs.claims import Claim
 from proofs.command import certify as command
+from proofs.command import show
 from proofs.command.main import run
 from proofs.derivations import body_and_derivations
 from proofs.judging import DEFAULT_BUDGET
@@ -47,6 +49,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 def few(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(command, "paper_claims", lambda: PAPER)
     patch.setattr(recall, "paper_claims", lambda: PAPER)
+    patch.setattr(show, "paper_claims", lambda: PAPER)
 
 
 @pytest.fixture
@@ -70,6 +73,7 @@ def nothing_is_stated(patch: pytest.MonkeyPatch) -> None:
 
     patch.setattr(recall, "paper_claims", refuse)
     patch.setattr(command, "paper_claims", refuse)
+    patch.setattr(show, "paper_claims", refuse)
 
 
 def test_outputs_do_not_depend_on_records_or_jobs_holds(
@@ -88,6 +92,24 @@ def test_outputs_do_not_depend_on_records_or_jobs_holds(
         one = output("--jobs", "1", "--only", "eq-2")
     monkeypatch.setenv(cache.VARIABLE, "off")
     assert output("--jobs", "1", "--only", "eq-2") == one
+
+
+def test_claims_are_told_from_records_as_from_sources_holds(
+    place: Path, output: Callable[..., dict[str, str]], monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str],
+) -> None:
+    def told() -> str:
+        capfd.readouterr()
+        assert [run([word]) for word in ("list", "errata")] == [0, 0]
+        assert {run(["explain", claim]) for claim in CHOSEN} == {0}
+        return capfd.readouterr().out
+
+    monkeypatch.setenv(cache.VARIABLE, "off")
+    plain = told()
+    assert "derived     symbolic." in plain and "can be read as" in plain
+    monkeypatch.setenv(cache.VARIABLE, str(place))
+    output("--jobs", "2")
+    nothing_is_stated(monkeypatch)
+    assert told() == plain
 
 
 def test_fresh_search_keeps_and_reads_no_records_holds(
@@ -163,3 +185,24 @@ def test_rejects_the_body_of_a_claim_from_its_record_alone() -> None:
     assert claim.nearby is not None
     with pytest.raises(recall.Forgotten):
         claim.nearby[1]()
+
+
+def test_a_store_that_a_run_changes_is_checked_again_holds(
+    store: Path, place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str],
+) -> None:
+    folder, seen, check = tmp_path / "spoilt", list[int](), checker.check_folder
+    shutil.copytree(store, folder)
+
+    def counted(where: str) -> Any:
+        results = check(where)
+        seen.append(sum(outcome == "rejected" for _, outcome, _ in results))
+        return results
+
+    monkeypatch.setattr(checker, "check_folder", counted)
+    arguments = ["certify", "--store", str(folder), "--jobs", "1", "--routes", "exact"]
+    run(arguments)
+    assert seen == [0]
+    (folder / "s2.2.1-B1.json").write_text("{}\n", encoding="utf-8")
+    run(arguments)
+    assert seen[1] > 0 and seen[2:] == [0]
+    assert "rejected by the checker" not in capfd.readouterr().out
