@@ -1,9 +1,9 @@
-# Two commands for a bare machine with Python 3.11 or later, its venv module and make.
+# Two commands for a bare machine with Python 3.11 or later, its venv module and make; `make coq` needs coqc (8.16 to 8.20) only.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: certify test lint clean
+.PHONY: certify test lint coq clean
 
 certify: $(VENV)/installed
 	$(BIN)/juggleproof certify
@@ -15,6 +15,13 @@ lint: $(VENV)/installed
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
+# The Coq development, all of it and in order, compiled on copies so that nothing is left beside the sources.
+coq:
+	@command -v coqc >/dev/null || { echo "coqc is needed: Debian's package is called coq"; exit 1; }
+	@coqc --version | head -n 1
+	@rm -rf build/coq && mkdir -p build/coq && cp proofs/coq/*.v build/coq
+	@cd build/coq && for file in $$(grep '\.v$$' ../../proofs/coq/_CoqProject); do echo "coqc $$file"; coqc -q -Q . Juggleproof $$file || exit 1; done
+
 $(VENV)/installed: pyproject.toml requirements.lock
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
@@ -22,4 +29,4 @@ $(VENV)/installed: pyproject.toml requirements.lock
 	touch $@
 
 clean:
-	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info
+	rm -rf $(VENV) build .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info
