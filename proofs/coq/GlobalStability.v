@@ -40,7 +40,7 @@ Section Global.
   Qed.
 
   Lemma near_trap_is_near s : near_trap alpha s -> near 1 s.
-  Proof. intros [_ close]. now apply near_is_dist, dist_at_most. Qed.
+  Proof. intro inside. apply near_trap_is in inside as [_ close]. now apply near_is_dist, dist_at_most. Qed.
 
   Theorem only_impacts s n : H s -> rank s + 2 <= INR n -> trap alpha (iterate (f alpha) n s).
   Proof.
@@ -50,7 +50,7 @@ Section Global.
     - now apply rank_nonnegative.
     - intros t there. destruct (rank_falls alpha below_1 ltac:(lra) t there) as [[k staged]|falls]; [left|now right].
       destruct k as [|[|[|[|k]]]]; [exists 0%nat|exists 1%nat|exists 2%nat|exists 2%nat|destruct k; contradiction];
-        try exact staged. exact (proj1 staged).
+        try exact staged. now apply near_trap_is.
     - intros [|[|k]] t less there; cbn [stage nth];
         [now apply low_impact_leads_to_corner; try lra|now apply corner_leads_to_trap; try lra|cbn in less; lia].
     - intros t _ inside. apply trap_invariant; [exact below_1|lra|exact inside].
@@ -71,7 +71,7 @@ Section Global.
     - apply rank_falls; [exact below_1|lra].
     - apply stage_leads_on; [exact below_1|lra].
     - intros t _. apply near_trap_invariant; [exact below_1|lra].
-    - intros t _ inside. apply inside.
+    - intros t _ inside. now apply near_trap_is.
     - lra.
     - intros t _. apply near_trap_is_near.
     - exact above.
@@ -110,7 +110,7 @@ Section Global.
     - apply rank_falls; [exact below_1|lra].
     - apply stage_leads_on; [exact below_1|lra].
     - intros t _. apply near_trap_invariant; [exact below_1|lra].
-    - intros t _ inside. apply inside.
+    - intros t _ inside. now apply near_trap_is.
     - lra.
     - intros t _. apply near_trap_is_near.
     - exact above.
@@ -124,14 +124,14 @@ Theorem e_2_has_period_2 alpha : 1 / 3 <= alpha < 1 ->
   iterate (f alpha) 2 (e_2 alpha) = e_2 alpha /\ snd (e_1 alpha) < snd (e_2 alpha).
 Proof.
   intro range.
-  assert (square : 0 < (1 + alpha) ^ 2) by (apply pow_lt; lra).
+  assert (square : 0 < (alpha + 1) ^ 2) by (apply pow_lt; lra).
   assert (hits : fst (e_2 alpha) < snd (e_2 alpha)).
-  { apply Rminus_gt_0_lt. replace (snd (e_2 alpha) - fst (e_2 alpha)) with ((6 - 2 * alpha) / (1 + alpha) ^ 2).
+  { apply Rminus_gt_0_lt. replace (snd (e_2 alpha) - fst (e_2 alpha)) with ((6 - 2 * alpha) / (alpha + 1) ^ 2).
     - apply Rdiv_lt_0_compat; lra.
     - unfold e_2. cbn [fst snd]. field. lra. }
   assert (flies : snd (impact alpha (e_2 alpha)) <= fst (impact alpha (e_2 alpha))).
-  { apply Rminus_le. replace (snd (impact alpha (e_2 alpha)) - fst (impact alpha (e_2 alpha))) with (- ((6 * alpha - 2) / (1 + alpha) ^ 2)).
-    - assert (0 <= (6 * alpha - 2) / (1 + alpha) ^ 2) by (apply Rmult_le_pos; [lra|now apply Rlt_le, Rinv_0_lt_compat]). lra.
+  { apply Rminus_le. replace (snd (impact alpha (e_2 alpha)) - fst (impact alpha (e_2 alpha))) with (- ((6 * alpha - 2) / (alpha + 1) ^ 2)).
+    - assert (0 <= (6 * alpha - 2) / (alpha + 1) ^ 2) by (apply Rmult_le_pos; [lra|now apply Rlt_le, Rinv_0_lt_compat]). lra.
     - unfold e_2, impact. cbn [fst snd]. field. lra. }
   assert (first : f alpha (e_2 alpha) = impact alpha (e_2 alpha)) by now apply f_impact.
   assert (second : f alpha (f alpha (e_2 alpha)) = flight (impact alpha (e_2 alpha))) by (rewrite first; now apply f_flight).

@@ -12,12 +12,12 @@ Open Scope R_scope.
 Definition State : Type := R * R.
 
 Definition H (s : State) : Prop := 0 <= fst s.
-Definition impact (alpha : R) (s : State) : State := (alpha * (snd s - fst s), 2 - alpha * snd s).
+Definition impact (alpha : R) (s : State) : State := (alpha * snd s - alpha * fst s, 2 - alpha * snd s).
 Definition flight (s : State) : State := (fst s - snd s, snd s + 2).
 Definition f (alpha : R) (s : State) : State := if Rlt_dec (fst s) (snd s) then impact alpha s else flight s.
 
-Definition e_1 (alpha : R) : State := (2 * alpha / (1 + alpha) ^ 2, 2 / (1 + alpha)).
-Definition e_2 (alpha : R) : State := (2 * (3 * alpha - 1) / (1 + alpha) ^ 2, 4 / (1 + alpha)).
+Definition e_1 (alpha : R) : State := (2 * alpha / (alpha + 1) ^ 2, 2 / (alpha + 1)).
+Definition e_2 (alpha : R) : State := ((6 * alpha - 2) / (alpha + 1) ^ 2, 4 / (alpha + 1)).
 
 Definition dist (s e : State) : R := Rmax (Rabs (fst s - fst e)) (Rabs (snd s - snd e)).
 

@@ -2,7 +2,7 @@
 
    Defined:  period T = 2 r / g; height >= 0; strikes, inequality (7); f_1, f_2 and the map of both (equations 10, 12, 13); energy
              (equation 14), E_max (equation 34); e1; scaling x = beta / (r T), w = 1 - v / r.
-   Proved:   conjugate, the map is f in other coordinates, for all r, g > 0; physical_bound; physical_global; physical_sharp;
+   Proved:   scaling_bijective; conjugate, the map is f in other coordinates, for all r, g > 0; physical_bound; physical_global; physical_sharp;
              E_max_invariant, states of energy at most E_max keep that bound, for 0 < alpha < 1. *)
 
 From Coq Require Import Reals Lra.
@@ -14,19 +14,20 @@ Definition velocity (b : State) : R := snd b.
 Definition period (r g : R) : R := 2 * r / g.
 
 Definition above_ground (b : State) : Prop := 0 <= height b.
-Definition strikes (r g : R) (b : State) : Prop := g * height b / 2 + r * velocity b < r ^ 2.
+Definition strikes (r g : R) (b : State) : Prop := height b * g / 2 + r * velocity b < r ^ 2.
 Definition f_1 (alpha r g : R) (b : State) : State :=
-  (alpha * (period r g * (r - velocity b) - height b), alpha * (r - velocity b) - r).
-Definition f_2 (r g : R) (b : State) : State := (height b - period r g * (r - velocity b), velocity b - 2 * r).
+  ((2 * alpha * r ^ 2 - alpha * height b * g - 2 * alpha * r * velocity b) / g, alpha * r - alpha * velocity b - r).
+Definition f_2 (r g : R) (b : State) : State :=
+  ((height b * g + 2 * r * velocity b - 2 * r ^ 2) / g, velocity b - 2 * r).
 Definition ball (alpha r g : R) (b : State) : State :=
-  if Rlt_dec (g * height b / 2 + r * velocity b) (r ^ 2) then f_1 alpha r g b else f_2 r g b.
+  if Rlt_dec (height b * g / 2 + r * velocity b) (r ^ 2) then f_1 alpha r g b else f_2 r g b.
 
-Definition e1 (alpha r g : R) : State := (4 * alpha * r ^ 2 / ((1 + alpha) ^ 2 * g), - ((1 - alpha) * r / (1 + alpha))).
-Definition energy (g : R) (b : State) : R := g * height b + velocity b ^ 2 / 2.
-Definition E_max (alpha r : R) : R := ((1 + alpha) / (1 - alpha) * r) ^ 2 / 2.
+Definition e1 (alpha r g : R) : State := (4 * alpha * r ^ 2 / (g * (alpha + 1) ^ 2), (alpha * r - r) / (alpha + 1)).
+Definition energy (g : R) (b : State) : R := height b * g + velocity b ^ 2 / 2.
+Definition E_max (alpha r : R) : R := r ^ 2 * (alpha + 1) ^ 2 / (2 * (alpha - 1) ^ 2).
 
-Definition scaling (r g : R) (b : State) : State := (height b / (r * period r g), 1 - velocity b / r).
-Definition unscaling (r g : R) (s : State) : State := (r * period r g * fst s, r * (1 - snd s)).
+Definition scaling (r g : R) (b : State) : State := (height b * g / (2 * r ^ 2), (r - velocity b) / r).
+Definition unscaling (r g : R) (s : State) : State := (2 * r ^ 2 * fst s / g, r - r * snd s).
 
 Section Physical.
   Variables r g : R.
@@ -49,25 +50,29 @@ Section Physical.
     pose proof period_positive. destruct s as [x w]. unfold unscaling, scaling, height, velocity. cbn [fst snd]. f_equal; field; lra.
   Qed.
 
+  Theorem scaling_bijective s : exists! b, scaling r g b = s.
+  Proof.
+    exists (unscaling r g s). split; [apply scaling_unscaling|]. intros b same. rewrite <- same. apply unscaling_scaling.
+  Qed.
+
   (* Inequality (7) is x < w. *)
   Lemma strikes_scaled b : strikes r g b <-> fst (scaling r g b) < snd (scaling r g b).
   Proof.
     unfold strikes, scaling. cbn [fst snd].
-    assert (gap : r ^ 2 * (1 - velocity b / r - height b / (r * period r g)) = r ^ 2 - (g * height b / 2 + r * velocity b)).
-    { unfold period. field. lra. }
+    assert (gap : r ^ 2 * ((r - velocity b) / r - height b * g / (2 * r ^ 2)) = r ^ 2 - (height b * g / 2 + r * velocity b)) by (field; lra).
     assert (square : 0 < r ^ 2) by (apply pow_lt; lra). split; intro less; nra.
   Qed.
 
   Lemma above_ground_scaled b : above_ground b <-> H (scaling r g b).
   Proof.
     unfold above_ground, H, scaling. cbn [fst]. pose proof unit_positive as positive. pose proof period_positive.
-    assert (back : height b / (r * period r g) * (r * period r g) = height b) by (field; lra).
-    set (x := height b / (r * period r g)) in *. split; intro above; nra.
+    assert (back : height b * g / (2 * r ^ 2) * (r * period r g) = height b) by (unfold period; field; lra).
+    set (x := height b * g / (2 * r ^ 2)) in *. split; intro above; nra.
   Qed.
 
   Theorem conjugate alpha b : scaling r g (ball alpha r g b) = f alpha (scaling r g b).
   Proof.
-    unfold ball. destruct (Rlt_dec (g * height b / 2 + r * velocity b) (r ^ 2)) as [hits|flies].
+    unfold ball. destruct (Rlt_dec (height b * g / 2 + r * velocity b) (r ^ 2)) as [hits|flies].
     - rewrite f_impact by now apply strikes_scaled.
       unfold scaling, impact, f_1, period, height, velocity. cbn [fst snd]. f_equal; field; lra.
     - rewrite f_flight by (apply Rnot_lt_le; intro hits; now apply flies, strikes_scaled).
@@ -87,9 +92,9 @@ Section Physical.
     pose proof (Rinv_0_lt_compat _ positive). pose proof (Rinv_0_lt_compat _ r_positive).
     destruct (proj1 (dist_at_most b c (dist b c)) (Rle_refl _)) as [first second].
     apply dist_at_most. unfold scaling, height, velocity. cbn [fst snd]. split.
-    - replace (fst b / (r * period r g) - fst c / (r * period r g)) with (/ (r * period r g) * (fst b - fst c)) by (field; lra).
+    - replace (fst b * g / (2 * r ^ 2) - fst c * g / (2 * r ^ 2)) with (/ (r * period r g) * (fst b - fst c)) by (unfold period; field; lra).
       rewrite Rabs_mult, Rabs_right by lra. apply Rmult_le_compat; try lra; [apply Rabs_pos|apply Rmax_l].
-    - replace (1 - snd b / r - (1 - snd c / r)) with (- / r * (snd b - snd c)) by (field; lra).
+    - replace ((r - snd b) / r - (r - snd c) / r) with (- / r * (snd b - snd c)) by (field; lra).
       rewrite Rabs_mult, Rabs_Ropp, Rabs_right by lra. apply Rmult_le_compat; try lra; [apply Rabs_pos|apply Rmax_r].
   Qed.
 
@@ -98,9 +103,9 @@ Section Physical.
     pose proof unit_positive as positive. pose proof period_positive.
     destruct (proj1 (dist_at_most s t (dist s t)) (Rle_refl _)) as [first second].
     apply dist_at_most. unfold unscaling. cbn [fst snd]. split.
-    - replace (r * period r g * fst s - r * period r g * fst t) with (r * period r g * (fst s - fst t)) by ring.
+    - replace (2 * r ^ 2 * fst s / g - 2 * r ^ 2 * fst t / g) with (r * period r g * (fst s - fst t)) by (unfold period; field; lra).
       rewrite Rabs_mult, Rabs_right by lra. apply Rmult_le_compat; try lra; [apply Rabs_pos|apply Rmax_l].
-    - replace (r * (1 - snd s) - r * (1 - snd t)) with (- r * (snd s - snd t)) by ring.
+    - replace (r - r * snd s - (r - r * snd t)) with (- r * (snd s - snd t)) by ring.
       rewrite Rabs_mult, Rabs_Ropp, Rabs_right by lra. apply Rmult_le_compat; try lra; [apply Rabs_pos|apply Rmax_r].
   Qed.
 
@@ -157,15 +162,17 @@ Section Physical.
 
   (* The explicit bound: heights in units of r T, velocities in units of r. *)
   Theorem physical_bound alpha b n k : 0 < alpha < 1 / 3 -> above_ground b -> rank (scaling r g b) + 3 <= INR n ->
-    Rabs (height (iterate (ball alpha r g) (n + k) b) - height (e1 alpha r g)) <= r * period r g * (2 * alpha) ^ k /\
+    Rabs (height (iterate (ball alpha r g) (n + k) b) - height (e1 alpha r g)) <= 2 * r ^ 2 / g * (2 * alpha) ^ k /\
     Rabs (velocity (iterate (ball alpha r g) (n + k) b) - velocity (e1 alpha r g)) <= r * (2 * alpha) ^ k.
   Proof.
     intros range above late. pose proof unit_positive as positive. pose proof period_positive.
+    replace (2 * r ^ 2 / g) with (r * period r g) by (unfold period; field; lra).
     pose proof (distance_bound alpha range (scaling r g b) n k (proj1 (above_ground_scaled b) above) late) as bound.
     rewrite <- (carries_iterates (scaling r g) (ball alpha r g) (f alpha) (conjugate alpha)) in bound.
     rewrite <- e1_scaled in bound by lra. apply dist_at_most in bound as [first second].
     set (c := iterate (ball alpha r g) (n + k) b) in *. set (e := e1 alpha r g) in *.
-    replace (height c - height e) with (r * period r g * (fst (scaling r g c) - fst (scaling r g e))) by (unfold scaling; cbn [fst]; field; lra).
+    replace (height c - height e) with (r * period r g * (fst (scaling r g c) - fst (scaling r g e)))
+      by (unfold scaling, period; cbn [fst]; field; lra).
     replace (velocity c - velocity e) with (- r * (snd (scaling r g c) - snd (scaling r g e))) by (unfold scaling; cbn [snd]; field; lra).
     rewrite !Rabs_mult, Rabs_Ropp, (Rabs_right r), (Rabs_right (period r g)) by lra.
     split; apply Rmult_le_compat_l; lra.
@@ -174,18 +181,19 @@ Section Physical.
   Lemma energy_scaled b : above_ground b -> 2 * energy g b = r ^ 2 * (speed (scaling r g b) * speed (scaling r g b)).
   Proof.
     intro above. apply above_ground_scaled, speed_equation in above as [_ square]. rewrite square.
-    unfold energy, scaling, period. cbn [fst snd]. field. lra.
+    unfold energy, scaling. cbn [fst snd]. field. lra.
   Qed.
 
   Theorem E_max_invariant alpha b : 0 < alpha < 1 ->
     above_ground b /\ energy g b <= E_max alpha r -> above_ground (ball alpha r g b) /\ energy g (ball alpha r g b) <= E_max alpha r.
   Proof.
     intro range. assert (square : 0 < r ^ 2) by (apply pow_lt; lra).
-    assert (level : 0 <= (1 + alpha) / (1 - alpha)) by (apply Rlt_le, Rdiv_lt_0_compat; lra).
-    assert (same : forall c, above_ground c -> energy g c <= E_max alpha r <-> speed (scaling r g c) <= (1 + alpha) / (1 - alpha)).
+    assert (level : 0 <= (alpha + 1) / (1 - alpha)) by (apply Rlt_le, Rdiv_lt_0_compat; lra).
+    assert (same : forall c, above_ground c -> energy g c <= E_max alpha r <-> speed (scaling r g c) <= (alpha + 1) / (1 - alpha)).
     { intros c above. pose proof (energy_scaled c above) as twice.
-      apply above_ground_scaled, speed_equation in above as [positive _]. unfold E_max.
-      set (m := (1 + alpha) / (1 - alpha)) in *. set (u := speed (scaling r g c)) in *. split; intro bound.
+      apply above_ground_scaled, speed_equation in above as [positive _].
+      replace (E_max alpha r) with (r ^ 2 * (((alpha + 1) / (1 - alpha)) * ((alpha + 1) / (1 - alpha))) / 2) by (unfold E_max; field; lra).
+      set (m := (alpha + 1) / (1 - alpha)) in *. set (u := speed (scaling r g c)) in *. split; intro bound.
       - apply Rnot_lt_le. intro beyond. assert (m * m < u * u) by nra. nra.
       - assert (u * u <= m * m) by nra. nra. }
     intros [above bound].

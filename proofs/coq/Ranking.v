@@ -18,10 +18,11 @@ Definition low_impact (s : State) : Prop := fst s < snd s /\ snd s < 6.
 Definition corner (s : State) : Prop := 0 < snd s /\ fst s + snd s <= 2.
 Definition trap (alpha : R) (s : State) : Prop := 0 <= fst s /\ fst s < snd s /\ alpha * snd s < 1.
 Definition near_trap (alpha : R) (s : State) : Prop :=
-  trap alpha s /\ Rabs (fst s - fst (e_1 alpha)) <= 1 /\ Rabs (snd s - snd (e_1 alpha)) <= 1.
+  0 <= fst s /\ fst s < snd s /\ alpha * snd s < 1 /\
+  fst s - fst (e_1 alpha) <= 1 /\ fst (e_1 alpha) - fst s <= 1 /\ snd s - snd (e_1 alpha) <= 1 /\ snd (e_1 alpha) - snd s <= 1.
 Definition stages (alpha : R) : list (State -> Prop) := [low_impact; corner; trap alpha; near_trap alpha].
 
-Definition below_boundary (alpha : R) (s : State) : Prop := H s /\ speed s <= (1 + alpha) / (1 - alpha).
+Definition below_boundary (alpha : R) (s : State) : Prop := H s /\ speed s <= (alpha + 1) / (1 - alpha).
 
 Lemma speed_equation s : H s -> 0 <= speed s /\ speed s * speed s = 4 * fst s + (snd s - 1) ^ 2.
 Proof.
@@ -35,6 +36,14 @@ Lemma speed_bounds_w s : H s -> - speed s <= snd s - 1 <= speed s.
 Proof.
   intro above. destruct (speed_equation s above) as [positive square]. unfold H in above.
   split; apply Rnot_lt_le; intro beyond; nra.
+Qed.
+
+Lemma near_trap_is alpha s :
+  near_trap alpha s <-> trap alpha s /\ Rabs (fst s - fst (e_1 alpha)) <= 1 /\ Rabs (snd s - snd (e_1 alpha)) <= 1.
+Proof.
+  unfold near_trap, trap. split.
+  - intros (above & hits & narrow & close). repeat split; try lra; apply Rabs_le; lra.
+  - intros ((above & hits & narrow) & first & second). apply absolute_bounds in first, second. lra.
 Qed.
 
 Section Ranking.
@@ -61,7 +70,7 @@ Section Ranking.
     destruct (Rlt_dec (fst s) (snd s)) as [hits|flies].
     - rewrite f_impact by exact hits. pose proof (speed_bounds_w s above) as [_ upper]. unfold H in above.
       apply Rle_trans with (1 + alpha * snd s); [apply impact_speed; lra|].
-      replace ((1 + alpha) / (1 - alpha)) with (1 + alpha * (1 + (1 + alpha) / (1 - alpha))) by (field; lra).
+      replace ((alpha + 1) / (1 - alpha)) with (1 + alpha * (1 + (alpha + 1) / (1 - alpha))) by (field; lra).
       apply Rplus_le_compat_l, Rmult_le_compat_l; lra.
     - rewrite f_flight by lra. now rewrite flight_keeps_speed.
   Qed.
@@ -109,7 +118,7 @@ Section Ranking.
 
   Lemma trap_leads_near s : trap alpha s -> near_trap alpha (f alpha s).
   Proof.
-    intro inside. split; [now apply trap_invariant|]. rewrite f_impact by apply (trap_invariant s inside).
+    intro inside. apply near_trap_is. split; [now apply trap_invariant|]. rewrite f_impact by apply (trap_invariant s inside).
     destruct inside as (above & hits & narrow).
     pose proof (e_1_range alpha alpha_range) as (low & order & half & speed_low & speed_high).
     pose proof (ex_equation alpha alpha_range) as EX. pose proof (ew_equation alpha alpha_range) as EW.
@@ -117,7 +126,7 @@ Section Ranking.
   Qed.
 
   Lemma near_trap_invariant s : near_trap alpha s -> near_trap alpha (f alpha s).
-  Proof. intros [inside _]. now apply trap_leads_near. Qed.
+  Proof. intro inside. now apply trap_leads_near, near_trap_is. Qed.
 
   Lemma stage_leads_on k s : (S k < length (stages alpha))%nat -> H s -> stage (stages alpha) k s -> stage (stages alpha) (S k) (f alpha s).
   Proof.

@@ -40,20 +40,6 @@ def _derived(name: str, *arguments: Any) -> Any:
     return encoded(getattr(symbolic, name)(*arguments))
 
 
-@cache
-def factored(name: str, **values: int) -> Any:
-    """A derived expression or column of `symbolic` in factored form, with numbers put for some of its symbols.
-
-    >>> print(*factored("e_1"))
-    4*alpha*r^2/(g*(alpha + 1)^2) r*(alpha - 1)/(alpha + 1)
-    """
-    from sympy import MatrixBase, factor
-
-    derivations_used.append((name, ()))
-    value = getattr(symbolic, name)().subs(values)
-    return encoded(value.applyfunc(factor) if isinstance(value, MatrixBase) else factor(value))
-
-
 def derivation(name: str, arguments: tuple[Any, ...] = ()) -> str:
     """What the derivation of this name says of itself, and its result."""
     said = (getattr(symbolic, name).__doc__ or "").strip().splitlines()[0]

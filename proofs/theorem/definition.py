@@ -8,20 +8,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from certificates.terms import Formula, Term, conjunction, reals, term
-from proofs.paper.vocabulary import derived, factored, w, x
+from certificates.terms import Formula, Term, conjunction, reals, substitute, term
+from proofs.paper.vocabulary import w, x
 from proofs.reading.values import Vector
+from proofs.theorem.written import opposite, positive, tidied
+from symbolic.normal_form import normal_margin
 
-alpha, u = reals("alpha u")
+alpha, u, e_x, e_w = reals("alpha u e_x e_w")
 WHOLE = (alpha > 0) & (alpha < 1) & (1 - alpha > 0) & (1 + alpha > 0)  # the last two are there for what is divided by
 BELOW_A_THIRD = (alpha > 0) & (3 * alpha < 1) & (1 + alpha > 0)
 FROM_A_THIRD = (3 * alpha >= 1) & (alpha < 1) & (1 + alpha > 0)
 
-SPACE = x >= 0
-IMPACT: Formula = derived("normal_margin") > 0
-PIECES = ((IMPACT, factored("normal_f1")), (derived("normal_margin") <= 0, factored("normal_f2")))
-FIXED: Vector = factored("normal_e_1")
-OTHER: Vector = factored("normal_e_2")  # the orbit of e_2 at its impact: an impact, a flight, and it is back
+SPACE = term(0) <= x
+IMPACT: Formula = positive(normal_margin())  # inequality (7)
+PIECES = ((IMPACT, tidied("normal_f1")), (opposite(IMPACT), tidied("normal_f2")))
+FIXED: Vector = tidied("normal_e_1")
+OTHER: Vector = tidied("normal_e_2")  # the orbit of e_2 at its impact: an impact, a flight, and it is back
 
 
 @dataclass(frozen=True)
@@ -44,18 +46,26 @@ class Contraction:
     size: Term
 
 
-def within(*distances: Term) -> Formula:
-    """Each component differs from that of the fixed point by no more than its distance."""
-    offsets = [name - term(entry) for name, entry in zip((x, w), FIXED.entries)]
-    return conjunction([part for offset, most in zip(offsets, distances) for part in (-most <= offset, offset <= most)])
+def near(*distances: Term) -> Formula:
+    """Each component differs from that of the fixed point, (e_x, e_w), by no more than its distance."""
+    pairs = zip((x, w), (e_x, e_w), distances)
+    return conjunction([part for name, entry, most in pairs for part in (name - entry <= most, entry - name <= most)])
+
+
+def at_the_point(formula: Formula) -> Formula:
+    """The formula with the fixed point put in for its names."""
+    put_in: Formula = substitute(formula, dict(zip(("e_x", "e_w"), map(term, FIXED.entries))))
+    return put_in
 
 
 SPEED = ("u", 4 * x + (w - 1) ** 2)  # u^2 is twice the energy in units of r^2
-TRAP = IMPACT & (alpha * w < 1)
-CORE = TRAP & within(term(1), term(1))
+TRAP = conjunction([SPACE, IMPACT, alpha * w < 1])
+NEAR_IN_TRAP = TRAP & near(term(1), term(1))
+CORE = at_the_point(NEAR_IN_TRAP)
 # An impact with w < 6 leads to x + w <= 2, that to the trap, and one step more to within 1 of the fixed point.
-TO_THE_POINT = Descent(2 * u + (1 - w) / 2, (IMPACT & (w < 6), (w > 0) & (x + w <= 2), TRAP, CORE), (SPEED,))
-IN_THE_TRAP = Contraction(CORE, (term(1), term(1)), 2 * alpha, term(1) / 16, term(1))
+TO_THE_POINT = Descent(2 * u + (1 - w) / 2, (IMPACT & (w < 6), (term(0) < w) & (x + w <= 2), TRAP, CORE), (SPEED,))
+IN_THE_TRAP = Contraction(CORE, (term(1), term(1)), 2 * alpha, term(1) / 2, term(1))
 
-WEIGHTS = (2 * alpha, 1 - alpha)
-NEARBY = Contraction(within(alpha / 2, (1 - alpha) / 4), WEIGHTS, (1 + alpha) / 2, term(1) / 4, term(1) / 4)
+# Near e_1 the map contracts this norm for every 0 < alpha < 1.
+WEIGHTS, RADIUS = (2 * alpha / (1 - alpha), term(1)), (1 - alpha) / (1 + alpha) ** 2
+NEARBY = Contraction(at_the_point(near(*(RADIUS * weight for weight in WEIGHTS))), WEIGHTS, (1 + alpha) / 2, RADIUS, RADIUS)

@@ -8,9 +8,11 @@ from typing import Any
 
 from certificates.statements import MapRule
 from certificates.terms import Formula, Number, Term, substitute, term
-from proofs.paper.vocabulary import STRIKES, H, alpha, b, derived, factored, g, r, w, x
+from proofs.paper.vocabulary import H, alpha, b, derived, g, r, w, x
 from proofs.reading.values import Vector
 from proofs.theorem.definition import FIXED, OTHER, PIECES, SPACE, WHOLE, Contraction, Descent
+from proofs.theorem.written import opposite, positive, tidied
+from symbolic.collision import collision_margin
 
 
 @dataclass(frozen=True)
@@ -39,14 +41,15 @@ class Setting:
 
 
 NORMAL = Setting((alpha,), (), (x, w), SPACE, PIECES, FIXED, OTHER, Vector((x, w)), (1, 1))
+STRIKES_HERE = positive(collision_margin())
 PHYSICAL = Setting(
     parameters=(alpha, r, g),
     positive=(r > 0, g > 0),
     state=(term(b.component(1)), term(b.component(2))),
     space=H(b),
-    pieces=((STRIKES(b), factored("f1")), (~STRIKES(b), factored("f2"))),
-    fixed=factored("e_1"),
-    other=factored("impact_fixed_point", K=2),
+    pieces=((STRIKES_HERE, tidied("f1")), (opposite(STRIKES_HERE), tidied("f2"))),
+    fixed=tidied("e_1"),
+    other=tidied("impact_fixed_point", K=2),
     place=derived("scaling"),
     units=(2 * r**2 / g, r),
 )

@@ -51,5 +51,8 @@ def the_same_in_the_units_of_the_paper() -> list[AnyStatement]:
 
 @claim("theorem-nearby", "theorem", "near e_1")
 def fixed_point_attracts_a_neighbourhood_for_every_alpha() -> list[AnyStatement]:
-    """For every 0 < alpha < 1, e_1 is stable, and attracts all states within alpha r T/2 of it in height and (1 - alpha) r/4 in speed."""
+    """For every 0 < alpha < 1, e_1 is stable, and attracts the states of H up to twice its height
+
+    whose speed differs from its speed by at most (1 - alpha) r/(1 + alpha)^2.
+    """
     return [the_map("map", PHYSICAL), contracts("contracts", "theorem-nearby/map", PHYSICAL, WHOLE, NEARBY)]
