@@ -159,10 +159,12 @@ class Judge:
         return outcome
 
     def stored_outcome(self, name: str, text: str, certificate: Any) -> str:
-        """What the checker said of the stored certificate when it read the store; it is asked again where it rejected it there."""
+        """What the checker said of the stored certificate when it read the store; it is asked again where it rejected it there, or read another lemma."""
         if certificate is None:
             return "rejected"
-        outcome = self.options.checked.get(name, "rejected")
+        stored = self.options.store.texts if self.options.store else {}
+        as_stored = all(stored.get(one.name) == one.text() for one in self.known.values())  # else what it rests on is not what was read there
+        outcome = self.options.checked.get(name, "rejected") if as_stored else "rejected"
         return outcome if outcome != "rejected" else self.check(read(text, name), certificate)
 
     def votes(self, name: str, text: str, outcome: str) -> Sequence[Vote]:

@@ -1,0 +1,50 @@
+"""Claims of one's own under the map rules: certified, told with their range, and settled again where a statement that they rest on changes."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CLAIMS = """
+from proofs import MapRule, claim
+
+@claim("mine")
+def it_comes_to_rest():
+    '''What is subtracted from, then halved, tends to 0.'''
+    return [
+        MapRule("map", (("over", "alpha"), ("domain", "alpha > 0 and alpha < 1"), ("state", "x"), ("space", "x >= 0"),
+                        ("piece", "x >= 1 -> x - 1"), ("piece", "x < 1 -> alpha*x"))),
+        MapRule("descends", (("map", "mine/map"), ("domain", "alpha > 0 and 2*alpha < 1"), ("rank", "x"), ("stage", "x < 1"))),
+        MapRule("contracts", (("map", "mine/map"), ("domain", "alpha > 0 and alpha < 1"), ("on", "ON"), ("point", "0"), ("weights", "1"),
+                              ("rate", "alpha"), ("radius", "1/2"), ("size", "1"))),
+        MapRule("attracts", (("descent", "mine/descends"), ("contraction", "mine/contracts"))),
+    ]
+"""
+
+
+def certify(folder: Path, on: str) -> subprocess.CompletedProcess[str]:
+    path = folder / "mine.py"
+    path.write_text(CLAIMS.replace("ON", on), encoding="utf-8")
+    return subprocess.run([sys.executable, "-m", "proofs.command.main", "certify", str(path), "--routes", "exact", "--jobs", "1"], check=False,
+                          capture_output=True, text=True, cwd=ROOT, env={**os.environ, "NO_COLOR": "1"}, timeout=240)
+
+
+def test_rules_of_ones_own_hold_and_tell_their_range(tmp_path: Path) -> None:
+    done = certify(tmp_path, "x < 1")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "1 holds" in done.stdout and "at least 0 < alpha < 1/2" in done.stdout
+
+
+def test_a_rule_is_settled_again_where_what_it_rests_on_changes(tmp_path: Path) -> None:
+    certify(tmp_path, "x < 1")
+    for on in ("x < 1 and (x < 3 or x < 4)", "x < 1"):
+        done = certify(tmp_path, on)
+        assert done.returncode == 0 and "rejected" not in done.stdout, done.stdout + done.stderr
+
+
+def test_a_rule_fails_without_its_set(tmp_path: Path) -> None:
+    done = certify(tmp_path, "x < 1/4")
+    assert done.returncode == 1 and "1 unknown" in done.stdout
