@@ -78,16 +78,12 @@ class Poly:
             under = merged(max, self.under, other.under)
             return self.numerator(under).plus(other.numerator(under), factor).over(under)
         den = lcm(self.den, other.den * factor.denominator)
-        scale, terms = den // self.den, dict(self.terms)
-        if scale > 1:
-            terms = {}
-            add_multiple(terms, scale, self.terms)
-        spend(len(terms))
+        spend(len(self.terms))
+        terms = dict(self.terms) if den == self.den else add_multiple({}, den // self.den, self.terms)
         add_multiple(terms, den // (other.den * factor.denominator) * factor.numerator, other.terms)
         return Poly(terms, den, max(self.deg, other.deg))
 
-    def __add__(self, other):
-        return self.plus(other)
+    __add__ = plus
 
     def __sub__(self, other):
         return self.plus(other, -1)
@@ -120,7 +116,10 @@ class Poly:
 
 
 def add_multiple(terms, factor, others, shift=0):
-    """terms += factor * x^shift * others, for an integer factor other than 0; all work on polynomials is counted and limited here."""
+    """terms += factor * x^shift * others, for an integer factor other than 0; the work on polynomials is counted and limited here.
+
+    No factor * c is longer than `bits`, so that coefficients are looked at only where one may be too long.
+    """
     bits = factor.bit_length() + sum(map(int.bit_length, others.values())) if not -2 < factor < 2 else 0
     spend(1 + len(others) + (factor.bit_length() * bits >> 16))
     for m, c in others.items():
@@ -131,6 +130,7 @@ def add_multiple(terms, factor, others, shift=0):
             del terms[m + shift]
     if len(terms) > MAX_TERMS or bits > MAX_BITS and any(c.bit_length() > MAX_BITS for c in terms.values()):
         raise Rejected("a polynomial is too large", f"{len(terms)} terms")
+    return terms
 
 
 def merged(rule, one, other):
@@ -205,10 +205,9 @@ class Context:
     """What has been declared so far: variables, the values of names, and the polynomials that a strict line made nonzero."""
 
     def __init__(self, outer=None, values=None):
-        self.index, self.integers, self.licensed, self.values = {}, set(), {}, dict(values or {})
-        if outer:
-            self.index, self.integers, self.licensed = dict(outer.index), set(outer.integers), dict(outer.licensed)
-            self.values = dict(outer.values if values is None else values)
+        self.index, self.integers = (dict(outer.index), set(outer.integers)) if outer else ({}, set())
+        self.licensed = dict(outer.licensed) if outer else {}
+        self.values = dict(values if values is not None else outer.values if outer else {})
 
     def declare(self, name, integral=False):
         """A fresh variable; where another scope has one of this name, its key grows by underscores, so that the two stay apart."""
@@ -397,7 +396,7 @@ def rational(value):
     """An exact rational: an int, or the text p or p/q."""
     exact = type(value) is int or isinstance(value, str) and re.fullmatch(r"-?\d{1,4000}(/0*[1-9]\d{0,3999})?", value, re.ASCII)
     require(exact, "expected an exact rational", value)
-    return Fraction(value)
+    return value if type(value) is int else Fraction(value)
 
 
 # ------------------------------------------------------------ PROOF RULES: each closes a state, that is, shows that it has no point
@@ -415,7 +414,7 @@ def close_by_positivstellensatz(state, known, products, equations):
     (or != 0, with e even), every fact_j is an equation, and one term at least is > 0: its facts are all strict and q is
     a constant other than 0.  So 0 > 0.  Identities, cofactors of equations, Handelman and Bernstein forms are special cases.
     """
-    total, strict, powers = ZERO, False, {}
+    total, strict = ZERO, False
     for coefficient, factors, root in products:
         square = ONE if root == "1" else state.context.polynomial(root)
         weight, product, positive = rational(coefficient), square * square, bool(square.constant())
@@ -424,9 +423,7 @@ def close_by_positivstellensatz(state, known, products, equations):
             poly, relation = at(state.facts, index)
             if type(exponent) is not int or not 0 < exponent <= MAX_DEGREE or relation == "=" or relation == "!=" and exponent % 2:
                 raise Rejected("a factor of unknown sign", f"({state.context.show(poly)} {relation} 0)^{exponent}")
-            if (index, exponent) not in powers:
-                powers[index, exponent] = poly**exponent
-            product, positive = product * powers[index, exponent], positive and relation != ">="
+            product, positive = product * poly**exponent, positive and relation != ">="
         total, strict = total.plus(product, weight), strict or positive
     for index, cofactor in equations:
         poly, relation = at(state.facts, index)
@@ -516,7 +513,6 @@ def close(state, node, known):
 # ------------------------------------------------------------ statements
 
 
-
 def definition(text):
     name, _, said = text.partition(" = ")
     return name, parse(said)
@@ -547,9 +543,9 @@ def mapping(text):
 
 
 LINES = {  # how what follows each keyword is read
-    "forall": str.split, "integer": str.split, "exists": str.split, "over": str.split, "sharp": str.split, "let": definition,
-    "root": call, "number": call, "range": parse, "given": parse, "have": parse, "with": parse, "show": parse, "domain": parse,
-    "holds": parse, "iterates": mapping, "after": mapping, "state": str.split, "piece": mapping, "word": lambda text: [int(k) for k in text.split()],
+    **dict.fromkeys(("forall", "integer", "exists", "over", "sharp", "state"), str.split), "let": definition, "root": call, "number": call,
+    **dict.fromkeys(("range", "given", "have", "with", "show", "domain", "holds"), parse),
+    **dict.fromkeys(("iterates", "after", "piece"), mapping), "word": lambda text: [int(k) for k in text.split()],
     **dict.fromkeys(("map", "descent", "contraction", "attraction", "escape"), str),
     **dict.fromkeys(("space", "rank", "stage", "on", "rate", "radius", "size"), lambda text: written(parse(text))),
     **dict.fromkeys(("point", "weights", "start"), listed)}
@@ -685,8 +681,8 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     """Values for variables of a statement, given all that the state assumes, with nodes that show what they are for.
 
     [name, [adjoined, ...], {variable: term}, node] for the purposes "point" (the premises hold) and "witness" (the goals hold);
-    [name, [adjoined, ...], {variable: term}, node, node] for "counterexample": the first node shows that the premises hold, the second that the
-    goals fail, whatever the `exists` variables are.  Adjoined: [new name, p, low, high, node, node] names a root of the polynomial p
+    [name, [adjoined, ...], {variable: term}, node, node] for "counterexample": the first node shows that the premises hold, the second
+    that the goals fail, whatever the `exists` variables are.  Adjoined: [new name, p, low, high, node, node] names a root of the polynomial p
     in the new name between the terms low and high; the nodes show low <= high and p(low) <= 0, and p(high) >= 0 (intermediate value).
     ["sign", p, found, found, found] tells p < 0, p = 0 and p > 0 apart first; ["empty", node] closes such a case.
     """
@@ -726,20 +722,18 @@ def check_sharp(statement, certificate, known, statements):
     """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).  [{name: prove}, found, sample].
 
     A statement's own range lines give way to the domain and the condition; a parameter is an integer where the statements say so.
-    Inside, each statement is proved; outside, counterexamples to one of them are found.  Each `number` line: its polynomial has exactly one root between its ends, where it changes its sign.
-    The sample {parameter: value} is a point of the domain.
+    Inside, each statement is proved; outside, counterexamples to one of them are found.  Each `number` line: its polynomial has exactly
+    one root between its ends, where it changes its sign.  The sample {parameter: value} is a point of the domain.
     """
     (names,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
     inside, outside, sample = certificate
     ours = names and set(inside) == set(names) and all(n in statements and statements[n].kind == "universal" for n in names)
     require(ours, "a sharp range proves each of its earlier statements", names)
     whole, *others = [{p for p in over if any(p in line for line in statements[name].get("integer"))} for name in names]
-    alike = all(other == whole for other in others)
-    context, values = Context(), {name: number(rational(value)) for name, value in sample.items()}
+    require(all(other == whole for other in others), "a parameter is an integer in one statement of a sharp range and not in another", names)
+    state, values = State(Context()), {name: number(rational(value)) for name, value in sample.items()}
     for parameter in over:
-        context.declare(parameter, parameter in whole)
-    require(alike, "a parameter is an integer in one statement of a sharp range and not in another", names)
-    state = State(context)
+        state.context.declare(parameter, parameter in whole)
     met = set(values) == set(over) and all(values[p].den == 1 for p in whole) and Context(None, values).formula(domain) is True
     require(met, "the sample is not in the domain of a sharp range", sample)
     for name, (tree, *ends) in statement.get("number"):
@@ -960,21 +954,19 @@ def settle(statement, certificate, known, statements):
 
     A certified statement carries a point that meets its premises, so that it says something.  A refuted one has a counterexample.
     """
-    kind = sorted(certificate) if isinstance(certificate, dict) else []
-    if kind == ["unknown"]:
+    says = sorted(certificate) if isinstance(certificate, dict) else []
+    if says == ["unknown"]:
         return "unknown"
-    start, named = State(Context()), {statement.name: statement}
-    if statement.kind == "universal" and kind == ["refuted"]:
-        find(start, certificate["refuted"], known, "counterexample", named, {})
-        return "refuted"
-    wanted = ["certified", "point"] if statement.kind == "universal" else ["certified"]
-    require(kind == wanted, "a certificate with missing or left over keys", kind)
-    if statement.kind == "universal":
-        prove(statement, certificate["certified"], known)
-        find(start, certificate["point"], known, "point", named, {})
-    else:
+    allowed = (["refuted"], ["certified", "point"]) if statement.kind == "universal" else (["certified"],)
+    require(says in allowed, "a certificate with missing or left over keys", says)
+    if statement.kind != "universal":
         (check_sharp if statement.kind == "sharp" else check_orbit_rule)(statement, certificate["certified"], known, statements)
-    return "certified"
+        return "certified"
+    if says[0] == "certified":
+        prove(statement, certificate["certified"], known)
+    purpose = "point" if says[0] == "certified" else "counterexample"
+    find(State(Context()), certificate[says[-1]], known, purpose, {statement.name: statement}, {})
+    return says[0]
 
 
 # ------------------------------------------------------------ files
