@@ -457,13 +457,13 @@ def close_by_interval(state, known, index, low, high):
     (name,) = variables_of(state.context, poly)
     for side, bound in ((1, low), (-1, high)):
         line, sense = at(state.facts, bound)
-        coefficients = univariate(state.context, line, name)
-        if len(coefficients) != 2 or sense not in (">", ">=") or coefficients[1] * side <= 0:
+        constant, slope, *more = univariate(state.context, line, name)
+        if more or sense not in (">", ">=") or slope * side <= 0:
             raise Rejected("not a bound of the right sense", state.context.show(line))
-        ends.append(Fraction(-coefficients[0], coefficients[1]))
-    p = univariate(state.context, poly, name)
-    if relation not in (">", ">=") or ends[0] <= ends[1] and (sign_at(p, ends[0]) >= 0 or ends[0] < ends[1] and count_roots(p, *ends)):
-        raise Rejected("the fact does not fail on the whole interval", state.context.show(poly))
+        ends.append(Fraction(-constant, slope))
+    p, (first, last) = univariate(state.context, poly, name), ends
+    fails = first > last or sign_at(p, first) < 0 and (first == last or count_roots(p, first, last) == 0)
+    require(fails and relation in (">", ">="), "the fact does not fail on the whole interval", lambda: state.context.show(poly))
 
 
 def close_by_integrality(state, known, index, node):
@@ -619,12 +619,12 @@ class Unfolding:
                     self.variable(name, keyword == "forall")
             if keyword == "forall":
                 for node in sharp or []:
-                    self.assume(node)
+                    self.assume(node, self.premises)
             elif keyword == "given" or keyword == "range" and sharp is None:
-                self.assume(said)
+                self.assume(said, self.premises)
             elif keyword == "have":
                 self.obligations.append((len(self.premises), negate(context.formula(said))))
-                self.assume(said)
+                self.assume(said, self.premises)
             elif keyword == "let":
                 context.define(said[0], context.value(said[1]))
             elif keyword == "root":
@@ -634,8 +634,7 @@ class Unfolding:
                 root = context.values[name]
                 self.premises += [context.atom(root, ">=", ZERO), context.atom(root * root, "=", value)]
             elif keyword in ("with", "show"):
-                self.goals.append(context.formula(said))
-                context.license(self.goals[-1])
+                self.assume(said, self.goals)
 
     def variable(self, name, universal):
         require(name not in self.variables, "a variable is declared twice", name)
@@ -644,9 +643,9 @@ class Unfolding:
         if name not in self.given:
             self.context.declare(name, name in self.integers)
 
-    def assume(self, node):
-        self.premises.append(self.context.formula(node))
-        self.context.license(self.premises[-1])
+    def assume(self, node, formulas):
+        formulas.append(self.context.formula(node))
+        self.context.license(formulas[-1])
 
     def goal(self, truth):
         return join("and", self.goals) if truth else negate(join("and", self.goals))
@@ -673,8 +672,8 @@ def prove(statement, certificate, known, sharp=None):
     if way == "proof":
         close(story.state().assume(story.goal(False)), last, known)
     else:
-        base = {name: story.context.values[name] for name in story.universal}
-        find(story.state(), last, known, "witness", {statement.name: statement}, base, sharp)
+        own = {name: story.context.values[name] for name in story.universal}
+        find(story.state(), last, known, "witness", {statement.name: statement}, own, sharp)
 
 
 def find(state, found, known, purpose, statements, base, sharp=None):
@@ -692,8 +691,7 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     if found[0] == "empty":
         return close(state, *found[1:], known)
     name, adjoined, terms, node, *rest = found
-    fits = name in statements and len(rest) == (purpose == "counterexample")
-    require(fits, "a witness of the wrong shape, or for another statement", name)
+    require(len(rest) == (purpose == "counterexample") and name in statements, "a witness of the wrong shape, or for another statement", name)
     statement, state = statements[name], state.branch()
     for entry in adjoined:
         adjoin(state, known, *entry)
