@@ -37,11 +37,11 @@ def build_parser() -> argparse.ArgumentParser:
     explain.add_argument("id", metavar="ID")
     explain.add_argument("--premises", action="store_true", help="the texts of the premises that the checker's map rules write")
     explain.add_argument("--alpha", metavar="A", help="with `theorem`: the restitution, exactly, such as 3/10")
-    explain.add_argument("--state", metavar="S", help="with `theorem`: x=..,w=.. or beta=..,v=..,r=..,g=.., exactly: what is certified, and the orbit")
+    explain.add_argument("--state", metavar="S", help="with `theorem`: x=..,w=.. or beta=..,v=..,r=..,g=..: what is certified, and the orbit")
     explain.add_argument("--bounds", action="store_true", help="with `theorem`: the paper's bounds and ours against the worst of stated orbits")
     commands.add_parser("errata", help="what the paper prints wrongly, with correction and exact counterexample")
     export = commands.add_parser("export", help="statements for other tools")
-    export.add_argument("format", choices=["smt2"])
+    export.add_argument("format", choices=["smt2", "coq"])
     export.add_argument("ids", nargs="*", metavar="ID")
     export.add_argument("-o", "--output", type=Path, metavar="DIR", help="one file a statement there, instead of standard output")
     return parser
@@ -75,9 +75,9 @@ def _dispatch(parsed: argparse.Namespace) -> int:
 
         return int(checker.main([str(parsed.folder)] if parsed.folder else []))
     if parsed.command == "export":
-        from proofs.command.export import export_smt2
+        from proofs.command.export import export_coq, export_smt2
 
-        return export_smt2(parsed.ids, parsed.output)
+        return (export_coq if parsed.format == "coq" else export_smt2)(parsed.ids, parsed.output)
     if parsed.command == "errata":
         from proofs.command.errata import errata
 
