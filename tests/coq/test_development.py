@@ -37,11 +37,12 @@ def test_the_statements_are_those_of_the_table_holds() -> None:
 def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Path) -> None:
     names = re.findall(r"^(?:Theorem|Lemma) (\w+)", (SOURCES / "Statements.v").read_text(), flags=re.MULTILINE)
     rules = ["Rules.descent", "Rules.contraction", "Rules.weighted_stability", "Rules.stability", "Rules.approach", "Rules.convergence",
-             "Rules.periodic_orbit_stays_away", "Lists.lists_contraction", "Lists.lists_stability", "Lists.lists_approach", "Lists.lists_convergence"]
+             "Rules.periodic_orbit_stays_away", "Lists.lists_contraction", "Lists.lists_stability", "Lists.lists_approach", "Lists.lists_convergence",
+             "RulesInFull.attraction"]
     asked = [f"Statements.{name}" for name in names] + rules
     assert len(names) > 40
     everything = ", ".join(f"@{name}" for name in asked)
-    text = f"From Juggleproof Require Rules Lists Statements.\nDefinition everything := ({everything}).\nPrint Assumptions everything.\n"
+    text = f"From Juggleproof Require Rules Lists RulesInFull Statements.\nDefinition everything := ({everything}).\nPrint Assumptions everything.\n"
     result = compiled(development, "Asked.v", text)
     assert result.returncode == 0 and result.stdout.startswith("Axioms:\n"), result.stderr
     assert set(re.findall(r"^([\w.]+)\s*:", result.stdout.removeprefix("Axioms:\n"), flags=re.MULTILINE)) == REALS
