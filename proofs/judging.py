@@ -159,7 +159,7 @@ class Judge:
         return outcome
 
     def stored_outcome(self, name: str, text: str, certificate: Any) -> str:
-        """What the checker said of the stored certificate when it read the store; it is asked again where it rejected it there, or read another lemma."""
+        """What the checker said of the stored certificate when it read the store; asked again where it rejected it there, or read other lemmas."""
         if certificate is None:
             return "rejected"
         stored = self.options.store.texts if self.options.store else {}
