@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 COMMAND = [sys.executable, "-m", "proofs.command.main"]
+THEOREM = ["--only", "theorem-roots", "--only", "theorem"]
 
 
 def measure(arguments: list[str]) -> tuple[float, float]:
@@ -28,11 +30,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=3)
     runs = parser.parse_args().runs
+    theorem = tempfile.mkdtemp()
+    measure([*COMMAND, "certify", "--routes", "exact", *THEOREM, "--store", theorem])
     rows = [
         ("certify, exact route, empty store", 6.0, lambda d: [*COMMAND, "certify", "--fresh", "--routes", "exact", "--store", d]),
         ("certify, all routes, empty store", 12.0, lambda d: [*COMMAND, "certify", "--fresh", "--store", d]),
         ("certify, from the store", 1.5, lambda d: [*COMMAND, "certify"]),
         ("checker over everything", 0.2, lambda d: [sys.executable, "-I", "-S", "certificates/checker.py"]),
+        ("the theorem, exact route, empty store", 2.0, lambda d: [*COMMAND, "certify", "--fresh", "--routes", "exact", *THEOREM, "--store", d]),
+        ("checker over the theorem", 0.1, lambda d: [sys.executable, "-I", "-S", "certificates/checker.py", theorem]),
+        *([("the theorem in Coq, all of it", 20.0, lambda d: ["make", "-s", "coq"])] if shutil.which("coqc") else []),
         ("juggleproof --help", 0.15, lambda d: [*COMMAND, "--help"]),
     ]
     print(f"{'command':36} {'aim':>6} {'median':>8} {'least':>8} {'most':>8} {'MB':>6}")
