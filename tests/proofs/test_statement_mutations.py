@@ -31,7 +31,7 @@ from certificates.store import DEFAULT, Store
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 SHARE = 1 if ALL else 24  # one certified statement in so many
 MUTANTS_EACH = 6 if ALL else 4
-BUDGET = 2_000_000
+BUDGET = 1_000_000
 MUTATED = ("given", "with", "show")
 
 
@@ -48,10 +48,11 @@ def certified() -> dict[str, str]:
 
 
 def sample() -> Iterator[tuple[str, str, str]]:
-    """(statement, what was changed, mutant): a fixed choice that depends on nothing but the texts."""
-    for name, text in certified().items():
+    """(statement, what was changed, mutant): a fixed choice that depends on nothing but the texts; of statements that say the same, the first."""
+    first = {text.partition("\n")[2]: name for name, text in reversed(certified().items())}
+    for said, name in reversed(first.items()):
         if digest(name) % SHARE == 0:
-            ranked = sorted(mutants(text, MUTATED), key=lambda one: (not one[0].startswith("show"), digest(name + one[0])))
+            ranked = sorted(mutants(certified()[name], MUTATED), key=lambda one: (not one[0].startswith("show"), digest(said + one[0])))
             for change, mutant in ranked[:MUTANTS_EACH]:
                 yield name, change, mutant
 
@@ -103,12 +104,13 @@ def test_false_mutants_are_refuted_exactly_holds() -> None:
 
 def test_every_certified_claim_has_a_refuted_mutant_holds() -> None:
     """A claim all of whose mutants survive says nothing; judged over the claims that the sample reaches with every mutant they have."""
-    reached: dict[str, list[str]] = {}
-    for name, _, outcome, _ in results():
-        reached.setdefault(name.split("/")[0], []).append(outcome)
+    said = {name: text.partition("\n")[2] for name, text in certified().items()}
+    refuted = {said[name] for name, _, outcome, _ in results() if outcome == "refuted"}
+    tried = {said[name] for name, _, _, _ in results()}
+    speaking = {name.split("/")[0] for name in said if said[name] in refuted}
     silent = []
-    for claim, outcomes in reached.items():
-        if "refuted" in outcomes or "refused" in outcomes:
+    for claim in {name.split("/")[0]: None for name in said if said[name] in tried}:
+        if claim in speaking:
             continue
         everything = [(n, c, m) for n, t in certified().items() if n.split("/")[0] == claim for c, m in mutants(t, MUTATED)]
         if not any(judged(job)[2] == "refuted" for job in everything):
