@@ -1031,18 +1031,22 @@ def check_folder(folder):
     return results + [(name, "rejected", "a certificate without a statement") for name in left]
 
 
-def main(arguments):
-    try:
-        results = check_folder(*arguments or [os.path.join(os.path.dirname(os.path.abspath(__file__)), "store")])
-    except (Rejected, TypeError) as reason:
-        print("checker:", ascii(str(reason))[1:-1], file=sys.stderr)
-        return 2
+def report(results):
+    """Prints what is rejected, and how many statements have which outcome; 0 where nothing is rejected, else 1."""
     for name, outcome, reason in results:
         if outcome == "rejected":
             print("rejected ", ascii(f"{name}: {reason}")[1:-1])
     kinds = ("certified", "refuted", "unknown", "rejected")
     print(f"{len(results)} statements: " + ", ".join(f"{sum(o == kind for _, o, _ in results)} {kind}" for kind in kinds))
     return int(not results or any(outcome == "rejected" for _, outcome, _ in results))
+
+
+def main(arguments):
+    try:
+        return report(check_folder(*arguments or [os.path.join(os.path.dirname(os.path.abspath(__file__)), "store")]))
+    except (Rejected, TypeError) as reason:
+        print("checker:", ascii(str(reason))[1:-1], file=sys.stderr)
+        return 2
 
 
 if __name__ == "__main__":

@@ -55,7 +55,8 @@ def certify(options: argparse.Namespace) -> int:
     problems = [f"{name}: {reason}" for name, outcome, reason in results if outcome == "rejected"]
     table.draw(claims, judgements, console)
     print(table.summary(judgements))
-    line = "" if own else theorem_line(Store(folder), {name: outcome for name, outcome, _ in results})
+    line = "" if own else theorem_line(
+        Store(folder), {name: outcome for name, outcome, _ in results}, {name: cast for one in judgements for name, cast in one.votes.items()})
     print(line, end="\n" if line else "")
     for problem in problems:
         print(f"rejected by the checker: {problem}")

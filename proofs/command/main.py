@@ -71,9 +71,9 @@ def _dispatch(parsed: argparse.Namespace) -> int:
 
         return certify(parsed)
     if parsed.command == "check":
-        from certificates import checker
+        from proofs.command.check import check
 
-        return int(checker.main([str(parsed.folder)] if parsed.folder else []))
+        return check(parsed.folder)
     if parsed.command == "export":
         from proofs.command.export import export_coq, export_smt2
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from certificates import checker
+from certificates.routes.votes import Vote
 from certificates.store import Store
 from certificates.terms import ClaimError
 
@@ -33,7 +34,7 @@ def rests_on(name: str, rules: Mapping[str, Any]) -> list[str]:
     return found
 
 
-def theorem_line(store: Store, outcomes: Mapping[str, str]) -> str:
+def theorem_line(store: Store, outcomes: Mapping[str, str], votes: Mapping[str, Sequence[Vote]] | None = None) -> str:
     """One line for the theorem: proved, resting on how many statements, and under which rules; or where its proof is lost.
 
     Empty where the store does not hold it.
@@ -43,13 +44,17 @@ def theorem_line(store: Store, outcomes: Mapping[str, str]) -> str:
     rules = rules_of(store)
     names = rests_on(THEOREM, rules)
     used = set().union(*(lemmas(store.certificate(name, store.texts[name])) for name in names))
+    told = [vote for name, cast in (votes or {}).items() if name.rpartition(".")[0] in names for vote in cast]
+    decided = [f"{route} {sum(vote.answer == 'holds' for vote in told if vote.route == route)}" for route in ("z3", "boxes") if told]
     lost = [name for name in [*sorted(used), *reversed(names)] if outcomes.get(name) != "certified"]
     if lost:
         return f"theorem: NOT proved; {lost[0]} is not certified, and {THEOREM} rests on it"
     count = sum(len(checker.premises_of(rules[name], rules)) for name in names)
     kinds = ", ".join(dict.fromkeys(rules[name].kind for name in reversed(names)))
     return ("theorem: proved by exact certificates: for 0 < alpha < 1, e_1 is stable and attracts every state of H if and only if alpha < 1/3;\n"
-            f"         {THEOREM} rests on {len(names) + len(used)} statements with {count} premises, under the checker's rules {kinds}")
+            f"         {THEOREM} rests on {len(names) + len(used)} statements with {count} premises, under the checker's rules {kinds}"
+            + (f";\n         votes for the premises: {', '.join(decided)} of {count}" if decided else "")
+            + "\n         `make coq` proves the same from the definition of the map alone")
 
 
 def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premises: bool) -> None:

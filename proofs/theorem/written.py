@@ -64,8 +64,7 @@ def positive(margin: Expr) -> Formula:
 def opposite(strict: Formula) -> Formula:
     """The other side of a strict inequality.
 
-    >>> import symbolic
-from certificates.terms import reals
+    >>> from certificates.terms import reals
     >>> x, w = reals("x w")
     >>> str(opposite(x < w))
     'w <= x'
