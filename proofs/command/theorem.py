@@ -42,8 +42,8 @@ def read_state(alpha: Fraction, text: str) -> State:
         given[name] = exact(value, name)
     names = UNITS if set(given) & set(UNITS) else NORMAL_FORM
     if set(given) != set(names):
-        odd = [*(f"{name} is missing" for name in names if name not in given), *(f"{name} does not belong there" for name in given if name not in names)]
-        raise ClaimError(f"{odd[0]}; a state has {', '.join(names[:-1])} and {names[-1]}")
+        odd = next((f"{name} is missing" for name in names if name not in given), f"{text[:40]} mixes two kinds of components")
+        raise ClaimError(f"{odd}; a state has {', '.join(names[:-1])} and {names[-1]}")
     if names == NORMAL_FORM:
         return a_state(alpha, given["x"], given["w"])
     for name in ("r", "g"):
@@ -80,7 +80,8 @@ def _certified(state: State) -> None:
     print(f"  {claim}/descends: with the rank {TO_THE_POINT.rank}, in the trap after every N >= {shown(plain.trap)} periods,")
     print(f"      and there within 1 of e_1 after every N >= {shown(plain.core)}")
     print(f"  theorem-sharper/descends with W = {shown(sharper.W)}: u <= W - 1 after {shown(sharper.to_little)} periods, where that rank is at most")
-    print(f"      {shown(sharper.then)}: in the trap after every N >= {shown(sharper.bound.trap)}, within 1 of e_1 after every N >= {shown(sharper.bound.core)}")
+    print(f"      {shown(sharper.then)}: in the trap after every N >= {shown(sharper.bound.trap)}, "
+          f"within 1 of e_1 after every N >= {shown(sharper.bound.core)}")
     print(f"  {claim}/attracts: after N + k periods, N = {shown(best.core)}, within (2 alpha)^k of e_1; theorem-closed-form: within (1 + k) alpha^k")
     print()
 

@@ -7,7 +7,7 @@ from certificates.terms import Formula, Term, conjunction, equal, iff, reals, te
 from proofs.claims import Argument, Assertion, Readings, claim
 from proofs.paper.events import only_at, strikes_at, value_of
 from proofs.paper.gains import STEEP, are_slopes, dE_dbeta, dE_dv, dR_dbeta, dR_dv, with_slopes
-from proofs.paper.outside import B1_OUTSIDE, CLOSED_B1, CORNER, ON_R, SUPREMAL, b_0, change, dE_sup, least, not_supremal, pieces, v0
+from proofs.paper.outside import B1_OUTSIDE, CLOSED_B1, CORNER, ON_R, PRINTED_SUPREMUM, SUPREMAL, b_0, change, dE_sup, least, not_supremal, pieces, v0
 from proofs.paper.vocabulary import (
     B1,
     B2,
@@ -187,9 +187,7 @@ def supremum_by_the_velocity(printed: Printed) -> Statement:
     return always(printed.formula(AT_CORNER), given=SUPREMAL)
 
 
-@claim("sA.3.2-sup3", "A.3.2", "line 710", derived=lambda: term(derived("delta_E_sup")),
-       printed=r"\Delta E_{sup} = [-\frac{1+\alpha}{1-\alpha} + 1 + \alpha - \sqrt{2(1+\alpha)} \frac{\alpha}{1-\alpha}] "
-               r"\times (1+\alpha) \dot{\rho}_0^2")
+@claim("sA.3.2-sup3", "A.3.2", "line 710", derived=lambda: term(derived("delta_E_sup")), printed=PRINTED_SUPREMUM)
 def supremum_by_alpha(printed: Printed) -> Statement:
     """The supremum, which is that of sA.3.2-sup1, by alpha and the table's launch velocity."""
     return always(printed.formula(PAPER))

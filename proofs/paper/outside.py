@@ -34,6 +34,8 @@ SUPREMAL = [CORNER(b_0), equal(dE_sup, least)]
 ATTRACTION = ("theorem-region/enters",)  # from some period on, every orbit is in R
 LEVEL: Term = derived("region_energy")
 NAMED = PAPER.extended({r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
+PRINTED_SUPREMUM = (r"\Delta E_{sup} = [-\frac{1+\alpha}{1-\alpha} + 1 + \alpha - \sqrt{2(1+\alpha)} \frac{\alpha}{1-\alpha}] "
+                    r"\times (1+\alpha) \dot{\rho}_0^2")  # the third line of A.3.2, which sA.3.2-sup3 judges
 worst_wait: Term = at(derived("hang_time"), {"v": u})  # the flight from the ground up and back that has all the energy of b_0
 
 

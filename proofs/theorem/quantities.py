@@ -75,7 +75,8 @@ def via_little_energy(state: State, W: int) -> Sharper:
     if not all(holds_at(allowed, here) for allowed in WITH_W.positive):
         raise ClaimError(f"W = {W} is too small for alpha = {state.alpha}: W > 2/(1 - alpha) is needed")
     already = holds_at(LITTLE, here)
-    return Sharper(W, 0 if already else steps_by_rank(TO_LITTLE_ENERGY.rank, state, W=W), ceiling(value_of(RANK_THERE, here), Fraction(0), Fraction(0)))
+    to_little = 0 if already else steps_by_rank(TO_LITTLE_ENERGY.rank, state, W=W)
+    return Sharper(W, to_little, ceiling(value_of(RANK_THERE, here), Fraction(0), Fraction(0)))
 
 
 def best_way(state: State) -> Sharper:
