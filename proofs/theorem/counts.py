@@ -8,6 +8,7 @@ readings of time: its flight before took m > u - 1 periods, the next impact come
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -38,11 +39,20 @@ LEVEL_OF_R = in_units(LEVEL)  # the energy up to which R reaches
 TRUE_LOSS = in_units(-term(derived("delta_E_sup")))
 PRINTED_LOSS = in_units(-term(read(PRINTED_SUPREMUM).right(PAPER)))
 ENOUGH = 2 * s * (1 - alpha + alpha**2) <= 3 - alpha - 2 * alpha**3
+MARGIN = (1, 2, -7, -20, 12, -8, 4)  # coefficients of the polynomial in alpha alone that is >= 0 where ENOUGH holds; 0.3645.. is its root
 TOO_MUCH = 4 * alpha * s > (1 - alpha) * (1 + alpha)  # where the printed loss is above the derived one
 CORNER = s / (1 - alpha)  # the u of the border of R
 GROUND = Vector((0, 1 + u))  # the ball comes down to the ground with u
 AFTER_GROUND = alpha * u + 1 + alpha  # the u after the impact there
 AFTER_IMPACT: Vector = derived("normal_f1")
+
+
+def written(coefficients: Sequence[int]) -> Term:
+    """The polynomial in alpha with these coefficients, from the constant up."""
+    total = term(coefficients[0])
+    for k, c in enumerate(coefficients[1:], 1):
+        total = total + c * alpha**k
+    return total
 
 
 def at_state(thing: Any, state: Vector) -> Any:
@@ -64,6 +74,8 @@ def printed_loss_counts_too_few_impacts() -> list[AnyStatement]:
     speed, struck = SPEED[1], Vector(tuple(at_state(entry, GROUND) for entry in derived("normal_f1").entries))
     outside, one = u > CORNER, u**2 <= 2 * (LEVEL_OF_R + PRINTED_LOSS)
     most = u**2 >= 2 * (LEVEL_OF_R + PRINTED_LOSS)
+    margin = written(MARGIN)
+    slope = written([k * c for k, c in enumerate(MARGIN)][1:])
     in_flight = [u > 0, m <= u, u < m + 1, m >= 1]
     return [
         always(iff(PRINTED_LOSS > TRUE_LOSS, TOO_MUCH), label="differs"),
@@ -76,7 +88,8 @@ def printed_loss_counts_too_few_impacts() -> list[AnyStatement]:
         always(at_state(SPACE & ~IMPACT, before_the_ground(m)) & equals(flown(m, before_the_ground(m)), GROUND), given=in_flight, label="flight"),
         always(~at_state(IMPACT, before_the_ground(n)), given=[*in_flight, n >= 1, n <= m], label="in-flight-between"),
         always(equal(CORNER**2, 2 * LEVEL_OF_R), label="corner"),
-        always(iff(ENOUGH, 4 * alpha**6 - 8 * alpha**5 + 12 * alpha**4 - 20 * alpha**3 - 7 * alpha**2 + 2 * alpha + 1 >= 0), label="enough-by-alpha"),
+        always(iff(ENOUGH, margin >= 0), label="enough-by-alpha"),
+        always(slope < 0, given=[5 * alpha >= 1], label="falls-there"),
         always(ENOUGH, given=[1000 * alpha <= 364], label="enough-up-to"),
         always(~ENOUGH, given=[1000 * alpha >= 365], label="not-enough-from"),
         always(iff(TOO_MUCH, 32 * alpha**2 > (1 - alpha) ** 2 * (1 + alpha)), label="differs-by-alpha"),
