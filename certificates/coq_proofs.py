@@ -194,7 +194,7 @@ def _nonnegative(weight: int, factors: Factors) -> str:
 def _poly(branch: Branch, text: str) -> Any:
     context = checker.Context()
     context.index = dict(branch.names)
-    context.values = {key: checker.Ratio(checker.Poly({1 << (checker.BITS * i): 1}, 1, 1)) for key, i in branch.names.items()}
+    context.values = {key: checker.VARIABLES[i] for key, i in branch.names.items()}
     # A polynomial of a certificate divides by numbers only, except where a fact licenses more: such a certificate is refused.
     try:
         return context.polynomial(text)

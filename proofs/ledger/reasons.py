@@ -22,4 +22,17 @@ REASONS_WITH_KEY = {
 UNPRINTED = {
     "region-scaling": "the change to the normal form, through which every other claim is judged",
     "region-trap": "the trap of the theorem's proof, which stands in for the paper's last invariant set",
+    "theorem-roots": "the lemma of the theorem's proofs",
+    "theorem": "the theorem in normal form, which 4.4 concludes from an argument that does not carry it",
+    "theorem-in-units": "the theorem in the paper's units, on which the claims of 4.3 and 4.4 rest",
+    "theorem-nearby": "the neighbourhood that e_1 attracts, on which a claim of 3.3 rests",
+    "theorem-one-third": "the orbits at alpha = 1/3, where the paper's range ends",
+    "theorem-region": "Proposition 1 with the number of periods, on which the claims of 4.2 rest",
+    "theorem-flights": "the argument by flights, which says why the bound is 1/3",
+    "theorem-kinetic": "what is true of the kinetic energy in place of the decrease that 4.3 claims",
+    "theorem-ends": "the stability of e_K where its range begins, which 3.5.3 claims wrongly",
+    "theorem-E-max": "the energy that orbits keep to, which (22) and what follows leave unsaid",
+    "theorem-sharper": "a bound nearer the worst case than the theorem's",
+    "theorem-closed-form": "the orbits in the trap, from which the second bound of the theorem follows",
+    "theorem-count": "which readings of (26) and of the count of impacts hold for which alpha",
 }

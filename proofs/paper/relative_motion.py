@@ -71,8 +71,8 @@ def lies_around_e_1(size: Term) -> Statement:
     """The band, however narrow, holds all states of H near e_1: an orbit that tends to e_1 comes into it."""
     height_off, speed_off = (term(entry) for entry in b - e_1)
     close = [-d <= speed_off, speed_off <= d, d <= r / 16, d**2 <= 2 * size]
-    low = [-r**2 / 8 <= height_off * g, height_off * g <= r**2 / 8]
-    return always(band(size)(b), given=[height(b) >= 0, d >= 0, *low, *close], in_range=RANGE_21, label="lies-around-e_1")
+    low = height_off * g <= r**2 / 8
+    return always(band(size)(b), given=[height(b) >= 0, low, *close], in_range=RANGE_21, label="lies-around-e_1")
 
 
 def boundary_of_band(size: Term) -> Region:

@@ -17,7 +17,7 @@ from proofs import forms
 from proofs.claims import claim
 from proofs.paper.vocabulary import STANDING, alpha, at, derived, w, x
 from proofs.reading.values import Vector
-from proofs.theorem.definition import BELOW_A_THIRD, FIXED
+from proofs.theorem.definition import FIXED
 
 HERE = Vector((x, w))
 K, J, n, d = reals("K J n d")
@@ -42,7 +42,7 @@ def next_impact(periods: Term, start: Vector = HERE) -> Vector:
 
 AFTER = next_impact(K)
 x_after, w_after = (term(entry) for entry in AFTER)
-IN_FLIGHT = [x >= 0, x < w, x_after >= 0]
+IN_FLIGHT = [x >= 0, x_after >= 0]  # the next impact is above the table
 
 
 @claim("theorem-flights", "theorem", "argument B")
@@ -54,8 +54,8 @@ def flights_grow_shorter_below_a_third() -> list[AnyStatement]:
         Iterates("powers", ("x", "w"), one, "n", many),
         always(term(flown(n, HERE).entries[0]) < 0, given=[x >= 0, n >= 1, n > x + 1 - w], label="end"),
         always((alpha * w >= K - 1) & (w_after <= K + 1), given=IN_FLIGHT, label="long-after-fast"),
-        always(J - 1 <= alpha * (K + 1), given=[*IN_FLIGHT, x_after < w_after, term(last.entries[0]) >= 0], label="the-next"),
-        always(implies(equal(K, 1), equal(J, 1)) & implies(K >= 2, J < K), given=[J - 1 <= alpha * (K + 1)], in_range=[BELOW_A_THIRD],
+        always(J - 1 <= alpha * (K + 1), given=[*IN_FLIGHT, term(last.entries[0]) >= 0], label="the-next"),
+        always(implies(equal(K, 1), equal(J, 1)) & implies(K >= 2, J < K), given=[J - 1 <= alpha * (K + 1)], in_range=[alpha > 0, 3 * alpha < 1],
                label="shorter"),
     ]
 

@@ -33,12 +33,11 @@ USES = Hints((*compared((*AT_IMPACTS, OUTSIDE), WITH_W).uses, (LOSES, {"alpha": 
 @claim("theorem-sharper", "theorem", "sharper bounds", hints={"uses": (LEMMA, LOSES), "premises": {"falls-1": USES}})
 def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
     """For every W > 2/(1 - alpha) an orbit has u <= W - 1 from some period on, no later than a rank tells that nears the worst case as W grows."""
-    least = [4 * x + (w - 1) ** 2 <= (W - 1) ** 2, W >= 1]
     high = [W > 2, u >= W - 1, u >= w - 1, after <= 1 + alpha * w]
     return [
         forms.always(W * (u - after) >= w * ((1 - alpha) * W - 2), given=high, in_range=[], label="loses", vocabulary=STANDING),
         the_map("map", WITH_W),
         descends("to-little-energy", "theorem-sharper/map", WITH_W, WHOLE, TO_LITTLE_ENERGY),
-        forms.always(TO_THE_POINT.rank <= RANK_THERE, given=[*least, u >= 0, u**2 <= (W - 1) ** 2, -u <= w - 1], label="rank-there",
+        forms.always(TO_THE_POINT.rank <= RANK_THERE, given=[W >= 1, u**2 <= (W - 1) ** 2, -u <= w - 1], label="rank-there",
                      vocabulary=STANDING),
     ]

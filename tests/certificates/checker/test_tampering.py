@@ -127,7 +127,7 @@ def last_of(case: Case, text: str, certificate: Json) -> tuple[str, str, str]:
 
 def wrong(text: str, outcome: str, certificate: Json, whole: str) -> object:
     """A point at which an accepted certificate is wrong; what a plain proof claims depends on the statement alone."""
-    plain = outcome == "certified" and certificate["certified"][:1] == ["proof"]
+    plain = outcome == "certified" and list(certificate["certified"])[:1] == ["proof"]
     key = json.dumps([whole, outcome, None if plain else certificate])
     if key not in SEEN:
         earlier = {block.split("\n")[0]: "statement " + block for block in whole.split("statement ")[1:]}

@@ -99,7 +99,7 @@ REJECTED = [
         MAP + "\n" + lines("sharp rule/map", "over x", "domain x > 0", "holds 0 = 0"),
         sharp({"rule/map": ["proof", [], CLOSE]}, EMPTY, {"x": "1"}),
         "a sharp range proves each of its earlier statements",
-        {"rule/map": {"certified": []}},
+        {"rule/map": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}},
     ),
     case(
         "a statement that does not exist, with a proof",

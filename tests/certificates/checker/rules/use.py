@@ -142,8 +142,8 @@ REJECTED = [
         "every variable needs one value, an integer one an integer",
     ),
     gap(
-        "a term for an integer",
-        use("rule/gap", {"n": "n + 1"}, {}, BETWEEN),
+        "half an integer for an integer",
+        use("rule/gap", {"n": "n*(n + 1)/2"}, {}, BETWEEN),
         "every variable needs one value, an integer one an integer",
     ),
     gap("digits and a line break for an integer", use("rule/gap", {"n": "1\n"}, {}, BETWEEN), "unreadable text"),
