@@ -161,7 +161,7 @@ Factors = list[tuple[str, bool]]
 
 def _product(branch: Branch, coefficient: Any, factors: list[Any], root: str) -> tuple[Fraction, Factors, bool]:
     """The weight of a product of numerators, a proof of the sign of each (and whether it is strict), and whether all are strict."""
-    weight, signs = checker.rational(coefficient), []
+    weight, signs = Fraction(checker.rational(coefficient)), []
     for index, exponent in factors:
         poly, relation, name = branch.facts[index]
         weight /= poly.den**exponent
