@@ -168,7 +168,7 @@ def said_of(alpha: Fraction, x: int | Fraction, w: int | Fraction) -> str:
 
 def test_fate_from_a_third_on_is_told_holds() -> None:
     assert said_of(THIRD, 0, -1) == "does not tend to e_1: from n = 2 on it has period 2, the orbit of e_2"
-    assert said_of(Fraction(1, 2), 4, 2).startswith("tends to e_1: at n = 6")
+    assert said_of(Fraction(1, 2), 4, 2).startswith("tends to e_1: at n = 5")
     assert said_of(Fraction(1, 2), 0, 4) == "does not tend to e_1: from n = 0 on it has period 3, the orbit of e_3"
     assert said_of(Fraction(9, 10), 60, -3).startswith("not known")
 
