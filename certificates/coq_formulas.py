@@ -10,13 +10,13 @@ from certificates import checker
 
 # Words that Coq keeps for itself or that the written proofs use: a variable of such a name gets an underscore.
 TAKEN = frozenset("as at cofix else end exists exists2 fix for forall fun if IF in let match mod return Set Prop SProp Type then using where with "
-                  "by R IZR pow True False I eq_refl decided".split())
+                  "by R IZR pow whole wholly True False I eq_refl decided".split())
 
 PRELUDE = """(* Written by juggleproof from stored certificates. Each lemma is the polynomial form of a statement, denominators cleared as its strict
    lines allow and every constant factor dropped, and is proved by its certificate: products of what is known to be positive are positive,
    and their sum is 0 by ring. *)
 
-From Coq Require Import Reals Lra.
+From Coq Require Import Reals Lra Lia ZArith.
 Open Scope R_scope.
 
 Lemma strict_and_zero a b : 0 < a -> b = 0 -> 0 < a + b. Proof. lra. Qed.
@@ -30,6 +30,20 @@ Lemma dec_eq p : p = 0 \\/ p <> 0. Proof. destruct (total_order_T p 0) as [[]|];
 Lemma dec_ne p : p <> 0 \\/ p = 0. Proof. destruct (total_order_T p 0) as [[]|]; lra. Qed.
 Lemma dec_and (A B C D : Prop) : A \\/ C -> B \\/ D -> (A /\\ B) \\/ (C \\/ D). Proof. tauto. Qed.
 Lemma dec_or (A B C D : Prop) : A \\/ C -> B \\/ D -> (A \\/ B) \\/ (C /\\ D). Proof. tauto. Qed.
+
+(* An integer among the reals; what is more than 0 there is at least 1. *)
+Definition whole (p : R) : Prop := exists n : Z, p = IZR n.
+Lemma whole_constant n : whole (IZR n). Proof. now exists n. Qed.
+Lemma whole_sum p q : whole p -> whole q -> whole (p + q). Proof. intros [m ->] [n ->]. exists (m + n)%Z. now rewrite plus_IZR. Qed.
+Lemma whole_difference p q : whole p -> whole q -> whole (p - q). Proof. intros [m ->] [n ->]. exists (m - n)%Z. now rewrite minus_IZR. Qed.
+Lemma whole_product p q : whole p -> whole q -> whole (p * q). Proof. intros [m ->] [n ->]. exists (m * n)%Z. now rewrite mult_IZR. Qed.
+Lemma whole_opposite p : whole p -> whole (- p). Proof. intros [n ->]. exists (- n)%Z. now rewrite opp_IZR. Qed.
+Lemma whole_power p k : whole p -> whole (p ^ k).
+Proof. intro is_whole. induction k; [apply (whole_constant 1)|now apply whole_product]. Qed.
+Lemma at_least_one p q : whole p -> q = p - 1 -> 0 < p -> 0 <= q.
+Proof. intros [n ->] -> positive. apply lt_IZR in positive. assert (least : (1 <= n)%Z) by lia. apply IZR_le in least. lra. Qed.
+Ltac wholly := repeat (assumption || apply whole_constant || apply whole_sum || apply whole_difference || apply whole_product
+  || apply whole_opposite || apply whole_power).
 
 (* A formula or its negation, atom by atom. *)
 Ltac decided := lazymatch goal with

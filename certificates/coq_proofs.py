@@ -12,7 +12,7 @@ from certificates import checker
 from certificates.coq_formulas import common_factor, coq_name, polynomial, proposition
 from certificates.terms import ClaimError
 
-SUPPORTED = "psatz, cases, sign and close"
+SUPPORTED = "psatz, cases, sign, close and integral"
 
 
 @dataclass
@@ -63,11 +63,14 @@ def lemma(statement: Any, certificate: Any) -> str:
     derived = {count for (count, _), (keyword, _) in zip(story.obligations, _obliging(statement)) if keyword == "have"}
     given = [k for k in range(len(story.premises)) if k not in derived]
     hypotheses = {k: branch.fresh() for k in given}
+    whole = {coq_name(name): branch.fresh() for name in names if name in story.context.integers and _uses("integral", [steps, last])}
     goal, denied = story.goal(True), story.goal(False)
     binder = f"forall ({' '.join(map(coq_name, names))} : R), " if names else ""
-    rows = [f"(* {statement.name}{_over_the_reals(statement)} *)", f"Lemma {_lemma_name(statement.name)} :", f"  {binder}".rstrip()]
+    rows = [f"(* {statement.name}{'' if whole else _over_the_reals(statement)} *)", f"Lemma {_lemma_name(statement.name)} :", f"  {binder}".rstrip()]
+    rows += [f"  whole {name} ->" for name in whole]
     rows += [f"  ({proposition(names, story.premises[k])}) ->" for k in given]
-    rows += [f"  ({proposition(names, goal)}).", "Proof.", "  " + " ".join(["intros", *map(coq_name, names), *hypotheses.values()]).strip() + "."]
+    introduced = [*map(coq_name, names), *whole.values(), *hypotheses.values()]
+    rows += [f"  ({proposition(names, goal)}).", "Proof.", "  " + " ".join(["intros", *introduced]) + "."]
     waiting = list(zip(story.obligations, steps, strict=True))
     for k in range(len(story.premises) + 1):
         while waiting and waiting[0][0][0] == k:
@@ -106,7 +109,7 @@ def _shown(branch: Branch, shown: Any, denied: Any, node: Any, name: str, statem
 
 
 def _closed(branch: Branch, node: Any, statement: str) -> list[str]:
-    rules: dict[str, Callable[..., list[str]]] = {"psatz": _psatz, "cases": _cases, "sign": _sign, "close": _close}
+    rules: dict[str, Callable[..., list[str]]] = {"psatz": _psatz, "cases": _cases, "sign": _sign, "close": _close, "integral": _integral}
     if node[0] not in rules:
         raise ClaimError(f"{statement}: its certificate uses the rule {node[0]}; only {SUPPORTED} are written for Coq")
     return rules[node[0]](branch, statement, *node[1:])
@@ -139,6 +142,20 @@ def _sign(branch: Branch, statement: str, text: str, *nodes: Any) -> list[str]:
         rest = branch.copy()
         rows += ["{", *rest.assume(formula, part), *_closed(rest, node, statement), "}"]
     return rows
+
+
+def _integral(branch: Branch, statement: str, index: int, node: Any) -> list[str]:
+    poly, _, name = branch.facts[index]
+    if poly.den != 1:
+        raise ClaimError(f"{statement}: its certificate rounds a polynomial with a denominator, which is not written for Coq")
+    formula, stronger, rest = checker.fold(poly - checker.ONE, ">="), branch.fresh(), branch.copy()
+    rows = [f"assert ({stronger} : {proposition(branch.names, formula)}).",
+            f"{{ apply (at_least_one ({polynomial(branch.names, poly)})); [wholly|ring|exact {name}]. }}"]
+    return [*rows, *rest.assume(formula, stronger), *_closed(rest, node, statement)]
+
+
+def _uses(rule: str, node: Any) -> bool:
+    return isinstance(node, list) and (node[:1] == [rule] or any(_uses(rule, part) for part in node))
 
 
 def _psatz(branch: Branch, statement: str, products: list[Any], equations: list[Any]) -> list[str]:

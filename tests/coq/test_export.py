@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -59,7 +60,7 @@ def test_most_certified_statements_are_written_under_names_of_their_own_holds() 
 
 
 @pytest.mark.parametrize("rule, line", [
-    ("psatz", ""), ("cases", ""), ("sign", ""), ("close", ""), ("psatz", "have"), ("psatz", "root"), ("psatz", "integer")])
+    ("psatz", ""), ("cases", ""), ("sign", ""), ("close", ""), ("integral", ""), ("psatz", "have"), ("psatz", "root"), ("psatz", "integer")])
 def test_a_written_lemma_compiles(rule: str, line: str, tmp_path: Path) -> None:
     coqc()
     result = compiled(tmp_path, "Exported.v", f"{PRELUDE}\n{written()[small(rule, line)]}")
@@ -101,10 +102,17 @@ def test_rejects_kinds_that_are_not_written(name: str) -> None:
 
 
 def test_rejects_a_rule_that_is_not_written_by_its_name() -> None:
-    name = next(n for n, s in stored()[1].items() if s.kind == "universal" and "integral" in kinds((certificate(n) or {}).get("certified"))
-                and (certificate(n))["certified"][0] == "proof")
-    with pytest.raises(ClaimError, match="uses the rule integral; only psatz, cases, sign and close are written"):
-        lemma(stored()[1][name], certificate(name))
+    changed = copy.deepcopy(certificate("eq-7/only-these"))
+    changed["certified"][2] = ["use", "eq-7/strikes", {}, {}, ["close"]]
+    with pytest.raises(ClaimError, match="uses the rule use; only psatz, cases, sign, close and integral are written"):
+        lemma(stored()[1]["eq-7/only-these"], changed)
+
+
+def test_an_integer_lemma_fails_without_its_integers(tmp_path: Path) -> None:
+    coqc()
+    text = written()[small("integral", "")]
+    reals = re.sub(r"  whole \w+ ->\n", "", text).replace("wholly", "fail")
+    assert reals != text and compiled(tmp_path, "Exported.v", f"{PRELUDE}\n{reals}").returncode != 0
 
 
 def test_export_writes_one_file_a_statement_holds(tmp_path: Path) -> None:
