@@ -768,6 +768,8 @@ def premises_of_iterates(statement, known):
     require(shaped and apart, "a map names its variables first, an image for each, and one integer apart", statement.name)
     still = not names_in(*images) & set(count) and not names_in(*lets) & {*count, *state}
     require(still, "a map that is iterated cannot depend on the number of iterations", statement.name)
+    declared = {*variables, *(name for name, _ in statement.get("let"))}
+    require(names_in(*images, *powers) <= declared, "an undeclared name in a map", statement.name)
     (k,), after = count, {name: name + "_next" for name in state}
     head = [f"forall {' '.join(variables)}", f"integer {k}", *lets]
     step = [f"({put(image, after)}) = ({put(power, {k: f'({k} + 1)'})})" for image, power in zip(images, powers)]
@@ -811,7 +813,9 @@ class Orbits:
 
     def terms(self, keyword):
         (terms,) = self.own.get(keyword)
-        require(len(terms) == len(self.state), "one term for each state variable is expected", self.own.name)
+        constants = {*self.parameters, *(line.split(" ")[1] for line in self.fixed)}
+        fits = len(terms) == len(self.state) and names_in(*terms) <= constants
+        require(fits, "one term in the parameters for each state variable is expected", self.own.name)
         return terms
 
     def with_domain(self, premises):

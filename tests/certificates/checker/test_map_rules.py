@@ -114,9 +114,9 @@ MALFORMED = [
     ("descends", "stage x < 1", "stage x_next < 1", "premise falls-1"),
     ("descends", "rank x", "rank 0 <= x", "premise bounded"),
     ("descends", "rank x", "rank x >= 0 and x", "premise bounded"),
-    ("contracts", "point 0", "point x", "premise point"),
-    ("contracts", "point 0", "point 0, 0", "one term for each state variable is expected"),
-    ("contracts", "weights 1", "weights 1 + x", "premise constants"),
+    ("contracts", "point 0", "point x", "one term in the parameters for each state variable is expected"),
+    ("contracts", "point 0", "point 0, 0", "one term in the parameters for each state variable is expected"),
+    ("contracts", "weights 1", "weights 1 + x", "one term in the parameters"),
     ("contracts", "rate a", "rate a*x", "premise constants"),
     ("contracts", "radius 1/2", "radius x/2", "premise constants"),
     ("contracts", "size 1", "size 1 + x", "premise constants"),
@@ -124,7 +124,8 @@ MALFORMED = [
     ("contracts", "on x < 1", "on x_next < 1", "premise surrounds"),
     ("escapes", "word 2", "word 3", "nothing has this number"),
     ("escapes", "word 2", "word 0", "nothing has this number"),
-    ("escapes", "point 0", "point x_0 + 1", "premise start"),
+    ("escapes", "point 0", "point x_0 + 1", "one term in the parameters"),
+    ("escapes", "start 1/2", "start x_point + 1/2", "one term in the parameters"),
 ]
 
 

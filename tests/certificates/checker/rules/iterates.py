@@ -22,6 +22,7 @@ ACCEPTED = [
 ]
 
 START, STEP = (f"premise {name} of rule/case: nothing false is assumed" for name in ("start", "step"))
+UNDECLARED = "an undeclared name in a map"
 NAMES = "a map names its variables first, an image for each, and one integer apart"
 ORDER = "the lines of a statement are missing or out of order"
 REJECTED = [
@@ -124,6 +125,8 @@ REJECTED = [
         "after K -> x",
         expected="premise step of rule/case: not a term",
     ),
+    case("a name of the premises for an image", "forall x K", "integer K", "iterates x -> x_next", "after K -> x", expected=UNDECLARED),
+    case("a name of the premises for a power", "forall x K", "integer K", "iterates x -> x", "after K -> x_next", expected=UNDECLARED),
     case("a starred image", "forall x K", "integer K", "iterates x -> (*x,)", "after K -> x", expected="statements, line 5: unreadable text"),
     case(
         "an arrow too many",
