@@ -15,10 +15,12 @@ sys.path.insert(0, str(Path(__file__).parent))
 from flint import fmpq
 from independent import NAMES, Independent, Point, compiled, named_values
 
+from certificates import checker
+
 POINTS, PARAMETERS, INSIDE, STEPS = 1_000, 20, 20, 4
 
 
-def contradiction(text: str, outcome: str, certificate: Any, texts: Mapping[str, str]) -> object:
+def contradiction(text: str, outcome: str, certificate: Any, texts: Mapping[str, str], known: Mapping[str, Any]) -> object:
     """A point where the outcome that a certificate was accepted for is wrong; None where none of the sample is one.
 
     Irrational values are not evaluated: a certificate that adjoins a number says nothing here about its point.
@@ -32,12 +34,23 @@ def contradiction(text: str, outcome: str, certificate: Any, texts: Mapping[str,
         return sharp_contradiction(text, certificate["certified"], texts)
     if "\niterates " in text:
         return iterates_contradiction(text)
+    if isinstance(certificate["certified"], dict):
+        return premise_contradiction(text, known)
     way, _, last = certificate["certified"]
     statement = Independent(text, last if way == "witness" else None)
     point = named_values(certificate["point"], {})
     if point is not None and statement.at(point, moving=False) is False:
         return point
     return statement.counterexample(POINTS)
+
+
+def premise_contradiction(text: str, known: Mapping[str, Any]) -> object:
+    """A point at which a premise of a map rule is false, of those that are for all."""
+    (statement,) = checker.read_statements(text).values()
+    for premise in checker.premises_of(statement, known).values():
+        if not premise.get("exists") and (point := Independent(premise.text()).counterexample(POINTS // 5)) is not None:
+            return premise.name, point
+    return None
 
 
 def lines(text: str) -> dict[str, list[str]]:

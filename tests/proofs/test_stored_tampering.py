@@ -103,14 +103,23 @@ def close_once(state: checker.State, node: Any, known: dict[str, checker.Stateme
     return None
 
 
+@cache
+def certified_before(name: str) -> dict[str, checker.Statement]:
+    """What the checker knows when it comes to a stored statement."""
+    before = list(STATEMENTS)[:list(STATEMENTS).index(name)]
+    return {one: STATEMENTS[one] for one in before if "certified" in STORE.certificate(one, STORE.texts[one])}
+
+
 def outcome(statement: checker.Statement, certificate: Any) -> str:
-    return str(checker.check_one(statement, certificate, {}, STATEMENTS)[0])
+    return str(checker.check_one(statement, certificate, certified_before(statement.name), STATEMENTS)[0])
 
 
 def claimed(certificate: Any) -> str:
     """What a certificate says beside its statement: the values that it names."""
     if "refuted" in certificate:
         return json.dumps(certificate)
+    if isinstance(certificate["certified"], dict):  # premises, which the statement alone decides
+        return json.dumps(sorted(certificate["certified"]))
     way, *_, last = certificate["certified"] or [""]
     return json.dumps([last if way == "witness" else certificate["certified"][1:2] if "point" not in certificate else "", certificate.get("point")])
 
@@ -133,7 +142,7 @@ def tampered_certificate(name: str) -> Tally:
                 wrong.append(f"{name}: {before} became {after} with {path} changed")
             elif after != "rejected" and claimed(bad) not in told:
                 told.add(claimed(bad))
-                if (point := contradiction(text, after, bad, STORE.texts)) is not None:
+                if (point := contradiction(text, after, bad, STORE.texts, certified_before(name))) is not None:
                     wrong.append(f"{name}: accepted with {path} changed, and false at {point}")
     finally:
         checker.close = plain_close
@@ -169,7 +178,7 @@ def tampered_statement(name: str) -> Tally:
         except checker.Rejected:
             after = "rejected"
         rejected += after == "rejected"
-        if after != "rejected" and (point := contradiction(other, after, good, STORE.texts)) is not None:
+        if after != "rejected" and (point := contradiction(other, after, good, STORE.texts, certified_before(name))) is not None:
             wrong.append(f"{after}, but false at {point}:\n{other}")
     return tried, rejected, wrong
 
