@@ -23,6 +23,8 @@ def claims_of_file(path: Path) -> list[Claim]:
 
     Raises ClaimError, one line with file and line, where it does not parse, fails, or holds no claim.
     """
+    if path.is_dir():
+        raise ClaimError(f"{path}: a folder; name a Python file with claims")
     if not path.is_file():
         raise ClaimError(f"{path}: no such file; name a Python file with claims")
 
@@ -38,8 +40,8 @@ def claims_of_file(path: Path) -> list[Claim]:
             raise ClaimError(f"{path}:{_line_in(path)}: {problem}") from None
         except SyntaxError as problem:
             raise ClaimError(f"{path}:{problem.lineno}: does not parse ({problem.msg}); mend the syntax") from None
-        except Exception as problem:
-            raise ClaimError(f"{path}:{_line_in(path)}: {type(problem).__name__}: {problem}") from None
+        except (Exception, SystemExit) as problem:
+            raise ClaimError(f"{path}:{_line_in(path)}: {type(problem).__name__}: {problem}; mend this line") from None
 
     claims = claims_of(load)
     if not claims:

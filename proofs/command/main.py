@@ -7,13 +7,27 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NoReturn
 
 ROUTES = ("exact", "z3", "boxes")
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser that tells a wrong argument in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}; `{self.prog} --help` tells what it takes\n")
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or not int(text):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 on")
+    return int(text)
+
+
 def build_parser() -> argparse.ArgumentParser:
     """The commands and their options."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="juggleproof", description="Derives, proves or refutes, and independently checks what one paper on juggling prints.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
@@ -22,8 +36,8 @@ def build_parser() -> argparse.ArgumentParser:
     certify.add_argument("--only", action="append", metavar="ID", help="only this claim (may be given several times)")
     certify.add_argument("--routes", default=",".join(ROUTES), help="exact,z3,boxes (default: all)")
     certify.add_argument("--fresh", action="store_true", help="state and search again, ignoring stored certificates and kept records")
-    certify.add_argument("--jobs", type=int, default=0, metavar="N", help="processes (default: one a core); results do not depend on it")
-    certify.add_argument("--budget", type=int, default=0, metavar="N", help="counted work for each statement (default: enough for the paper)")
+    certify.add_argument("--jobs", type=_count, default=0, metavar="N", help="processes (default: one a core); results do not depend on it")
+    certify.add_argument("--budget", type=_count, default=0, metavar="N", help="counted work for each statement (default: enough for the paper)")
     certify.add_argument("--accept", action="store_true", help="write the verdicts into the register, showing before and after")
     certify.add_argument("--store", type=Path, metavar="DIR", help="where certificates are kept (default: certificates/store)")
     certify.add_argument("--json", type=Path, metavar="F", help="write the verdicts as JSON")
