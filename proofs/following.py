@@ -36,17 +36,24 @@ def range_of_rule(name: str, texts: Mapping[str, str]) -> str:
 
     >>> range_of_rule("t/map", {"t/map": "statement t/map\\nover alpha r\\ndomain alpha > 0 and 3*alpha < 1 and r > 0"})
     'at least 0 < alpha < 1/3'
+
+    Nothing is told where the domain does not speak of alpha, and the domain itself where its conditions on alpha are not linear.
     """
     domain, is_sharp = rule_domain(name, texts)
-    low, high = alpha_interval(domain)
+    if "alpha" not in checker.names_in(domain):
+        return ""
+    ends = alpha_interval(domain)
+    if not ends:
+        return ("" if is_sharp else "at least ") + domain
+    low, high = ends
     if low[0] == high[0]:
         return f"alpha = {low[0]}"
     whole = low == ("0", "<") and high == ("1", "<")
     return ("" if is_sharp or whole else "at least ") + f"{low[0]} {low[1]} alpha {high[1]} {high[0]}"
 
 
-def alpha_interval(domain: str) -> tuple[tuple[str, str], tuple[str, str]]:
-    """The ends, with < or <=, of the interval in (0, 1) that the conditions on alpha alone make; each has to be linear in alpha.
+def alpha_interval(domain: str) -> tuple[tuple[str, str], tuple[str, str]] | None:
+    """The ends, with < or <=, of the interval in (0, 1) that the conditions on alpha alone make; None where one is not linear in alpha.
 
     >>> alpha_interval("3*alpha >= 1 and alpha < 1 and g > 0")
     (('1/3', '<='), ('1', '<'))
@@ -56,9 +63,15 @@ def alpha_interval(domain: str) -> tuple[tuple[str, str], tuple[str, str]]:
         context.declare(name)
     formula = context.formula(checker.parse(domain))
     low, high = (Fraction(0), "<"), (Fraction(1), "<")
-    for _, poly, relation in formula[1] if formula[0] == "and" else [formula]:
+    for part in checker.conjuncts(formula):
+        if isinstance(part, bool) or part[0] != "atom":
+            return None
+        _, poly, relation = part
         if checker.variables_of(context, poly) == {"alpha"}:
-            constant, slope = checker.univariate(context, poly, "alpha")
+            coefficients = checker.univariate(context, poly, "alpha")
+            if len(coefficients) != 2 or relation == "!=":
+                return None
+            constant, slope = coefficients
             end, sign = Fraction(-constant, slope), "<" if relation == ">" else "<="
             if slope > 0 or relation == "=":
                 low = max(low, (end, sign), key=lambda bound: (bound[0], bound[1] == "<"))

@@ -242,8 +242,9 @@ class Judge:
         """
         rules = [part.name for part in named_statements(self.claim.id, prefix, assertion) if isinstance(part, MapRule)]
         if rules:
-            if self.found.outcomes[rules[-1]] == "certified":
-                self.found.sharp[prefix] = {"text": range_of_rule(rules[-1], dict(self.found.statements)), "by": rules[-1:]}
+            text = range_of_rule(rules[-1], dict(self.found.statements)) if self.found.outcomes[rules[-1]] == "certified" else ""
+            if text:
+                self.found.sharp[prefix] = {"text": text, "by": rules[-1:]}
             return
         parts = [part for part in named_statements(self.claim.id, prefix, assertion) if isinstance(part, Statement)]
         ranged = [part for part in parts if speaks_of_range(part)]
