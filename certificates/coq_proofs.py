@@ -55,7 +55,7 @@ class Branch:
 def lemma(statement: Any, certificate: Any) -> str:
     """The Coq lemma of a certified statement without `exists`, with its proof; ClaimError where a rule is not written for Coq."""
     if statement.kind != "universal" or sorted(certificate or {}) != ["certified", "point"] or certificate["certified"][0] != "proof":
-        raise ClaimError(f"{statement.name}: only certified statements without `exists`, neither sharp ranges nor recurrences, are written for Coq")
+        raise ClaimError(f"{statement.name}: only certified statements without `exists` are written for Coq, not sharp ranges or rules on orbits")
     _, steps, last = certificate["certified"]
     story = checker.Unfolding(statement, checker.Context())
     names = story.context.index

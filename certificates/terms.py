@@ -236,7 +236,7 @@ def _join(op: str, parts: Iterable[Formula], empty: str) -> Formula:
     flat: list[Formula] = []
     for part in parts:
         if not isinstance(part, Formula):
-            raise ClaimError(f"{part!r} is not a formula; compare two terms first")
+            raise ClaimError(f"{part!r} is not a formula; compare two terms with <, <=, >, >= or equal(a, b)")
         for piece in part.args if part.op == op else (part,):
             if piece.op != empty and piece not in flat:
                 flat.append(piece)

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+from certificates import checker
 from certificates.terms import ClaimError
 from proofs.claims import Body, Claim
 
 
 def body_and_derivations(claim: Claim) -> tuple[Body, list[str]]:
-    """What the claim asserts, and a line for each derivation used: the constants that its print names, then what its reading asks for."""
+    """What the claim asserts, and a line for each derivation used: the constants that its print names, then what its reading asks for.
+
+    Raises ClaimError, naming the claim, for whatever the function of a claim outside of this package raises.
+    """
     if not claim.source.startswith(("proofs.paper.", "proofs.theorem.")):
-        return claim.body(), []
+        try:
+            return claim.body(), []
+        except (checker.Rejected, ClaimError):
+            raise
+        except Exception as problem:
+            raise ClaimError(f"{claim.id} raises {type(problem).__name__}: {problem}; mend its function") from problem
     from proofs.paper import vocabulary
 
     vocabulary.derivations_used.clear()

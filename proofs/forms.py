@@ -191,9 +191,11 @@ def exists_some(
     vocabulary: Vocabulary = PLAIN,
 ) -> Statement:
     """For all values of the other names, under the assumptions, some values of `exists` meet `within` and what is shown."""
+    if isinstance(exists, str) or not all(isinstance(name, str) for name in exists):
+        raise ClaimError(f"{exists!r} is no list of names; write what exists as names, such as [\"x\"]")
     for formula in (*given, *within, show, *(in_range or ())):
         if not isinstance(formula, Formula):
-            raise ClaimError(f"{formula!r} is not a formula; compare two terms")
+            raise ClaimError(f"{formula!r} is not a formula; compare two terms with <, <=, >, >= or equal(a, b)")
     forall = _needed([*given, *within, show, *(in_range or ())], vocabulary, exists)
     writer = _Writer(vocabulary)
     writer.declare(forall)

@@ -50,7 +50,7 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
         if name.split("/")[0] == claim_id:
             _statement(name, text, store)
     entry = load_register().get(claim_id, {})
-    print(f"sharp range {entry.get('sharp', 'does not depend on alpha')}")
+    print(f"sharp range {entry.get('sharp', 'none: the claim has no range of alpha to settle')}")
     if "correction" in entry:
         print(f"correction  {entry['correction']}")
     print(f"verdict     {entry.get('verdict', 'not judged')}" + (f"; {entry['detail']}" if "detail" in entry else ""))
@@ -75,7 +75,7 @@ def _print_of(claim: Claim) -> None:
 
 def _reading(body: Body) -> str:
     if isinstance(body, Assertion):
-        return f"all of {len(body.parts)} statement{'s' if len(body.parts) > 1 else ''} hold"
+        return f"all {len(body.parts)} statements hold" if len(body.parts) > 1 else "the statement holds"
     if isinstance(body, Readings):
         return "can be read as " + ", or as ".join(body.of)
     if isinstance(body, Following):

@@ -69,13 +69,17 @@ def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Any)
     console.print(table)
 
 
+def _many(count: int, thing: str) -> str:
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
 def summary(judgements: Sequence[Judgement]) -> str:
     """Counts of claims by verdict, of statements by outcome, and of decided votes by route."""
     words = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
     verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in words]
     outcomes = [o for j in judgements for o in j.outcomes.values()]
     counted = ", ".join(f"{outcomes.count(word)} {word}" for word in ("certified", "refuted", "unknown"))
-    lines = [f"{len(judgements)} claims: {', '.join(verdicts)}", f"{len(outcomes)} statements: {counted}"]
+    lines = [f"{_many(len(judgements), 'claim')}: {', '.join(verdicts)}", f"{_many(len(outcomes), 'statement')}: {counted}"]
     for route in ("z3", "boxes"):
         cast = [vote for j in judgements for votes in j.votes.values() for vote in votes if vote.route == route]
         asked = [vote for vote in cast if vote.answer != "not applicable"]

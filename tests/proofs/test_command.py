@@ -163,3 +163,55 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
     _, error = process.communicate(timeout=30)
     assert process.returncode == 130 and "interrupted" in error and "Traceback" not in error
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(("body", "told"), [
+    ("1 // 0", "mine raises ZeroDivisionError"),
+    ("MapRule(over='a')", "mine raises TypeError"),
+    ("exists_some([x], equal(x * x, 2))", "is no list of names"),
+    ("exists_some('x', equal(x * x, 2))", "is no list of names"),
+    ("always(x == y)", "equal(a, b)"),
+])
+def test_rejects_claim_whose_function_fails(body: str, told: str, tmp_path: Path) -> None:
+    done = certify(claim_file(tmp_path, body, more="from proofs import MapRule, exists_some"))
+    assert done.returncode == 2 and told in done.stderr and "mine.py:" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
+
+
+def test_rejects_file_that_ends_the_program(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * x >= 0)", more="raise SystemExit(0)")
+    done = certify(path)
+    assert done.returncode == 2 and "SystemExit" in done.stderr and "mine.py:4" in done.stderr, done.stderr
+
+
+def test_rejects_wrong_arguments_in_one_line(tmp_path: Path) -> None:
+    wrong = (["certify", "--jobs", "-1"], ["certify", "--budget", "0"], ["export", "lean", "eq-6"], ["explain"], [], ["certify", str(tmp_path)])
+    for arguments in wrong:
+        done = run(*arguments)
+        assert done.returncode == 2 and not done.stdout and len(done.stderr.splitlines()) == 1, (arguments, done.stderr)
+
+
+RULES = '''from proofs import MapRule, claim
+
+
+@claim("mine")
+def every_orbit_tends_to_zero():
+    """x -> {parameter} x on [0, 1]: 0 is stable, and every orbit tends to it."""
+    domain = "{domain}"
+    return [MapRule("map", (("over", "{parameter}"), ("domain", domain), ("state", "x"), ("space", "0 <= x and x <= 1"),
+                            ("piece", "0 <= x -> {parameter}*x"))),
+            MapRule("near", (("map", "mine/map"), ("domain", domain), ("on", "0 <= x"), ("point", "0"), ("weights", "1"),
+                             ("rate", "{rate}"), ("radius", "1"), ("size", "1")))]
+'''
+
+
+@pytest.mark.parametrize(("parameter", "domain", "rate", "code", "shown"), [
+    ("alpha", "0 < alpha and 2*alpha < 1", "alpha", 0, "at least 0 < alpha < 1/2"),
+    ("alpha", "0 < alpha and alpha^2 < 1/4", "1/2", 0, "at least 0 < alpha and alpha^2 < 1/4"),
+    ("a", "0 < a and a < 1", "a", 0, "no alpha"),
+    ("a", "0 < a and a < 1", "a/2", 1, "unknown"),
+])
+def test_rules_of_a_map_of_ones_own_hold(parameter: str, domain: str, rate: str, code: int, shown: str, tmp_path: Path) -> None:
+    path = tmp_path / "mine.py"
+    path.write_text(RULES.format(parameter=parameter, domain=domain, rate=rate), encoding="utf-8")
+    done = certify(path)
+    assert done.returncode == code and shown in done.stdout, done.stdout + done.stderr
