@@ -167,6 +167,7 @@ def tree(text):
         raise Rejected("unreadable text", text) from None
 
 
+WORDS = {"and", "or", "not", "implies", "iff"}  # never names: `names_in` does not count them
 OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
 
@@ -220,7 +221,8 @@ class Context:
         self.integers |= {key} if integral else set()
 
     def define(self, name, value):
-        require(name not in self.values and re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII), "a name is declared twice, or is none", name)
+        fresh = name not in self.values and name not in WORDS and re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII)
+        require(fresh, "a name is declared twice, or is none", name)
         self.values[name] = value
 
     def license(self, formula):
@@ -518,11 +520,11 @@ def definition(text):
     return name, parse(said)
 
 
-def call(text):
-    """NAME = sqrt(term), or NAME = root(polynomial, low, high): the name and the arguments."""
-    name, node = definition(text)
-    known = isinstance(node, ast.Call) and not node.keywords and (ast.unparse(node.func), len(node.args)) in (("sqrt", 1), ("root", 3))
-    require(known, "expected sqrt(term) or root(polynomial, low, high)", text)
+def call(text, shape):
+    """NAME = sqrt(term), or NAME = root(polynomial, low, high), as the shape says: the name and the arguments."""
+    (name, node), expected = definition(text), parse(shape)
+    same = isinstance(node, ast.Call) and not node.keywords and ast.unparse(node.func) == expected.func.id
+    require(same and len(node.args) == len(expected.args), "expected " + shape, text)
     return name, node.args
 
 
@@ -543,7 +545,8 @@ def mapping(text):
 
 
 LINES = {  # how what follows each keyword is read
-    **dict.fromkeys(("forall", "integer", "exists", "over", "sharp", "state"), str.split), "let": definition, "root": call, "number": call,
+    **dict.fromkeys(("forall", "integer", "exists", "over", "sharp", "state"), str.split), "let": definition,
+    "root": lambda text: call(text, "sqrt(term)"), "number": lambda text: call(text, "root(polynomial, low, high)"),
     **dict.fromkeys(("range", "given", "have", "with", "show", "domain", "holds"), parse),
     **dict.fromkeys(("iterates", "after", "piece"), mapping), "word": lambda text: [int(k) for k in text.split()],
     **dict.fromkeys(("map", "descent", "contraction", "attraction", "escape"), str),
@@ -756,7 +759,7 @@ def put(text, values):
 
 
 def names_in(*texts):
-    return set(re.findall(r"[A-Za-z_]\w*", " ".join(texts))) - {"and", "or", "not", "implies", "iff"}
+    return set(re.findall(r"[A-Za-z_]\w*", " ".join(texts))) - WORDS
 
 
 def premises_of_iterates(statement, known):

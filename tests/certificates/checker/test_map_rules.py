@@ -122,6 +122,8 @@ MALFORMED = [
     ("contracts", "size 1", "size 1 + x", "premise constants"),
     ("contracts", "on x < 1", "on x < 1 and distance < 1", "premise surrounds"),
     ("contracts", "on x < 1", "on x_next < 1", "premise surrounds"),
+    ("map", "state x", "state x iff", "a piece gives one term"),
+    ("map", "over a", "over a implies", "premise possible"),
     ("escapes", "word 2", "word 3", "nothing has this number"),
     ("escapes", "word 2", "word 0", "nothing has this number"),
     ("escapes", "point 0", "point x_0 + 1", "one term in the parameters"),
@@ -137,7 +139,7 @@ def test_rejects_names_that_mean_nothing_there(kind: str, old: str, new: str, ex
 
 @pytest.mark.parametrize(("kind", "old", "new"), [
     ("descends", "stage x < 1", "stage x < 1) or (0 = 0"), ("contracts", "rate a", "rate a) - (1"), ("escapes", "word 2", "word"),
-    ("contracts", "point 0", "point 0 -> 1"), ("map", "piece x < 1 -> a*x", "piece x < 1 a*x"), ("map", "space x >= 0", "space x >= 0\nspace x >= 1"),
+    ("contracts", "point 0", "point 0 -> 1"), ("descends", "rank x", "root u = root(x^2 - 2, 0, 2)\nrank u"), ("map", "piece x < 1 -> a*x", "piece x < 1 a*x"), ("map", "space x >= 0", "space x >= 0\nspace x >= 1"),
     ("descends", "rank x", "rank x\nrank x - 1"), ("attracts", "descent demo/descends\n", ""), ("escapes", "word 2", "word two"),
 ])
 def test_rejects_unreadable_lines(kind: str, old: str, new: str) -> None:
