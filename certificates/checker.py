@@ -530,7 +530,7 @@ def call(text, shape):
 
 def written(node):
     """The text of a tree, which `parse` reads back as the same tree: one thing, whatever stands around it in parentheses."""
-    return ast.unparse(node).replace("**", "^").replace("==", "=")
+    return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
 
 
 def listed(text):

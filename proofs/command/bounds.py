@@ -62,7 +62,7 @@ def explain_bounds(alphas: Sequence[Fraction] = ALPHAS) -> int:
     for row in rows:
         _region_line(row)
     print()
-    print("violated readings of the count and of (26), with the first exact state found in the table, and all alpha for which there is one")
+    print("readings of the count and of (26): all alpha for which some state violates it, with the first exact state found in the table")
     for measure in MEASURES:
         for loss in LOSSES:
             for rounding in ROUNDINGS:

@@ -19,7 +19,7 @@ MOST_QUESTIONS = 40  # put to Z3 about one statement with `exists`
 
 def python_of(text: str) -> str:
     """A term or formula as a Python expression over fmpq."""
-    text = re.sub(r"\^(\d+)", lambda match: "**" + "I" * int(match[1]) if int(match[1]) < 40 else "**0", text)
+    text = re.sub(r" ?\^ ?(\d+)", lambda match: "**" + "I" * int(match[1]) if int(match[1]) < 40 else "**0", text)
     text = re.sub(r"(?<![<>!=])=(?!=)", "==", text)
     text = re.sub(r"\b\d+\b", lambda match: f"Q({match[0]})", text)
     return re.sub(r"\*\*(I+)", lambda match: f"**{len(match[1])}", text)

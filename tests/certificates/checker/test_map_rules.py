@@ -139,7 +139,9 @@ def test_rejects_names_that_mean_nothing_there(kind: str, old: str, new: str, ex
 
 @pytest.mark.parametrize(("kind", "old", "new"), [
     ("descends", "stage x < 1", "stage x < 1) or (0 = 0"), ("contracts", "rate a", "rate a) - (1"), ("escapes", "word 2", "word"),
-    ("contracts", "point 0", "point 0 -> 1"), ("descends", "rank x", "root u = root(x^2 - 2, 0, 2)\nrank u"), ("map", "piece x < 1 -> a*x", "piece x < 1 a*x"), ("map", "space x >= 0", "space x >= 0\nspace x >= 1"),
+    ("contracts", "point 0", "point 0 -> 1"),
+    ("descends", "rank x", "root u = root(x^2 - 2, 0, 2)\nrank u"),
+    ("map", "piece x < 1 -> a*x", "piece x < 1 a*x"), ("map", "space x >= 0", "space x >= 0\nspace x >= 1"),
     ("descends", "rank x", "rank x\nrank x - 1"), ("attracts", "descent demo/descends\n", ""), ("escapes", "word 2", "word two"),
 ])
 def test_rejects_unreadable_lines(kind: str, old: str, new: str) -> None:
