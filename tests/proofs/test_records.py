@@ -121,7 +121,7 @@ def test_fresh_search_keeps_and_reads_no_records_holds(
     for name in ("load", "keep", "key"):
         monkeypatch.setattr(cache, name, refuse)
     done = output("--fresh", "--only", "s2.2.1-B1", "--routes", "exact", "--jobs", "1")
-    assert "1 claims" in done["printed"] and not place.exists()
+    assert "1 claim:" in done["printed"] and not place.exists()
 
 
 def test_derivations_of_a_claim_do_not_depend_on_what_was_stated_before_holds() -> None:
