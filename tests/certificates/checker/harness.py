@@ -55,7 +55,7 @@ def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, st
         certificate = json.loads(json.dumps(certificates[name]), object_pairs_hook=checker.unique)
         found[name] = checker.check_one(statement, certificate, known, earlier)
         earlier[name] = statement
-        if found[name][0] == "certified" and statement.kind == "universal":
+        if found[name][0] == "certified":
             known[name] = statement
     return found
 

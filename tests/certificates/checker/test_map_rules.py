@@ -81,6 +81,26 @@ def test_joined_statements_fail_without_what_joins_them(kind: str, old: str, new
     assert (outcome, reason.split(":")[0]) == ("rejected", f"premise {premise} of demo/{joined}")
 
 
+def test_rejects_a_contraction_of_another_map_of_the_same_text() -> None:
+    copy = SUBTRACT.split("\n\n")[0].replace("demo/map", "demo/copy")
+    text = copy + "\n\n" + edited(SUBTRACT, "contracts", "map demo/map", "map demo/copy")
+    results = checked(text, {**searched(SUBTRACT), **searched(text.split("statement demo/attracts")[0])})
+    assert results["demo/descends"] == results["demo/contracts"] == ("certified", "")
+    assert results["demo/attracts"] == ("rejected", "two statements about different maps are joined: demo/attracts")
+
+
+def test_rejects_one_name_for_the_roots_of_two_terms() -> None:
+    """c is 2 in the descent and 1 in the contraction: read as one, x < 2 would lie in x < 1."""
+    text = edited(SUBTRACT, "descends", "rank x\nstage x < 1", "root c = sqrt(4)\nrank x\nstage x < c")
+    text = edited(text, "contracts", "on x < 1", "root c = sqrt(1)\non x < c")
+    results = checked(text, {**searched(SUBTRACT), **searched(text.split("statement demo/attracts")[0])})
+    assert results["demo/descends"] == results["demo/contracts"] == ("certified", "")
+    statements = read(text)
+    enters = checker.premises_of(statements["demo/attracts"], statements)["enters"]
+    with pytest.raises(checker.Rejected, match="a variable is declared twice: c"):
+        checker.prove(enters, ["proof", [], ["close"]], {})
+
+
 def test_rejects_a_missing_or_left_over_premise() -> None:
     for name, certificate in searched(SUBTRACT).items():
         for premise in certificate["certified"]:

@@ -24,6 +24,7 @@ ACCEPTED = [
 START, STEP = (f"premise {name} of rule/case: nothing false is assumed" for name in ("start", "step"))
 UNDECLARED = "an undeclared name in a map"
 NAMES = "a map names its variables first, an image for each, and one integer apart"
+WORD = "premise start of rule/case: a name is declared twice, or is none"
 ORDER = "the lines of a statement are missing or out of order"
 REJECTED = [
     case("a wrong step", *SHIFT[:3], "after K -> (x - K*w - K*(K + 1), w + 2*K)", expected=STEP),
@@ -127,6 +128,11 @@ REJECTED = [
     ),
     case("a name of the premises for an image", "forall x K", "integer K", "iterates x -> x_next", "after K -> x", expected=UNDECLARED),
     case("a name of the premises for a power", "forall x K", "integer K", "iterates x -> x", "after K -> x_next", expected=UNDECLARED),
+    # were `implies` a name, the map would depend on the number of iterations unseen: 2 steps of x -> x + 2 are x + 4, not x + 1
+    case("a count that is a word", "forall x implies", "integer implies", "iterates x -> x + implies",
+         "after implies -> x + implies*(implies - 1)/2", expected=WORD),
+    case("a state that is a word, in an abbreviation", "forall iff K", "integer K", "let c = iff", "iterates iff -> iff + c",
+         "after K -> iff + K*iff", expected=WORD),
     case("a starred image", "forall x K", "integer K", "iterates x -> (*x,)", "after K -> x", expected="statements, line 5: unreadable text"),
     case(
         "an arrow too many",

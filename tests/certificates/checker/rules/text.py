@@ -145,6 +145,7 @@ LINES = [
     ("a keyword and a tab", ["given\t0 = 1", TRUE], "statements, line 2: an unknown kind of line"),
     ("a comment behind a line", ["forall x", "given x > 0 # not really", TRUE], "statements, line 3: unreadable text"),
     ("a root of no call", ["root s = 4", TRUE], "statements, line 2: expected sqrt(term)"),
+    ("a root of a polynomial, which is no square root", ["root r = root(9/4, 0, 1)", TRUE], "statements, line 2: expected sqrt(term)"),
     ("a root with keywords", ["root s = sqrt(4, ^x)", TRUE], "statements, line 2: expected sqrt(term)"),
     ("an abbreviation without value", ["let a", TRUE], "statements, line 2: unreadable text"),
     ("an abbreviation with two values", ["let a = 1 = 2", TRUE], "not a term"),

@@ -5,12 +5,14 @@ from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, p
 INVERSE = lines("forall a b", "given a*b = 1", "show a != 0", name="rule/inverse")
 BELOW = lines("forall a", "exists b", "show b < a", name="rule/below")
 GAP = lines("forall n", "integer n", "show n <= 0 or n >= 1", name="rule/gap")
+SHIFT = lines("forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K", name="rule/shift")
 SOME = lines("forall a", "integer n", "exists n", "show n = 2", name="rule/some")
 EARLIER = {
     "rule/inverse": proof(
         ["psatz", [[1, [], "1"]], [[0, "1"], [1, "-b"]]], at={"a": "1", "b": "1"}, name="rule/inverse"
     ),
     "rule/below": witness(["rule/below", [], {"b": "a - 1"}, CLOSE], at={"a": "0"}, name="rule/below"),
+    "rule/shift": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}},
     "rule/some": witness(["rule/some", [], {"n": "2"}, CLOSE], at={"a": "0"}, name="rule/some"),
     "rule/gap": proof(
         ["integral", 0, ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]], at={"n": "0"}, name="rule/gap"
@@ -147,6 +149,15 @@ REJECTED = [
         "every variable needs one value, an integer one an integer",
     ),
     gap("digits and a line break for an integer", use("rule/gap", {"n": "1\n"}, {}, BETWEEN), "unreadable text"),
+    case(
+        "a statement of another kind",
+        SHIFT,
+        "rule/shift",
+        NOTHING_BELOW,
+        use("rule/shift", {"x": "x", "K": "1"}, {}, CLOSE),
+        "no earlier certified statement of this name: rule/shift",
+        x="0",
+    ),
     case(
         "a fresh name that occurs",
         BELOW,
