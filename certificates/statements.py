@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Union
 
+from certificates import checker
 from certificates.terms import Formula, Number, Term, conjunction, names_in, term
 
 Line = tuple[str, Union[Formula, tuple[str, Term]]]
@@ -119,6 +120,14 @@ class MapRule:
     def text(self) -> str:
         """The statement as the checker reads it."""
         return "\n".join([f"statement {self.name}", *(f"{keyword} {said}" for keyword, said in self.rows)])
+
+
+RESTING = ("attraction", "escape", "descent", "contraction", "map")  # the lines that name an earlier statement
+
+
+def rests_on(statement: checker.Statement) -> list[str]:
+    """The map rules that a parsed map rule names."""
+    return [said for keyword, said in statement.lines if keyword in RESTING]
 
 
 AnyStatement = Union[Statement, SharpRange, Iterates, MapRule]

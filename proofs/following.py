@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -59,7 +58,7 @@ def alpha_interval(domain: str) -> tuple[tuple[str, str], tuple[str, str]] | Non
     (('1/3', '<='), ('1', '<'))
     """
     context = checker.Context()
-    for name in sorted({node.id for node in ast.walk(checker.parse(domain)) if isinstance(node, ast.Name)}):
+    for name in sorted(checker.names_in(domain)):
         context.declare(name)
     formula = context.formula(checker.parse(domain))
     low, high = (Fraction(0), "<"), (Fraction(1), "<")

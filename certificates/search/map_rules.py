@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from certificates import checker
+from certificates.statements import rests_on
 
 from .budget import Budget, Exhausted
 from .certificate import search_proof
@@ -21,10 +22,9 @@ def search_map_rule(statement: checker.Statement, known: dict[str, checker.State
     ['covers', 'possible', 'stays-1']
     """
     proofs: dict[str, Any] = {}
-    for keyword in ("map", "descent", "contraction", "attraction", "escape"):
-        for name in statement.get(keyword):
-            if name not in known:
-                return {"unknown": f"it rests on {name}, which is not certified"}
+    for name in rests_on(statement):
+        if name not in known:
+            return {"unknown": f"it rests on {name}, which is not certified"}
     for name, premise in checker.premises_of(statement, known).items():
         proof = None
         for effort in (1, 2):

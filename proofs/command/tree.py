@@ -7,10 +7,10 @@ from typing import Any
 
 from certificates import checker
 from certificates.routes.votes import Vote
+from certificates.statements import rests_on
 from certificates.store import Store
 from certificates.terms import ClaimError
 
-RESTING = ("attraction", "escape", "descent", "contraction", "map")  # the lines that name an earlier statement
 THEOREM = "theorem-in-units/exactly"
 
 
@@ -21,16 +21,11 @@ def rules_of(store: Store) -> dict[str, Any]:
     return {name: one for name, one in statements.items() if one.kind in checker.ORBIT_RULES and one.kind != "iterates"}
 
 
-def below(name: str, rules: Mapping[str, Any]) -> list[str]:
-    """The rules that a rule names."""
-    return [said for key, said in rules[name].lines if key in RESTING]
-
-
-def rests_on(name: str, rules: Mapping[str, Any]) -> list[str]:
+def with_all_below(name: str, rules: Mapping[str, Any]) -> list[str]:
     """The rule and all rules that it rests on, each once, those that rest on others first."""
     found = [name]
     for one in found:
-        found += [inner for inner in below(one, rules) if inner not in found]
+        found += [inner for inner in rests_on(rules[one]) if inner not in found]
     return found
 
 
@@ -42,7 +37,7 @@ def theorem_line(store: Store, outcomes: Mapping[str, str], votes: Mapping[str, 
     if THEOREM not in store.texts:
         return ""
     rules = rules_of(store)
-    names = rests_on(THEOREM, rules)
+    names = with_all_below(THEOREM, rules)
     used = set().union(*(lemmas(store.certificate(name, store.texts[name])) for name in names))
     told = [vote for name, cast in (votes or {}).items() if name.rpartition(".")[0] in names for vote in cast]
     decided = [f"{route} {sum(vote.answer == 'holds' for vote in told if vote.route == route)}" for route in ("z3", "boxes") if told]
@@ -68,7 +63,7 @@ def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premise
         if with_premises:
             raise ClaimError(f"{claim_id} has no map rules, so that no premises are written; its statements are all there is")
         return
-    roots = [name for name in roots if not any(name in below(other, rules) for other in roots)]
+    roots = [name for name in roots if not any(name in rests_on(rules[other]) for other in roots)]
     print("\nrests on    each rule, its premises as the checker writes them, and the rules that it names")
     shown: dict[str, Mapping[str, Any]] = {}
     for name in roots:
@@ -88,7 +83,7 @@ def _branch(name: str, depth: int, rules: Mapping[str, Any], store: Store, shown
     shown[name] = premises = checker.premises_of(rules[name], rules)
     used = sorted(lemmas(store.certificate(name, store.texts[name])))
     print(f"{'  ' * depth}{name}: {len(premises)} premises: {' '.join(premises)}" + (f"; by {', '.join(used)}" if used else ""))
-    for inner in below(name, rules):
+    for inner in rests_on(rules[name]):
         _branch(inner, depth + 1, rules, store, shown)
 
 

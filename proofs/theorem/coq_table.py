@@ -10,15 +10,14 @@ from functools import cache
 
 from proofs.encoding import from_sympy
 from proofs.theorem import definition as chosen
-from proofs.theorem.written import complement, written, written_region
+from proofs.theorem.rules import NORMAL, PHYSICAL, Setting
+from proofs.theorem.written import written
 from symbolic.algebra import DerivationError, lowest_terms
 from symbolic.bounds import E_max
-from symbolic.collision import collision_margin
 from symbolic.energy import total_energy
-from symbolic.fixed_points import e_1, restitution_threshold
-from symbolic.maps import f1, f2
-from symbolic.normal_form import normal_impact_fixed_point, scaling
-from symbolic.symbols import K, alpha, r
+from symbolic.fixed_points import restitution_threshold
+from symbolic.normal_form import scaling
+from symbolic.symbols import alpha, r
 from symbolic.table import period
 
 
@@ -68,7 +67,6 @@ class Attraction:
 @cache
 def ball() -> Attraction:
     """For 0 < alpha < 1/3 every orbit of the ball's map on x >= 0 converges to e_1."""
-    pieces = tuple(Piece(str(guard), tuple(map(str, images))) for guard, images in chosen.PIECES)
     names = ("low_impact", "corner", "trap", "near_trap")
     stages = (*chosen.TO_THE_POINT.stages[:-1], chosen.NEAR_IN_TRAP)
     (root,) = chosen.TO_THE_POINT.roots
@@ -77,7 +75,7 @@ def ball() -> Attraction:
         given=f"0 < alpha and alpha < {threshold()}",
         state=("x", "w"),
         space=str(chosen.SPACE),
-        pieces=pieces,
+        pieces=_pieces(NORMAL),
         point=tuple(zip(("e_x", "e_w"), map(str, chosen.FIXED), strict=True)),
         root=(root[0], str(root[1])),
         rank=str(chosen.TO_THE_POINT.rank),
@@ -85,6 +83,10 @@ def ball() -> Attraction:
         contraction=_told(chosen.IN_THE_TRAP),
         size=str(chosen.IN_THE_TRAP.size),
     )
+
+
+def _pieces(setting: Setting) -> tuple[Piece, ...]:
+    return tuple(Piece(str(guard), tuple(map(str, images))) for guard, images in setting.pieces)
 
 
 def _told(contraction: chosen.Contraction) -> Contraction:
@@ -115,9 +117,7 @@ class Periodic:
 @cache
 def other_orbit() -> Periodic:
     """For 1/3 <= alpha < 1: the orbit of e_2, a flight that lasts two periods, from where its impact comes."""
-    periods = 2
-    state = tuple(written(entry.xreplace({K: periods})) for entry in normal_impact_fixed_point())
-    return Periodic(given=f"{threshold()} <= alpha and alpha < 1", state=state, period=periods)
+    return Periodic(given=f"{threshold()} <= alpha and alpha < 1", state=tuple(map(str, chosen.OTHER)), period=2)
 
 
 @cache
@@ -148,14 +148,13 @@ class Physical:
 @cache
 def physical() -> Physical:
     """The ball's map on heights beta >= 0 and velocities v, for a table launched at r under gravity g."""
-    region = written_region(collision_margin())
     return Physical(
         parameters=("alpha", "r", "g"),
         given="0 < r and 0 < g",
         state=("beta", "v"),
         space="0 <= beta",
-        pieces=(Piece(region, tuple(map(written, f1()))), Piece(complement(region), tuple(map(written, f2())))),
-        point=tuple(map(written, e_1())),
+        pieces=_pieces(PHYSICAL),
+        point=tuple(map(str, PHYSICAL.fixed)),
         scaling=tuple(map(written, scaling())),
         units=(written(r * period()), written(r)),
         energy=written(total_energy()),

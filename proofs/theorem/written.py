@@ -76,28 +76,6 @@ def opposite(strict: Formula) -> Formula:
     return other
 
 
-def written_region(margin: Expr) -> str:
-    """The text of margin > 0.
-
-    >>> from symbolic.symbols import w, x
-    >>> written_region(w - x)
-    'x < w'
-    """
-    return str(positive(margin))
-
-
-def complement(region: str) -> str:
-    """The text of the other side of a strict inequality.
-
-    >>> complement("x < w")
-    'w <= x'
-    """
-    left, sign, right = region.partition(" < ")
-    if not sign or " " + right in (" and ", " or ") or " < " in right:
-        raise ClaimError(f"{region} is not one strict inequality")
-    return f"{right} <= {left}"
-
-
 def _difference(polynomial: Expr) -> Term:
     kept, taken = _by_sign(polynomial)
     total = _sum(kept) if kept else -_sum(taken)
