@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module, reload
 
 SECTIONS = (
@@ -36,8 +37,8 @@ def load_claims() -> None:
     """Registers every claim of the paper, in the paper's order, and the theorem's after them."""
     from proofs import theorem
 
+    loaded = set(sys.modules)
     for name in (*(f"{__name__}.{section}" for section in SECTIONS), *(f"{theorem.__name__}.{section}" for section in theorem.SECTIONS)):
         module = import_module(name)
-        if getattr(module, "_registered", False):
+        if name in loaded:  # its claims were registered then: they are registered again, here and in order
             reload(module)
-        module._registered = True  # type: ignore[attr-defined]

@@ -48,3 +48,10 @@ def test_a_rule_is_settled_again_where_what_it_rests_on_changes(tmp_path: Path) 
 def test_a_rule_fails_without_its_set(tmp_path: Path) -> None:
     done = certify(tmp_path, "x < 1/4")
     assert done.returncode == 1 and "1 unknown" in done.stdout
+
+
+def test_no_claim_is_left_out_where_its_file_was_loaded_before() -> None:
+    told = [subprocess.run([sys.executable, "-c", f"{before}from proofs.loading import paper_claims\nprint(*(one.id for one in paper_claims()))"],
+                           check=True, capture_output=True, text=True, cwd=ROOT, timeout=240).stdout
+            for before in ("", "import proofs.theorem.sharper, proofs.paper.s4_2_proposition\n")]
+    assert told[0] == told[1] and "theorem-roots" in told[0]
