@@ -22,7 +22,7 @@ VARIABLE = "JUGGLEPROOF_CACHE"
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ("symbolic", "proofs", "certificates")
 TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy", "numpy")
-KEPT = 8  # files, each of one state of the sources
+KEPT = 8  # files of a kind, each of one state of the sources, or of the store
 LARGEST = 50_000_000
 
 
@@ -88,7 +88,7 @@ def keep(key: str, records: Sequence[dict[str, Any]]) -> None:
     content = canonical({"records": list(records)})
     try:
         write_file(place / f"{key}.json", hashlib.sha256(key.encode() + content).hexdigest().encode() + b"\n" + content)
-        files = sorted(place.glob("[0-9a-f]" * 64 + ".json"), key=lambda path: path.stat().st_mtime, reverse=True)
+        files = sorted(place.glob(key[:-64] + "[0-9a-f]" * 64 + ".json"), key=lambda path: path.stat().st_mtime, reverse=True)
         for path in files[KEPT:]:
             path.unlink()
     except (OSError, ClaimError):

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gc
+import hashlib
 import os
 import signal
+import sys
 from collections.abc import Set
 from multiprocessing import get_context
 from pathlib import Path
@@ -12,6 +14,7 @@ from typing import Any
 
 from certificates import checker
 from certificates.store import STATEMENTS
+from proofs import cache
 
 Results = list[tuple[str, str, str]]
 
@@ -64,6 +67,39 @@ class Reading:
             return []
         reasons = {(name, outcome): reason for results, found, _ in parts for name, outcome, reason in results if name in found}
         return [(name, outcome, reasons.get((name, outcome), reason)) for name, outcome, reason in parts[0][0]]
+
+
+def results_for(folder: Path, jobs: int) -> Results:
+    """What the checker says of a folder: kept from an earlier reading of these very files by this very checker, or found out now."""
+    key = _key(folder)
+    kept = cache.load(key) if key else []
+    try:
+        if kept:
+            return [(str(one["name"]), str(one["outcome"]), str(one["reason"])) for one in kept]
+    except KeyError:
+        pass
+    with Reading(folder, jobs) as reading:
+        reading.outcomes()
+    keep_results(folder, reading.results)
+    return reading.results
+
+
+def keep_results(folder: Path, results: Results) -> None:
+    """Keeps what the checker said of the files that are now in the folder."""
+    key = _key(folder)
+    if key and results:
+        cache.keep(key, [{"name": name, "outcome": outcome, "reason": reason} for name, outcome, reason in results])
+
+
+def _key(folder: Path) -> str:
+    if cache.folder() is None or not folder.is_dir():
+        return ""
+    said = hashlib.sha256(sys.version.encode())
+    for path in [Path(str(checker.__file__)), *sorted(path for path in folder.iterdir() if path.name == STATEMENTS or path.suffix == ".json")]:
+        content = path.read_bytes()
+        said.update(f"\n{path.name} {len(content)}\n".encode())
+        said.update(content)
+    return "read-" + said.hexdigest()
 
 
 def shares(folder: Path, count: int) -> list[Set[str]]:

@@ -16,7 +16,7 @@ from certificates.statements import AnyStatement, Iterates, MapRule, SharpRange,
 from certificates.store import Store
 from certificates.terms import ClaimError
 from proofs.claims import Argument, Assertion, Body, Claim, Following, Readings, assertions, named_statements
-from proofs.derivations import body_and_derivations
+from proofs.derivations import Derivation, behind, body_and_derivations
 from proofs.following import range_of_rule
 from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing, speaks_of_range
 from proofs.records import record_of
@@ -95,7 +95,7 @@ class Judge:
     def __init__(self, claim: Claim, options: Options) -> None:
         self.claim, self.options, self.found = claim, options, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
-        self.derivations: list[str] = []
+        self.derivations: list[Derivation] = []
         self.is_trial = False
 
     def run(self) -> Judgement:
@@ -121,7 +121,9 @@ class Judge:
     def record(self, body: Body) -> None:
         """Notes what a later run can know the claim again by."""
         record = record_of(self.claim, body, self.found.statements, self.found.votes, self.found.correction)
-        self.found.record = {**record, "derivations": self.derivations} if record else None
+        if record:
+            used = [one.function for one in self.derivations]
+            self.found.record = {**record, "derivations": used, "behind": [one.data() for one in behind(self.derivations)]}
 
     def body(self) -> Body:
         """What the claim asserts; the derivations that it uses are noted."""

@@ -72,7 +72,7 @@ def largest_kept_energy() -> Extremum:
 
 @cache
 def E_max() -> Expr:
-    """The value of `largest_kept_energy`: ((1 + alpha) / (1 - alpha) r)^2 / 2 (equation 34).
+    """The greatest energy of a state of B1 whose impact does not lose energy: ((1 + alpha) / (1 - alpha) r)^2 / 2 (equation 34).
 
     >>> E_max()
     r**2*(alpha + 1)**2/(2*(alpha - 1)**2)
@@ -93,7 +93,7 @@ def largest_energy_change() -> Extremum:
 
 @cache
 def delta_E_max() -> Expr:
-    """The value of `largest_energy_change`: (1 + alpha) / (1 - alpha) r^2 / 2 (equation 37).
+    """The greatest energy change of an impact: (1 + alpha) / (1 - alpha) r^2 / 2 (equation 37).
 
     >>> delta_E_max()
     -r**2*(alpha + 1)/(2*(alpha - 1))
@@ -130,7 +130,7 @@ def least_energy_loss() -> Extremum:
 
 @cache
 def delta_E_sup() -> Expr:
-    """The value of `least_energy_loss` (appendix A.3.2).
+    """The supremum of the energy change of an impact outside R (appendix A.3.2).
 
     >>> delta_E_sup()
     r**2*(-alpha*(alpha + 1)*sqrt(2*alpha + 2)/(alpha - 1) + (alpha + 1)**3/(2*(alpha - 1)))

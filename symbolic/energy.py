@@ -129,7 +129,7 @@ def relative_kinetic_energy() -> Expr:
 
 @cache
 def relative_kinetic_energy_change() -> Expr:
-    """Its change under f1: (alpha^2 - 1) z2^2 / 2, zero on the whole line z2 = 0 (section 4.3.1).
+    """The change of the relative kinetic energy under f1: (alpha^2 - 1) z2^2 / 2, zero on the whole line z2 = 0 (section 4.3.1).
 
     >>> relative_kinetic_energy_change()
     alpha**2*z2**2/2 - z2**2/2

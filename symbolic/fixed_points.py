@@ -17,7 +17,7 @@ from symbolic.table import period
 
 @cache
 def fixed_point() -> State:
-    """The fixed point e_K of f1 o f2^(K - 1), sampled at the start of its flight (section 3.5.1).
+    """The fixed point e_K of the map over K periods, sampled at the start of its flight: f1 o f2^(K - 1) keeps it (section 3.5.1).
 
     >>> from sympy import Rational
     >>> from symbolic.symbols import g

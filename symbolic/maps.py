@@ -159,7 +159,7 @@ def return_map() -> State:
 
 @cache
 def return_jacobian() -> State:
-    """The Jacobian of f1 o f2^(K - 1): -alpha A_T^K, with upper right entry -alpha K T (section 3.5.3).
+    """The Jacobian of the map over K periods of which the last has an impact: -alpha A_T^K, with upper right entry -alpha K T (section 3.5.3).
 
     >>> return_jacobian()
     Matrix([

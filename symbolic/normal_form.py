@@ -27,7 +27,7 @@ def scaling() -> State:
 
 @cache
 def unscaling() -> State:
-    """The change of coordinates from (x, w) back to (beta, v), by solving that of `scaling`.
+    """The change of coordinates from (x, w) back to (beta, v).
 
     >>> unscaling().T
     Matrix([[2*r**2*x/g, -r*w + r]])
@@ -79,7 +79,7 @@ def normal_f2() -> State:
 
 
 def normal_flight_power(periods: Expr = K) -> State:
-    """The power f2^K in normal form: (x, w) -> (x - K w - K (K - 1), w + 2 K).
+    """A number K of periods without impact, in normal form: (x, w) -> (x - K w - K (K - 1), w + 2 K).
 
     >>> normal_flight_power().T
     Matrix([[-K**2 - K*w + K + x, 2*K + w]])

@@ -13,7 +13,7 @@ from typing import Any
 from certificates import checker
 from certificates.store import DEFAULT, Store, canonical, write_file, write_store
 from certificates.terms import ClaimError
-from proofs.checking import Reading
+from proofs.checking import Reading, keep_results
 from proofs.claims import Claim
 from proofs.command import table
 from proofs.command.tree import theorem_line
@@ -51,6 +51,8 @@ def certify(options: argparse.Namespace) -> int:
     records.keep(judgements, len(everything))
     changed = _write(folder, store, everything, claims, judgements)
     results = reading.results if reading.results and not changed else checker.check_folder(str(folder))
+    if records.key:
+        keep_results(folder, results)
     settle_by_rules(judgements, {name: outcome for name, outcome, _ in results}, Store(folder).texts)
     problems = [f"{name}: {reason}" for name, outcome, reason in results if outcome == "rejected"]
     table.draw(claims, judgements, console)

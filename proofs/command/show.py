@@ -9,7 +9,7 @@ from certificates.store import DEFAULT, Store
 from certificates.terms import ClaimError
 from proofs.claims import Argument, Assertion, Body, Claim, Following, Readings
 from proofs.command.tree import print_tree
-from proofs.derivations import body_and_derivations
+from proofs.derivations import body_and_derivations, kept_derivations
 from proofs.judging import DEFAULT_BUDGET
 from proofs.loading import paper_claims
 from proofs.recall import NOT_AS_KEPT, Records
@@ -35,17 +35,18 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
         raise ClaimError(f"{claim_id}: no such claim" + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them"))
     claim, store = claims[claim_id], Store(DEFAULT)
     try:
-        body, lines = body_of(records.by_claim[claim_id], store.texts), list(map(str, records.by_claim[claim_id]["derivations"]))
+        body = body_of(records.by_claim[claim_id], store.texts)
+        derivations = kept_derivations(records.by_claim[claim_id])[0]
     except NOT_AS_KEPT:
         if records.claims:
             claim = next(one for one in paper_claims() if one.id == claim_id)
-        body, lines = body_and_derivations(claim)
+        body, derivations = body_and_derivations(claim)
     print(f"{claim.id}   section {claim.section} {claim.place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for line in lines:
-        print(f"derived     {line}")
-    print(f"reading     {_reading(body)}")
+    for one in derivations:
+        print(f"derived     {one.line}")
+    print(f"reading     {reading_of(body)}")
     for name, text in store.texts.items():
         if name.split("/")[0] == claim_id:
             _statement(name, text, store)
@@ -73,7 +74,8 @@ def _print_of(claim: Claim) -> None:
         print(f"repeats     {claim.repeats}")
 
 
-def _reading(body: Body) -> str:
+def reading_of(body: Body) -> str:
+    """How the statements of a body make up the claim, in a few words."""
     if isinstance(body, Assertion):
         return f"all {len(body.parts)} statements hold" if len(body.parts) > 1 else "the statement holds"
     if isinstance(body, Readings):

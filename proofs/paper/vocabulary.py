@@ -40,12 +40,11 @@ def _derived(name: str, *arguments: Any) -> Any:
     return encoded(getattr(symbolic, name)(*arguments))
 
 
-def derivation(name: str, arguments: tuple[Any, ...] = ()) -> str:
-    """What the derivation of this name says of itself, and its result."""
-    said = (getattr(symbolic, name).__doc__ or "").strip().splitlines()[0]
+def rows_of(name: str, arguments: tuple[Any, ...] = ()) -> tuple[tuple[str, ...], ...]:
+    """The entries of a derivation's result by rows, in the language of statements."""
     value = _derived(name, *arguments)
     rows = value.rows if isinstance(value, Matrix) else [value.entries] if isinstance(value, Vector) else [[value]]
-    return f"{said} " + "; ".join("(" * (len(row) > 1) + ", ".join(map(str, row)) + ")" * (len(row) > 1) for row in rows)
+    return tuple(tuple(map(str, row)) for row in rows)
 
 
 def encoded(value: Any) -> Any:
