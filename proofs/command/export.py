@@ -1,4 +1,4 @@
-"""`juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, and the certified ones as Coq lemmas with proofs."""
+"""`juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, the certified ones as Coq lemmas with proofs, prints as LaTeX."""
 
 from __future__ import annotations
 
@@ -53,6 +53,28 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
         written += 1
     if not written:
         raise ClaimError("none of the statements named can be written for Coq")
+    return 0
+
+
+def export_latex(ids: Sequence[str], folder: Path | None) -> int:
+    """Writes the equations of the claims named (or all that the paper prints) as LaTeX, corrected where the print is false.
+
+    Raises ClaimError for a name that no claim bears, or one without a printed formula.
+    """
+    from proofs.reports.contents import gather
+    from proofs.reports.tex.equations import equation
+
+    contents = gather()
+    by_id = {entry.claim.id: entry for entry in contents.entries}
+    for wanted in ids:
+        if wanted not in by_id:
+            raise ClaimError(f"{wanted}: no such claim; `juggleproof list` names them")
+    texts = {name: equation(by_id[name]) for name in ids or [name for name, entry in by_id.items() if entry.claim.printed]}
+    for name, text in texts.items():
+        if folder:
+            write_file(folder / f"{name}.tex", text.encode())
+        else:
+            print(text)
     return 0
 
 

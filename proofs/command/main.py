@@ -55,9 +55,12 @@ def build_parser() -> argparse.ArgumentParser:
     explain.add_argument("--bounds", action="store_true", help="with `theorem`: the paper's bounds and ours against the worst of stated orbits")
     commands.add_parser("errata", help="what the paper prints wrongly, with correction and exact counterexample")
     export = commands.add_parser("export", help="statements for other tools")
-    export.add_argument("format", choices=["smt2", "coq"])
+    export.add_argument("format", choices=["smt2", "coq", "latex"])
     export.add_argument("ids", nargs="*", metavar="ID")
     export.add_argument("-o", "--output", type=Path, metavar="DIR", help="one file a statement there, instead of standard output")
+    report = commands.add_parser("report", help="the regenerated appendices, the theorem, errata and figures")
+    report.add_argument("--format", required=True, metavar="F", help="html, latex, pdf, markdown, json or badge")
+    report.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: juggleproof-report)")
     return parser
 
 
@@ -89,9 +92,14 @@ def _dispatch(parsed: argparse.Namespace) -> int:
 
         return check(parsed.folder)
     if parsed.command == "export":
-        from proofs.command.export import export_coq, export_smt2
+        from proofs.command import export
 
-        return (export_coq if parsed.format == "coq" else export_smt2)(parsed.ids, parsed.output)
+        writers = {"coq": export.export_coq, "smt2": export.export_smt2, "latex": export.export_latex}
+        return writers[parsed.format](parsed.ids, parsed.output)
+    if parsed.command == "report":
+        from proofs.command.report import report
+
+        return report(parsed.format, parsed.output)
     if parsed.command == "errata":
         from proofs.command.errata import errata
 

@@ -24,6 +24,7 @@ UNPRINTED = {
     "region-trap": "the trap of the theorem's proof, which stands in for the paper's last invariant set",
     "theorem-roots": "the lemma of the theorem's proofs",
     "theorem": "the theorem in normal form, which 4.4 concludes from an argument that does not carry it",
+    "theorem-by-hand": "the lines of the written proof, which reports print",
     "theorem-in-units": "the theorem in the paper's units, on which the claims of 4.3 and 4.4 rest",
     "theorem-nearby": "the neighbourhood that e_1 attracts, on which a claim of 3.3 rests",
     "theorem-one-third": "the orbits at alpha = 1/3, where the paper's range ends",

@@ -72,7 +72,7 @@ class _Printer:
         else:
             raise TypeError(f"no formula: {ast.dump(node)}")
         own, sign = JOINED[word]
-        text = f" {sign} ".join(self.formula(part, own + 1) for part in parts)
+        text = f" {sign} ".join(self.formula(part, own + 1 + (word == "or")) for part in parts)
         return rf"({text})" if own < level else text
 
     # ------------------------------------------------------------ sums
@@ -86,11 +86,11 @@ class _Printer:
     def addends(self, node: ast.AST) -> list[tuple[bool, str]]:
         """The addends in the paper's order, each with whether it is taken away; zeros are left out where anything else stands."""
         found = []
-        for sign, addend in _flat_sum(node, 1):
+        for sign, addend in _numbers_added(_flat_sum(node, 1)):
             text, negative = self.product(addend)
             if text != "0":
                 found.append((addend, negative != (sign < 0), text))
-        if not _names(node) - ALPHA:  # the paper writes 1 + alpha, 1 - alpha and alpha - 1
+        if len(found) == 2 and not _names(node) - ALPHA:  # the paper writes 1 + alpha, 1 - alpha and alpha - 1
             found.sort(key=lambda one: bool(_names(one[0])) if not one[1] else 1 + (not _names(one[0])))
         elif self.leads:
             found.sort(key=lambda one: self.place(one[0]))
@@ -113,7 +113,7 @@ class _Printer:
                 (below if inverted else above).append(factor)
             else:
                 number *= 1 / value if inverted else value
-        text = self.quotient(abs(number), sorted(above, key=self.factor_place), sorted(below, key=self.factor_place))
+        text = self.quotient(abs(number), sorted(_powers_joined(above), key=self.factor_place), sorted(_powers_joined(below), key=self.factor_place))
         return text, number < 0
 
     def quotient(self, number: Fraction, above: Sequence[ast.AST], below: Sequence[ast.AST]) -> str:
@@ -154,7 +154,7 @@ class _Printer:
             if exponent == "1":
                 return self.factor(node.left)
             base = self.factor(node.left) if isinstance(node.left, ast.Name) else self.bracketed(node.left)
-            base = f"({base})" if base.startswith(r"\partial") else base
+            base = rf"\left({base}\right)" if base.startswith(r"\frac") else base
             return f"{base}^{exponent if len(exponent) == 1 else '{' + exponent + '}'}"
         if isinstance(node, (ast.Name, ast.Constant)):
             return glyph(node.id) if isinstance(node, ast.Name) else str(node.value)
@@ -164,7 +164,17 @@ class _Printer:
 
     def bracketed(self, node: ast.AST) -> str:
         text = self.term(node)
-        return text if text.isdigit() else rf"\left({text}\right)" if r"\frac" in text else f"({text})"
+        return text if isinstance(node, ast.Constant) or is_bracketed(text) else rf"\left({text}\right)" if r"\frac" in text else f"({text})"
+
+
+def is_bracketed(text: str) -> bool:
+    """Whether one pair of round brackets holds the whole text."""
+    depth = 0
+    for place, sign in enumerate(text):
+        depth += (sign == "(") - (sign == ")")
+        if not depth:
+            return sign == ")" and place == len(text) - 1
+    return False
 
 
 def _fraction(above: str, below: str) -> str:
@@ -204,6 +214,30 @@ def _is_sum(node: ast.AST) -> bool:
 
 def _base(node: ast.AST) -> ast.AST:
     return node.left if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) else node
+
+
+def _numbers_added(addends: list[tuple[int, ast.AST]]) -> list[tuple[int, ast.AST]]:
+    """Whole numbers among other addends as one, where the first of them stands."""
+    places = [place for place, (_, node) in enumerate(addends) if _integer(node) is not None]
+    if len(places) < 2 or len(places) == len(addends):
+        return addends
+    total = sum(addends[place][0] * (_integer(addends[place][1]) or 0) for place in places)
+    added = (1 if total >= 0 else -1, ast.Constant(abs(total)))
+    return [added if place == places[0] else addend for place, addend in enumerate(addends) if place not in places[1:]]
+
+
+def _powers_joined(factors: list[ast.AST]) -> list[ast.AST]:
+    """Powers of one name as one power."""
+    found: dict[str, int] = {}
+    others = []
+    for factor in factors:
+        base, exponent = _base(factor), _integer(factor.right) if _base(factor) is not factor else 1  # type: ignore[attr-defined]
+        if isinstance(base, ast.Name) and exponent is not None:
+            found[base.id] = found.get(base.id, 0) + exponent
+        else:
+            others.append(factor)
+    joined = [ast.parse(f"{name}**{exponent}" if exponent != 1 else name, mode="eval").body for name, exponent in found.items()]
+    return [*joined, *others]
 
 
 def _flat_sum(node: ast.AST, sign: int) -> list[tuple[int, ast.AST]]:

@@ -9,7 +9,7 @@ import re
 from functools import cache
 
 from certificates import checker
-from proofs.reports.latex import latex_of
+from proofs.reports.latex import is_bracketed, latex_of
 from proofs.reports.names import GLYPHS, glyph
 
 # Names of sentences that no statement has: regions, maps, and quantities with marks that the statement language lacks.
@@ -134,7 +134,7 @@ def _formula(text: str) -> str:
     words = [found.group() for found in WORD.finditer(text)]
     if not any(word in NAMED or word in REGIONS for word in words):
         try:
-            return rf"({latex_of(text)})" if _is_bracketed(text) else latex_of(text)
+            return rf"({latex_of(text)})" if is_bracketed(text) else latex_of(text)
         except (checker.Rejected, TypeError):
             pass
     shown = ""
@@ -151,16 +151,6 @@ def _formula(text: str) -> str:
             piece = " " + piece
         shown += piece + (" " if word == "," else "")
     return shown.strip()
-
-
-def _is_bracketed(text: str) -> bool:
-    """Whether one pair of brackets holds the whole text."""
-    depth = 0
-    for place, sign in enumerate(text):
-        depth += (sign == "(") - (sign == ")")
-        if not depth:
-            return sign == ")" and place == len(text) - 1
-    return False
 
 
 def _raised(word: str) -> str:

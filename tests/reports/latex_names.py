@@ -72,7 +72,9 @@ def names_for(base: str, accents: tuple[str, ...], subscript: str, primes: int) 
 def subscripted(stem: str, subscript: str) -> tuple[str, ...]:
     if subscript == NEXT:
         return (stem + "_next",)
-    return (stem + ("" if subscript.isdigit() or not subscript else "_") + subscript,)
+    if subscript.isdigit():
+        return (stem + subscript, f"{stem}_{subscript}")  # a premise of a map rule names states so
+    return (stem + "_" * bool(subscript) + subscript,)
 
 
 def spelled(base: str, kind: str) -> str:

@@ -1,0 +1,75 @@
+"""`juggleproof report`: the stored claims as a page, as LaTeX, as a PDF, and as data for other programs."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from certificates.store import write_file
+from certificates.terms import ClaimError
+from proofs.reports.contents import Contents, gather
+
+DEFAULT_FOLDER = Path("juggleproof-report")
+Files = Mapping[str, bytes]
+
+
+def report(wanted: str, folder: Path | None) -> int:
+    """Writes a report of this format into the folder and prints the paths; returns 1 where what was made has faults that a reader would see.
+
+    Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a library or program that is absent.
+    """
+    if wanted not in FORMATS:
+        raise ClaimError(f"--format {wanted}: choose from {', '.join(FORMATS)}")
+    place = folder or DEFAULT_FOLDER
+    _refuse_what_is_no_folder(place)
+    made, faults = FORMATS[wanted](gather(), place)
+    write_all(made, place)
+    for fault in faults:
+        print(f"juggleproof: {fault}", file=sys.stderr)
+    return 1 if faults else 0
+
+
+def write_all(files: Files, place: Path) -> None:
+    """Writes the files, each aside and renamed, and prints their paths."""
+    for name, content in files.items():
+        write_file(place / name, content)
+        print(place / name)
+
+
+def _refuse_what_is_no_folder(place: Path) -> None:
+    inner = next(one for one in (place, *place.absolute().parents) if one.exists())
+    if not inner.is_dir():
+        raise ClaimError(f"{inner}: not a folder; choose another with -o")
+
+
+def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    from proofs.reports.tex import files
+
+    drawn = _figures(contents)
+    return {**files(contents, [(slug, title, caption) for slug, title, caption, _ in drawn]),
+            **{f"figures/{slug}.pdf": content for slug, _, _, content in drawn}}, []
+
+
+def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    from proofs.reports.tex.pdf import compiled
+
+    files, _ = _latex(contents, place)
+    write_all(files, place)  # the sources stand, whatever becomes of the PDF
+    made, faults = dict[str, bytes](), list[str]()
+    for document in ("juggleproof", "juggleproof-twocolumn"):
+        made[f"{document}.pdf"], complaints = compiled(files, document)
+        faults += [f"{document}.tex: {one}" for one in complaints]
+    return made, faults
+
+
+def _figures(contents: Contents) -> list[tuple[str, str, str, bytes]]:
+    """The figures as (slug, title, caption, PDF); none, which is said, where matplotlib is absent."""
+    if importlib.util.find_spec("matplotlib") is None:
+        print("juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]' brings it", file=sys.stderr)
+        return []
+    return []
+
+
+FORMATS: Mapping[str, Callable[[Contents, Path], tuple[Files, list[str]]]] = {"latex": _latex, "pdf": _pdf}

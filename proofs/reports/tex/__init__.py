@@ -1,0 +1,128 @@
+"""The LaTeX report: fragments that an author can input, and documents that hold them all, from templates that hold no formula of the paper."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from certificates.terms import ClaimError
+from proofs.command.errata import GROUPS
+from proofs.reports.contents import Contents, Entry
+from proofs.reports.extras import needed
+from proofs.reports.latex import latex_of
+from proofs.reports.names import NOTATION
+from proofs.reports.notation import MACROS, with_macros
+from proofs.reports.statements import parts_of
+from proofs.reports.tex import words
+
+HERE = Path(__file__).parent
+APPENDICES = {"A": "Maximal and supremal points", "B": "Handy equations, definitions, and parameterizations"}
+SECTIONS = {
+    "A.1": "Maximum sustainable energy", "A.2": "Maximum energy change", "A.3": r"Supremum $\Delta E$ outside $\jugR$",
+    "A.3.1": r"The boundary $R(\jugstate) = 0$",
+    "A.3.2": r"Finding $\Delta E_{\sup}$", "A.4": r"Number of impacts to enter $\jugR$", "B.1": "Time to collision", "B.2": "Important regions",
+    "B.3": "System dynamics", "B.4": "Fixed point", "B.5": "Zero energy change boundary", "B.6": r"Boundary of $\jugR$", "B.7": "Table of notation",
+}
+BESIDE = ("theorem-one-third", "theorem-nearby", "theorem-region", "theorem-ends", "theorem-kinetic")
+PROOF = "theorem-by-hand"
+
+
+def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> dict[str, bytes]:
+    """The files of the LaTeX report by name: macros, fragments, bibliography, and the documents for one and for two columns.
+
+    `figures` are (slug, title, caption), whose PDFs stand in the folder figures.
+    Raises ClaimError, one line, where a template's library is absent or a written line is not certified.
+    """
+    made = _environment()
+    fragments = {
+        "juggleproof-macros": {"macros": [(name, means) for name, means, _ in MACROS]},
+        "theorem": _theorem(contents),
+        "errata": _errata(contents),
+        "derivations": {"derivations": contents.derivations},
+        "notation": {"notation": [(latex, words.prose(meaning)) for _, latex, meaning in NOTATION if meaning]},
+    }
+    told = {name: _render(made, name, contents, values) for name, values in fragments.items()}
+    for letter, title in APPENDICES.items():
+        told[f"appendix-{letter.lower()}"] = _render(made, "appendix", contents, _appendix(contents, letter, title))
+    if figures:
+        captions = [(slug, words.plain(title), words.prose(text)) for slug, title, text in figures]
+        told["figures"] = _render(made, "figures", contents, {"figures": captions})
+    for name, twocolumn in (("juggleproof", False), ("juggleproof-twocolumn", True)):
+        told[name] = _render(made, "document", contents, {"twocolumn": twocolumn, "figures": bool(figures), "summary": summary(contents),
+                                                         "versions": words.plain(", ".join(f"{k} {v}" for k, v in contents.tools.items()))})
+    return {"paper.bib": (HERE / "paper.bib").read_bytes(), **{f"{name}.tex": text.encode() for name, text in told.items()}}
+
+
+def summary(contents: Contents) -> str:
+    """The counts of verdicts and outcomes in a sentence."""
+    verdicts = ", ".join(f"{count} {word}" for word, count in contents.verdicts.items())
+    outcomes = ", ".join(f"{count} {word}" for word, count in sorted(contents.outcomes.items()))
+    return f"In all {len(contents.entries)} claims: {verdicts}; {sum(contents.outcomes.values())} statements: {outcomes}."
+
+
+def _environment() -> Any:
+    jinja2 = needed("jinja2")
+    made = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(str(HERE)), block_start_string="<%", block_end_string="%>", variable_start_string="<<",
+        variable_end_string=">>", comment_start_string="<#", comment_end_string="#>", undefined=jinja2.StrictUndefined, autoescape=False,
+        trim_blocks=True, keep_trailing_newline=True)
+    made.globals.update({name: getattr(words, name) for name in words.__all__ if name != "Steps"}, counterexamples=_counterexamples)
+    return made
+
+
+def _render(made: Any, name: str, contents: Contents, values: Mapping[str, Any]) -> str:
+    template = "document" if name.startswith("juggleproof") and name != "juggleproof-macros" else name
+    text: str = made.get_template(f"{template}.tex.j2").render(tools=contents.tools, with_steps=name == "appendix", **values)
+    return re.sub(r"\n{3,}", "\n\n", "\n".join(line.rstrip() for line in text.strip().splitlines())) + "\n"
+
+
+def _counterexamples(entry: Entry) -> list[str]:
+    """The counterexamples as they are set, each once."""
+    return list(dict.fromkeys(words.values(one.at) for one in entry.statements if one.at))
+
+
+def _appendix(contents: Contents, letter: str, title: str) -> dict[str, Any]:
+    sections = [(section, heading, [one for one in contents.entries if one.claim.section == section])
+                for section, heading in SECTIONS.items() if section.startswith(letter)]
+    left = [one.claim.id for one in contents.entries if one.claim.section.startswith(f"{letter}.") and one.claim.section not in SECTIONS]
+    if left:
+        raise ClaimError(f"{left[0]}: section {contents.entry(left[0]).claim.section} has no heading in the LaTeX report; add it there")
+    return {"letter": letter, "title": title, "sections": [one for one in sections if one[2]]}
+
+
+def _errata(contents: Contents) -> dict[str, Any]:
+    groups = [(words.plain(title.partition(":")[0]), [one for one in contents.entries if one.group == group]) for group, title in GROUPS.items()]
+    counted = "; ".join(f"{len(claims)} {title[:1].lower()}{title[1:]}" for title, claims in groups if claims)
+    return {"groups": [one for one in groups if one[1]], "counts": f"In all: {counted}."}
+
+
+def _theorem(contents: Contents) -> dict[str, Any]:
+    by_name = {one.name: one for entry in contents.entries for one in entry.statements}
+
+    def rows(name: str, keyword: str) -> list[str]:
+        return [line.partition(" ")[2] for line in by_name[name].text.splitlines() if line.startswith(f"{keyword} ")]
+
+    def said(name: str, keyword: str) -> list[str]:
+        return [with_macros(latex_of(part)) for part in parts_of(rows(name, keyword)[0])]
+
+    def entry(name: str) -> Entry:
+        return contents.entry(name)
+
+    steps = words.Steps(entry(PROOF))
+    pieces = [row.partition(" -> ")[::2] for row in rows("theorem/map", "piece")]
+    stages = rows("theorem/descends", "stage")
+    scaling = next(one for one in contents.derivations if one.function == "scaling")
+    return {
+        "scaling": ",\\; ".join(f"{name} = {with_macros(latex_of(value))}" for name, value in zip(("x", "w"), scaling.shown[0])),
+        "guards": [latex_of(guard) for guard, _ in pieces],
+        "images": [", ".join(with_macros(latex_of(part)) for part in parts_of(image)) for _, image in pieces],
+        "fixed": said("theorem/contracts", "point"), "other": said("theorem/escapes", "start"),
+        "speed": latex_of(rows("theorem/descends", "root")[0].partition("sqrt(")[2][:-1]),
+        "rank": said("theorem/descends", "rank")[0],
+        "trap": with_macros(",\\; ".join(latex_of(part) for part in stages[2].split(" and "))),
+        "radius": latex_of(rows("theorem/contracts", "radius")[0]),
+        "show": steps.show, "says": lambda name: entry(name).claim.says, "verdict": lambda name: entry(name).verdict,
+        "rules": contents.rules, "beside": [name for name in BESIDE if name in {one.claim.id for one in contents.entries}],
+    }
