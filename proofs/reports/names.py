@@ -34,6 +34,7 @@ NOTATION = (
     ("dR_dv", r"\frac{\partial R}{\partial\dot{\bar\beta}}", ""),
     ("eps", r"\epsilon", ""),
     ("lam", r"\lambda", ""),
+    ("theta", r"\theta", ""),
     ("rho", r"\rho", ""),
     ("delta", r"\delta", ""),
     ("chi", r"\chi", ""),

@@ -110,6 +110,10 @@ def _theorem(contents: Contents) -> dict[str, Any]:
     def entry(name: str) -> Entry:
         return contents.entry(name)
 
+    def conjuncts(said: str, most: int | None = None) -> str:
+        """The parts of a conjunction; the first ones of a domain, where the last is there for a division."""
+        return with_macros(",\\; ".join(latex_of(part) for part in said.split(" and ")[:most]))
+
     steps = words.Steps(entry(PROOF))
     pieces = [row.partition(" -> ")[::2] for row in rows("theorem/map", "piece")]
     stages = rows("theorem/descends", "stage")
@@ -121,7 +125,9 @@ def _theorem(contents: Contents) -> dict[str, Any]:
         "fixed": said("theorem/contracts", "point"), "other": said("theorem/escapes", "start"),
         "speed": latex_of(rows("theorem/descends", "root")[0].partition("sqrt(")[2][:-1]),
         "rank": said("theorem/descends", "rank")[0],
-        "trap": with_macros(",\\; ".join(latex_of(part) for part in stages[2].split(" and "))),
+        "stage_1": conjuncts(stages[0]), "stage_2": conjuncts(stages[1]), "trap": conjuncts(stages[2]), "later": len(stages) - 1,
+        "below": conjuncts(rows("theorem/descends", "domain")[0], 2), "others": conjuncts(rows("theorem/escapes", "domain")[0], 2),
+        "space": latex_of(rows("theorem/map", "space")[0]), "rate": said("theorem/contracts", "rate")[0], "given": steps.given,
         "radius": latex_of(rows("theorem/contracts", "radius")[0]),
         "show": steps.show, "says": lambda name: entry(name).claim.says, "verdict": lambda name: entry(name).verdict,
         "rules": contents.rules, "beside": [name for name in BESIDE if name in {one.claim.id for one in contents.entries}],

@@ -16,7 +16,7 @@ def equation(entry: Entry) -> str:
     if not entry.claim.printed:
         raise ClaimError(f"{entry.claim.id} has no printed formula; `juggleproof explain {entry.claim.id}` shows its statements")
     body = words.correction(entry) if entry.correction else entry.claim.printed
-    rows = [with_macros(row.rstrip(" .")) for row in words.lines(body)]
+    rows = [with_macros(words.without_stop(row)) for row in words.lines(body)]
     shown = rows[0] if len(rows) == 1 else "\\begin{gathered}\n" + " \\\\\n".join(rows) + "\n\\end{gathered}"
     tag = f"\\tag{{{words.number(entry.claim)}}}" if words.number(entry.claim) else ""
     head = [f"% {entry.claim.id}, {entry.claim.section} {entry.claim.place}: {entry.verdict_text}; as printed it holds {words_of(entry)}",

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from certificates import checker
+from certificates.terms import ClaimError
 from proofs.claims import Claim
 from proofs.derivations import Derivation
 from proofs.reports.contents import Entry
@@ -19,7 +20,8 @@ SPECIAL = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r
 SYMBOLS = {
     "f1": r"\bar f_1(\bar b)", "f2": r"\bar f_2(\bar b)", "period": "T",
     "e_1": "e_1", "E_max": r"E_{\max}", "delta_E_max": r"\Delta E_{\max}",
-    "delta_E_sup": r"\Delta E_{\sup}", "total_energy": r"E(\bar b)", "energy_change_1": r"\Delta_1 E(\bar b)", "energy_change_2": r"\Delta_2 E(\bar b)",
+    "delta_E_sup": r"\Delta E_{\sup}", "total_energy": r"E(\bar b)", "energy_change_1": r"\Delta_1 E(\bar b)",
+    "energy_change_2": r"\Delta_2 E(\bar b)",
     "collision_time": r"\tau_c(\bar b)", "xi_1": r"\xi_1", "epsilon_1": r"\epsilon_1", "launch_state": "r_0", "region_margin": r"R(\bar b)",
     "flight_matrix": "A_t", "flight_offset": "a_t", "flight_map": r"F^t(\bar b)", "restitution_matrix": r"R_\alpha", "fixed_point": "e_K",
     "point_p": "p", "energy_of_p": "E(p)", "hang_time": "t_f", "scaling": "(x, w)",
@@ -61,18 +63,23 @@ def lines(latex: str) -> list[str]:
 
 def formula(latex: str) -> str:
     """The two arguments for a display: the formula whole, and to be broken."""
-    rows = [_set(row) for row in lines(latex)]
+    rows = [with_macros(row) for row in lines(latex)]
     whole = rows[0] if len(rows) == 1 else "\\begin{gathered}" + r" \\ ".join(rows) + "\\end{gathered}"
     return "{" + whole + "}{" + r" $\newline $ ".join(rows) + "}"
 
 
 def inline(latex: str) -> str:
     """A print within a line; its rows one after another."""
-    return r",\quad ".join(_set(row.rstrip(" .,")) for row in lines(latex))
+    return r",\quad ".join(with_macros(without_stop(row)) for row in lines(latex))
 
 
-def _set(latex: str) -> str:
-    return re.sub(r"\\(?:max|min|sup|inf)_\{\s*\\?\w", lambda found: found.group(), with_macros(latex))
+def without_stop(row: str) -> str:
+    r"""A row without the stop or comma of the sentence that it ends.
+
+    >>> without_stop("a = b."), without_stop(r"\left\{ a \right.")
+    ('a = b', '\\left\\{ a \\right.')
+    """
+    return row if row.rstrip().endswith(r"\right.") else row.rstrip(" .,")
 
 
 def correction(entry: Entry) -> str:
@@ -128,7 +135,7 @@ def holds(sharp: str) -> str:
         return r"for no $\jugrestitution$"
     if ": " not in sharp and "root" not in sharp:
         return f"exactly for {prose(sharp)}" if sharp != "0 < alpha < 1" else r"for all $0 < \jugrestitution < 1$"
-    return prose(sharp.replace("nowhere", "for no alpha"))
+    return prose(re.sub(r"(?<=: )nowhere", "for no alpha", sharp))
 
 
 def values(at: str) -> str:
@@ -162,10 +169,16 @@ class Steps:
         """What a line shows, whole or some of its conjuncts; refuses a line that is not certified."""
         one = self.by_label[label]
         if one.outcome != "certified":
-            raise ValueError(f"{one.name} is {one.outcome}; the written proof cannot print it")
+            raise ClaimError(f"{one.name} is {one.outcome}; the written proof cannot print it")
         self.used.add(label)
         said = one.text.rpartition("\nshow ")[2].split(" and ")
         return with_macros(_chained([latex_of(said[part]) for part in parts] if parts else [latex_of(part) for part in said]))
+
+
+    def given(self, label: str, place: int) -> str:
+        """What a line is given, by place."""
+        said = [line.partition(" ")[2] for line in self.by_label[label].text.splitlines() if line.startswith("given ")]
+        return with_macros(latex_of(said[place]))
 
 
 def _chained(relations: Sequence[str]) -> str:
