@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGES = ("symbolic", "certificates", "proofs")
-MAY_IMPORT = {"symbolic": {"symbolic"}, "certificates": {"certificates"}, "proofs": {"proofs", "certificates", "symbolic"}}
-FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"}, "proofs": {"sympy", "rich"}}
+PACKAGES = ("symbolic", "certificates", "scenes", "proofs")
+MAY_IMPORT = {"symbolic": {"symbolic"}, "certificates": {"certificates"}, "scenes": {"scenes", "symbolic"},
+              "proofs": {"proofs", "certificates", "symbolic", "scenes"}}
+FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"}, "scenes": {"matplotlib"},
+           "proofs": {"sympy", "rich"}}
 
 
 def modules(package: str) -> list[Path]:

@@ -1,0 +1,1 @@
+"""The moving system: figures of the states, maps and regions that `symbolic` derives."""

@@ -1,0 +1,141 @@
+"""Curves of the figures as what they are, arcs of parabolas: from derived expressions, and taken by the map f, cut where it jumps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from scenes.figures.numbers import column, margin, value
+from symbolic import f1, f2
+
+Point = tuple[float, float]
+Quadratic = tuple[float, float, float]  # coefficients from the constant up
+
+
+def polynomial(expression: Any, parameter: Any, **values: Any) -> Quadratic:
+    """The coefficients, from the constant up, of an expression that is at most quadratic in the parameter.
+
+    >>> from symbolic.symbols import v
+    >>> polynomial(3 * v**2 + v / 2, v)
+    (0.0, 0.5, 3.0)
+    """
+    coefficients = [float(value(one, **values)) for one in _coefficients(expression, parameter)]
+    constant, slope, square = [*coefficients, 0.0, 0.0][:3]
+    return constant, slope, square
+
+
+@cache
+def _coefficients(expression: Any, parameter: Any) -> list[Any]:
+    found = (expression + 0 * parameter).as_poly(parameter)
+    if found is None or found.degree() > 2:
+        raise ValueError(f"not a parabola: {expression}")
+    return list(reversed(found.all_coeffs()))
+
+
+def zeros(expression: Any, parameter: Any, **values: Any) -> list[float]:
+    """The real zeros, in order, of an expression that is at most quadratic in the parameter.
+
+    >>> from symbolic.symbols import v
+    >>> zeros(v**2 - 4, v), zeros(v**2 + 1, v)
+    ([-2.0, 2.0], [])
+    """
+    return _zeros(*polynomial(expression, parameter, **values))
+
+
+def _zeros(constant: float, slope: float, square: float) -> list[float]:
+    if square == 0:
+        return [] if slope == 0 else [-constant / slope]
+    inside = slope**2 - 4 * square * constant
+    if inside < 0:
+        return []
+    # The root with the larger size first: no digits are lost where slope and spread nearly cancel.
+    larger = -(slope + (inside**0.5 if slope > 0 else -(inside**0.5))) / 2
+    return sorted([larger / square, constant / larger if larger else 0.0])
+
+
+@dataclass(frozen=True)
+class Arc:
+    """An arc of a parabola: two quadratics of one parameter (coefficients from the constant up), from its start to its stop."""
+
+    across: Quadratic
+    up: Quadratic
+    start: float
+    stop: float
+
+    def at(self, parameter: float) -> Point:
+        """The point with this parameter."""
+        return _at(self.across, parameter), _at(self.up, parameter)
+
+    def slope(self, parameter: float) -> Point:
+        """The derivative there."""
+        return _slope(self.across, parameter), _slope(self.up, parameter)
+
+    def bezier(self) -> tuple[Point, Point, Point]:
+        """Start, control point and stop of the same arc as a quadratic Bezier curve, exactly.
+
+        >>> Arc((0, 1, 0), (0, 0, 1), 0, 2).bezier()
+        ((0, 0), (1.0, 0.0), (2, 4))
+        """
+        half = (self.stop - self.start) / 2
+        (x, y), (dx, dy) = self.at(self.start), self.slope(self.start)
+        return (x, y), (x + dx * half, y + dy * half), self.at(self.stop)
+
+    def part(self, start: float, stop: float) -> Arc:
+        """The part between two parameters."""
+        return Arc(self.across, self.up, start, stop)
+
+    def reverse(self) -> Arc:
+        """The same arc, run through the other way."""
+        return self.part(self.stop, self.start)
+
+
+def _at(quadratic: Quadratic, s: float) -> float:
+    return quadratic[0] + s * (quadratic[1] + s * quadratic[2])
+
+
+def _slope(quadratic: Quadratic, s: float) -> float:
+    return quadratic[1] + 2 * s * quadratic[2]
+
+
+def curve(height: Any, speed: Any, parameter: Any, start: float, stop: float, **values: Any) -> Arc:
+    """The states (height, speed) of a parameter."""
+    return Arc(polynomial(height, parameter, **values), polynomial(speed, parameter, **values), float(start), float(stop))
+
+
+def straight(start: tuple[Any, Any], stop: tuple[Any, Any]) -> Arc:
+    """The segment from one point to another."""
+    (a, b), (c, d) = start, stop
+    return Arc((float(a), float(c - a), 0.0), (float(b), float(d - b), 0.0), 0.0, 1.0)
+
+
+@cache
+def _affine(strikes: bool) -> tuple[Quadratic, Quadratic]:
+    """f1 or f2 at the setting: for each entry its coefficient of the height, that of the speed, and its constant."""
+    mapping = f1() if strikes else f2()
+    (c, d), (c1, d1), (c2, d2) = (column(mapping, beta=h, v=s) for h, s in ((0, 0), (1, 0), (0, 1)))
+    return (float(c1 - c), float(c2 - c), float(c)), (float(d1 - d), float(d2 - d), float(d))
+
+
+def cut_at_the_bounce(arc: Arc) -> Iterator[tuple[Arc, bool]]:
+    """The arc's parts on either side of the line between B1 and B2, each with whether it lies in B1."""
+    c, h, s = (float(margin(*at)) for at in ((0, 0), (1, 0), (0, 1)))
+    h, s = h - c, s - c
+    constant, slope, square = (h * across + s * up for across, up in zip(arc.across, arc.up))
+    inside = [one for one in _zeros(constant + c, slope, square) if min(arc.start, arc.stop) < one < max(arc.start, arc.stop)]
+    ends = [arc.start, *sorted(inside, reverse=arc.stop < arc.start), arc.stop]
+    for start, stop in zip(ends, ends[1:]):
+        yield arc.part(start, stop), _at((constant + c, slope, square), (start + stop) / 2) > 0
+
+
+def images(arcs: Sequence[Arc]) -> list[Arc]:
+    """The image under f: each arc is cut where f jumps, and each part taken by the branch that holds there."""
+    found = []
+    for arc in arcs:
+        for part, strikes in cut_at_the_bounce(arc):
+            (a, b, c), (d, e, k) = _affine(strikes)
+            across = tuple(a * one + b * two for one, two in zip(part.across, part.up))
+            up = tuple(d * one + e * two for one, two in zip(part.across, part.up))
+            found.append(Arc((across[0] + c, across[1], across[2]), (up[0] + k, up[1], up[2]), part.start, part.stop))
+    return found
