@@ -3,3 +3,4 @@
 import os
 
 os.environ["JUGGLEPROOF_CACHE"] = "off"
+pytest_plugins = ["pytester"]

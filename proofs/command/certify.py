@@ -6,7 +6,7 @@ import argparse
 import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,25 +15,58 @@ from certificates.store import DEFAULT, Store, canonical, write_file, write_stor
 from certificates.terms import ClaimError
 from proofs.checking import Reading, keep_results
 from proofs.claims import Claim
-from proofs.command import table
+from proofs.command import outputs, table
 from proofs.command.tree import theorem_line
 from proofs.following import settle_by_rules
 from proofs.judging import DEFAULT_BUDGET, Judgement, Options
 from proofs.loading import claims_of_file, paper_claims
 from proofs.recall import Records, judge_with_records
-from proofs.register import changes, load_register, write_register
+from proofs.register import PATH, load_register, registered, write_register
+from proofs.reports.results import Results, results_of_run
 from proofs.running import judge_all, lemmas
 
 FINDINGS = "findings"
 TITLE = "Every statement that the claims come to; certificates/checker.py reads this file and believes nothing else."
 
 
-def certify(options: argparse.Namespace) -> int:
+@dataclass(frozen=True)
+class Run:
+    """What a run came to: the claims and the judgements on them, the seconds they took, the theorem's lines, and what the checker rejects."""
+
+    claims: Sequence[Claim]
+    judgements: Sequence[Judgement]
+    seconds: Mapping[str, float]
+    theorem: str
+    rejected: Sequence[tuple[str, str]]
+
+
+def certify(options: argparse.Namespace, register: Path = PATH) -> int:
     """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where every claim holds), else 1."""
     from rich.console import Console
 
-    routes = _routes(options.routes)
+    outputs.refuse_unwritable(options)
+    before = None if options.files else load_register(register)
     console = Console(highlight=False)
+    done = run(options, console)
+    table.draw(done.claims, done.judgements, console)
+    print(table.summary(done.judgements))
+    print(done.theorem, end="\n" if done.theorem else "")
+    for name, reason in done.rejected:
+        print(f"rejected by the checker: {name}: {reason}")
+    accepts = options.accept and not done.rejected
+    results = results_of_run(done.claims, done.judgements, before, theorem=done.theorem, rejected=done.rejected, partial=bool(options.only),
+                             accepted=accepts)
+    for change in results.changes:
+        print(f"{'accepted ' if accepts else 'differs from the register '} {change}")
+    if before is not None and accepts:
+        _accept(results, before, options, register)
+    outputs.write(options, results, done.seconds)
+    return results.exit
+
+
+def run(options: argparse.Namespace, console: Any = None) -> Run:
+    """Judges the claims, stores what was found, and has the checker read all that is stored."""
+    routes = _routes(options.routes)
     own = bool(options.files)
     folder = options.store or (options.files[0].with_suffix(".certificates") if own else DEFAULT)
     store = Store(folder)
@@ -42,7 +75,7 @@ def certify(options: argparse.Namespace) -> int:
     with Reading(folder, jobs, nothing=options.fresh) as reading:
         records = Records(None if own or options.fresh else budget, read=not options.accept)
         everything = records.claims or ([claim for path in options.files for claim in claims_of_file(path)] if own else paper_claims())
-        _refuse_duplicates(everything)
+        refuse_duplicates(everything)
         claims = _selected(everything, options.only)
         judged = Options(routes, budget, Store(Path(os.devnull)) if options.fresh else store, {} if options.fresh else _findings(folder),
                          {} if records.claims else lemmas(everything, claims))
@@ -53,18 +86,10 @@ def certify(options: argparse.Namespace) -> int:
     results = reading.results if reading.results and not changed else checker.check_folder(str(folder))
     if records.key:
         keep_results(folder, results)
-    settle_by_rules(judgements, {name: outcome for name, outcome, _ in results}, Store(folder).texts)
-    problems = [f"{name}: {reason}" for name, outcome, reason in results if outcome == "rejected"]
-    table.draw(claims, judgements, console)
-    print(table.summary(judgements))
-    line = "" if own else theorem_line(
-        Store(folder), {name: outcome for name, outcome, _ in results}, {name: cast for one in judgements for name, cast in one.votes.items()})
-    print(line, end="\n" if line else "")
-    for problem in problems:
-        print(f"rejected by the checker: {problem}")
-    code = 1 if problems else _own_result(judgements) if own else _against_register(claims, judgements, options)
-    _write_reports(options, claims, judgements, seconds)
-    return code
+    outcomes = {name: outcome for name, outcome, _ in results}
+    settle_by_rules(judgements, outcomes, Store(folder).texts)
+    line = "" if own else theorem_line(Store(folder), outcomes, {name: cast for one in judgements for name, cast in one.votes.items()})
+    return Run(claims, judgements, seconds, line, [(name, reason) for name, outcome, reason in results if outcome == "rejected"])
 
 
 def _routes(text: str) -> tuple[str, ...]:
@@ -77,7 +102,8 @@ def _routes(text: str) -> tuple[str, ...]:
     return chosen
 
 
-def _refuse_duplicates(claims: Sequence[Claim]) -> None:
+def refuse_duplicates(claims: Sequence[Claim]) -> None:
+    """Raises ClaimError where two claims have one name."""
     seen: set[str] = set()
     for claim in claims:
         if claim.id in seen:
@@ -108,7 +134,7 @@ def _findings(folder: Path) -> dict[str, Any]:
 def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console: Any) -> tuple[list[Judgement], dict[str, float]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-    if not console.is_terminal:
+    if console is None or not console.is_terminal:
         return judge_all(claims, judged, jobs, lambda claim, judgement: None)
     columns = (TextColumn("{task.description:24}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as progress:
@@ -143,47 +169,17 @@ def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequ
     return changed + write_file(folder / FINDINGS, canonical(findings))
 
 
+def _accept(results: Results, before: Mapping[str, Mapping[str, Any]], options: argparse.Namespace, register: Path) -> None:
+    """Writes the verdicts into the register, and the results into the README where they are those of the stored certificates."""
+    from proofs.command import readme
+
+    after = {one.id: one.registered() for one in results.claims}
+    write_register({**before, **after} if options.only else after, register)
+    if options.store is None and register == PATH:
+        readme.update()
+
+
 def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
     """What the register keeps of a judgement."""
-    data: dict[str, Any] = {"verdict": judgement.verdict.word}
-    if judgement.verdict.detail:
-        data["detail"] = judgement.verdict.detail
-    if judgement.correction:
-        data["correction"] = judgement.correction["text"]
-    if judgement.sharp:
-        data["sharp"] = table.sharp_range(judgement)
-    return data
-
-
-def _against_register(claims: Sequence[Claim], judgements: Sequence[Judgement], options: argparse.Namespace) -> int:
-    before = load_register()
-    after = {claim.id: entry(claim, judgement) for claim, judgement in zip(claims, judgements)}
-    lines = changes(before, after, partial=bool(options.only))
-    for line in lines:
-        print(("accepted  " if options.accept else "differs from the register  ") + line)
-    if options.accept:
-        from proofs.command import readme
-
-        write_register({**before, **after} if options.only else after)
-        if options.store is None:
-            readme.update()
-        return 0
-    return 1 if lines else 0
-
-
-def _own_result(judgements: Sequence[Judgement]) -> int:
-    return 0 if all(judgement.verdict.word == "holds" for judgement in judgements) else 1
-
-
-def _write_reports(options: argparse.Namespace, claims: Sequence[Claim], judgements: Sequence[Judgement], seconds: dict[str, float]) -> None:
-    if options.json:
-        from proofs.command.reports import as_json
-
-        write_file(options.json, as_json(claims, judgements))
-    if options.junit:
-        from proofs.command.reports import as_junit
-
-        write_file(options.junit, as_junit(claims, judgements))
-    if options.timings:
-        lines = [f"{seconds[judgement.id]:9.3f}  {judgement.id}" for judgement in judgements]
-        write_file(options.timings, ("\n".join(lines) + "\n").encode())
+    return registered(judgement.verdict.word, judgement.verdict.detail, judgement.correction,
+                      table.sharp_range(judgement) if judgement.sharp else "")

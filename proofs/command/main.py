@@ -42,6 +42,7 @@ def build_parser() -> argparse.ArgumentParser:
     certify.add_argument("--store", type=Path, metavar="DIR", help="where certificates are kept (default: certificates/store)")
     certify.add_argument("--json", type=Path, metavar="F", help="write the verdicts as JSON")
     certify.add_argument("--junit", type=Path, metavar="F", help="write the verdicts as a JUnit report")
+    certify.add_argument("--markdown", type=Path, metavar="F", help="write a summary as Markdown, such as a CI job shows")
     certify.add_argument("--timings", type=Path, metavar="F", help="write the seconds that each claim took")
 
     check = commands.add_parser("check", help="the bare checker over the stored certificates")
@@ -59,7 +60,7 @@ def build_parser() -> argparse.ArgumentParser:
     export.add_argument("ids", nargs="*", metavar="ID")
     export.add_argument("-o", "--output", type=Path, metavar="DIR", help="one file a statement there, instead of standard output")
     report = commands.add_parser("report", help="the regenerated appendices, the theorem, errata and figures")
-    report.add_argument("--format", required=True, metavar="F", help="html, latex, pdf, markdown, json or badge")
+    report.add_argument("--format", required=True, metavar="F", help="html, latex, pdf, markdown, json, badge or figures")
     report.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: juggleproof-report)")
     return parser
 

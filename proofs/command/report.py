@@ -46,16 +46,15 @@ def _refuse_what_is_no_folder(place: Path) -> None:
 
 def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     from proofs.reports.tex import files
+    from scenes.figures import TABLE
 
-    drawn = _figures(contents)
-    return {**files(contents, [(slug, title, caption) for slug, title, caption, _ in drawn]),
-            **{f"figures/{slug}.pdf": content for slug, _, _, content in drawn}}, []
+    return files(contents, [(one.slug, f"Figure {one.number}. {one.title}" if one.number else one.title, one.caption) for one in TABLE]), []
 
 
 def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     from proofs.reports.tex.pdf import compiled
 
-    files, _ = _latex(contents, place)
+    files = {**_latex(contents, place)[0], **_figures(contents)}
     write_all(files, place)  # the sources stand, whatever becomes of the PDF
     made, faults = dict[str, bytes](), list[str]()
     for document in ("juggleproof", "juggleproof-twocolumn"):
@@ -64,12 +63,45 @@ def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     return made, faults
 
 
-def _figures(contents: Contents) -> list[tuple[str, str, str, bytes]]:
-    """The figures as (slug, title, caption, PDF); none, which is said, where matplotlib is absent."""
+def _markdown(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    from proofs.reports.markdown import markdown
+
+    return {"juggleproof.md": markdown(contents).encode()}, []
+
+
+def _json(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    from proofs.reports.data import as_json
+
+    return {"juggleproof.json": as_json(contents)}, []
+
+
+def _badge(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    from proofs.reports.badge import badge
+
+    return {"juggleproof.svg": badge(contents)}, []
+
+
+def _figures(contents: Contents) -> dict[str, bytes]:
+    """The figures as PDF; none, which is said, where matplotlib is absent."""
     if importlib.util.find_spec("matplotlib") is None:
         print("juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]' brings it", file=sys.stderr)
-        return []
-    return []
+        return {}
+    from proofs.reports.figures import figures
+    from scenes.figures.drawing import pdf
+
+    return {f"figures/{slug}.pdf": pdf(figure) for slug, _, _, _, figure in figures(contents)}
 
 
-FORMATS: Mapping[str, Callable[[Contents, Path], tuple[Files, list[str]]]] = {"latex": _latex, "pdf": _pdf}
+def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    from proofs.reports.figures import figures
+    from scenes.figures.drawing import pdf, svg
+
+    made = dict[str, bytes]()
+    for slug, _, _, _, figure in figures(contents):
+        made |= {f"figures/{slug}.svg": svg(figure, slug), f"figures/{slug}.pdf": pdf(figure)}
+    return made, []
+
+
+FORMATS: Mapping[str, Callable[[Contents, Path], tuple[Files, list[str]]]] = {
+    "latex": _latex, "pdf": _pdf, "markdown": _markdown, "json": _json, "badge": _badge, "figures": _drawings,
+}

@@ -13,7 +13,7 @@ PACKAGES = ("symbolic", "certificates", "scenes", "proofs")
 MAY_IMPORT = {"symbolic": {"symbolic"}, "certificates": {"certificates"}, "scenes": {"scenes", "symbolic"},
               "proofs": {"proofs", "certificates", "symbolic", "scenes"}}
 FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"}, "scenes": {"matplotlib"},
-           "proofs": {"sympy", "rich"}}
+           "proofs": {"sympy", "rich", "pytest", "matplotlib", "jinja2", "latex2mathml"}}
 
 
 def modules(package: str) -> list[Path]:

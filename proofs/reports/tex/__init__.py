@@ -32,7 +32,7 @@ PROOF = "theorem-by-hand"
 def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> dict[str, bytes]:
     """The files of the LaTeX report by name: macros, fragments, bibliography, and the documents for one and for two columns.
 
-    `figures` are (slug, title, caption), whose PDFs stand in the folder figures.
+    `figures` are (slug, title, caption); a document shows those whose PDFs stand in the folder figures beside it.
     Raises ClaimError, one line, where a template's library is absent or a written line is not certified.
     """
     made = _environment()
@@ -49,9 +49,10 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
     if figures:
         captions = [(slug, words.plain(title), words.prose(text)) for slug, title, text in figures]
         told["figures"] = _render(made, "figures", contents, {"figures": captions})
+    said = {"summary": summary(contents), "versions": words.plain(", ".join(f"{tool} {one}" for tool, one in contents.tools.items())),
+            "first_figure": f"figures/{figures[0][0]}.pdf" if figures else "none"}
     for name, twocolumn in (("juggleproof", False), ("juggleproof-twocolumn", True)):
-        told[name] = _render(made, "document", contents, {"twocolumn": twocolumn, "figures": bool(figures), "summary": summary(contents),
-                                                         "versions": words.plain(", ".join(f"{k} {v}" for k, v in contents.tools.items()))})
+        told[name] = _render(made, "document", contents, {**said, "twocolumn": twocolumn})
     return {"paper.bib": (HERE / "paper.bib").read_bytes(), **{f"{name}.tex": text.encode() for name, text in told.items()}}
 
 

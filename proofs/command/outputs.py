@@ -1,0 +1,64 @@
+"""The files that `certify` writes beside the store: refused before the run where they could not be written after it."""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from certificates.store import write_file
+from certificates.terms import ClaimError
+from proofs.reports.results import Results
+
+OPTIONS = ("json", "junit", "markdown", "timings")
+
+
+def refuse_unwritable(options: argparse.Namespace) -> None:
+    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot be written, or would overwrite another."""
+    taken = {path.resolve(): f"the claims of {path}" for path in options.files}
+    for option, path in _asked(options).items():
+        fault = _fault(path) or (f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else "")
+        if fault:
+            raise ClaimError(f"--{option} {path}: {fault}; name another file")
+        taken[path.resolve()] = f"what --{option} writes"
+
+
+def _asked(options: argparse.Namespace) -> dict[str, Path]:
+    return {option: getattr(options, option) for option in OPTIONS if getattr(options, option) is not None}
+
+
+def _fault(path: Path) -> str:
+    """Why the file cannot be written, found out by a file made beside it and removed; nothing where it can."""
+    try:
+        if path.is_dir():
+            return "is a folder"
+        if path.exists() and not path.is_file():  # a device or a pipe, which renaming would replace
+            return "is no plain file"
+        folder = next(above for above in path.absolute().parents if above.exists())
+        with tempfile.NamedTemporaryFile(prefix=".", dir=folder):
+            return ""
+    except (OSError, ValueError) as error:
+        return f"cannot be written ({getattr(error, 'strerror', None) or error})"
+
+
+def write(options: argparse.Namespace, results: Results, seconds: Mapping[str, float]) -> None:
+    """Writes each file that was asked for."""
+    for option, path in _asked(options).items():
+        write_file(path, _content(option, results, seconds))
+
+
+def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
+    if option == "json":
+        from proofs.reports.data import as_json
+
+        return as_json(results)
+    if option == "junit":
+        from proofs.reports.junit import as_junit
+
+        return as_junit(results)
+    if option == "markdown":
+        from proofs.reports.markdown import markdown
+
+        return markdown(results).encode()
+    return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()

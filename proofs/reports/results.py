@@ -1,0 +1,197 @@
+"""What a run found, as plain text and data: the one thing that JSON, JUnit, Markdown and the badge are made of.
+
+It is gathered from a run in hand (`certify`, pytest) or from the contents of a report, and is the same for both.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from proofs.register import Change, differences, registered
+from proofs.verdicts import VERDICTS
+
+if TYPE_CHECKING:
+    from proofs.claims import Claim
+    from proofs.judging import Judgement
+
+OUTCOMES = ("certified", "refuted", "unknown", "rejected")
+PROVED = "theorem: proved "
+NO_RANGE = "no alpha"
+NO_VALUES = "every value: the negation is certified"
+Entries = Mapping[str, Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A statement of a claim: the text that the checker reads, its outcome, the votes by route, and where it fails."""
+
+    name: str
+    text: str
+    outcome: str
+    votes: Mapping[str, str]
+    at: str = ""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A claim as it was judged; `wrong` and `group` tell what is not simply true, as `errata` does."""
+
+    id: str
+    section: str
+    place: str
+    says: str
+    printed: str
+    as_it_stands: str
+    repeats: str
+    verdict: str
+    detail: str
+    verdict_text: str
+    settled_by: str
+    sharp: str
+    correction: Mapping[str, Any] | None
+    wrong: tuple[str, ...]
+    group: str
+    statements: tuple[Stated, ...]
+
+    def registered(self) -> dict[str, Any]:
+        """What the register keeps of it."""
+        return registered(self.verdict, self.detail, self.correction, "" if self.sharp == NO_RANGE else self.sharp)
+
+    def sharp_by_reading(self) -> dict[str, str]:
+        """The sharp range of every reading or step; under no name where the claim has one reading only."""
+        parts = re.split(r"(?:^|; )([\w.\-]+): ", self.sharp)
+        if self.sharp == NO_RANGE:
+            return {}
+        return dict(zip(parts[1::2], parts[2::2])) if len(parts) > 1 else {"": self.sharp}
+
+
+@dataclass(frozen=True)
+class Results:
+    """All results of a run; `own` where they are about files of the user's, which no register knows.
+
+    `rejected` are statements that the checker rejects, with its reason; `accepted` says that the changes are in the register now.
+    """
+
+    claims: tuple[Result, ...]
+    theorem: str = ""
+    votes: tuple[str, ...] = ()
+    changes: tuple[Change, ...] = ()
+    rejected: tuple[tuple[str, str], ...] = ()
+    own: bool = False
+    partial: bool = False
+    accepted: bool = False
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether the theorem is proved."""
+        return self.theorem.startswith(PROVED)
+
+    @property
+    def exit(self) -> int:
+        """What `certify` exits with: 0 where all verdicts are as registered, or all claims of one's own hold, and nothing is rejected."""
+        if self.rejected:
+            return 1
+        return int(any(one.verdict != "holds" for one in self.claims) if self.own else bool(self.changes) and not self.accepted)
+
+    def verdicts(self) -> dict[str, int]:
+        """How many claims have each verdict."""
+        counts = Counter(one.verdict for one in self.claims)
+        return {word: counts[word] for word in VERDICTS}
+
+    def outcomes(self) -> dict[str, int]:
+        """How many statements have each outcome."""
+        counts = Counter(stated.outcome for one in self.claims for stated in one.statements)
+        return {word: counts[word] for word in OUTCOMES}
+
+    def change_of(self) -> dict[str, Change]:
+        """The changes by claim."""
+        return {change.claim: change for change in self.changes}
+
+
+def results_of_run(claims: Sequence[Claim], judgements: Sequence[Judgement], register: Entries | None, *, theorem: str = "",
+                   rejected: Sequence[tuple[str, str]] = (), partial: bool = False, accepted: bool = False) -> Results:
+    """The results of a run in hand; without a register they are about the user's own claims."""
+    from proofs.command import table
+    from proofs.command.errata import group_of, what_is_wrong
+
+    findings = {one.id: one.finding() for one in judgements}
+    found = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
+    entries = {**(register or {}), **{one.id: one.registered() for one in found}}
+    told = [replace(one, group=group_of(claim, entries, findings),
+                    wrong=() if one.verdict in ("holds", "unknown") else tuple(what_is_wrong(entries[one.id], findings[one.id]["sharp"])))
+            for claim, one in zip(claims, found)]
+    return _results(told, register, rejected, Results((), theorem, tuple(table.summary(judgements).splitlines()[2:]), own=register is None,
+                                                      partial=partial, accepted=accepted))
+
+
+def results_of(contents: Any, register: Entries | None = None) -> Results:
+    """The results that reports are built from: results as they are, and contents of a report as results."""
+    if isinstance(contents, Results):
+        return contents
+    if register is None:
+        from proofs.register import load_register
+
+        register = load_register()
+    found = [Result(
+        one.claim.id, one.claim.section, one.claim.place, one.claim.says, one.claim.printed, one.claim.as_it_stands, one.claim.repeats, one.verdict,
+        one.detail, one.verdict_text, one.settled_by, one.sharp or NO_RANGE, one.correction, tuple(one.wrong), one.group,
+        tuple(Stated(shown.name, shown.text, shown.outcome, dict(shown.votes), _where(shown.outcome, shown.at)) for shown in one.statements),
+    ) for one in contents.entries]
+    return _results(found, register, (), Results((), contents.theorem, tuple(contents.votes)))
+
+
+def _result(claim: Claim, judged: Judgement) -> Result:
+    from proofs.command import table
+    from proofs.command.show import counterexample
+
+    def at(name: str) -> str:
+        certificate = judged.certificates[name]
+        return counterexample(certificate["refuted"]) if judged.outcomes[name] == "refuted" else ""
+
+    statements = tuple(
+        Stated(name, text, judged.outcomes[name], {vote.route: vote.answer for vote in judged.votes.get(name, ())},
+               _where(judged.outcomes[name], at(name))) for name, text in judged.statements)
+    return Result(claim.id, claim.section, claim.place, claim.says, claim.printed, claim.as_it_stands, claim.repeats, judged.verdict.word,
+                  judged.verdict.detail, table.verdict_text(claim, judged), table.settled_by(judged), table.sharp_range(judged), judged.correction,
+                  (), "", statements)
+
+
+def _where(outcome: str, at: str) -> str:
+    return (at or NO_VALUES) if outcome == "refuted" else ""
+
+
+def _results(found: Sequence[Result], register: Entries | None, rejected: Sequence[tuple[str, str]], about: Results) -> Results:
+    """Takes what the checker rejected back, compares with the register, and leaves out what no file can hold."""
+    reasons = dict(rejected)
+    claims = tuple(_written(_without(one, reasons)) for one in found)
+    changes = () if register is None else tuple(differences(register, {one.id: one.registered() for one in claims}, about.partial))
+    return replace(about, claims=claims, changes=changes, rejected=tuple(reasons.items()))
+
+
+def _without(one: Result, reasons: Mapping[str, str]) -> Result:
+    """The result where statements of the claim are rejected: such a claim is not settled, whatever was thought of it."""
+    lost = [stated.name for stated in one.statements if stated.name in reasons]
+    if not lost:
+        return one
+    statements = tuple(replace(stated, outcome="rejected", at="") if stated.name in reasons else stated for stated in one.statements)
+    return replace(one, verdict="unknown", verdict_text="unknown", detail=f"the checker rejects {lost[0]}: {reasons[lost[0]]}",
+                   correction=None, sharp=NO_RANGE, wrong=(), group="", statements=statements)
+
+
+def _written(one: Result) -> Result:
+    """The result with characters replaced that neither XML nor UTF-8 can hold: a docstring may have any."""
+    told = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
+    return replace(one, **told)  # type: ignore[arg-type]
+
+
+def writable(text: str) -> str:
+    """The text without control characters and lone surrogates.
+
+    >>> writable("a" + chr(1) + "b" + chr(0xd800))
+    'a\ufffdb\ufffd'
+    """
+    return re.sub(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "\ufffd", text)

@@ -1,0 +1,61 @@
+"""Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up ones."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from certificates.store import DEFAULT
+from proofs.command.certify import Run, run
+from proofs.command.main import build_parser
+from proofs.register import load_register
+from proofs.reports.contents import Contents, gather
+from proofs.reports.results import Results, results_of_run
+
+HEAD = "from proofs import always, claim, exists_some, reals\nx, y = reals('x y')\n"
+CLAIMS = {
+    "squares": "always(x * y <= (x**2 + y**2) / 2)",
+    "above": "always(x**2 > x, given=[x > 0])",
+    "negative-square": "exists_some(['y'], y * y < 0)",
+    "open": "always(x**6 + y**6 + 1 - 3 * x**2 * y**2 >= 0)",
+}
+HOLDS, FALSE, OPEN = ("squares",), ("squares", "above", "negative-square"), ("squares", "open")
+
+
+def file_with(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Path:
+    path = folder / "mine.py"
+    parts = [f"@claim({name!r})\ndef one_{number}():\n    {says!r}\n    return {CLAIMS[name]}\n" for number, name in enumerate(names)]
+    path.write_text(HEAD + "\n\n".join(parts), encoding="utf-8")
+    return path
+
+
+def options(*arguments: str) -> Any:
+    return build_parser().parse_args(["certify", "--jobs", "1", *arguments])
+
+
+def own(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Results:
+    return _results(run(options(str(file_with(folder, names, says)))), None)
+
+
+@cache
+def paper_run() -> Run:
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(DEFAULT, Path(folder) / "store")
+        return run(options("--store", str(Path(folder) / "store")))
+
+
+@cache
+def gathered() -> Contents:
+    return gather()
+
+
+def paper(register: Mapping[str, Mapping[str, Any]] | None = None, **more: Any) -> Results:
+    return _results(paper_run(), load_register() if register is None else register, **more)
+
+
+def _results(done: Run, register: Mapping[str, Mapping[str, Any]] | None, **more: Any) -> Results:
+    return results_of_run(done.claims, done.judgements, register, theorem=done.theorem, rejected=more.pop("rejected", done.rejected), **more)
