@@ -1,6 +1,7 @@
 """A file outside the tree with the records of the last runs, under a digest of all that they depend on; every fault of it only costs time.
 
 What is read back is compared, statement by statement, with the store (`proofs.records`), and the checker reads the store in every run.
+Figures are kept likewise (`proofs.reports.figures`): they are shown, and nothing is concluded from them.
 JUGGLEPROOF_CACHE names another folder, or is `off`.
 """
 
@@ -39,25 +40,26 @@ def folder() -> Path | None:
         return None
 
 
-def key(*settings: object, root: Path = ROOT) -> str:
-    """A digest of the sources, the versions of Python and of the libraries, and the settings."""
-    said = hashlib.sha256(repr((sys.version, [(tool, _version(tool)) for tool in TOOLS], settings)).encode())
-    for path in _sources(root):
+def key(*settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES) -> str:
+    """A digest of the packages' sources, the versions of Python and of the libraries, and the settings."""
+    said = hashlib.sha256(repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode())
+    for path in _sources(root, packages):
         content = path.read_bytes()
         said.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
         said.update(content)
     return said.hexdigest()
 
 
-def _version(tool: str) -> str:
+def version_of(tool: str) -> str:
+    """The version of a library, or that it is absent."""
     try:
         return version(tool)
     except PackageNotFoundError:
         return "absent"
 
 
-def _sources(root: Path) -> Iterator[Path]:
-    for package in SOURCES:
+def _sources(root: Path, packages: Sequence[str] = SOURCES) -> Iterator[Path]:
+    for package in packages:
         yield from sorted((root / package).rglob("*.py"))
 
 

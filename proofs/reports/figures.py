@@ -2,26 +2,74 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from base64 import b64decode, b64encode
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from certificates.terms import ClaimError, Formula, Term
+from proofs import cache
 from proofs.reports.contents import Contents, gather
 from proofs.reports.extras import needed
 from proofs.reports.ranges import rows, without_alpha
+from scenes.figures import TABLE, Entry
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+FORMS = ("svg", "pdf")
+
+
+class Saved(NamedTuple):
+    """A figure as a file, with what is said beside it."""
+
+    slug: str
+    title: str
+    caption: str
+    alt: str
+    data: bytes
 
 
 def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, Figure]]:
     """Every figure in order: slug, title, caption, alternative text and the figure; raises ClaimError where matplotlib is absent."""
     needed("matplotlib")
-    from scenes.figures import TABLE
-
     entries = (contents or gather()).entries
     given = {"fig-ranges": lambda: (rows(entries), without_alpha(entries)), "fig-trap": what_the_trap_shows}
-    return [(one.slug, f"Figure {one.number}. {one.title}" if one.number else one.title, one.caption, one.alt,
-             one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
+    return [(*said(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
+
+
+def said(one: Entry) -> tuple[str, str, str, str]:
+    """Slug, title, caption and alternative text of a figure."""
+    return one.slug, f"Figure {one.number}. {one.title}" if one.number else one.title, one.caption, one.alt
+
+
+def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
+    """Every figure in order as a file of this form (svg or pdf); kept beside the records of runs, so that unchanged ones need not be drawn again.
+
+    Raises ClaimError where they must be drawn and matplotlib is absent, or for another form.
+    """
+    if form not in FORMS:
+        raise ClaimError(f"{form!r} is no form of figures; choose from {', '.join(FORMS)}")
+    contents = contents or gather()
+    shown = (rows(contents.entries), without_alpha(contents.entries))
+    key = f"figures-{form}-" + cache.key(cache.version_of("matplotlib"), shown, packages=(*cache.SOURCES, "scenes")) if cache.folder() else ""
+    kept = _kept(cache.load(key)) if key else {}
+    if list(kept) != [one.slug for one in TABLE]:
+        kept = {slug: _file(figure, slug, form) for slug, *_, figure in figures(contents)}
+        if key:
+            cache.keep(key, [{"slug": slug, "data": b64encode(data).decode("ascii")} for slug, data in kept.items()])
+    return [Saved(*said(one), kept[one.slug]) for one in TABLE]
+
+
+def _kept(records: list[dict[str, Any]]) -> dict[str, bytes]:
+    try:
+        return {record["slug"]: b64decode(record["data"], validate=True) for record in records}
+    except (KeyError, TypeError, ValueError):
+        return {}
+
+
+def _file(figure: Figure, slug: str, form: str) -> bytes:
+    from scenes.figures import drawing
+
+    return drawing.svg(figure, slug) if form == "svg" else drawing.pdf(figure)
 
 
 def what_the_trap_shows() -> tuple[Any, tuple[Any, Any], list[tuple[Any, bool]]]:

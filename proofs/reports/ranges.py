@@ -6,9 +6,10 @@ import ast
 import re
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from scenes.figures.ranges import Interval, Row
+if TYPE_CHECKING:
+    from scenes.figures.ranges import Interval, Row
 
 WITHOUT_ALPHA = "no alpha"
 NUMBERS_SHOWN = (2, 3)  # what is put for K or n, where the range depends on one

@@ -29,11 +29,11 @@ class Look:
     hatched: float = 0.45  # and its hatch
 
 
-B1 = Look("#0072B2", "////", tint=0.25)
+B1 = Look("#0072B2", "////", tint=0.3)
 B2 = Look("#E69F00", "\\\\\\\\", (6, 2))
 R = Look("#009E73", "---", tint=0.3)
-GAIN = Look("#F0E442", "xxx", (1, 1), tint=0.5, hatched=0.9)
-LOSS = Look("#56B4E9", "///", (3, 1), tint=0.5, hatched=0.7)
+GAIN = Look("#F0E442", "xxx", (1, 1), tint=0.35, hatched=0.5)
+LOSS = Look("#56B4E9", "///", (3, 1), tint=0.4, hatched=0.6)
 KEPT = Look("#D55E00", "", (4, 1.5, 1, 1.5))
 BAND = Look("#CC79A7", "|||", (2, 2), tint=0.4)
 PALETTE = {"B1": B1, "B2": B2, "R": R, "B1+": GAIN, "B1-": LOSS, "B10": KEPT, "K": BAND}

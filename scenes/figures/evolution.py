@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from math import dist
 from typing import TYPE_CHECKING
 
 from scenes.figures import states
@@ -27,9 +28,10 @@ def boundary_image(step: int) -> tuple[Arc, ...]:
 
 
 def torn_ends(step: int) -> list[tuple[float, float]]:
-    """Where f has torn the image so far: the ends of its pieces, but for those of the boundary itself."""
+    """Where f has torn the image so far: the ends of its pieces, but for those of the boundary itself and those that still meet."""
     whole = {end for arc in boundary_image(0) for end in (arc.start, arc.stop)}
-    return [arc.at(end) for arc in boundary_image(step) for end in (arc.start, arc.stop) if end not in whole]
+    ends = [(end, arc.at(end)) for arc in boundary_image(step) for end in (arc.start, arc.stop) if end not in whole]
+    return [at for end, at in ends if sum(same == end and dist(at, other) < 1e-9 for same, other in ends) == 1]
 
 
 @styled

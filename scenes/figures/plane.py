@@ -43,7 +43,7 @@ class Plane:
         """Where a point of the plane lies in the figure, in points of print."""
         return self.left + (x - self.across[0]) * self.scale[0], self.bottom + (y - self.up[0]) * self.scale[1]
 
-    def line(self, arcs: Sequence[Arc], name: str, look: Look | None = None, **more: Any) -> None:
+    def line(self, arcs: Sequence[Arc], name: str | None, look: Look | None = None, **more: Any) -> None:
         """Draws arcs as one curve, joined only where one ends at the very point where the next starts; nothing where there are none."""
         if arcs:
             dashes = {"linestyle": (0, tuple(look.dashes))} if look and look.dashes else {}

@@ -41,6 +41,6 @@ def strikes_and_flights() -> Figure:
     plane.text((0.45, -1.4), "struck within\nthe period", va="top", linespacing=1.0)
     plane.text((1.55, 1.2), r"$\mathcal{B}_2$", fontsize=18)
     plane.text((1.55, 0.8), "not struck\nwithin the period", va="top", linespacing=1.0)
-    plane.name(states.bounce_line(BEYOND[0]), -0.62, r"$\tau_c = T$", above=True)
-    plane.name(states.bounce_line(BEYOND[0]), -0.62, r"$\partial\mathcal{B}_2 \subset \mathcal{B}_2$", above=False)
+    plane.name(states.bounce_line(BEYOND[0]), -0.4, r"$\tau_c = T$")
+    plane.name(states.bounce_line(BEYOND[0]), -0.75, r"$\partial\mathcal{B}_2 \subset \mathcal{B}_2$", above=False)
     return figure

@@ -49,9 +49,9 @@ class StatePlane(Plane):
         velocities = ticks(k / part for k in range(-int(-part * up[0]), int(part * up[1]) + 1))
         heights = ticks(k / 2 for k in range(int(2 * across[1]) + 1))
         self.frame(heights, velocities if numbered else dict.fromkeys(velocities, ""), *labels, 20 if part == 1 else 27)
-        self.line([straight((across[0], 0), (across[1], 0))], "no-velocity", linewidth=0.4, alpha=0.6, zorder=0.8)
+        self.line([straight((across[0], 0), (across[1], 0))], None, linewidth=0.4, alpha=0.6, zorder=0.8)
         if across[0] < 0:
-            self.line([straight((0, up[0]), (0, up[1]))], "edge-of-H", linewidth=1.2, zorder=2)
+            self.line([straight((0, up[0]), (0, up[1]))], None, linewidth=1.2, zorder=2)
 
     def draw(self, arcs: Sequence[Arc], name: str, look: Look | None = None, **more: Any) -> None:
         """Draws a curve of states."""

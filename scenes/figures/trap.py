@@ -102,7 +102,7 @@ def trap_and_rank(rank: Any, root: tuple[Any, Any], trap: Sequence[Margin]) -> F
     """The trap (its margins, and whether each is strict), orbits that fall into it, and levels of the rank (its root, and the square of that)."""
     plane = Plane(blank(5.2, 4.4), (0.1, 0.115, 0.88, 0.865), ACROSS, UP)
     plane.frame(ticks(range(int(ACROSS[1]) + 1)), ticks(range(-int(-UP[0]), int(UP[1]) + 1)), HEIGHT, CLOSING)
-    plane.line([straight((0, UP[0]), (0, UP[1]))], "edge-of-H", linewidth=1.2)
+    plane.line([straight((0, UP[0]), (0, UP[1]))], None, linewidth=1.2)
     draw_levels(plane, rank, root)
     draw_trap(plane, trap)
     for count, start in enumerate(STARTS):

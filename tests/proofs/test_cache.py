@@ -44,7 +44,7 @@ def test_a_changed_source_changes_the_key_holds(package: str, tree: Path) -> Non
 
 def test_settings_and_versions_change_the_key_holds(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = {cache.key(1, root=tree), cache.key(2, root=tree)}
-    monkeypatch.setattr(cache, "_version", lambda tool: "another" if tool == "sympy" else "the same")
+    monkeypatch.setattr(cache, "version_of", lambda tool: "another" if tool == "sympy" else "the same")
     seen.add(cache.key(1, root=tree))
     monkeypatch.setattr(cache.sys, "version", "another")
     seen.add(cache.key(1, root=tree))
