@@ -86,20 +86,15 @@ def _figures(contents: Contents) -> dict[str, bytes]:
     if importlib.util.find_spec("matplotlib") is None:
         print("juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]' brings it", file=sys.stderr)
         return {}
-    from proofs.reports.figures import figures
-    from scenes.figures.drawing import pdf
+    from proofs.reports.figures import saved
 
-    return {f"figures/{slug}.pdf": pdf(figure) for slug, _, _, _, figure in figures(contents)}
+    return {f"figures/{slug}.pdf": content for slug, *_, content in saved(contents, "pdf")}
 
 
 def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.figures import figures
-    from scenes.figures.drawing import pdf, svg
+    from proofs.reports.figures import saved
 
-    made = dict[str, bytes]()
-    for slug, _, _, _, figure in figures(contents):
-        made |= {f"figures/{slug}.svg": svg(figure, slug), f"figures/{slug}.pdf": pdf(figure)}
-    return made, []
+    return {f"figures/{slug}.{form}": content for form in ("svg", "pdf") for slug, *_, content in saved(contents, form)}, []
 
 
 FORMATS: Mapping[str, Callable[[Contents, Path], tuple[Files, list[str]]]] = {
