@@ -40,7 +40,9 @@ class Derivation:
     @property
     def title(self) -> str:
         """What is derived, in words: the sentence up to its colon, without formula or source."""
-        return re.sub(r" \((section|equation|inequality|appendix|after|figure)[^()]*\)", "", self.said.partition(":")[0]).rstrip(".")
+        arguments = self.function.partition("(")[2].rstrip(")")
+        said = re.sub(r" \((section|equation|inequality|appendix|after|figure)[^()]*\)", "", self.said.partition(":")[0]).rstrip(".")
+        return said + (f", for {arguments}" if arguments else "")
 
     def data(self) -> dict[str, Any]:
         """The derivation as plain data."""
