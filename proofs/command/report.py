@@ -44,6 +44,12 @@ def _refuse_what_is_no_folder(place: Path) -> None:
         raise ClaimError(f"{inner}: not a folder; choose another with -o")
 
 
+def _html(contents: Contents, place: Path) -> tuple[Files, list[str]]:
+    from proofs.reports.page import FILE, build, pictures
+
+    return {FILE: build(contents, pictures(contents) if _can_draw() else ())}, []
+
+
 def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     from proofs.reports.tex import files
     from scenes.figures import TABLE
@@ -83,12 +89,19 @@ def _badge(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 def _figures(contents: Contents) -> dict[str, bytes]:
     """The figures as PDF; none, which is said, where matplotlib is absent."""
-    if importlib.util.find_spec("matplotlib") is None:
-        print("juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]' brings it", file=sys.stderr)
+    if not _can_draw():
         return {}
     from proofs.reports.figures import saved
 
     return {f"figures/{slug}.pdf": content for slug, *_, content in saved(contents, "pdf")}
+
+
+def _can_draw() -> bool:
+    """Whether matplotlib is there; says so where it is not."""
+    if importlib.util.find_spec("matplotlib") is not None:
+        return True
+    print("juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]' brings it", file=sys.stderr)
+    return False
 
 
 def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
@@ -98,5 +111,5 @@ def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 
 FORMATS: Mapping[str, Callable[[Contents, Path], tuple[Files, list[str]]]] = {
-    "latex": _latex, "pdf": _pdf, "markdown": _markdown, "json": _json, "badge": _badge, "figures": _drawings,
+    "html": _html, "latex": _latex, "pdf": _pdf, "markdown": _markdown, "json": _json, "badge": _badge, "figures": _drawings,
 }

@@ -1,0 +1,124 @@
+"use strict";
+(() => {
+  const form = document.getElementById("filter");
+  const claims = [...document.querySelectorAll("article.claim")];
+  const sections = [...document.querySelectorAll(".of-section")];
+  const shown = document.getElementById("shown");
+  const none = document.getElementById("none");
+  const texts = new Map();
+  let timer = 0;
+
+  const plain = (text) => text.toLowerCase().replace(/\s+/g, " ");
+
+  // What a search looks through: all words of a claim, and the LaTeX of its formulas, which is their alternative text.
+  const textOf = (claim) => {
+    if (!texts.has(claim)) {
+      const formulas = [...claim.querySelectorAll("math")].map((math) => math.getAttribute("alttext") || "");
+      texts.set(claim, plain(claim.textContent + " " + formulas.join(" ")));
+    }
+    return texts.get(claim);
+  };
+
+  const wanted = () => ({
+    verdicts: [...form.elements.verdict].filter((box) => box.checked).map((box) => box.value),
+    section: form.elements.section.value,
+    words: plain(form.elements.q.value).split(" ").filter(Boolean),
+  });
+
+  const apply = () => {
+    const { verdicts, section, words } = wanted();
+    let count = 0;
+    for (const claim of claims) {
+      const fits = (!verdicts.length || verdicts.includes(claim.dataset.verdict)) &&
+        (!section || claim.dataset.section === section) && words.every((word) => textOf(claim).includes(word));
+      claim.hidden = !fits;
+      count += fits;
+    }
+    for (const one of sections) one.hidden = !one.querySelector("article.claim:not([hidden])");
+    none.hidden = count > 0;
+    shown.textContent = `${count} of ${claims.length} claims shown`;
+  };
+
+  const address = () => {
+    const { verdicts, section } = wanted();
+    const q = form.elements.q.value.trim();
+    const parts = [];
+    if (verdicts.length) parts.push("verdict=" + verdicts.map(encodeURIComponent).join(","));
+    if (section) parts.push("section=" + encodeURIComponent(section));
+    if (q) parts.push("q=" + encodeURIComponent(q));
+    return parts.length ? "#?" + parts.join("&") : "#claims";
+  };
+
+  const choose = (query) => {
+    const asked = new URLSearchParams(query);
+    const verdicts = (asked.get("verdict") || "").split(",");
+    for (const box of form.elements.verdict) box.checked = verdicts.includes(box.value);
+    form.elements.section.value = asked.get("section") || "";
+    if (form.elements.section.selectedIndex < 0) form.elements.section.value = "";
+    form.elements.q.value = asked.get("q") || "";
+    apply();
+  };
+
+  const changed = () => {
+    apply();
+    try { history.replaceState(null, "", address()); } catch { /* a page without an address of its own keeps none */ }
+  };
+
+  // Opens whatever hides the place that the address names, goes there, and lets the keyboard go on from there.
+  const follow = () => {
+    const hash = location.hash;
+    if (hash.startsWith("#?")) {
+      choose(hash.slice(2));
+      document.getElementById("claims").scrollIntoView();
+      return;
+    }
+    let name = hash.slice(1);
+    try { name = decodeURIComponent(name); } catch { /* taken as it stands */ }
+    const place = name && document.getElementById(name);
+    if (!place) return;
+    if (name === "claims" || place.closest("[hidden]")) choose("");
+    for (let box = place.closest("details"); box; box = box.parentElement.closest("details")) box.open = true;
+    place.scrollIntoView();
+    if (place.tabIndex === -1 && !place.matches("a, button, input")) {
+      if (!place.hasAttribute("tabindex")) place.setAttribute("tabindex", "-1");
+      place.focus({ preventScroll: true });
+    }
+  };
+
+  // A picture that is wider than its box begins with its top in view.
+  for (const picture of document.querySelectorAll(".scroll > .tree")) {
+    const top = picture.querySelector(".node").getBoundingClientRect();
+    const box = picture.parentElement;
+    box.scrollLeft += top.left + top.width / 2 - box.getBoundingClientRect().left - box.clientWidth / 2;
+  }
+
+  form.hidden = false;
+  form.addEventListener("submit", (event) => event.preventDefault());
+  form.addEventListener("change", changed);
+  form.elements.q.addEventListener("input", () => {
+    clearTimeout(timer);
+    timer = setTimeout(changed, 120);
+  });
+  form.addEventListener("reset", () => setTimeout(changed));
+  addEventListener("hashchange", follow);
+  // A link to where the address points already changes no address.
+  document.addEventListener("click", (event) => {
+    const link = event.target.closest && event.target.closest("a");
+    const to = link && link.getAttribute("href");
+    if (to && to === location.hash) follow();
+  });
+
+  // On paper, what is folded is opened where it is part of the argument; certificates stay in the store.
+  const folded = [];
+  addEventListener("beforeprint", () => {
+    for (const box of document.querySelectorAll("details.in-print:not([open])")) {
+      box.open = true;
+      folded.push(box);
+    }
+  });
+  addEventListener("afterprint", () => {
+    while (folded.length) folded.pop().open = false;
+  });
+
+  if (location.hash) follow();
+})();
