@@ -113,6 +113,7 @@ def gather(register: Path = PATH) -> Contents:
     findings = json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8")) if (DEFAULT / FINDINGS).exists() else {}
     options = Options(ROUTES, DEFAULT_BUDGET, store, findings, {} if records.claims else lemmas(claims, claims), checked)
     judgements, _ = judge_with_records(claims, options, records, lambda rest, judged: judge_all(rest, judged, jobs, lambda *_: None))
+    records.keep(judgements, len(claims))
     settle_by_rules(judgements, checked, store.texts)
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(claims, judgements)}
