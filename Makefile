@@ -9,7 +9,7 @@ certify: $(VENV)/installed
 	$(BIN)/juggleproof certify
 
 test: $(VENV)/installed
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n 2
 
 lint: $(VENV)/installed
 	$(BIN)/ruff check .
