@@ -1,1 +1,1 @@
-"""The moving system: figures of the states, maps and regions that `symbolic` derives."""
+"""The moving system: orbits of the map, and figures of the states, maps and regions, from what `symbolic` derives."""

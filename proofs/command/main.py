@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from proofs.command.simulate_options import add_simulate
+
 ROUTES = ("exact", "z3", "boxes")
 
 
@@ -62,6 +64,7 @@ def build_parser() -> argparse.ArgumentParser:
     report = commands.add_parser("report", help="the regenerated appendices, the theorem, errata and figures")
     report.add_argument("--format", required=True, metavar="F", help="html, latex, pdf, markdown, json, badge or figures")
     report.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: juggleproof-report)")
+    add_simulate(commands)
     return parser
 
 
@@ -101,6 +104,10 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         from proofs.command.report import report
 
         return report(parsed.format, parsed.output)
+    if parsed.command == "simulate":
+        from proofs.command.simulate import simulate
+
+        return simulate(parsed)
     if parsed.command == "errata":
         from proofs.command.errata import errata
 

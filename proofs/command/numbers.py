@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from fractions import Fraction
 
 from certificates.terms import ClaimError
@@ -30,6 +31,23 @@ def exact(text: str, name: str) -> Fraction:
         raise ClaimError(f"{name} = {text[:40]!r} is no number; write it exactly, as 3/10, -41 or 10^300")
     sign, top, top_power, bottom, bottom_power = found.groups()
     return (-1 if sign else 1) * Fraction(_power(top, top_power, name), _power(bottom or "1", bottom_power, name, zero=False))
+
+
+def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:
+    """The numbers of a text such as x=1000,w=-41, each of these names at most once.
+
+    >>> components("x=1/2,w=-3", ("x", "w", "r"))
+    {'x': Fraction(1, 2), 'w': Fraction(-3, 1)}
+    """
+    given: dict[str, Fraction] = {}
+    for part in text.split(","):
+        name, equals, value = (piece.strip() for piece in part.partition("="))
+        if not equals or name not in names:
+            raise ClaimError(f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or beta=..,v=..,r=..,g=..")
+        if name in given:
+            raise ClaimError(f"{name} is given twice; give each component of the state once")
+        given[name] = exact(value, name)
+    return given
 
 
 def _power(base: str, exponent: str | None, name: str, zero: bool = True) -> int:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 from certificates.store import write_file
 from certificates.terms import ClaimError
@@ -18,7 +21,7 @@ def refuse_unwritable(options: argparse.Namespace) -> None:
     """Raises ClaimError, one line that names option and path, where a file that is asked for cannot be written, or would overwrite another."""
     taken = {path.resolve(): f"the claims of {path}" for path in options.files}
     for option, path in _asked(options).items():
-        fault = _fault(path) or (f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else "")
+        fault = fault_of(path) or (f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else "")
         if fault:
             raise ClaimError(f"--{option} {path}: {fault}; name another file")
         taken[path.resolve()] = f"what --{option} writes"
@@ -28,7 +31,7 @@ def _asked(options: argparse.Namespace) -> dict[str, Path]:
     return {option: getattr(options, option) for option in OPTIONS if getattr(options, option) is not None}
 
 
-def _fault(path: Path) -> str:
+def fault_of(path: Path) -> str:
     """Why the file cannot be written, found out by a file made beside it and removed; nothing where it can."""
     try:
         if path.is_dir():
@@ -40,6 +43,24 @@ def _fault(path: Path) -> str:
             return ""
     except (OSError, ValueError) as error:
         return f"cannot be written ({getattr(error, 'strerror', None) or error})"
+
+
+@contextmanager
+def written_aside(path: Path) -> Iterator[BinaryIO]:
+    """A file to write to, put in the place of the path when all is written; removed where that fails.  ClaimError for a full disk."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(prefix=".", suffix=path.suffix + ".new", dir=path.parent, delete=False) as file:
+            try:
+                yield file  # type: ignore[misc]
+                file.flush()
+                os.chmod(file.name, 0o644)
+                os.replace(file.name, path)
+            except BaseException:
+                os.unlink(file.name)
+                raise
+    except OSError as error:
+        raise ClaimError(f"{path}: cannot be written ({error.strerror}); choose a folder that can be") from None
 
 
 def write(options: argparse.Namespace, results: Results, seconds: Mapping[str, float]) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from proofs.claims import Claim
+from proofs.command.columns import plain
 from proofs.judging import Judgement
 
 COLUMNS = ("claim", "place", "verdict", "settled by", "sharp range of alpha")
@@ -57,10 +58,7 @@ def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Any)
     from rich.table import Table
 
     if not console.is_terminal:
-        table_rows = [COLUMNS, *rows(claims, judgements)]
-        widths = [max(len(row[i]) for row in table_rows) for i in range(len(COLUMNS))]
-        for row in table_rows:
-            print("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())
+        print(plain([COLUMNS, *rows(claims, judgements)]))
         return
     table = Table(*COLUMNS, header_style="bold")
     for row, judgement in zip(rows(claims, judgements), judgements):

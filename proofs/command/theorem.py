@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from certificates.terms import ClaimError, term
-from proofs.command.numbers import DIGITS, exact, shown
+from proofs.command.numbers import DIGITS, components, exact, shown
 from proofs.paper.vocabulary import derived
 from proofs.theorem import quantities
-from proofs.theorem.closed_form import SHEARED, from_the_fixed_point
 from proofs.theorem.definition import FIXED, NEARBY, OTHER, SPEED, TO_THE_POINT, TRAP
 from proofs.theorem.exact import holds_at, value_of
 from proofs.theorem.orbits import MAX_BITS, MAX_IMPACTS, Move, State, a_state, moves
 from proofs.theorem.rules import PHYSICAL
+from scenes.juggler.exact import later as in_the_trap
 
 NORMAL_FORM, UNITS = ("x", "w"), ("beta", "v", "r", "g")
 HEAD, TAIL, AFTER = 8, 3, 5  # moves shown of the start, before the end of interest, and after it
@@ -32,14 +32,7 @@ def read_alpha(text: str) -> Fraction:
 
 def read_state(alpha: Fraction, text: str) -> State:
     """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the normal form."""
-    given: dict[str, Fraction] = {}
-    for part in text.split(","):
-        name, equals, value = (piece.strip() for piece in part.partition("="))
-        if not equals or name not in NORMAL_FORM + UNITS:
-            raise ClaimError(f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or beta=..,v=..,r=..,g=..")
-        if name in given:
-            raise ClaimError(f"{name} is given twice; give each component of the state once")
-        given[name] = exact(value, name)
+    given = components(text, NORMAL_FORM + UNITS)
     names = UNITS if set(given) & set(UNITS) else NORMAL_FORM
     if set(given) != set(names):
         odd = next((f"{name} is missing" for name in names if name not in given), f"{text[:40]} mixes two kinds of components")
@@ -146,11 +139,7 @@ def _after_the_certified_number(entry: Move, core: int, alpha: Fraction) -> None
 
 def later(state: State, periods: int) -> State:
     """The state of the trap so many periods later, by the closed form."""
-    fixed = state.moved(FIXED)
-    p, q = state.x - fixed.x, state.w - fixed.w
-    n, power = Fraction(periods), (-state.alpha) ** periods
-    offsets = [value_of(part, {"p": p, "q": q, "n": n}) for part in SHEARED]
-    return fixed.moved(from_the_fixed_point(term(power), (term(offsets[0]), term(offsets[1]))))
+    return State(state.alpha, *in_the_trap(state.alpha, state.x, state.w, periods))
 
 
 def _not_certified(state: State) -> None:

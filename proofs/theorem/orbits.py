@@ -1,7 +1,4 @@
-"""Orbits in exact numbers, from the definition: impacts one by one, and each flight at once by the closed form of its power.
-
-The flight from (x, w) lasts the least K >= 0 with K^2 + K (w + 1) + w - x > 0: the least integer above (u - 1 - w)/2.
-"""
+"""Orbits in exact numbers with what the theorem's terms and formulas say of their states; the map itself is that of `scenes.juggler.exact`."""
 
 from __future__ import annotations
 
@@ -10,12 +7,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from certificates.terms import ClaimError, Formula, term
-from proofs.paper.vocabulary import derived
 from proofs.reading.values import Vector
-from proofs.theorem.definition import FIXED, IMPACT, PIECES, SPACE, SPEED
-from proofs.theorem.exact import ceiling, holds_at, value_of
+from proofs.theorem.definition import FIXED, SPACE, SPEED
+from proofs.theorem.exact import holds_at, value_of
+from scenes.juggler import exact
 
-BY_IMPACT = PIECES[0][1]
 MAX_IMPACTS = 1000  # that an orbit is followed for
 MAX_BITS = 20000  # of a numerator or denominator on an orbit
 
@@ -44,7 +40,7 @@ class State:
     @property
     def strikes(self) -> bool:
         """Whether this period has an impact."""
-        return self.is_in(IMPACT)
+        return exact.strikes(self.x, self.w)
 
     @property
     def speed_squared(self) -> Fraction:
@@ -73,29 +69,22 @@ def a_state(alpha: Fraction, x: Fraction, w: Fraction) -> State:
 
 def flight_length(state: State) -> int:
     """How many periods without an impact follow from this state on."""
-    if state.strikes:
-        return 0
-    half = Fraction(1, 2)
-    bound = ceiling(-(1 + state.w) * half, half, state.speed_squared)
-    for periods in (bound, bound + 1):  # the least integer above the bound, where the bound is an integer
-        if flown(state, periods).strikes and not flown(state, periods - 1).strikes:
-            return periods
-    raise ClaimError("the closed form of a flight does not tell its end")
+    return exact.flight_length(state.x, state.w)
 
 
 def flown(state: State, periods: int) -> State:
     """The state after so many periods without an impact."""
-    return state.moved(derived("normal_flight_power"), K=periods)
+    return State(state.alpha, *exact.flight(state.x, state.w, periods))
 
 
 def struck(state: State) -> State:
     """The state after a period with an impact."""
-    return state.moved(BY_IMPACT)
+    return State(state.alpha, *exact.impact(state.alpha, state.x, state.w))
 
 
 def step(state: State) -> State:
     """f: the state after one period."""
-    return next(state.moved(image) for guard, image in PIECES if state.is_in(guard))
+    return struck(state) if state.strikes else flown(state, 1)
 
 
 @dataclass(frozen=True)

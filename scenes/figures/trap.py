@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from scenes.figures.arcs import Arc, curve, straight, zeros
 from scenes.figures.drawing import B1, B2, TRAP, blank, styled
-from scenes.figures.numbers import column, value
+from scenes.figures.numbers import ALPHA, column, value
 from scenes.figures.plane import Plane, ticks
-from symbolic import normal_e_1, normal_f1, normal_f2, normal_margin, root_of
+from scenes.juggler.exact import flight, impact, strikes
+from symbolic import normal_e_1, root_of
 from symbolic.symbols import n, w, x
 
 if TYPE_CHECKING:
@@ -32,8 +33,7 @@ def normal_step(height: Fraction, closing: Fraction) -> Point:
     >>> normal_step(Fraction(3), Fraction(-3))
     (Fraction(6, 1), Fraction(-1, 1))
     """
-    branch = normal_f1() if value(normal_margin(), x=height, w=closing) > 0 else normal_f2()
-    return value(branch[0], x=height, w=closing), value(branch[1], x=height, w=closing)
+    return impact(ALPHA, height, closing) if strikes(height, closing) else flight(height, closing, 1)
 
 
 def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Point]:
@@ -108,8 +108,7 @@ def trap_and_rank(rank: Any, root: tuple[Any, Any], trap: Sequence[Margin]) -> F
     for count, start in enumerate(STARTS):
         orbit = orbit_into(trap, start)
         for here, there in zip(orbit, orbit[1:]):
-            strikes = value(normal_margin(), x=here[0], w=here[1]) > 0
-            plane.arrow(shown(here), shown(there), B1.colour if strikes else B2.colour, 1.2, short=3)
+            plane.arrow(shown(here), shown(there), B1.colour if strikes(*here) else B2.colour, 1.2, short=3)
         plane.dots(map(shown, orbit), f"orbit-{count}", 3.2)
     point = shown(column(normal_e_1()))
     plane.dots([point], "e-1", 7, "+")

@@ -12,7 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("symbolic", "certificates", "scenes", "proofs")
 MAY_IMPORT = {"symbolic": {"symbolic"}, "certificates": {"certificates"}, "scenes": {"scenes", "symbolic"},
               "proofs": {"proofs", "certificates", "symbolic", "scenes"}}
-FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"}, "scenes": {"matplotlib"},
+FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"},
+           "scenes": {"matplotlib", "sympy", "flint", "mpmath", "numpy"},
            "proofs": {"sympy", "rich", "pytest", "matplotlib", "jinja2", "latex2mathml"}}
 
 

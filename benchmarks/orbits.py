@@ -1,0 +1,115 @@
+"""Orbits of the juggler: seconds by states and steps for each arithmetic, error against the exact orbit, memory.  Run: python benchmarks/orbits.py
+
+Slopes are of log seconds against log size, by least squares: 1 is linear, 0 is no growth.
+"""
+
+from __future__ import annotations
+
+import math
+import multiprocessing
+import resource
+import time
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from scenes.juggler import orbit, point, random, scene
+from scenes.juggler.exact import told
+from scenes.juggler.fast import bytes_needed
+
+ALPHAS = ("3/10", "9/10")  # in the trap after a few impacts; out of it for long
+STEPS, STATES, RANDOM_STEPS = (100, 1000, 10000), (1000, 10000, 100000), 100
+MEMORY = (10**6, 20)
+
+
+def seconds(setting: Any, *how: Any, **more: Any) -> tuple[float, Any]:
+    """The least of three runs of `orbit`, and what it gives."""
+    best, found = math.inf, None
+    for _ in range(3):
+        began = time.perf_counter()
+        found = orbit(setting, *how, **more)
+        best = min(best, time.perf_counter() - began)
+    return best, found
+
+
+def slope(sizes: Sequence[float], times: Sequence[float]) -> float:
+    """The slope of the line through log times against log sizes."""
+    xs, ys = [math.log(size) for size in sizes], [math.log(one) for one in times]
+    x, y = sum(xs) / len(xs), sum(ys) / len(ys)
+    return sum((a - x) * (b - y) for a, b in zip(xs, ys)) / sum((a - x) ** 2 for a in xs)
+
+
+def error(kind: str, row: Any, exact: Any) -> str:
+    """How far the told state is from the exact one, beside the bound that is told of it."""
+    if row.end != "reached" or exact.end != "reached":
+        return row.end or exact.end
+    values = (row.x, row.w)
+    if kind == "enclosed":
+        values = tuple(told(value.mid().fmpq()) for value in values)
+    elif kind == "mp":
+        values = tuple(Fraction(str(value)) for value in values)
+    off = max(abs(Fraction(value) - true) for value, true in zip(values, (exact.x, exact.w)))
+    bound = "" if row.error is None else f" <= {float(max(row.error)):.1e}"
+    return f"{float(off):.1e}{bound}"
+
+
+def head(first: str, sizes: Sequence[str], last: str) -> None:
+    """The heads of a table of seconds by size."""
+    print(first, *(f"{size:>16}" for size in sizes), f"{'slope':>6}  {last}")
+
+
+def by_steps() -> None:
+    """One orbit: seconds and error by the number of periods, of impacts, and by the energy."""
+    head(f"{'alpha':>6} {'arithmetic':>10}", [f"{steps} periods" for steps in STEPS], f"error after {STEPS[1]} periods")
+    for alpha in ALPHAS:
+        setting = scene(alpha, point(1, -4))
+        exact = orbit(setting, "exact", STEPS[1]).row(0)
+        for kind in ("exact", "enclosed", "mp", "fast"):
+            times = [seconds(setting, kind, steps)[0] for steps in STEPS]
+            told_error = error(kind, orbit(setting, kind, STEPS[1]).row(0), exact)
+            print(f"{alpha:>6} {kind:>10} " + " ".join(f"{one:16.5f}" for one in times) + f" {slope(STEPS, times):6.2f}  {told_error}")
+    print()
+    energies = (10, 10**3, 10**6, 10**12)
+    head(f"{'until the trap':>17}", [f"height {energy:.0e}" for energy in energies], "(alpha = 3/10)")
+    for kind in ("exact", "enclosed", "fast"):
+        times = [seconds(scene("3/10", point(energy, "1/7")), kind, 1000, impacts=True, until_trap=True)[0] for energy in energies]
+        print(f"{kind:>17} " + " ".join(f"{one:16.5f}" for one in times) + f" {slope(energies, times):6.2f}")
+    print()
+
+
+def by_states() -> None:
+    """Many orbits in fast arithmetic."""
+    head(f"{'alpha':>6} {'fast':>10}", [f"{count} states" for count in STATES], f"undecided, greatest bound ({RANDOM_STEPS} periods)")
+    for alpha in ALPHAS:
+        runs = [seconds(scene(alpha, random(count, 1)), "fast", RANDOM_STEPS) for count in STATES]
+        ensemble = runs[-1][1].ensemble
+        worst = max(float(ensemble.error_x[ensemble.end == 1].max()), float(ensemble.error_w[ensemble.end == 1].max()))
+        print(f"{alpha:>6} {'':>10} " + " ".join(f"{one:16.4f}" for one, _ in runs) + f" {slope(STATES, [one for one, _ in runs]):6.2f}  "
+              f"{len(runs[-1][1].undecided)}, {worst:.1e}")
+    print()
+
+
+def _memory(queue: Any) -> None:
+    count, steps = MEMORY
+    orbit(scene("9/10", random(10, 1)), "fast", 1)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    orbit(scene("9/10", random(count, 1)), "fast", steps)
+    queue.put((before, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024))
+
+
+def memory() -> None:
+    """Peak memory of a process that follows a million states."""
+    context = multiprocessing.get_context("spawn")
+    queue = context.Queue()
+    process = context.Process(target=_memory, args=(queue,))
+    process.start()
+    before, after = queue.get()
+    process.join()
+    print(f"{MEMORY[0]} states, {MEMORY[1]} periods: {after:.0f} MB at most, {before:.0f} MB of it before the run (aim: below 200); "
+          f"computed beforehand {bytes_needed(MEMORY[0], MEMORY[1]) / 1e6:.0f} MB")
+
+
+if __name__ == "__main__":
+    by_steps()
+    by_states()
+    memory()

@@ -1,0 +1,161 @@
+"""What `juggleproof simulate juggler` prints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from proofs.command.columns import draw
+from proofs.command.numbers import DIGITS, shown
+from scenes.juggler.hard_cases import CASES, Finding, finding
+from scenes.juggler.motion import heights
+from scenes.juggler.orbits import Orbits, Row
+from scenes.juggler.periodic import exists_for, longest_flight, search_words
+from scenes.juggler.setting import Scene
+from scenes.juggler.starts import axis
+from scenes.juggler.tables import NAMES, UNITS, in_units, written
+
+MOST_ROWS, SHORT_BITS = 40, 4000
+PROVED = {"exact": "exact", "enclosed": "enclosed: the true state differs by the error at most, proved",
+          "mp": "mp: rounded to {} digits, nothing proved", "fast": "fast: the true state differs from the floats by the error at most, proved"}
+MARKS = {"": "not at its end", "reached": "", "trap": "in the trap", "undecided": "branch undecided", "too long": "numbers too long"}
+
+
+def _draw(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    from rich.console import Console
+
+    draw(heads, rows, Console(highlight=False))
+
+
+def told(value: Any) -> str:
+    """A number, rounded to 12 digits."""
+    if isinstance(value, Fraction) and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS:
+        return shown(value)
+    if isinstance(value, float):
+        return f"{value:.{DIGITS}g}"
+    return written(value, None, DIGITS)[0] if not hasattr(value, "context") else str(value.context.nstr(value, DIGITS))
+
+
+def error_told(error: Any) -> str:
+    """A bound on an error, rounded up to two digits."""
+    if error is None:
+        return "unknown"
+    if isinstance(error, float):
+        return f"{error * 1.06:.1e}" if error else "0"
+    if error == 0:
+        return "0"
+    power = len(str(error.numerator)) - len(str(error.denominator))
+    while error > Fraction(10) ** power:
+        power += 1
+    while error <= Fraction(10) ** (power - 1):
+        power -= 1
+    return f"1e{power}"
+
+
+def orbits(found: Orbits, units: str) -> None:
+    """The table: every state that was kept, or where each orbit stands; the first rows, and the first that were not decided."""
+    setting = found.scene
+    print(f"alpha = {_short(setting.alpha)}, {len(found)} start{'s' * (len(found) != 1)}, {found.goal.steps} {found.goal.unit}"
+          f"{' or until the trap' * found.goal.until_trap}; {PROVED[found.arithmetic].format(found.precision)}")
+    names = NAMES[units]
+    heads = ("start", "periods", "impacts", names[0], names[1], "error", "")
+    rows: list[tuple[str, ...]] = []
+    for index in range(min(found.followed, MOST_ROWS)):
+        kept = found.history(index) if found.keep else [found.row(index)]
+        rows += [_line(in_units(found, row, units), not found.keep) for row in kept]
+        if len(rows) >= MOST_ROWS:
+            break
+    _draw(heads, rows[:MOST_ROWS])
+    if len(rows) > MOST_ROWS or found.followed > MOST_ROWS:
+        print(f"the first {MOST_ROWS} rows; --output F.csv or F.npz writes all")
+    _tell_ends(found)
+
+
+def _line(row: Row, last: bool) -> tuple[str, ...]:
+    error = "unknown" if row.error is None else error_told(max(row.error))
+    counts = ["" if count < 0 else shown(count) for count in (row.periods, row.impacts)]
+    return (str(row.start), *counts, told(row.x), told(row.w), error, MARKS[row.end] if last else "")
+
+
+def _tell_ends(found: Orbits) -> None:
+    counts = found.counts()
+    if len(found) > 1:
+        print(", ".join(f"{count} {name or 'not at the end'}" for name, count in counts.items()))
+    undecided = found.undecided
+    if undecided:
+        first = ", ".join(f"{index} (period {shown(period)})" for index, period in undecided[:10])
+        more = f" and {len(undecided) - 10} more" if len(undecided) > 10 else ""
+        print(f"undecided: {first}{more}; whether the table strikes there is not known from these numbers; --arithmetic enclosed or exact tells")
+    edges = sum(track.edges for track in found.tracks)
+    if edges:
+        print(f"on x = w: {edges} state{'s' * (edges != 1)}, exactly" if found.arithmetic != "mp" else f"on x = w: {edges} as rounded")
+
+
+def times(setting: Scene, low: Any, high: Any, count: int) -> int:
+    """Heights of ball and table at times, in the units of r and g."""
+    found = heights(setting, axis(low, high, count, "times"))
+    print(f"alpha = {_short(setting.alpha)}; exact heights, shown rounded to {DIGITS} digits")
+    _draw(("time", "ball", "table"), [tuple(map(told, one)) for one in found])
+    return 0
+
+
+def words(alpha: Fraction, longest: int, flight: int | None) -> int:
+    """All periodic orbits of up to so many impacts."""
+    found = search_words(alpha, longest, flight)
+    most = longest_flight(alpha) if flight is None else min(flight, longest_flight(alpha))
+    print(f"alpha = {_short(alpha)}: every periodic orbit with at most {longest} impacts and flights of at most {most} periods")
+    if most == longest_flight(alpha):
+        print("no periodic orbit has a longer flight: (1 + alpha)/(1 - alpha) is the limit, by theorem-flights")
+    rows = []
+    for one in found:
+        name = f"e_{one.word[0]}" if len(one.word) == 1 else ""
+        verdict = "attracts near states" if one.attracts else "on x = w: the affine map does not tell"
+        rows.append((",".join(map(str, one.word)), name, str(sum(one.word)), *map(told, one.impacts[0]), told(one.radius), verdict))
+    _draw(("word", "", "periods", "x at impact", "w at impact", "spectral radius", ""), rows)
+    return 0
+
+
+def word(wanted: tuple[int, ...]) -> int:
+    """For which alpha the orbit of a word exists."""
+    found = exists_for(wanted)
+    print(f"word {','.join(map(str, wanted))}: {sum(wanted)} periods, impacts {len(wanted)}, spectral radius alpha^{len(wanted)}")
+    print("exists for " + ("; ".join(map(str, found)) if found else "no alpha in (0, 1)"))
+    return 0
+
+
+def hard_cases() -> int:
+    """The hard cases: what floats say, what is true, and what the bounded arithmetics say."""
+    print("float64: plain floats, period by period; exact: the truth; fast: float64 with a proved bound; enclosed: balls")
+    rows = []
+    for case in CASES:
+        rows.append(_finding(finding(case)))
+    _draw(("case", "alpha", "start x, w", "steps", "float64", "exact", "fast", "enclosed"), rows)
+    return 0
+
+
+def _pair(x: Any, w: Any) -> str:
+    return f"{_short(x)}, {_short(w)}"
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, Fraction) and value.numerator.bit_length() + value.denominator.bit_length() < 24:
+        return str(value)
+    if isinstance(value, Fraction) and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS:
+        return shown(value, 6)
+    return f"{value:.6g}" if isinstance(value, float) else written(value, None, 6)[0]
+
+
+def _finding(one: Finding) -> tuple[str, ...]:
+    case = one.case
+    floats = _pair(*one.floats) + (f"; WRONG BRANCH at period {one.wrong_at}" if one.wrong_at is not None else "")
+    exact_told = MARKS["too long"] + f" after {shown(one.exact.periods)} periods" if one.exact.end == "too long" else _pair(one.exact.x, one.exact.w)
+    fast = f"undecided at period {shown(one.fast.periods)}" if one.fast.end == "undecided" else \
+        f"{_pair(one.fast.x, one.fast.w)} +/- {error_told(max(one.fast.error or (0.0,)))}"
+    balls = f"{_pair(one.enclosed.x, one.enclosed.w)} +/- {error_told(max(one.enclosed.error or (Fraction(0),)))}"
+    balls += f"; {one.edges} on x = w" if one.edges else ""
+    steps = f"{shown(case.steps)} {'impacts' if case.impacts else 'periods'}"
+    return case.name, _short(case.alpha), _pair(case.x, case.w), steps, floats, exact_told, fast, balls
+
+
+__all__ = ["UNITS", "hard_cases", "orbits", "times", "word", "words"]

@@ -1,0 +1,183 @@
+"""`orbit`: the orbits of a scene in the arithmetic of one's choice; its result is filled as it goes: an interrupted run keeps what is done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from scenes.errors import SceneError
+from scenes.juggler import enclosed, exact, fast, high
+from scenes.juggler.formulas import formulas
+from scenes.juggler.setting import Goal, Scene, goal
+from scenes.juggler.starts import counted
+from scenes.juggler.track import Arithmetic, Sample, Stop, Track, advance, begin
+
+ARITHMETICS = ("exact", "enclosed", "mp", "fast")
+Report = Callable[[int, int], None]  # how many states are done, of how many
+
+
+class Row(NamedTuple):
+    """Where one orbit stands: its start's number, periods and impacts passed, the state in numbers of the arithmetic, a bound on its error, its end.
+
+    `error` is what the true x and w differ from the told ones by at most; None where nothing is proved (mp).  `end` is "reached" (the steps asked
+    for), "trap" (only with until_trap), "undecided" (the branch at the state told), "too long" (the exact numbers), or "" (not followed to its
+    end).
+    """
+
+    start: int
+    periods: int
+    impacts: int
+    x: Any
+    w: Any
+    error: tuple[Any, Any] | None
+    end: str
+
+
+@dataclass
+class Orbits:
+    """The orbits of a scene as far as they are followed: by `tracks`, or in fast arithmetic by an `ensemble` of arrays."""
+
+    scene: Scene
+    arithmetic: str
+    goal: Goal
+    keep: bool
+    precision: int
+    radius: Fraction = enclosed.RADIUS
+    most_bits: int = 0
+    tracks: list[Track] = field(default_factory=list)
+    ensemble: fast.Ensemble | None = None
+
+    def __len__(self) -> int:
+        return self.scene.starts.count
+
+    @property
+    def followed(self) -> int:
+        """How many orbits have been begun at least; the others have no row."""
+        return self.ensemble.done if self.ensemble is not None else len(self.tracks)
+
+    def run(self, report: Report | None = None) -> Orbits:
+        """Follows all orbits; may be interrupted, and then holds what was done."""
+        if self.arithmetic == "fast":
+            self.ensemble = fast.Ensemble.empty(len(self), self.goal, self.keep)
+            fast.follow(self.scene, self.goal, self.ensemble, report)
+            return self
+        for index in range(len(self)):
+            self.tracks.append(Track(None, Sample(0, 0, *self.scene.starts.exact(index))))
+            self._follow(self.scene.starts.exact(index), self._show, self._reporter(index, report))
+            if report is not None:
+                report(index + 1, len(self))
+        return self
+
+    def _show(self, track: Track) -> None:
+        self.tracks[-1] = track
+
+    def _reporter(self, index: int, report: Report | None) -> Callable[[Track], None] | None:
+        if report is None or len(self) > 1:
+            return None
+        return lambda track: report(self.goal.steps - max(self.goal.left(track.here.periods, track.here.impacts), 0), self.goal.steps)
+
+    def _follow(self, start: tuple[Fraction, Fraction], show: Callable[[Track], None], report: Callable[[Track], None] | None) -> None:
+        alpha = self.scene.alpha
+        if self.arithmetic == "enclosed":
+            enclosed.follow(alpha, start, self.goal, self.keep, self.precision, self.radius, self.most_bits, show, report)
+            return
+        numbers: Arithmetic = exact.Exact(self.most_bits) if self.arithmetic == "exact" else high.HighPrecision(self.precision)
+        track = begin(numbers, alpha, Sample(0, 0, *start), self.keep)
+        show(track)
+        try:
+            advance(track, numbers, self.goal, formulas().fixed(numbers.lift(alpha)), report)
+        except Stop as stop:
+            track.end = stop.end
+
+    def row(self, index: int) -> Row:
+        """Where the orbit of this number stands."""
+        if not 0 <= index < self.followed:
+            raise SceneError(f"orbit {index} is not among the {self.followed} that were followed")
+        if self.ensemble is not None:
+            e = self.ensemble
+            return Row(index, int(e.periods[index]), int(e.impacts[index]), float(e.x[index]), float(e.w[index]),
+                       (float(e.error_x[index]), float(e.error_w[index])), fast.ENDS[e.end[index]])
+        return self._row(index, self.tracks[index].here, self.tracks[index].end)
+
+    def _row(self, index: int, here: Sample, end: str) -> Row:
+        x, w, error = told(here.x, self.arithmetic), told(here.w, self.arithmetic), None
+        if isinstance(x, Fraction):  # exact, or a start that has not moved yet
+            error = (Fraction(0), Fraction(0))
+        elif self.arithmetic == "enclosed":
+            error = (enclosed.radius_of(here.x), enclosed.radius_of(here.w))
+        return Row(index, here.periods, here.impacts, x, w, error, end)
+
+    def history(self, index: int) -> list[Row]:
+        """All states of the orbit of this number that were kept: one a period, or one after each impact.
+
+        In fast arithmetic only that one is counted, and the other count is -1.
+        """
+        self.row(index)
+        if not self.keep:
+            raise SceneError("only the ends of orbits were kept; ask for keep=True")
+        if self.ensemble is None:
+            return [self._row(index, sample, "") for sample in self.tracks[index].samples or []]
+        rows = []
+        for step, (x, w, error_x, error_w) in enumerate([] if self.ensemble.history is None else self.ensemble.history[index].tolist()):
+            if x == x:  # what was not reached is not a number
+                periods, impacts = (step, -1) if self.goal.unit == "periods" else (-1, step)
+                rows.append(Row(index, periods, impacts, x, w, (error_x, error_w), ""))
+        return rows
+
+    @property
+    def undecided(self) -> list[tuple[int, int]]:
+        """The number of each orbit with a state whose branch was not decided, and the period of that state."""
+        if self.ensemble is not None:
+            found = (self.ensemble.end[:self.followed] == fast.UNDECIDED).nonzero()[0]
+            return [(int(index), int(self.ensemble.periods[index])) for index in found]
+        return [(index, track.here.periods) for index, track in enumerate(self.tracks) if track.end == "undecided"]
+
+    def counts(self) -> dict[str, int]:
+        """How many orbits have each end."""
+        if self.ensemble is not None:
+            found = {name: int((self.ensemble.end[:self.followed] == code).sum()) for code, name in enumerate(fast.ENDS)}
+        else:
+            found = {name: sum(track.end == name for track in self.tracks) for name in fast.ENDS}
+        return {name: found[name] for name in (*fast.ENDS[1:], "") if found[name]}
+
+
+def told(value: Any, arithmetic: str) -> Any:
+    """A number as it is told: Fraction of exact numbers; the ball of an enclosure and the mpf of mp as they are."""
+    return exact.told(value) if arithmetic == "exact" and not isinstance(value, Fraction) else value
+
+
+def prepare(scene: Scene, arithmetic: str = "exact", steps: int = 100, *, impacts: bool = False, until_trap: bool = False, keep: bool = False,
+            precision: int | None = None, radius: Fraction = enclosed.RADIUS, most_bits: int | None = None) -> Orbits:
+    """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what cannot be."""
+    if arithmetic not in ARITHMETICS:
+        raise SceneError(f"arithmetic = {str(arithmetic)[:40]!r} is not one of {', '.join(ARITHMETICS)}")
+    if precision is not None and arithmetic in ("exact", "fast"):
+        raise SceneError(f"precision = {precision} has no meaning in {arithmetic} arithmetic; it goes with enclosed (bits) and mp (digits)")
+    digits = {"enclosed": enclosed.BITS, "mp": high.DIGITS}.get(arithmetic, 2)
+    if not radius > 0:
+        raise SceneError(f"radius = {radius} is not positive; an enclosure has a positive radius")
+    most = most_bits if most_bits is not None else exact.MOST_BITS if arithmetic == "exact" else enclosed.MOST_BITS
+    return Orbits(scene, arithmetic, goal(steps, impacts, until_trap), keep,
+                  counted(digits if precision is None else precision, "precision", 2, 10**6), radius, counted(most, "most_bits", 2, 2**32))
+
+
+def orbit(scene: Scene, arithmetic: str = "exact", steps: int = 100, *, impacts: bool = False, until_trap: bool = False, keep: bool = False,
+          precision: int | None = None, radius: Fraction = enclosed.RADIUS, most_bits: int | None = None, report: Report | None = None) -> Orbits:
+    """The orbits of all states of a scene under f (10, 12): f1 where x < w (7), f2 elsewhere.
+
+    arithmetic "exact": rationals.  "enclosed": balls that hold the exact state, of at most `radius`, from `precision` bits up to `most_bits`.
+    "mp": mpmath with `precision` digits, nothing proved.  "fast": float64 with a proved bound for each state, undecided states listed.
+    steps: periods, or impacts if `impacts`; with `until_trap` an orbit ends in the trap, if that comes first.  keep: all states, not the ends only.
+    States are (x, w), in units of r T and r.  Errors: SceneError (a ValueError), one line with the value and the allowed range.
+
+    >>> from scenes.juggler import point, scene
+    >>> row = orbit(scene("1/3", point(0, 3)), steps=3).row(0)
+    >>> row.x, row.w, row.periods, row.impacts
+    (Fraction(1, 1), Fraction(1, 1), 3, 2)
+    >>> orbit(scene("1/3", point(0, 3)), "fast", steps=3).undecided  # (1, 1) lies on x = w, which no float bound can tell
+    [(0, 1)]
+    """
+    return prepare(scene, arithmetic, steps, impacts=impacts, until_trap=until_trap, keep=keep, precision=precision, radius=radius,
+                   most_bits=most_bits).run(report)

@@ -1,0 +1,191 @@
+"""Periodic orbits by the lengths of their flights: where they are, for which alpha they exist, and whether they attract.
+
+A word (K_1, .., K_m) means: an impact, then K_1 - 1 periods without one, an impact, and so on, m impacts in K_1 + .. + K_m periods, and the state
+is back. From impact to impact the map is affine with the matrix -alpha A^K, A unipotent; so the word's matrix is (-alpha)^m A^(K_1 + .. + K_m),
+with the eigenvalue (-alpha)^m twice, and for every alpha < 1 exactly one state comes back.  It is an orbit of f where it is one of the word: each x
+>= 0, each impact at x < w, each period between at x >= w.  Along a flight w - x is a convex parabola of time: first and last period suffice. Inside
+(no state on x = w) f is that affine map near the orbit, whose spectral radius is alpha^m < 1: the orbit attracts a neighbourhood.
+
+Words that exist have no flight longer than (1 + alpha)/(1 - alpha): the flight K' after a flight K has K' - 1 <= alpha (K + 1) (claim
+`theorem-flights`), and the longest of a word follows one that is not longer.  So for one alpha and one number of impacts the search is complete.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import product
+from typing import Any
+
+from sympy import Expr, cancel, fraction
+
+from scenes.errors import SceneError
+from scenes.juggler.exact import flight, impact, strikes
+from scenes.juggler.roots import Range, where
+from scenes.juggler.starts import Number, counted, restitution
+from symbolic import normal_f1, normal_flight_power, normal_margin, solution_of
+from symbolic.symbols import K, alpha, w, x
+
+Word = tuple[int, ...]
+Place = tuple[Fraction, Fraction]
+LONGEST_WORD, LONGEST_FLIGHT, MOST_WORDS = 12, 10**6, 10**5
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """A periodic orbit at one alpha: its states at the impacts, one for each flight of its word; whether no state lies on x = w."""
+
+    word: Word
+    alpha: Fraction
+    impacts: tuple[Place, ...]
+    inside: bool
+
+    @property
+    def attracts(self) -> bool | None:
+        """True where it attracts a neighbourhood; None where it lies on x = w, where the affine map does not tell."""
+        return True if self.inside else None
+
+    @property
+    def radius(self) -> Fraction:
+        """The spectral radius of its affine map: alpha^m."""
+        return self.alpha ** len(self.word)
+
+
+def checked(word: Sequence[int]) -> Word:
+    """The word: flights of at least one period each."""
+    if not 1 <= len(word) <= LONGEST_WORD:
+        raise SceneError(f"a word of {len(word)} flights; give from 1 to {LONGEST_WORD}")
+    return tuple(counted(periods, "a flight", 1, LONGEST_FLIGHT) for periods in word)
+
+
+def _onwards(alpha_: Any, place: tuple[Any, Any], periods: int) -> tuple[Any, Any]:
+    """From one impact to the next: f1, then periods - 1 times f2."""
+    there: tuple[Any, Any] = flight(*impact(alpha_, *place), periods - 1)
+    return there
+
+
+def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
+    """The orbit with this word at this alpha, or None where the state that comes back is no orbit of f.
+
+    >>> orbit_of((2,), Fraction(1, 2)).impacts
+    ((Fraction(4, 9), Fraction(8, 3)),)
+    >>> orbit_of((2,), Fraction(1, 4)) is None, orbit_of((2,), Fraction(1, 3)).inside
+    (True, False)
+    """
+    at, found = restitution(alpha), checked(word)
+    start = _back_again(at, found)
+    impacts, edge, place = [], False, start
+    for periods in found:
+        if place[0] < 0 or not strikes(*place):
+            return None
+        impacts.append(place)
+        struck = impact(at, *place)
+        for k in {0, periods - 2} if periods > 1 else ():
+            here = flight(*struck, k)
+            if strikes(*here):
+                return None
+            edge = edge or here[0] == here[1]
+        place = _onwards(at, place, periods)
+    if place != start:
+        raise SceneError(f"the orbit of {found} does not come back")
+    return Orbit(found, at, tuple(impacts), not edge)
+
+
+def _back_again(at: Fraction, word: Word) -> Place:
+    """The only state that the word's affine map keeps, by the images of three states."""
+    def image(place: Place) -> Place:
+        for periods in word:
+            place = _onwards(at, place, periods)
+        return place
+
+    zero, one = Fraction(0), Fraction(1)
+    (c, d), (a, _), (b, e) = (image(place) for place in ((zero, zero), (one, zero), (zero, one)))
+    a, b, e = a - c, b - c, e - d  # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
+    speed = d / (1 - e)
+    return (b * speed + c) / (1 - a), speed
+
+
+@cache
+def family(word: Word) -> tuple[tuple[Expr, Expr], ...]:
+    """The states at the impacts of the word as rational functions of alpha.
+
+    >>> family((1,))[0][1]
+    2/(alpha + 1)
+    """
+    def onwards(place: tuple[Expr, Expr], periods: int) -> tuple[Expr, Expr]:
+        struck = [part.xreplace({x: place[0], w: place[1]}) for part in normal_f1()]
+        flown = [part.xreplace({K: periods - 1}).xreplace({x: struck[0], w: struck[1]}) for part in normal_flight_power()]
+        return cancel(flown[0]), cancel(flown[1])
+
+    end = (x, w)
+    for periods in word:
+        end = onwards(end, periods)
+    start = solution_of([end[0] - x, end[1] - w], [x, w])
+    places = [(start[0], start[1])]
+    for periods in word[:-1]:
+        places.append(onwards(places[-1], periods))
+    return tuple(places)
+
+
+@cache
+def exists_for(word: Word) -> tuple[Range, ...]:
+    """All alpha in (0, 1) for which the orbit of the word exists, exactly.
+
+    >>> [str(one) for one in exists_for((1,))], [str(one) for one in exists_for((2,))], [str(one) for one in exists_for((3,))]
+    (['0 < alpha < 1'], ['1/3 <= alpha < 1'], ['1/2 <= alpha < 1'])
+    """
+    nonnegative, positive = [], []
+    for place, periods in zip(family(checked(word)), word):
+        at = {x: place[0], w: place[1]}
+        nonnegative.append(_sign_of(place[0]))
+        positive.append(_sign_of(normal_margin().xreplace(at)))
+        struck = [part.xreplace(at) for part in normal_f1()]
+        for k in {0, periods - 2} if periods > 1 else ():
+            here = [part.xreplace({K: k}).xreplace({x: struck[0], w: struck[1]}) for part in normal_flight_power()]
+            nonnegative.append(_sign_of(-normal_margin().xreplace({x: here[0], w: here[1]})))
+    return tuple(where(nonnegative, positive))
+
+
+def _sign_of(expression: Expr) -> Expr:
+    """A polynomial in alpha with the sign of the rational function: numerator times denominator."""
+    top, bottom = fraction(cancel(expression))
+    return (top * bottom).expand() + 0 * alpha
+
+
+def words(longest: int, most: int) -> Iterator[Word]:
+    """The words of up to so many flights of up to so many periods, one of each cycle, no repetition of a shorter one.
+
+    >>> list(words(2, 2)), len(list(words(4, 3)))
+    ([(1,), (2,), (1, 2)], 32)
+    """
+    for length in range(1, longest + 1):
+        for word in product(range(1, most + 1), repeat=length):
+            if all(word < word[k:] + word[:k] for k in range(1, length)):
+                yield word
+
+
+def longest_flight(at: Fraction) -> int:
+    """The longest flight that an orbit with a word can have: floor((1 + alpha)/(1 - alpha)).
+
+    >>> longest_flight(Fraction(1, 2)), longest_flight(Fraction(33, 100))
+    (3, 1)
+    """
+    return int((1 + at) / (1 - at) // 1)
+
+
+def search_words(alpha: Number, longest: int, flight: int | None = None) -> list[Orbit]:
+    """All periodic orbits at this alpha with at most so many impacts; flights of up to so many periods, or as long as they can be.
+
+    >>> [orbit.word for orbit in search_words(Fraction(1, 4), 4)], [orbit.word for orbit in search_words(Fraction(1, 2), 2)]
+    ([(1,)], [(1,), (2,), (3,)])
+    """
+    at = restitution(alpha)
+    counted(longest, "longest", 1, LONGEST_WORD)
+    most = longest_flight(at) if flight is None else min(counted(flight, "flight", 1, LONGEST_FLIGHT), longest_flight(at))
+    if sum(most**length for length in range(1, longest + 1)) > MOST_WORDS:
+        raise SceneError(f"up to {longest} flights of up to {most} periods are more than {MOST_WORDS} words; give a smaller --longest or --flight")
+    return [found for word in words(longest, most) if (found := orbit_of(word, at)) is not None]
+
+

@@ -1,0 +1,68 @@
+"""Bad input is answered by one line with the value and what is allowed, as a ValueError."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scenes.errors import SceneError
+from scenes.juggler import arrays, boundary, grid, listed, orbit, physical, point, random, scene
+
+NAN, INF = float("nan"), float("inf")
+STARTS = point(0, 1)
+WRONG: dict[str, tuple[Callable[[], Any], str]] = {
+    "alpha 0": (lambda: scene(0, STARTS), "alpha = 0 is not between 0 and 1"),
+    "alpha 1": (lambda: scene(1, STARTS), "alpha = 1 is not between 0 and 1"),
+    "alpha negative": (lambda: scene(Fraction(-1, 3), STARTS), "0 < alpha < 1"),
+    "alpha nan": (lambda: scene(NAN, STARTS), "alpha = nan is no finite number"),
+    "alpha text": (lambda: scene("a third", STARTS), "'?a third'? is no finite number"),
+    "alpha over 0": (lambda: scene("1/0", STARTS), "no finite number"),
+    "alpha None": (lambda: scene(None, STARTS), "no finite number"),  # type: ignore[arg-type]
+    "r": (lambda: scene("1/3", STARTS, r=0), "r = 0 is not positive"),
+    "g": (lambda: scene("1/3", STARTS, g=-1), "g = -1 is not positive"),
+    "below": (lambda: point(-1, 0), "x = -1 is below the table; a state has x >= 0"),
+    "just below": (lambda: point(Fraction(-1, 10**300), 0), "below the table"),
+    "beta": (lambda: physical(-1, 0, 1, 1), "beta = -1 is below the table"),
+    "infinite": (lambda: point(INF, 0), "x = inf is no finite number"),
+    "w nan": (lambda: point(0, NAN), "w = nan is no finite number"),
+    "none": (lambda: listed([]), "no states are given"),
+    "shape": (lambda: arrays(np.zeros((2, 2)), np.zeros((2, 2))), r"shapes \(2, 2\)"),
+    "shapes": (lambda: arrays(np.zeros(2), np.zeros(3)), r"\(2,\) and \(3,\)"),
+    "dtype": (lambda: arrays(np.zeros(2, dtype=np.float32), np.zeros(2, dtype=np.float32)), "float64"),  # type: ignore[arg-type]
+    "array nan": (lambda: arrays(np.zeros(2), np.array([0, NAN])), "w = nan"),
+    "array below": (lambda: arrays(np.array([0.0, -1e-300]), np.zeros(2)), "x = -1e-300 is below"),
+    "array empty": (lambda: arrays(np.zeros(0), np.zeros(0)), "n >= 1"),
+    "grid": (lambda: grid((0, 1, 0), (0, 1, 2)), "is not a whole number from 1"),
+    "grid parts": (lambda: grid((0, 1), (0, 1, 2)), "has 2 parts"),  # type: ignore[arg-type]
+    "grid order": (lambda: grid((1, 0, 2), (0, 1, 2)), "the second is to be the greater"),
+    "grid below": (lambda: grid((-1, 0, 2), (0, 1, 2)), "below the table"),
+    "grid size": (lambda: grid((0, 1, 10**5), (0, 1, 10**5)), "the number of states = 10000000000"),
+    "random count": (lambda: random(0, 1), "the number of states = 0"),
+    "random seed": (lambda: random(1, -1), "seed = -1"),
+    "random box": (lambda: random(1, 1, x=(2, 1)), "x runs from 2.0 to 1.0"),
+    "boundary": (lambda: boundary("1/3", 1), "whole number from 2"),
+    "boundary alpha": (lambda: boundary(2, 5), "alpha = 2"),
+    "steps": (lambda: orbit(scene("1/3", STARTS), steps=-1), "steps = -1 is not a whole number from 0"),
+    "steps half": (lambda: orbit(scene("1/3", STARTS), steps=0.5), "steps = 0.5"),  # type: ignore[arg-type]
+    "steps true": (lambda: orbit(scene("1/3", STARTS), steps=True), "steps = True"),
+    "arithmetic": (lambda: orbit(scene("1/3", STARTS), "double"), "'double' is not one of exact, enclosed, mp, fast"),
+    "precision": (lambda: orbit(scene("1/3", STARTS), "mp", precision=1), "precision = 1 is not a whole number from 2"),
+    "bits": (lambda: orbit(scene("1/3", STARTS), "enclosed", precision=0), "precision = 0"),
+    "no precision": (lambda: orbit(scene("1/3", STARTS), "exact", precision=50), "has no meaning in exact arithmetic"),
+    "radius": (lambda: orbit(scene("1/3", STARTS), "enclosed", radius=Fraction(0)), "radius = 0 is not positive"),
+    "row": (lambda: orbit(scene("1/3", STARTS)).row(1), "orbit 1 is not among the 1"),
+    "history": (lambda: orbit(scene("1/3", STARTS)).history(0), "keep=True"),
+    "long": (lambda: point(Fraction(1, 2**200000), 0), "longer than 14000 bits"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_rejects_bad_input_in_one_line(name: str) -> None:
+    wrong, told = WRONG[name]
+    with pytest.raises(SceneError, match=told) as caught:
+        wrong()
+    assert isinstance(caught.value, ValueError) and "\n" not in str(caught.value) and len(str(caught.value)) < 200
