@@ -17,7 +17,7 @@ import re
 import sys
 from fractions import Fraction
 from functools import lru_cache
-from math import gcd, lcm, prod
+from math import factorial, gcd, lcm, prod
 
 MAX_DEGREE, MAX_VARIABLES, MAX_TERMS, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 10**5, 40000, 2 * 10**7, 16 << 20
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
@@ -43,8 +43,7 @@ work_left = [MAX_WORK]
 def spend(amount):
     """Counts elementary products, so that a hostile file ends as a rejection instead of a hang."""
     work_left[0] -= amount
-    if work_left[0] < 0:
-        raise Rejected("too much work")
+    require(work_left[0] >= 0, "too much work")
 
 
 # ------------------------------------------------------------ polynomials: {packed exponents: integer} over one denominator
@@ -101,8 +100,7 @@ class Poly:
         return Poly(terms, self.den * other.den, self.deg + other.deg, merged(sum, self.under, other.under))
 
     def __pow__(self, exponent):
-        if exponent * max(self.deg, 1) > MAX_DEGREE:
-            raise Rejected("an exponent is too large", exponent)
+        require(exponent * max(self.deg, 1) <= MAX_DEGREE, "an exponent is too large", exponent)
         return prod([self] * (exponent - 1), start=self) if exponent else ONE
 
     def constant(self):
@@ -120,8 +118,8 @@ def add_multiple(terms, factor, others, shift=0):
 
     No factor * c is longer than `bits`, so that coefficients are looked at only where one may be too long.
     """
-    bits = factor.bit_length() + sum(map(int.bit_length, others.values())) if not -2 < factor < 2 else 0
-    spend(1 + len(others) + (factor.bit_length() * bits >> 16))
+    bits = factor.bit_length() + max(map(int.bit_length, others.values()), default=0) if not -2 < factor < 2 else 0
+    spend(1 + len(others) * (1 + (factor.bit_length() * bits >> 16)))
     for m, c in others.items():
         total = terms.get(m + shift, 0) + factor * c
         if total:
@@ -450,22 +448,80 @@ def close_by_sign(state, known, text, below, zero, above):
         close(case, node, known)
 
 
+def bound(state, index, name, side):
+    """The number c of fact `index`, which says c <= the variable (side 1) or the variable <= c (side -1), or strictly."""
+    line, sense = at(state.facts, index)
+    constant, slope, *more = univariate(state.context, line, name)
+    require(not more and sense in (">", ">=") and slope * side > 0, "not a bound of the right sense", lambda: state.context.show(line))
+    return Fraction(-constant, slope)
+
+
 def close_by_interval(state, known, index, low, high):
     """["interval", i, j, k]: fact i is p > 0 or p >= 0 in one variable; facts j and k say low <= it and it <= high (or strictly).
 
     p is not 0 at low and high, has no root between them (Sturm), and is negative at low: so fact i fails on all of [low, high].
     """
-    (poly, relation), ends = at(state.facts, index), []
+    poly, relation = at(state.facts, index)
     (name,) = variables_of(state.context, poly)
-    for side, bound in ((1, low), (-1, high)):
-        line, sense = at(state.facts, bound)
-        constant, slope, *more = univariate(state.context, line, name)
-        if more or sense not in (">", ">=") or slope * side <= 0:
-            raise Rejected("not a bound of the right sense", state.context.show(line))
-        ends.append(Fraction(-constant, slope))
-    p, (first, last) = univariate(state.context, poly, name), ends
+    p, first, last = univariate(state.context, poly, name), bound(state, low, name, 1), bound(state, high, name, -1)
     fails = first > last or sign_at(p, first) < 0 and (first == last or count_roots(p, first, last) == 0)
     require(fails and relation in (">", ">="), "the fact does not fail on the whole interval", lambda: state.context.show(poly))
+
+
+def bernstein(poly, axes):
+    """(sizes, coefficients): the Bernstein coefficients of poly on a box, up to one positive factor, the first axis varying slowest.
+
+    An axis is (shift, low, high).  x = (low + high T) / (1 + T) takes [low, high] to T >= 0; in degree n, the coefficient of T^j in
+    (1 + T)^n poly is C(n, j) times the j-th Bernstein coefficient.
+    """
+    sizes, weights, whole = [], {0: 1}, poly.terms
+    for shift, low, high in axes:
+        n, tee, d = max((m >> shift) % (1 << BITS) for m in whole), Poly({1 << shift: 1}, 1, 1), lcm(low.denominator, high.denominator)
+        spend((n + 1) * (8 * (n + 1) ** 2 + 64 * len(weights) + len(poly.terms)))
+        parts = [Poly({m - (e << shift): c for m, c in poly.terms.items() if (m >> shift) % (1 << BITS) == e}, 1, poly.deg) for e in range(n + 1)]
+        over, under = number(low * d) + number(high * d) * tee, number(d) + number(d) * tee
+        poly = sum((part * (over**e * under ** (n - e)) for e, part in enumerate(parts)), start=ZERO)
+        sizes, weights = [*sizes, n + 1], {m + (j << shift): w * factorial(j) * factorial(n - j) for m, w in weights.items() for j in range(n + 1)}
+    return sizes, [poly.terms.get(m, 0) * weight for m, weight in weights.items()]
+
+
+def parts_of_box(sizes, c, letter):
+    """The boxes, with their Bernstein coefficients, that a letter of a box tree asks to look at: see `close_by_boxes`."""
+    to_end, place = (True, ord(letter) - ord("A")) if letter <= "Z" else (False, ord(letter) - ord("a"))
+    count, rest, step = at(sizes, place), sizes[:place] + sizes[place + 1:], prod(sizes[place + 1:])
+    spend(len(c) * (count + 4) * (1 + (max(map(int.bit_length, c)) >> 8)))
+    rows = [[x for k in range(j * step, len(c), count * step) for x in c[k:k + step]] for j in range(count)]
+    if to_end:
+        steps = [y - x for pair in zip(rows, rows[1:]) for x, y in zip(*pair)]
+        require(min(steps) >= 0 or max(steps) <= 0, "not monotone along an axis", letter)
+        return [(rest, rows[-1] if max(steps) > 0 else rows[0])]
+    levels = [rows]  # de Casteljau's triangle, with sums for means: so level k is 2^k times too large
+    while len(levels[-1]) > 1:
+        levels.append([[x + y for x, y in zip(*pair)] for pair in zip(levels[-1], levels[-1][1:])])
+    return [([count, *rest], [x << k for k, level in enumerate(levels[::-1]) for x in level[-1]]),
+            ([count, *rest], [x << (count - 1 - k) for k, level in enumerate(levels) for x in level[0]])]
+
+
+def close_by_boxes(state, known, index, bounds, tree):
+    """["boxes", i, [[j, k], ...], "tree"]: fact i is p > 0 or p >= 0; for each variable of p in order, facts j and k say low <= it and it <= high
+    (or strictly).  The tree shows that p < 0 (p <= 0, where fact i is strict) on the box of these bounds, so that the facts have no point.
+
+    It has a character for each box in preorder.  `.`: all Bernstein coefficients of p on the box have that sign; p is a mean of them.
+    `a`, `b`, ..: the first, second, .. axis of the box is halved, and is the first axis of both halves; the lower one comes first.
+    `A`, `B`, ..: along the first, second, .. axis no Bernstein coefficient is less than the one before, so that p is largest at the upper end
+    of the axis; or none is greater, so at the lower end.  The box that comes is this face: it has the other axes.
+    """
+    poly, relation = at(state.facts, index)
+    require(relation in (">", ">=") and isinstance(tree, str), "a box tree is a text about a fact p > 0 or p >= 0", relation)
+    names = [name for name in state.context.index if name in variables_of(state.context, poly)]
+    ends = [(bound(state, low, name, 1), bound(state, high, name, -1)) for name, (low, high) in zip(names, bounds, strict=True)]
+    boxes = [bernstein(poly, [(BITS * state.context.index[name], *pair) for name, pair in zip(names, ends)])]
+    for letter in tree:
+        require(boxes, "a box tree is too long", tree)
+        sizes, c = boxes.pop()
+        require(letter != "." or max(c) < (relation == ">"), "a Bernstein coefficient of a leaf has the wrong sign", lambda c=c: max(c))
+        boxes += [] if letter == "." else parts_of_box(sizes, c, letter)
+    require(not boxes, "a box tree is too short", tree)
 
 
 def close_by_integrality(state, known, index, node):
@@ -503,7 +559,7 @@ def one_value_each(context, story, terms, others, needed):
 
 
 RULES = {"close": close_at_once, "psatz": close_by_positivstellensatz, "cases": close_by_cases, "sign": close_by_sign,
-         "interval": close_by_interval, "integral": close_by_integrality, "use": close_by_use}
+         "interval": close_by_interval, "boxes": close_by_boxes, "integral": close_by_integrality, "use": close_by_use}
 
 
 def close(state, node, known):
@@ -689,8 +745,7 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     ["sign", p, found, found, found] tells p < 0, p = 0 and p > 0 apart first; ["empty", node] closes such a case.
     """
     if found[0] == "sign":
-        cases = zip(state.by_sign(found[1]), found[2:], strict=True)
-        return [find(case, part, known, purpose, statements, base, sharp) for case, part in cases]
+        return [find(case, part, known, purpose, statements, base, sharp) for case, part in zip(state.by_sign(found[1]), found[2:], strict=True)]
     if found[0] == "empty":
         return close(state, *found[1:], known)
     name, adjoined, terms, node, *rest = found
@@ -1033,8 +1088,7 @@ def check_folder(folder):
         earlier[name] = statement
         if outcome == "certified":
             known[name] = statement
-    left = [name for rest in files.values() for name in rest]
-    left += sorted(f for f in os.listdir(folder) if f.endswith(".json") and f[:-5] not in files)
+    left = [name for rest in files.values() for name in rest] + sorted(f for f in os.listdir(folder) if f.endswith(".json") and f[:-5] not in files)
     return results + [(name, "rejected", "a certificate without a statement") for name in left]
 
 

@@ -57,6 +57,12 @@ def build_parser() -> argparse.ArgumentParser:
     explain.add_argument("--state", metavar="S", help="with `theorem`: x=..,w=.. or beta=..,v=..,r=..,g=..: what is certified, and the orbit")
     explain.add_argument("--bounds", action="store_true", help="with `theorem`: the paper's bounds and ours against the worst of stated orbits")
     commands.add_parser("errata", help="what the paper prints wrongly, with correction and exact counterexample")
+    bound = commands.add_parser("bound", help="a certified enclosure of the minimum of a polynomial over a box")
+    bound.add_argument("polynomial", metavar="POLYNOMIAL", help="such as \"x^2 - x*y + 1/2*y^4\"")
+    bound.add_argument("--box", required=True, metavar="BOX", help="each variable with its rational bounds, such as x=0..1,y=-1/2..3")
+    bound.add_argument("--width", required=True, metavar="W", help="how wide the enclosure may be, such as 1e-9; 0 asks for the minimum itself")
+    bound.add_argument("--budget", type=_count, default=0, metavar="N", help="boxes to look at (default: 20000)")
+    bound.add_argument("-o", "--output", type=Path, metavar="DIR", help="write statements and certificates there, as `check` reads them")
     export = commands.add_parser("export", help="statements for other tools")
     export.add_argument("format", choices=["smt2", "coq", "latex"])
     export.add_argument("ids", nargs="*", metavar="ID")
@@ -70,7 +76,10 @@ def build_parser() -> argparse.ArgumentParser:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit code: 0 as registered, 1 not, 2 bad input, 130 interrupted."""
-    parsed = build_parser().parse_args(arguments)
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if given[:1] == ["bound"] and given[1:] and given[1][0:1] == "-" and given[1] not in ("-h", "-o") and given[1][:2] != "--":
+        given[1] = " " + given[1]  # a polynomial that begins with a minus, and no option
+    parsed = build_parser().parse_args(given)
     from certificates.terms import ClaimError
 
     try:
@@ -95,6 +104,11 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         from proofs.command.check import check
 
         return check(parsed.folder)
+    if parsed.command == "bound":
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: the matrices are small, and sums in one order repeat
+        from proofs.command.bound import bound
+
+        return bound(parsed.polynomial, parsed.box, parsed.width, parsed.budget, parsed.output)
     if parsed.command == "export":
         from proofs.command import export
 

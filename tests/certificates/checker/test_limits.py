@@ -73,7 +73,27 @@ SHOWS: dict[str, str] = {
     "a product of quotients": "*".join(f"((x + {k})/z^{k})" for k in range(80)) + " + 1/z >= 0",
     "equivalences of equivalences": nested(60),
 }
+WIDE = ("forall x y z", *(f"given {name} {side}" for name in "xyz" for side in (">= -1/7", "<= 3/5")))
+LONG = ("forall x y z", *(f"given {name} {side}" for name in "xyz" for side in (f">= 1/{BIG[:-3]}1", f"<= {BIG[:-2]}7")))
+VARIABLES = [f"v{k}" for k in range(40)]
+MANY = ("forall " + " ".join(VARIABLES), *(f"given {name} {side}" for name in VARIABLES for side in (">= 0", "<= 1")))
+SIDES = [[2 * k, 2 * k + 1] for k in range(40)]
+BOXES: dict[str, tuple[tuple[str, ...], str, list[list[int]], str]] = {
+    "a box tree of halves without end": (WIDE, "x^2 + y^2 + z^2 > -1", SIDES[:3], "a" * 500_000),
+    "a box tree of halves of a high degree": (WIDE, "x^200 > -1", SIDES[:1], "a" * 100_000),
+    "a box tree of two axes without end": (WIDE, "(x + y + z)^2 > -1", SIDES[:3], "cba" * 100_000),
+    "a degree that no box tree can have": (WIDE, "x^3999 > -1", SIDES[:1], "."),
+    "a power on the unit box": (("forall x y z", "given x >= 0", "given x <= 1"), "x^3999 < 2", SIDES[:1], "."),
+    "three degrees that no box tree can have": (WIDE, "(x*y*z)^200 > -1", SIDES[:3], "."),
+    "ends with long numbers": (LONG, "(x*y*z)^20 > -1", SIDES[:3], "abc" * 1000),
+    "an axis for each of forty variables": (MANY, "*".join(VARIABLES) + " <= 2", SIDES, "."),
+    "the faces of forty variables": (MANY, " + ".join(VARIABLES) + " <= 41", SIDES, "A" * 40 + "."),
+}
 CASES: dict[str, tuple[str, Json]] = {
+    **{
+        name: (lines(*rows, f"show {shown}"), proof(["boxes", len(rows) - 1, sides, tree], at=AT))
+        for name, (rows, shown, sides, tree) in BOXES.items()
+    },
     **{name: (lines(*ROWS), proof(node, at=AT)) for name, node in NODES.items()},
     **{
         name: (lines("forall x y z", "given z > 0", f"show {text}"), proof(CLOSE, at=AT))

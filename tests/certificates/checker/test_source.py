@@ -39,7 +39,7 @@ def test_there_are_fewer_than_600_lines_of_code_beside_the_orbit_rules() -> None
     rules, settling, after = rest.partition("\ndef settle(")
     assert rules and settling
     assert code_lines(before + settling + after) < 600
-    assert code_lines(SOURCE) < 720
+    assert code_lines(SOURCE) < 730
 
 
 def test_only_the_standard_library_is_imported() -> None:

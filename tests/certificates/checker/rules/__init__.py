@@ -1,6 +1,7 @@
 """The tables of cases, one file for each rule of the checker."""
 
 from tests.certificates.checker.rules import (
+    boxes,
     cases_and_signs,
     close,
     counterexample,
@@ -22,6 +23,7 @@ MODULES = (
     psatz,
     cases_and_signs,
     interval,
+    boxes,
     integral,
     use,
     have_and_root,

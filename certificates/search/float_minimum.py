@@ -1,0 +1,130 @@
+"""Points where a polynomial is small on a box, found in floating point: nothing here is believed, every value is computed again exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from math import ceil, floor
+from typing import Any
+
+import numpy as np
+
+Exponents = tuple[int, ...]
+Terms = Mapping[Exponents, Fraction]  # a polynomial: its coefficients, none of them 0
+Array = Any  # of floats
+STEPS = 200
+DENOMINATORS = (1, 2, 12, 120, 1000, 10**4, 10**6, 10**8, 10**10, 10**13, 10**16, 10**20)
+
+
+def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
+    """The exact value at a point."""
+    powers = [[x**e for e in range(1 + max(exponents[i] for exponents in terms))] for i, x in enumerate(point)] if terms else []
+    total = Fraction(0)
+    for exponents, c in terms.items():
+        for table, e in zip(powers, exponents):
+            c = c * table[e] if e else c
+        total += c
+    return total
+
+
+class FloatPolynomial:
+    """Value, gradient and Hessian, all from one pass over the monomials of the polynomial and of its derivatives."""
+
+    def __init__(self, terms: Terms, size: int) -> None:
+        self.size = size
+        self.pairs = [(i, j) for i in range(size) for j in range(i, size)]
+        own = {e: float(c) for e, c in terms.items()}
+        slopes = [_derivative(own, i) for i in range(size)]
+        parts = [own, *slopes, *(_derivative(slopes[i], j) for i, j in self.pairs)]
+        monomials = {e: k for k, e in enumerate(dict.fromkeys(e for part in parts for e in part))}
+        self.exponents = np.array(list(monomials) or [(0,) * size], dtype=np.int64)
+        self.most = int(self.exponents.max(initial=0))
+        self.matrix = np.zeros((len(parts), len(self.exponents)))
+        for row, part in enumerate(parts):
+            for e, c in part.items():
+                self.matrix[row, monomials[e]] = c
+
+    def values(self, x: Array, rows: int | None = None) -> Array:
+        """The value, then the slopes, then the second derivatives: the first `rows` of them."""
+        table = np.ones((self.size, self.most + 1))
+        for k in range(1, self.most + 1):
+            table[:, k] = table[:, k - 1] * x
+        return self.matrix[:rows] @ table[np.arange(self.size), self.exponents].prod(axis=1)
+
+    def __call__(self, x: Array) -> float:
+        return float(self.values(x, 1)[0])
+
+    def descend(self, x: Array, low: Array, high: Array) -> tuple[float, Array]:
+        """(value, point) where a damped Newton method, kept in the box, comes to rest; the damping is Levenberg's."""
+        x = np.clip(x, low, high)
+        value, damping = self(x), 1e-3
+        for _ in range(STEPS):
+            data = self.values(x)
+            slope, bend = data[1:1 + self.size], np.zeros((self.size, self.size))
+            for (i, j), second in zip(self.pairs, data[1 + self.size:]):
+                bend[i, j] = bend[j, i] = second
+            free = ~(((x <= low) & (slope > 0)) | ((x >= high) & (slope < 0)))
+            if not free.any() or not np.abs(slope[free]).max() > 0:
+                break
+            scale, found = max(float(np.abs(bend).max()), 1e-300), False
+            while damping < 1e9 and not found:
+                step = np.zeros(self.size)
+                step[free] = self._step(bend[np.ix_(free, free)], slope[free], damping * scale)
+                moved = np.clip(x - step, low, high)
+                after = self(moved)
+                found = after < value
+                damping = max(damping / 8, 1e-18) if found else damping * 8
+            if not found:
+                break
+            x, value = moved, after
+        return value, x
+
+    @staticmethod
+    def _step(bend: Array, slope: Array, damping: float) -> Array:
+        least = float(np.linalg.eigvalsh(bend)[0])
+        return np.linalg.solve(bend + (damping + max(0.0, -2 * least)) * np.eye(len(slope)), slope)
+
+
+def polished(terms: Terms, polynomial: FloatPolynomial, x: Array, box: Sequence[tuple[Fraction, Fraction]], bits: int) -> list[Fraction]:
+    """The stationary point near x, in the coordinates that are not at an end of the box, to so many bits: exact gradients, a fixed Hessian."""
+    point = [min(max(Fraction(float(v)), low), high) for v, (low, high) in zip(x, box)]
+    free = [i for i, (v, (low, high)) in enumerate(zip(point, box)) if low < v < high]
+    slopes = [_derivative(terms, i) for i in free]
+    data, bend = polynomial.values(x)[1 + polynomial.size:], np.zeros((len(free), len(free)))
+    for (i, j), second in zip(polynomial.pairs, data):
+        if i in free and j in free:
+            bend[free.index(i), free.index(j)] = bend[free.index(j), free.index(i)] = second
+    for _ in range(bits // 8 if free else 0):
+        gradient = [value_at(slope, point) for slope in slopes]
+        scale = max(map(abs, gradient))
+        if scale * 2**bits < 1:
+            break
+        step = np.linalg.lstsq(bend, np.array([float(g / scale) for g in gradient]), rcond=1e-12)[0]
+        for i, change in zip(free, step):
+            moved = Fraction(round((point[i] - Fraction(float(change)) * scale) * 2**bits), 2**bits)
+            point[i] = min(max(moved, box[i][0]), box[i][1])
+    return point
+
+
+def _derivative(part: Mapping[Exponents, Any], axis: int) -> dict[Exponents, Any]:
+    return {(*e[:axis], e[axis] - 1, *e[axis + 1:]): c * e[axis] for e, c in part.items() if e[axis]}
+
+
+def simple_points(x: Array, box: Sequence[tuple[Fraction, Fraction]]) -> Iterator[tuple[Fraction, ...]]:
+    """Rational points of the box near x, the simplest first."""
+    seen = set()
+    for most in DENOMINATORS:
+        point = tuple(min(max(Fraction(float(v)).limit_denominator(most), low), high) for v, (low, high) in zip(x, box))
+        if point not in seen:
+            seen.add(point)
+            yield point
+
+
+def rounded_up(value: Fraction, unit: Fraction) -> Fraction:
+    """The least multiple of the unit that is not below the value."""
+    return ceil(value / unit) * unit
+
+
+def rounded_down(value: Fraction, unit: Fraction) -> Fraction:
+    """The greatest multiple of the unit that is not above the value."""
+    return floor(value / unit) * unit

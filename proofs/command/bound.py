@@ -1,0 +1,86 @@
+"""`juggleproof bound`: a certified enclosure of the minimum of a polynomial over a box."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from math import ceil, floor
+from pathlib import Path
+
+from certificates.terms import ClaimError
+from proofs.bounds import BUDGET, enclose_minimum, refuse_other_files
+
+SHOWN = 12  # decimals of a bound, more where the width asks for them
+_NUMBER = re.compile(r"[+-]?(?:\d{1,400}(?:/\d{1,400})?|\d{0,400}\.\d{1,400}|\d{1,400}\.)(?:e[+-]?\d{1,3})?", re.ASCII | re.IGNORECASE)
+
+
+def number(text: str, name: str) -> Fraction:
+    """The number that is written as p, p/q, 0.1 (exactly 1/10) or 1e-9 (exactly 1/10^9).
+
+    >>> number("-1/2", "x"), number("0.1", "x"), number("1e-9", "width")
+    (Fraction(-1, 2), Fraction(1, 10), Fraction(1, 1000000000))
+
+    Raises ClaimError, one line, for anything else.
+    """
+    found = _NUMBER.fullmatch(text.strip())
+    try:
+        if found and not ("/" in text and "e" in text.lower()):
+            return Fraction(text.strip())
+    except ZeroDivisionError:
+        raise ClaimError(f"{name}: {text.strip()[:40]} divides by 0") from None
+    raise ClaimError(f"{name}: {text.strip()[:40]!r} is no rational number; write it as 3/10, 0.3 or 1e-9")
+
+
+def box(text: str) -> dict[str, tuple[Fraction, Fraction]]:
+    """The box that is written as x=0..1,y=-1/2..3.
+
+    Raises ClaimError, one line, where it is not written so, or a variable stands twice.
+    """
+    ends: dict[str, tuple[Fraction, Fraction]] = {}
+    for part in text.split(","):
+        name, equal, pair = part.strip().partition("=")
+        bounds = pair.split("..")
+        if not equal or len(bounds) != 2:
+            raise ClaimError(f"--box: {part.strip()[:40]!r} is no side of a box; write x=0..1,y=-1/2..3")
+        name = name.strip()
+        if name in ends:
+            raise ClaimError(f"--box: {name} stands twice")
+        ends[name] = (number(bounds[0], f"--box {name}"), number(bounds[1], f"--box {name}"))
+    return ends
+
+
+def decimals(value: Fraction, digits: int, up: bool) -> str:
+    """The value to so many decimals, rounded up or down.
+
+    >>> decimals(Fraction(1, 3), 3, True), decimals(Fraction(-1, 3), 3, True), decimals(Fraction(1, 4), 5, False)
+    ('0.334', '-0.333', '0.25')
+    """
+    scaled = (ceil if up else floor)(value * 10**digits)
+    whole, part = divmod(abs(scaled), 10**digits)
+    text = f"{whole}.{part:0{digits}d}".rstrip("0").rstrip(".")
+    return ("-" if scaled < 0 else "") + text
+
+
+def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | None) -> int:
+    """Prints the enclosure, certified before anything is printed; 0 where it is as narrow as was asked for, else 1."""
+    ends, sought = box(sides), number(width, "--width")
+    if output is not None:
+        refuse_other_files(output)
+    found = enclose_minimum(polynomial, ends, sought, budget or BUDGET)
+    digits = SHOWN
+    while sought and digits < 400 and Fraction(1, 10**digits) * 100 > sought:
+        digits += 1
+    point = ", ".join(f"{name} = {value}" for name, value in found.point.items())
+    print(f"low     {found.low}  ({decimals(found.low, digits, False)}, rounded down)")
+    print(f"high    {found.high}  ({decimals(found.high, digits, True)}, rounded up)")
+    print(f"at      {point}")
+    print(f"width   {found.width}")
+    print(f"boxes   {found.boxes}")
+    print(f"bytes   {found.certificate_bytes} of certificates")
+    print("checked: the minimum is at least low everywhere on the box, and at most high at the point")
+    if output is not None:
+        found.write(output)
+        print(f"written to {output}; `juggleproof check {output}` reads it again")
+    if not found.reached:
+        print(f"the width {sought} is not reached within {found.boxes} boxes; the enclosure above is certified all the same")
+    return 0 if found.reached else 1
