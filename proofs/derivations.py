@@ -143,7 +143,7 @@ def body_and_derivations(claim: Claim) -> tuple[Body, list[Derivation]]:
 
     Raises ClaimError, naming the claim, for whatever the function of a claim outside of this package raises.
     """
-    if not claim.source.startswith(("proofs.paper.", "proofs.theorem.")):
+    if not claim.source.startswith(("proofs.paper.", "proofs.theorem.", "proofs.part.")):
         try:
             return claim.body(), []
         except (checker.Rejected, ClaimError):

@@ -25,6 +25,7 @@ class Vocabulary:
     abbreviations: Mapping[str, Term] = field(default_factory=dict)
     roots: Mapping[str, Term] = field(default_factory=dict)
     integers: frozenset[str] = frozenset()
+    sample: Mapping[str, Fraction] = field(default_factory=lambda: {"alpha": Fraction(3, 11), "r": Fraction(1), "g": Fraction(1)})
 
 
 PLAIN = Vocabulary()
@@ -62,6 +63,8 @@ class _Writer:
     def prepare(self, thing: Term | Formula) -> None:
         """Adds the lines that the names and denominators of a term or formula need."""
         for name in sorted(names_in(thing) - self.known):
+            if name in self.known:  # an abbreviation before it is written with this one
+                continue
             self.known.add(name)
             if name in self.vocabulary.roots:
                 under = self.vocabulary.roots[name]
@@ -109,25 +112,22 @@ def _denominators(thing: Term | Formula) -> list[Term]:
     return found
 
 
-_SAMPLE = {"alpha": Fraction(3, 11), "r": Fraction(1), "g": Fraction(1)}
-
-
 def _likely_sign(value: Term, vocabulary: Vocabulary) -> int:
-    """The sign at one sample point: a guess that the certificate of the `have` line has to confirm."""
+    """The sign at the vocabulary's sample point, 2 for names that it lacks: a guess that the certificate of the `have` line has to confirm."""
     for _ in range(8):
         hidden = {n: vocabulary.abbreviations[n] for n in names_in(value) if n in vocabulary.abbreviations}
         if not hidden:
             break
         value = substitute(value, hidden)
-    return 1 if _evaluate(value) >= 0 else -1
+    return 1 if _evaluate(value, vocabulary.sample) >= 0 else -1
 
 
-def _evaluate(value: Term) -> Fraction:
+def _evaluate(value: Term, sample: Mapping[str, Fraction]) -> Fraction:
     if value.op == "num":
         return Fraction(value.args[0])
     if value.op == "var":
-        return _SAMPLE.get(str(value.args[0]), Fraction(2))
-    parts = [_evaluate(part) for part in value.args if isinstance(part, Term)]
+        return sample.get(str(value.args[0]), Fraction(2))
+    parts = [_evaluate(part, sample) for part in value.args if isinstance(part, Term)]
     if value.op == "^":
         return parts[0] ** int(value.args[1])
     if value.op == "neg":

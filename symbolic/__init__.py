@@ -40,6 +40,10 @@ _NAMES = {
     " physical_state region_energy",
     "regions": "energy_of_p impacts_to_enter_region lagrange_multiplier point_p region_corner region_gradient"
     " region_margin stationary_speed_on_region_boundary time_to_enter_region worst_flight_time",
+    "contact": "B1 B2 B3 C0 J P_x P_y S0 c_x c_y contact_coefficients corner_velocity kinetic_energy_gained motion_after_impulse omega"
+    " velocity_after_impulse work_of_impulse x_c y_c",
+    "contact_modes": "MODES closing_rate compressing_impulse contact_impulse e energy_gained_in_contact mu newton_impulse normal_impulse sigma"
+    " slides_back slides_through_compression slides_through_restitution stopping_impulse stopping_rate tangential_impulse velocity_after_contact",
 }
 _PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
 

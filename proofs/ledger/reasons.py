@@ -18,6 +18,7 @@ REASONS_WITH_KEY = {
     "repeats": "the transcription prints that earlier item again at the same place",
 }
 
+_MODES = ("sliding", "sticking-in-compression", "sticking-in-restitution", "reversed-in-compression", "reversed-in-restitution")
 # Claims about the paper's system that the paper itself does not print.
 UNPRINTED = {
     "region-scaling": "the change to the normal form, through which every other claim is judged",
@@ -36,4 +37,13 @@ UNPRINTED = {
     "theorem-sharper": "a bound nearer the worst case than the theorem's",
     "theorem-closed-form": "the orbits in the trap, from which the second bound of the theorem follows",
     "theorem-count": "which readings of (26) and of the count of impacts hold for which alpha",
+    "part-products": "the lemma of the claims about a corner's impact",
+    "part-corner": "what an impulse at a corner of the part of section 2.1 does, on which its simulation rests",
+    "part-rectangle": "how much friction the simulation of the part may have",
+    **{f"part-{mode}": "a mode of a corner's impact: its impulse, and what it guarantees" for mode in _MODES},
+    **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in _MODES},
+    "part-modes-cover": "that the modes of a corner's impact leave nothing out",
+    "part-modes-agree": "that the modes of a corner's impact do not contradict one another",
+    "part-at-rest": "the impact of a corner that does not slide at first",
+    "part-newton": "why the simulation of the part has Poisson's restitution and not Newton's",
 }

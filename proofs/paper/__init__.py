@@ -34,11 +34,12 @@ SECTIONS = (
 
 
 def load_claims() -> None:
-    """Registers every claim of the paper, in the paper's order, and the theorem's after them."""
-    from proofs import theorem
+    """Registers every claim of the paper, in the paper's order, and those of the theorem and of the part after them."""
+    from proofs import part, theorem
 
     loaded = set(sys.modules)
-    for name in (*(f"{__name__}.{section}" for section in SECTIONS), *(f"{theorem.__name__}.{section}" for section in theorem.SECTIONS)):
+    packages = ((__name__, SECTIONS), (theorem.__name__, theorem.SECTIONS), (part.__name__, part.SECTIONS))
+    for name in (f"{package}.{section}" for package, sections in packages for section in sections):
         module = import_module(name)
         if name in loaded:  # its claims were registered then: they are registered again, here and in order
             reload(module)

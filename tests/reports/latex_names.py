@@ -4,6 +4,8 @@ From the paper's Table II (\gamma gravity, \alpha restitution, T the period, \do
 \overline\beta and \dot{\overline\beta} the ball's position and velocity, sampled; \tau_c the time to collision, \tau_p the time since the table
 was lowest), its equations (E_{max}, \Delta E_{max}, \Delta_1 E, \Delta E_{sup}, \tau_w, z_1) and the README's symbols (r, g, beta, v, T, x, w).
 What the paper uses for something else is refused: r and b are states there, and \beta without a bar is the ball between samples.
+The impact of a corner, of which the paper prints no formula, has its own: e restitution, mu friction, sigma a direction, omega an angular velocity,
+B_1 to B_3, impulses P, velocities S and C.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ import re
 from tests.reports.nodes import NotRead
 
 GREEK = "alpha beta gamma delta epsilon varepsilon lambda rho tau chi xi mu nu eta theta kappa sigma omega".split()
-PLAIN = {letter: letter for letter in "cdhjJkKmnpqstTuwWxyz"}  # single letters that the paper does not give to a state, a map or a region
+PLAIN = {letter: letter for letter in "cdhjJkKmnpqstTuwWxyz" + "BCPS"}  # the paper gives none to a state or a region; the last are of the corner
 BASES = {  # (base, accents) -> name; subscripts and primes are added to it
     **{(letter, ""): name for letter, name in PLAIN.items()},
     (r"\alpha", ""): "alpha",
@@ -30,12 +32,14 @@ BASES = {  # (base, accents) -> name; subscripts and primes are added to it
     (r"\varepsilon", ""): "eps",
     (r"\lambda", ""): "lam",
     ("E", ""): "E",
+    **{(rf"\{name}", ""): name for name in ("mu", "sigma", "omega")},
 }
 WHOLE = {  # (base, accents, subscript) -> names
     (r"\rho", "dot", "0"): ("r",),
     (r"\tau", "", "c"): ("tau",),
     (r"\tau", "", "p"): ("since", "tau_p"),
     ("E", "", ""): (),
+    ("e", "", ""): ("e",),  # with a subscript it is a fixed point
 }
 CHANGES = {  # what \Delta, its subscript and what follows stand for
     (r"\Delta", "", "E", ""): ("change", "dE"),

@@ -1,0 +1,3 @@
+"""The part on the vibrating table: the impact of one corner, with friction, and what it guarantees, as claims."""
+
+SECTIONS = ("products", "corner", "modes", "energy", "cases", "newton")
