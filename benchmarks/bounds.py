@@ -2,7 +2,8 @@
 
 Caprasse, Lotka-Volterra, Butcher, magnetism, heart dipole, Schwefel: Munoz and Narkawicz, Formalization of Bernstein polynomials and applications
 to global optimization, J. Automated Reasoning 51 (2013), after Verschelde's list of polynomial systems; Rosenbrock, Powell, Colville (Wood): More,
-Garbow and Hillstrom, Testing unconstrained optimization software, ACM TOMS 7 (1981).  `published` is the minimum told there.
+Garbow and Hillstrom, Testing unconstrained optimization software, ACM TOMS 7 (1981).
+`published` is the value usually told; the run fails where it is not the one that is certified.
 """
 
 from __future__ import annotations
@@ -54,6 +55,9 @@ PROBLEMS: dict[str, tuple[str, str, str]] = {
     "Schwefel": ("(x1 - x2^2)^2 + (x2 - 1)^2 + (x1 - x3^2)^2 + (x3 - 1)^2", sides(3, "-10", "10"), "0"),
     "Rosenbrock, 2 variables": (rosenbrock(2), sides(2, "-2", "2"), "0"),
     "Rosenbrock, 4 variables": (rosenbrock(4), sides(4, "-2", "2"), "0"),
+    "Rosenbrock, 5 variables": (rosenbrock(5), sides(5, "-2", "2"), "0"),
+    "Rosenbrock, 6 variables": (rosenbrock(6), sides(6, "-2", "2"), "0"),
+    "Rosenbrock + x1*x4/10": (rosenbrock(4) + " + x1*x4/10", sides(4, "-2", "2"), ""),
     "Powell": ("(x1 + 10*x2)^2 + 5*(x3 - x4)^2 + (x2 - 2*x3)^4 + 10*(x1 - x4)^4", sides(4, "-4", "5"), "0"),
     "Colville": ("100*(x1^2 - x2)^2 + (x1 - 1)^2 + (x3 - 1)^2 + 90*(x3^2 - x4)^2 + 10.1*((x2 - 1)^2 + (x4 - 1)^2) + 19.8*(x2 - 1)*(x4 - 1)",
                  sides(4, "-10", "10"), "0"),
@@ -88,7 +92,7 @@ def row(name: str, width: str, runs: int) -> Sequence[str]:
         warm.append(time.perf_counter() - began)
     whole = statistics.median(cold(polynomial, side, width) for _ in range(runs))
     checking = statistics.median(seconds_of_checking(found) for _ in range(runs))
-    if not found.low - Fraction(1, 10**4) <= Fraction(published) <= found.high + Fraction(1, 10**4):
+    if published and not found.low - Fraction(1, 10**4) <= Fraction(published) <= found.high + Fraction(1, 10**4):
         raise ArithmeticError(f"{name}: {published} is published, [{found.low}, {found.high}] is certified")
     reached = f"{float(found.width):.1e}" if found.width else "0"
     return (name, published, f"{float(found.low):.10g}", reached, f"{whole:.2f}", f"{statistics.median(warm[1:]):.3f}",

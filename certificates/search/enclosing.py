@@ -115,9 +115,9 @@ def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prov
             tree = branching.run(min(QUICK, most))
             if not tree.reached and squares_left:
                 squares_left = False
-                node = search_squares(problem.terms, problem.box, best.point, problem.names, problem.facts, problem.goal)
-                if node and prove(best.exact, node):
-                    return Found(best.exact, best.exact, best.point, node, done + tree.boxes, True)
+                found = _squares(problem, best, done + tree.boxes, prove)
+                if found:
+                    return found
             tree = branching.run(most)
             done += tree.boxes
             found = (_reached if tree.reached else _unfinished)(best, tree, done, ["boxes", problem.goal, problem.facts, tree.text], prove)
@@ -125,6 +125,26 @@ def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prov
                 return found
         budget //= 4  # the checker's own count of work may have ended first
     raise ClaimError("the polynomial is too large: the checker's counted work ends before its Bernstein coefficients are known")
+
+
+def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Found | None:
+    """Squares that show that the value at the best point is the minimum; or, for a positive width, that the minimum is near it."""
+    low, high = best.bounds
+    for bound, top, point in [(best.exact, best.exact, best.point), *([(low, high, _shorter(best))] if best.width else [])]:
+        node = search_squares(problem.terms, problem.box, point, problem.names, problem.facts, problem.goal, value_at(problem.terms, point) - bound)
+        if node and prove(bound, node):
+            return Found(bound, top, best.point, node, done, True)
+    return None
+
+
+def _shorter(best: Best) -> Point:
+    """A point about as good as the best one, with short binary numbers: around it squares are shorter."""
+    for bits in range(2, 200, 2):
+        unit = Fraction(1, 2**bits)
+        point = tuple(min(max(rounded_down(x + unit / 2, unit), low), high) for x, (low, high) in zip(best.point, best.box))
+        if value_at(best.terms, point) <= best.exact + best.width / SHARE:
+            return point
+    return best.point
 
 
 def _reached(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Found | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -21,23 +21,27 @@ CENTRED = 1e-8
 
 @dataclass(frozen=True)
 class Block:
-    """sum G_ij multiplier b_i b_j, for the monomials b of the basis: a positive definite G is sought."""
+    """sum G_ij multiplier b_i b_j, for the monomials b of the basis, each times its scale: a positive definite G is sought."""
 
     multiplier: Polynomial
     basis: tuple[Exponents, ...]
+    scales: tuple[Fraction, ...]
 
-
-def times(p: Mapping[Exponents, Fraction], monomial: Exponents) -> Polynomial:
-    """p times a monomial."""
-    return {tuple(a + b for a, b in zip(e, monomial)): c for e, c in p.items()}
+    def parts(self) -> Iterator[tuple[int, int, Polynomial]]:
+        """(i, j, multiplier b_i b_j) for all i, j."""
+        for i, a in enumerate(self.basis):
+            for j, b in enumerate(self.basis):
+                scale = self.scales[i] * self.scales[j]
+                yield i, j, {tuple(map(sum, zip(e, a, b))): c * scale for e, c in self.multiplier.items()}
 
 
 def product(p: Polynomial, q: Polynomial) -> Polynomial:
     """p times q."""
     total: Polynomial = {}
     for monomial, c in q.items():
-        for e, value in times(p, monomial).items():
-            total[e] = total.get(e, Fraction(0)) + c * value
+        for e, value in p.items():
+            both = tuple(map(sum, zip(e, monomial)))
+            total[both] = total.get(both, Fraction(0)) + c * value
     return {e: c for e, c in total.items() if c}
 
 
@@ -47,27 +51,22 @@ def inner(p: Polynomial, blocks: Sequence[Block]) -> list[Array] | None:
     It follows the central path of: minimise t, where the matrices plus t are positive definite and have the sum p.
     Source: Boyd and Vandenberghe, Convex Optimization, 11.4 (phase I).
     """
-    monomials = {e for block in blocks for a in block.basis for b in block.basis for e in times(block.multiplier, _sum(a, b))}
-    rows = {e: k for k, e in enumerate(sorted(monomials))}
+    rows = {e: k for k, e in enumerate(sorted({e for block in blocks for _, _, part in block.parts() for e in part}))}
     if any(e not in rows for e in p):
         return None
     scales = [max(abs(float(c)) for c in block.multiplier.values()) for block in blocks]
     forms = [np.zeros((len(rows), len(block.basis), len(block.basis))) for block in blocks]
     for block, form, scale in zip(blocks, forms, scales):
-        for i, a in enumerate(block.basis):
-            for j, b in enumerate(block.basis):
-                for e, c in times(block.multiplier, _sum(a, b)).items():
-                    form[rows[e], i, j] += float(c) / scale
+        for i, j, part in block.parts():
+            for e, c in part.items():
+                form[rows[e], i, j] += float(c) / scale
     size = max(abs(float(c)) for c in p.values())
     sought = np.zeros(len(rows))
     for e, c in p.items():
         sought[rows[e]] = float(c) / size
-    found = _follow(forms, sought)
+    norms = np.max([np.abs(form).max(axis=(1, 2)) for form in forms if form.size], axis=0)  # a small row is to hold as well as a large one
+    found = _follow([form / norms[:, None, None] for form in forms], sought / norms)
     return None if found is None else [gram * size / scale for gram, scale in zip(found, scales)]
-
-
-def _sum(a: Exponents, b: Exponents) -> Exponents:
-    return tuple(x + y for x, y in zip(a, b))
 
 
 def _follow(forms: list[Array], sought: Array) -> list[Array] | None:
@@ -119,7 +118,7 @@ def rounded(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Array], spar
     home: dict[Exponents, list[tuple[int, int]]] = {}
     for i, a in enumerate(blocks[0].basis):
         for j in range(i, len(blocks[0].basis)):
-            home.setdefault(_sum(a, blocks[0].basis[j]), []).append((i, j))
+            home.setdefault(tuple(map(sum, zip(a, blocks[0].basis[j]))), []).append((i, j))
     for bits in BITS:
         exact = [[[Fraction(round(float(c) * 2**bits), 2**bits) for c in row] for row in (gram + gram.T) / 2] for gram in grams]
         left = _left(p, blocks, exact)
@@ -132,8 +131,8 @@ def rounded(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Array], spar
         for e, c in left.items():
             share = c / sum(1 if i == j else 2 for i, j in home[e])
             for i, j in home[e]:
-                exact[0][i][j] += share
-                exact[0][j][i] += share if i != j else 0
+                exact[0][i][j] += share / (blocks[0].scales[i] * blocks[0].scales[j])
+                exact[0][j][i] = exact[0][i][j]
         if all(min(np.linalg.eigvalsh(np.array(gram, dtype=float))[:1], default=1) > 0 for gram in exact) and all(map(squares, exact)):
             return exact
     return None
@@ -142,10 +141,9 @@ def rounded(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Array], spar
 def _left(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Matrix]) -> Polynomial:
     left = dict(p)
     for block, gram in zip(blocks, grams):
-        for i, a in enumerate(block.basis):
-            for j, b in enumerate(block.basis):
-                for e, c in times(block.multiplier, _sum(a, b)).items():
-                    left[e] = left.get(e, Fraction(0)) - c * gram[i][j]
+        for i, j, part in block.parts():
+            for e, c in part.items():
+                left[e] = left.get(e, Fraction(0)) - c * gram[i][j]
     return {e: c for e, c in left.items() if c}
 
 

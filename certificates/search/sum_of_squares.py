@@ -2,6 +2,7 @@
 
 p is written in coordinates around the point x*, where every summand vanishes: so a square has no constant, and where the Hessian is singular, no
 linear part along its kernel.  Without these two steps no matrix is definite, and none could be rounded.  What is more degenerate is not found.
+With a gap, p - p(x*) + gap, squares have constants, scaled by the root of the gap, and x* need only be near the minimum.
 Source: Putinar, Positive polynomials on compact semialgebraic sets (1993); Peyrl and Parrilo, Theoretical Computer Science 409 (2008).
 """
 
@@ -26,28 +27,31 @@ Factors = list[list[int]]  # of a product: facts with exponents
 class Around:
     """A polynomial around a point of a box: the part of a sum of squares that is to be found, block by block."""
 
-    def __init__(self, terms: Terms, box: Box, point: Sequence[Fraction], facts: list[list[int]]) -> None:
+    def __init__(self, terms: Terms, box: Box, point: Sequence[Fraction], facts: list[list[int]], gap: Fraction) -> None:
+        self.gap = gap
         self.size, self.box, self.point, self.facts = len(box), box, point, facts
         self.one = (0,) * self.size
         self.half = (max(map(sum, terms)) + 1) // 2
         shifted = substituted(terms, [{unit(self.size, i): Fraction(1), self.one: at} for i, at in enumerate(point)])
         shifted.pop(self.one, None)
+        if gap:
+            shifted[self.one] = gap
         self.slopes = [shifted.get(unit(self.size, i), Fraction(0)) for i in range(self.size)]
-        self.forms, kernel = adapted_forms(shifted, [i for i, slope in enumerate(self.slopes) if not slope], self.size)
+        self.forms, kernel = adapted_forms(shifted, [i for i, slope in enumerate(self.slopes) if not slope and not gap], self.size)
         self.steps = inverse(self.forms)  # x - x* in the coordinates
         self.p = substituted(shifted, [self._linear(step) for step in self.steps])
         self.lines = [unit(self.size, k) for k in range(self.size) if k not in kernel]
         self.blocks: list[Block] = []
         self.factors: list[Factors] = []
         self.held: list[int] = []  # the blocks of sides where the point is held
-        self._add({self.one: Fraction(1)}, [], [*self.lines, *self._monomials(2, self.half)])
+        self._add({self.one: Fraction(1)}, [], [*([self.one] if gap else []), *self.lines, *self._monomials(2, self.half)])
         for i, (low, high) in enumerate(box):
             if low < high:
                 self._add_sides(i, low, high)
 
     def is_stationary(self) -> bool:
-        """Whether p rises, to first order, from the point into the box, or stays level."""
-        return all(slope == 0 or at == ends[0 if slope > 0 else 1] for slope, at, ends in zip(self.slopes, self.point, self.box))
+        """Whether p rises, to first order, from the point into the box, or stays level; a gap makes up for what falls."""
+        return self.gap > 0 or all(slope == 0 or at == ends[0 if slope > 0 else 1] for slope, at, ends in zip(self.slopes, self.point, self.box))
 
     def _linear(self, coefficients: Linear, constant: Fraction = Fraction(0)) -> Polynomial:
         parts = {unit(self.size, k): c for k, c in enumerate(coefficients) if c}
@@ -58,7 +62,8 @@ class Around:
                 for degree in range(first, last + 1) for chosen in combinations_with_replacement(range(self.size), degree)]
 
     def _add(self, multiplier: Polynomial, factors: Factors, basis: list[Exponents]) -> None:
-        self.blocks.append(Block(multiplier, tuple(basis)))
+        small = _dyadic_root(self.gap) if self.gap else Fraction(1)
+        self.blocks.append(Block(multiplier, tuple(basis), tuple(small if monomial == self.one else Fraction(1) for monomial in basis)))
         self.factors.append(factors)
 
     def _add_sides(self, i: int, low: Fraction, high: Fraction) -> None:
@@ -67,10 +72,11 @@ class Around:
         below = self._linear([-c for c in self.steps[i]], high - self.point[i])
         first, last = self.facts[i]
         rest = [*self.lines, *self._monomials(2, self.half - 1)] if self.half > 1 else []
-        constant = [self.one] if self.slopes[i] else []
+        held = self.slopes[i] and self.point[i] == (low if self.slopes[i] > 0 else high)
+        constant = [self.one] if held or self.gap else []
         if constant or rest:
             self._add(product(above, below), [[first, 1], [last, 1]], [*constant, *rest])
-        if constant:
+        if held:
             self.held.append(len(self.blocks))
             side, fact = (above, first) if self.slopes[i] > 0 else (below, last)
             self._add(side, [[fact, 1]], [self.one, *rest])
@@ -90,12 +96,13 @@ class Around:
         return [text if text in moved else f"({text})" for text in texts]
 
 
-def search_squares(terms: Terms, box: Box, point: Sequence[Fraction], names: Sequence[str], facts: list[list[int]], goal: int) -> list[Any] | None:
-    """A Positivstellensatz node that closes fact `goal`, p(x*) - p > 0; None where none is found.
+def search_squares(terms: Terms, box: Box, point: Sequence[Fraction], names: Sequence[str], facts: list[list[int]], goal: int,
+                   gap: Fraction = Fraction(0)) -> list[Any] | None:
+    """A Positivstellensatz node that closes fact `goal`, p(x*) - gap - p > 0; None where none is found.
 
     `facts` numbers what says low <= x and x <= high, for each variable.
     """
-    around = Around(terms, box, point, facts) if len(box) <= MOST_VARIABLES else None
+    around = Around(terms, box, point, facts, gap) if len(box) <= MOST_VARIABLES else None
     if around is None or not around.is_stationary() or len(around.blocks[0].basis) > MOST_BASIS:
         return None
     grams = around.grams()
@@ -104,9 +111,14 @@ def search_squares(terms: Terms, box: Box, point: Sequence[Fraction], names: Seq
     coordinates, products = around.coordinates(names), [[1, [[goal, 1]], "1"]]
     for block, factors, gram in zip(around.blocks, around.factors, grams):
         for weight, row in squares(gram) or []:
-            root = {monomial: c for monomial, c in zip(block.basis, row) if c}
+            root = {monomial: c * scale for monomial, c, scale in zip(block.basis, row, block.scales) if c}
             products.append([str(weight), factors, _text(root, coordinates)])
     return ["psatz", products, []]
+
+
+def _dyadic_root(value: Fraction) -> Fraction:
+    """A power of 2 near the square root."""
+    return Fraction(2) ** ((value.numerator.bit_length() - value.denominator.bit_length()) // 2)
 
 
 def _text(p: Polynomial, coordinates: Sequence[str]) -> str:

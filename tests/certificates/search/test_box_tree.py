@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import random
 from fractions import Fraction
 
@@ -108,6 +109,24 @@ def test_squares_prove_the_minimum_of_a_valley(name: str) -> None:
     found = enclose_minimum(text, dict.fromkeys(NAMES, (-2, 2)), 0, budget=2000)
     assert found.low == found.high
     assert list(found.point.values()) == [Fraction(value) for value in at.split()]
+
+
+@pytest.mark.parametrize("exponent", [3, 6, 9])
+def test_squares_enclose_an_irrational_minimum_of_a_valley(exponent: int) -> None:
+    text = "100*(y - x^2)^2 + (1 - x)^2 + 100*(z - y^2)^2 + (1 - y)^2 + x*z/10"
+    found = enclose_minimum(text, dict.fromkeys(NAMES, (-2, 2)), Fraction(1, 10**exponent), budget=300)
+    assert found.reached and 0 < found.width <= Fraction(1, 10**exponent)
+    assert found.certificates[LOWER]["certified"][2][0] == "psatz"
+    assert found.low <= min(term_at(text, point) for point in points({name: (Fraction(1, 2), Fraction(1)) for name in NAMES}))
+
+
+def test_a_changed_square_is_rejected() -> None:
+    found = enclose_minimum(VALLEYS["Schwefel"][0], dict.fromkeys(NAMES, (-2, 2)), 0, budget=400)
+    certificate = json.loads(json.dumps(found.certificates[LOWER]))
+    node = certificate["certified"][2]
+    assert node[0] == "psatz"
+    node[1][1][0] = str(Fraction(node[1][1][0]) + Fraction(1, 10**6))
+    assert checker.check_one(checker.read_statements(found.statements)[LOWER], certificate, {}, {})[0] == "rejected"
 
 
 def test_no_squares_where_the_point_is_not_stationary() -> None:
