@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -80,6 +80,14 @@ class Store:
             except checker.Rejected:
                 self._certificates[claim] = {}
         return self._certificates[claim].get(name)
+
+    def only(self, claims: Collection[str]) -> Store:
+        """What the store has of some claims, read from their files: plain data."""
+        part = object.__new__(Store)
+        part.folder, part.texts = self.folder, {name: text for name, text in self.texts.items() if name.split("/")[0] in claims}
+        part._certificates = {claim: {name: self.certificate(name, text) for name, text in part.texts.items() if name.split("/")[0] == claim}
+                              for claim in claims}
+        return part
 
 
 def write_store(folder: Path, statements: str, certificates: Mapping[str, Mapping[str, Any]]) -> int:

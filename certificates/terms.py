@@ -41,6 +41,9 @@ class Term:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Term) and self._hash == other._hash and (self.op, self.args) == (other.op, other.args)
 
+    def __reduce__(self) -> tuple[Any, ...]:  # a hash of another process would not do
+        return Term, (self.op, *self.args)
+
     def __bool__(self) -> bool:
         raise ClaimError("a term has no truth value; compare it with <, <=, >, >=, equal() or different()")
 
@@ -173,6 +176,9 @@ class Formula:
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Formula) and (self.op, self.args) == (other.op, other.args)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Formula, (self.op, *self.args)
 
     def __bool__(self) -> bool:
         raise ClaimError("a formula has no truth value here; join formulas with &, | and ~, and write a < b, b < c apart")

@@ -59,6 +59,17 @@ Body = Union[Assertion, Readings, Argument, Following]
 
 
 @dataclass(frozen=True)
+class Said:
+    """What a claim was read to assert, in place of its function: data, which passes between processes."""
+
+    body: Body
+    where: str
+
+    def __call__(self) -> Body:
+        return self.body
+
+
+@dataclass(frozen=True)
 class Claim:
     """One assertion: id, place, what is printed, and the function that reads it."""
 
@@ -79,6 +90,8 @@ class Claim:
     @property
     def where(self) -> str:
         """File and line of the claim, the file as short as it can be told."""
+        if isinstance(self.read, Said):
+            return self.read.where
         code = self.read.__code__
         path = Path(code.co_filename)
         try:

@@ -43,6 +43,14 @@ class Options:
     lemmas: Mapping[str, str] = field(default_factory=dict)
     checked: Mapping[str, str] = field(default_factory=dict)
 
+    def only(self, claim: Claim) -> Options:
+        """What these options say of one claim, with the stored certificates read, so that no folder is needed."""
+        used = {claim.id, *(name.split("/")[0] for name in claim.hints.get("uses", ()))}
+        ours = {name: said for name, said in self.checked.items() if name.split("/")[0] in used}
+        findings = {claim.id: self.findings[claim.id]} if claim.id in self.findings else {}
+        return replace(self, store=self.store.only(used) if self.store else None, findings=findings, checked=ours,
+                       lemmas={name: text for name, text in self.lemmas.items() if name in claim.hints.get("uses", ())})
+
 
 @dataclass
 class Judgement:

@@ -9,18 +9,21 @@ from typing import Any
 from certificates import checker
 
 from .budget import Budget, Exhausted, accepted
-from .closing import Hints, search_closing
+from .closing import SQUARED, Hints, search_closing
 from .stories import unfolded
 
 Certificate = dict[str, Any]
 MOST = 256
 _made: dict[tuple[tuple[str, str], ...], tuple[str, Certificate]] = {}  # an assertion made twice under two names is settled once
 # (whether a refutation is sought, effort, share of the budget left in percent), in order: cheap attempts of both kinds first
-ATTEMPTS = ((True, 0, 50), (False, 1, 20), (False, 2, 20), (True, 1, 40), (False, 2, 60), (True, 2, 100))
+Attempts = tuple[tuple[bool, int, int], ...]
+ATTEMPTS: Attempts = ((True, 0, 50), (False, 1, 20), (False, 2, 20), (True, 1, 40), (False, 2, 60), (False, 3, 50), (True, 2, 100))
+SQUARES_FIRST: Attempts = ((True, 0, 50), (False, 1, 10), (True, 1, 20), (False, 3, 40), (False, 2, 20), (True, 1, 40), (False, 3, 60),
+                           (False, 2, 60), (True, 2, 100))
 
 
 def search_certificate(statement: checker.Statement, known: dict[str, checker.Statement], budget: Budget,
-                       hints: Hints | None = None, confirm: bool = True) -> Certificate:
+                       hints: Hints | None = None, confirm: bool = True, attempts: Attempts = ATTEMPTS) -> Certificate:
     """{"certified": .., "point": ..}, {"refuted": ..} or {"unknown": reason}, each accepted by the checker.
 
     `confirm=False` leaves it to the caller to have a proof checked, and to search again where the checker rejects it.
@@ -29,12 +32,12 @@ def search_certificate(statement: checker.Statement, known: dict[str, checker.St
     >>> search_certificate(checker.read_statements(text)["demo/square"], {}, Budget(10**6))["certified"]
     ['proof', [], ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]]
     """
-    settings = (str(budget.left), str(hints), str(confirm), *sorted(known))
+    settings = (str(budget.left), str(hints), str(confirm), str(attempts), *sorted(known))
     key = (*((keyword, written(said)) for keyword, said in statement.lines), *(("", setting) for setting in settings))
     if key not in _made:
         while len(_made) >= MOST:
             del _made[next(iter(_made))]
-        _made[key] = statement.name, _search(statement, known, budget, hints, confirm)
+        _made[key] = statement.name, _search(statement, known, budget, hints, confirm, attempts)
     name, certificate = _made[key]
     return {kind: renamed(part, name, statement.name) for kind, part in certificate.items()} if name != statement.name else certificate
 
@@ -52,12 +55,12 @@ def renamed(part: Any, old: str, new: str) -> Any:
 
 
 def _search(statement: checker.Statement, known: dict[str, checker.Statement], budget: Budget, hints: Hints | None,
-            confirm: bool) -> Certificate:
+            confirm: bool, attempts: Attempts) -> Certificate:
     ended: set[tuple[bool, int]] = set()  # attempts that were not cut short: more work would not help them
     try:
-        for refutes, effort, share in ATTEMPTS:
-            if (refutes, effort) in ended:
-                continue
+        for refutes, effort, share in attempts:
+            if (refutes, effort) in ended or effort == SQUARED and statement.get("exists"):
+                continue  # in vain, or for goals that no terms make true
             part = budget.part(budget.left * share // 100)
             try:
                 if refutes:

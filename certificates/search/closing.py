@@ -15,11 +15,13 @@ from .polynomials import Ring
 from .positivstellensatz import DEEP, FIRST, QUICK, SQUARES, TRIPLES, USUAL, Stage, close_by_equations, search
 from .problem import Problem
 from .squares import Pool
+from .sums_of_squares import search_squares
 
 Node = list[Any]
 DEPTH = 2  # of signs told apart below one another
 CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
+SQUARED = 3  # the effort at which leaves are closed by sums of squares, and no sign is told apart
 MOST_FOR_BOTH = 9  # facts
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
@@ -69,13 +71,13 @@ class Closing:
         self.known, self.budget, self.effort = known, budget, effort
         self.rings: dict[tuple[str, ...], Ring] = {}
 
-    def problem(self, state: checker.State) -> Problem:
+    def problem(self, state: checker.State, whole: bool = False) -> Problem:
         """The facts of a state, ready for a search."""
         self.budget.spend(300)
         names = tuple(state.context.index)
         if names not in self.rings:
             self.rings[names] = Ring(names)
-        return Problem(state, self.rings[names])
+        return Problem(state, self.rings[names], whole)
 
     # -------------------------------------------------------- disjunctions
 
@@ -135,7 +137,9 @@ class Closing:
         rounded, inside = self.rounded(state)
         problem = self.problem(inside)
         node = close_by_equations(problem) or search(problem, FIRST if self.effort else QUICK, self.budget)
-        if node is None and self.effort and (state.context.integers or not has_interior_point(problem, self.budget)):
+        if node is None and self.effort == SQUARED:
+            node = search_squares(self.problem(inside, True), self.budget)
+        elif node is None and self.effort and (state.context.integers or not has_interior_point(problem, self.budget)):
             node = self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
         return wrapped(rounded, node)
 

@@ -197,7 +197,7 @@ def _adjoined_root(state: checker.State, root: Root, renamed: Renamed, writer: T
     highs = [renamed.text(normal.lift(one * k, weight)) for k in range(1, 5)]
     quotients = [half + 1 + under]
     for high in [*highs, *(writer.text(Quotient(q, one), weight) for q in quotients)]:
-        entry = _entry(state, name, renamed.text(poly), low, high, known, budget, effort)
+        entry = adjoined_entry(state, name, renamed.text(poly), low, high, known, budget, effort)
         if entry is not None:
             return entry
     return None
@@ -217,13 +217,13 @@ def _adjoined_inverse(state: checker.State, name: str, factor: fmpq_mpoly, renam
             if sign < 0:
                 # factor < 0: its inverse lies in [-bound, 0]; the polynomial 1 - factor * inverse rises there.
                 text, low, high = f"1 - ({renamed.text(factor)})*{name}", str(-bound), "0"
-            entry = _entry(state, name, text, low, high, known, budget, effort)
+            entry = adjoined_entry(state, name, text, low, high, known, budget, effort)
             if entry is not None:
                 return entry
     return None
 
 
-def _entry(state: checker.State, name: str, text: str, low: str, high: str, known: Known, budget: Budget, effort: int) -> Node | None:
+def adjoined_entry(state: checker.State, name: str, text: str, low: str, high: str, known: Known, budget: Budget, effort: int) -> Node | None:
     """The adjoined entry with its nodes; the state then has the new variable."""
     context, zero, tree = state.context, checker.ZERO, checker.parse(text)
     ends = [context.value(checker.parse(end)) for end in (low, high)]

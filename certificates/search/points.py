@@ -10,16 +10,19 @@ from certificates import checker
 
 from .algebraic import fraction
 from .base_samples import base_samples
-from .budget import Budget, accepted
+from .budget import Budget, Exhausted, accepted
 from .closing import search_closing
 from .condition import Condition, ring_of
 from .families import cover
 from .model_points import model_assignments
 from .number_closing import Adjoined, close_at_number
+from .numeric import near_points
 from .sampler import Assignment, Sampler
 from .setting import Task
 from .solver import ask
 from .stories import unfolded
+from .towers import DIGITS, Towers
+from .towers import as_found as tower_as_found
 
 Found = list[Any]
 Known = dict[str, checker.Statement]
@@ -59,9 +62,22 @@ def search_found(statement: checker.Statement, state: checker.State, purpose: st
         return None
     condition = Condition.of(story.context, whole, ring_of(story.context))
     goal = Condition.of(story.context, story.goal(True), condition.ring) if exists and purpose == "counterexample" else None
+    if exists or purpose == "witness" or story.integers or sharp or not effort or not any(r == "=" for _, r in condition.facts()):
+        return _sampled(statement, state, condition, goal, names, frozenset(story.integers), purpose, known, budget, sharp, effort)
+    try:
+        part = budget.part(budget.left * 6 // 10)
+        found = _sampled(statement, state, condition, goal, names, frozenset(), purpose, known, part, sharp, effort)
+    except Exhausted:
+        found = None
+    return found or _by_towers(statement, state, condition, names, purpose, known, budget, effort)
+
+
+def _sampled(statement: checker.Statement, state: checker.State, condition: Condition, goal: Condition | None, names: Sequence[str],
+             integers: frozenset[str], purpose: str, known: Known, budget: Budget, sharp: list[Any] | None, effort: int) -> Found | None:
+    """A point from samples and models, with one irrational number at most."""
     failures = 0
-    for assignment in assignments(condition, names, frozenset(story.integers), budget, effort, goal is not None):
-        if goal is not None and not _beyond(goal, assignment, names, frozenset(story.integers), budget):
+    for assignment in assignments(condition, names, integers, budget, effort, goal is not None):
+        if goal is not None and not _beyond(goal, assignment, names, integers, budget):
             failures += 1
         else:
             found = as_found(statement, state, assignment, names, purpose, known, budget, sharp, effort)
@@ -70,6 +86,22 @@ def search_found(statement: checker.Statement, state: checker.State, purpose: st
             failures += 5
         if failures >= 30 * (effort + 1):
             break
+    return None
+
+
+def _by_towers(statement: checker.Statement, state: checker.State, condition: Condition, names: Sequence[str], purpose: str, known: Known,
+               budget: Budget, effort: int) -> Found | None:
+    """A point with several irrational values, sought near points in floats."""
+    for guide in near_points(condition, names, budget):
+        failures = 0
+        for tower in Towers(budget, names, guide, 60 * effort, 1).search(condition):
+            for digits in DIGITS:
+                found = tower_as_found(statement, state, tower, purpose, known, budget, digits)
+                if found is not None and accepted(checker.find, state.branch(), found, known, purpose, {statement.name: statement}, {}, None):
+                    return found
+            failures += 1
+            if failures >= 2 * effort:
+                break
     return None
 
 

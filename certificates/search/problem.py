@@ -24,7 +24,7 @@ MANY = 7  # facts, from which on those near the goal are tried first
 
 
 class Problem:
-    """What a leaf of a proof has to contradict.
+    """What a leaf of a proof has to contradict; `whole`, with the facts too that seem to say only what a root is.
 
     >>> context = checker.Context()
     >>> for name in ("r", "x", "y"):
@@ -35,7 +35,7 @@ class Problem:
     [('x - 1', False), ('-x + 1', True)]
     """
 
-    def __init__(self, state: checker.State, ring: Ring) -> None:
+    def __init__(self, state: checker.State, ring: Ring, whole: bool = False) -> None:
         self.ring = ring
         polys = [ring.read(poly) for poly, _ in state.facts]
         relations = [relation for _, relation in state.facts]
@@ -46,7 +46,7 @@ class Problem:
         scaling = Scaling(ring, [p for p in polys if p], sorted(unit_facts))
         lowered = [scaling.lower(poly) for poly in polys]
         self.source = Source(ring, scaling, polys, lowered, [poly.den for poly, _ in state.facts], relations, unit_facts)
-        self.idle = idle_facts(lowered, relations)
+        self.idle: set[int] = set() if whole else idle_facts(lowered, relations)
         equations = [(k, p) for k, p in enumerate(lowered) if relations[k] == "=" and p and k not in self.idle]
         signed = [Signed(k, p, relations[k] == ">") for k, p in enumerate(lowered) if relations[k] in (">", "!=")]
         integers = frozenset(k for k, name in enumerate(ring.names) if name in state.context.integers)

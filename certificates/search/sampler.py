@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
@@ -71,6 +72,11 @@ class Sampler:
                 elif not root.is_rational and self.irrational and theta is None and name not in self.integers:
                     yield from self._step(condition, steps, theta, name, root)
             return
+        implied = self._eliminated(condition) if self.irrational and theta is None and len(free) > 1 else None
+        if implied is not None:
+            self._spend(condition)
+            yield from self._descend(condition.conjoined(implied), steps, theta)
+            return
         solved = self._linear_equation(condition, free, theta)
         if solved is not None:
             name, value = solved
@@ -127,6 +133,19 @@ class Sampler:
                 used = [name for name, e in zip(places(condition.ring), poly.degrees()) if e]
                 if len(used) == 1 and (theta is None or used[0] != theta[0]):
                     return used[0], univariate(poly, used[0])
+        return None
+
+    def _eliminated(self, condition: Condition) -> Condition | None:
+        """An equation in one variable that follows from two in the same two variables; none of them linear."""
+        equations = [poly for poly, relation in condition.facts() if relation == "=" and poly.total_degree() > 1]
+        pairs = [(p, q) for p, q in combinations(equations, 2) if len(p) * len(q) <= 100]
+        for p, q in pairs:
+            shared = {name for poly in (p, q) for name, e in zip(places(condition.ring), poly.degrees()) if e > 0}
+            if len(shared) == 2 and not shared & self.integers:
+                name = max(shared, key=places(condition.ring).__getitem__)
+                result, line = p.resultant(q, name), linear_remainder(p, q, name)
+                if not result.is_constant():
+                    return Condition(condition.ring, [result, line], ("and", [(0, "="), (1, "=")]))
         return None
 
     def _linear_equation(self, condition: Condition, free: Sequence[str], theta: Theta) -> tuple[str, fmpq_mpoly] | None:
@@ -186,3 +205,15 @@ class Sampler:
         if any(dense[n].degree() > 0 or (dense[n][0].q != 1) for n in self.integers if n in dense):
             return None
         return Assignment(dense, theta[1] if theta else None)
+
+
+def linear_remainder(p: fmpq_mpoly, q: fmpq_mpoly, name: str) -> fmpq_mpoly:
+    """A combination of two polynomials whose degree in a variable is 1 at most, by pseudo-division: it gives the variable where both vanish."""
+    gen = p.context().gen(places(p.context())[name])
+    while True:
+        one, other = sorted((coefficients_in(p, name), coefficients_in(q, name)), key=len)
+        p, q = (sum((c * gen**k for k, c in enumerate(part)), p * 0) for part in (one, other))
+        if len(one) <= 2:
+            return p
+        rest = q * one[-1] - p * other[-1] * gen ** (len(other) - len(one))
+        p, q = rest / rest.leading_coefficient() if rest != 0 else rest, p

@@ -6,6 +6,7 @@ import argparse
 import json
 import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -64,23 +65,26 @@ def certify(options: argparse.Namespace, register: Path = PATH) -> int:
     return results.exit
 
 
-def run(options: argparse.Namespace, console: Any = None) -> Run:
-    """Judges the claims, stores what was found, and has the checker read all that is stored."""
+def run(options: argparse.Namespace, console: Any = None, executor: Executor | None = None, given: Sequence[Claim] = ()) -> Run:
+    """Judges the claims, stores what was found, and has the checker read all that is stored.
+
+    An executor judges in place of processes of our own; `given` are claims in hand, which need `options.store`.
+    """
     routes = _routes(options.routes)
-    own = bool(options.files)
+    own = bool(options.files or given)
     folder = options.store or (options.files[0].with_suffix(".certificates") if own else DEFAULT)
     store = Store(folder)
     jobs = options.jobs if options.jobs > 0 else os.cpu_count() or 1
     budget = options.budget or DEFAULT_BUDGET
     with Reading(folder, jobs, nothing=options.fresh) as reading:
         records = Records(None if own or options.fresh else budget, read=not options.accept)
-        everything = records.claims or ([claim for path in options.files for claim in claims_of_file(path)] if own else paper_claims())
+        everything = records.claims or list(given) or ([claim for path in options.files for claim in claims_of_file(path)] if own else paper_claims())
         refuse_duplicates(everything)
         claims = _selected(everything, options.only)
         judged = Options(routes, budget, Store(Path(os.devnull)) if options.fresh else store, {} if options.fresh else _findings(folder),
                          {} if records.claims else lemmas(everything, claims))
         judged = replace(judged, checked=reading.outcomes())
-    judgements, seconds = judge_with_records(claims, judged, records, lambda rest, judged: _with_progress(rest, judged, jobs, console))
+    judgements, seconds = judge_with_records(claims, judged, records, lambda rest, judged: _with_progress(rest, judged, jobs, console, executor))
     records.keep(judgements, len(everything))
     changed = _write(folder, store, everything, claims, judgements)
     results = reading.results if reading.results and not changed else checker.check_folder(str(folder))
@@ -131,11 +135,12 @@ def _findings(folder: Path) -> dict[str, Any]:
     return data if isinstance(data, dict) else {}
 
 
-def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console: Any) -> tuple[list[Judgement], dict[str, float]]:
+def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console: Any, executor: Executor | None,
+                   ) -> tuple[list[Judgement], dict[str, float]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     if console is None or not console.is_terminal:
-        return judge_all(claims, judged, jobs, lambda claim, judgement: None)
+        return judge_all(claims, judged, jobs, lambda claim, judgement: None, executor)
     columns = (TextColumn("{task.description:24}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("judging", total=len(claims))
@@ -143,7 +148,7 @@ def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console:
         def step(claim: Claim, judgement: Judgement) -> None:
             progress.update(task, advance=1, description=f"{claim.id} {judgement.verdict.word}")
 
-        return judge_all(claims, judged, jobs, step)
+        return judge_all(claims, judged, jobs, step, executor)
 
 
 def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequence[Claim], judgements: Sequence[Judgement]) -> int:

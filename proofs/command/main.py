@@ -34,7 +34,8 @@ def build_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     certify = commands.add_parser("certify", help="derive, prove and check every claim; ends with a table")
-    certify.add_argument("files", nargs="*", type=Path, metavar="FILE.py", help="claims of your own instead of the paper's")
+    certify.add_argument("files", nargs="*", type=Path, metavar="FILE",
+                         help="claims of your own (.py) or problems in SMT-LIB (.smt2) instead of the paper's")
     certify.add_argument("--only", action="append", metavar="ID", help="only this claim (may be given several times)")
     certify.add_argument("--routes", default=",".join(ROUTES), help="exact,z3,boxes (default: all)")
     certify.add_argument("--fresh", action="store_true", help="state and search again, ignoring stored certificates and kept records")
@@ -97,6 +98,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command == "certify":
+        from proofs.command.problems import are_scripts, certify_problems
+
+        if are_scripts(parsed.files):
+            return certify_problems(parsed)
         from proofs.command.certify import certify
 
         return certify(parsed)

@@ -33,6 +33,10 @@ GLYPHS = {
     "chi_dot_after": (r"\dot\chi'", r"\dot{\chi}_{\text{after}}"),
     "v_next": (r"\dot{\bar\beta}_{k+1}", r"\dot{\bar\beta}'", r"\dot{\bar\beta}_{\text{next}}"),
     "change_1": (r"\Delta_1 E", r"\Delta_{1} E"),
+    "mu": (r"\mu",),
+    "sigma": (r"\sigma",),
+    "omega": (r"\omega",),
+    "omega_after": (r"\omega_{\mathrm{after}}",),
 }
 BRACKETS = (("(", ")"), (r"\left(", r"\right)"), (r"\bigl(", r"\bigr)"), ("[", "]"))
 SIGNS = {"<": ("<",), "<=": (r"\le", r"\leq"), ">": (">",), ">=": (r"\ge", r"\geq"), "=": ("=",), "!=": (r"\ne", r"\neq")}

@@ -9,6 +9,7 @@ from typing import Any
 
 from certificates.terms import ClaimError
 from proofs.command.errata import GROUPS
+from proofs.derivations import Derivation
 from proofs.reports.contents import Contents, Entry
 from proofs.reports.extras import needed
 from proofs.reports.latex import latex_of
@@ -40,7 +41,7 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
         "juggleproof-macros": {"macros": [(name, means) for name, means, _ in MACROS]},
         "theorem": _theorem(contents),
         "errata": _errata(contents),
-        "derivations": {"derivations": contents.derivations},
+        "derivations": {"derivations": _behind_the_appendices(contents)},
         "notation": {"notation": [(latex, words.prose(meaning)) for _, latex, meaning in NOTATION if meaning]},
     }
     told = {name: _render(made, name, contents, values) for name, values in fragments.items()}
@@ -91,6 +92,16 @@ def _appendix(contents: Contents, letter: str, title: str) -> dict[str, Any]:
     if left:
         raise ClaimError(f"{left[0]}: section {contents.entry(left[0]).claim.section} has no heading in the LaTeX report; add it there")
     return {"letter": letter, "title": title, "sections": [one for one in sections if one[2]]}
+
+
+def _behind_the_appendices(contents: Contents) -> list[Derivation]:
+    """The derivations that the entries of the appendices name, and all that these are made from."""
+    by_name = {one.function: one for one in contents.derivations}
+    needed = {one.function for entry in contents.entries if entry.claim.section[:1] in APPENDICES for one in entry.steps}
+    for one in reversed(contents.derivations):  # each stands after what it is made from
+        if one.function in needed:
+            needed |= set(one.uses) & set(by_name)
+    return [one for one in contents.derivations if one.function in needed]
 
 
 def _errata(contents: Contents) -> dict[str, Any]:

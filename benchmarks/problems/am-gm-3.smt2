@@ -1,0 +1,12 @@
+; AM-GM for three, in the form x^3 + y^3 + z^3 >= 3 x y z for x, y, z >= 0.
+(set-logic QF_NRA)
+(set-info :source |AM-GM|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (>= x 0))
+(assert (>= y 0))
+(assert (>= z 0))
+(assert (< (+ (* x x x) (* y y y) (* z z z)) (* 3 x y z)))
+(check-sat)

@@ -1,0 +1,11 @@
+; With 41/10 in place of 4 the inequality fails near x = y = z = w.
+(set-logic QF_NRA)
+(set-info :source |AM-GM, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(declare-const w Real)
+(assert (< (+ (* x x x x) (* y y y y) (* z z z z) (* w w w w)) (* (/ 41 10) x y z w)))
+(assert (> x 0))
+(check-sat)

@@ -1,0 +1,10 @@
+; AM-GM for four squares: x^4 + y^4 + z^4 + w^4 >= 4 x y z w.
+(set-logic QF_NRA)
+(set-info :source |AM-GM|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(declare-const w Real)
+(assert (< (+ (* x x x x) (* y y y y) (* z z z z) (* w w w w)) (* 4 x y z w)))
+(check-sat)

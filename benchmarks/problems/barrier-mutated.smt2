@@ -1,0 +1,13 @@
+; With y^2 in place of y^2/4 a point leaves the disc.
+(set-logic QF_NRA)
+(set-info :source |own, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const p Real)
+(declare-const q Real)
+(assert (<= (+ (* x x) (* y y)) 1))
+(assert (= p (+ (/ x 2) (* y y))))
+(assert (= q (/ y 2)))
+(assert (> (+ (* p p) (* q q)) 1))
+(check-sat)

@@ -1,0 +1,13 @@
+; A discrete step x' = x/2 + y^2/4, y' = y/2 leaves the disc of radius 1 invariant.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const p Real)
+(declare-const q Real)
+(assert (<= (+ (* x x) (* y y)) 1))
+(assert (= p (+ (/ x 2) (/ (* y y) 4))))
+(assert (= q (/ y 2)))
+(assert (> (+ (* p p) (* q q)) 1))
+(check-sat)

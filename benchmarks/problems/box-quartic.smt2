@@ -1,0 +1,10 @@
+; A range bound on a box: x^4 - 3 x y + y^3 > -4 for |x| <= 1, |y| <= 1.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (<= (- 1) x 1))
+(assert (<= (- 1) y 1))
+(assert (<= (+ (- (* x x x x) (* 3 x y)) (* y y y)) (- 4)))
+(check-sat)

@@ -1,0 +1,13 @@
+; One square lost on the left.
+(set-logic QF_NRA)
+(set-info :source |Cauchy-Schwarz, mutated|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const c Real)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (< (* (+ (* a a) (* b b) (* c c)) (+ (* x x) (* y y))) (* (+ (* a x) (* b y) (* c z)) (+ (* a x) (* b y) (* c z)))))
+(assert (> (* a x) 0))
+(check-sat)

@@ -1,0 +1,12 @@
+; (a^2 + b^2 + c^2)(x^2 + y^2 + z^2) >= (a x + b y + c z)^2.
+(set-logic QF_NRA)
+(set-info :source |Cauchy-Schwarz|)
+(set-info :status unsat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const c Real)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (< (* (+ (* a a) (* b b) (* c c)) (+ (* x x) (* y y) (* z z))) (* (+ (* a x) (* b y) (* c z)) (+ (* a x) (* b y) (* c z)))))
+(check-sat)

@@ -1,0 +1,10 @@
+; A circle and a parabola: their common point has degree 4.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (= (+ (* x x) (* y y)) 3))
+(assert (= y (- (* x x) (* (/ 1 3) x))))
+(assert (> x 0))
+(check-sat)

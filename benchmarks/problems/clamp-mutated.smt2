@@ -1,0 +1,10 @@
+; A value clamped to [0, 1] may be farther from it than a point of [0, 2].
+(set-logic QF_NRA)
+(set-info :source |own, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(define-fun clamp ((t Real)) Real (ite (< t 0) 0.0 (ite (> t 1) 1.0 t)))
+(assert (<= 0 y 2))
+(assert (let ((d (- x (clamp x))) (e (- x y))) (> (* d d) (* e e))))
+(check-sat)

@@ -1,0 +1,10 @@
+; A value clamped to [0, 1] by ite differs from the value by no more than any point of [0, 1] does.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(define-fun clamp ((t Real)) Real (ite (< t 0) 0.0 (ite (> t 1) 1.0 t)))
+(assert (<= 0 y 1))
+(assert (let ((d (- x (clamp x))) (e (- x y))) (> (* d d) (* e e))))
+(check-sat)

@@ -1,0 +1,10 @@
+; x^3 - 2 x - a and x^2 - a have a common root for suitable a > 1.
+(set-logic QF_NRA)
+(set-info :source |resultant|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const x Real)
+(assert (> a 1))
+(assert (= (- (- (* x x x) (* 2 x)) a) 0))
+(assert (= (- (* x x) a) 0))
+(check-sat)

@@ -1,0 +1,13 @@
+; A quadratic with a root in [0, 1] need not have values of two signs at 0 and 1.
+(set-logic QF_NRA)
+(set-info :source |classical, mutated|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const c Real)
+(declare-const x Real)
+(assert (< 0 x 1))
+(assert (= (+ (* a (* x x)) (* b x) c) 0))
+(assert (> c 0))
+(assert (> (+ a b c) 0))
+(check-sat)

@@ -1,0 +1,11 @@
+; A quadratic with a root has a discriminant >= 0.
+(set-logic QF_NRA)
+(set-info :source |classical|)
+(set-info :status unsat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const c Real)
+(declare-const x Real)
+(assert (= (+ (* a (* x x)) (* b x) c) 0))
+(assert (< (* b b) (* 4 a c)))
+(check-sat)

@@ -1,0 +1,13 @@
+; A cubic x^3 + p x + q with p > 0 has no two roots.
+(set-logic QF_NRA)
+(set-info :source |classical|)
+(set-info :status unsat)
+(declare-const p Real)
+(declare-const q Real)
+(declare-const x Real)
+(declare-const y Real)
+(assert (> p 0))
+(assert (< x y))
+(assert (= (+ (* x x x) (* p x) q) 0))
+(assert (= (+ (* y y y) (* p y) q) 0))
+(check-sat)

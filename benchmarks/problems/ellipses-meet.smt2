@@ -1,0 +1,10 @@
+; Two ellipses of different shape meet.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (= (+ (* x x) (* 2 (* y y))) 2))
+(assert (= (+ (* 3 (* x x)) (* x y) (* y y)) 3))
+(assert (> y 0))
+(check-sat)

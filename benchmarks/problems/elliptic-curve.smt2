@@ -1,0 +1,10 @@
+; A point of y^2 = x^3 - 2 whose tangent is not vertical.
+(set-logic QF_NRA)
+(set-info :source |Fermat|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (= (* y y) (- (* x x x) 2)))
+(assert (> y 4))
+(assert (< x (/ 7 2)))
+(check-sat)

@@ -1,0 +1,11 @@
+; A pentagon's diagonal: the positive root of x^2 = x + 1, with its cube.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (> x 0))
+(assert (= (* x x) (+ x 1)))
+(assert (= y (* x x x)))
+(assert (> y (/ 423 100)))
+(check-sat)

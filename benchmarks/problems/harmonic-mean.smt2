@@ -1,0 +1,10 @@
+; 1/x + 1/y >= 4/(x + y) for positive reals.
+(set-logic QF_NRA)
+(set-info :source |AM-HM|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (> x 0))
+(assert (> y 0))
+(assert (< (+ (/ 1 x) (/ 1 y)) (/ 4 (+ x y))))
+(check-sat)

@@ -1,0 +1,12 @@
+; For positive numbers that are no sides of a triangle it fails.
+(set-logic QF_NRA)
+(set-info :source |IMO 1983, problem 6, a hypothesis dropped|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const c Real)
+(assert (> a 0))
+(assert (> b 0))
+(assert (> c 0))
+(assert (< (+ (* (* a a) b (- a b)) (* (* b b) c (- b c)) (* (* c c) a (- c a))) 0))
+(check-sat)

@@ -1,0 +1,10 @@
+; On |x|, |y| <= 3 the function x^2 + y^2 rises along x' = -x + x y^2, y' = -y - x^2 y/2 somewhere.
+(set-logic QF_NRA)
+(set-info :source |own, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (<= (- 3) x 3))
+(assert (<= (- 3) y 3))
+(assert (> (+ (* 2 x (+ (- x) (* x y y))) (* 2 y (- (- y) (/ (* x x y) 2)))) 0))
+(check-sat)

@@ -1,0 +1,11 @@
+; V = x^2 + y^2 falls along x' = -x + x y^2/2, y' = -y - x^2 y/2 on the box |x|, |y| <= 1, but at 0.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (<= (- 1) x 1))
+(assert (<= (- 1) y 1))
+(assert (> (+ (* x x) (* y y)) 0))
+(assert (>= (+ (* 2 x (+ (- x) (/ (* x y y) 2))) (* 2 y (- (- y) (/ (* x x y) 2)))) 0))
+(check-sat)

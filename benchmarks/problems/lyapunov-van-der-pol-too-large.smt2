@@ -1,0 +1,11 @@
+; The same on |x|, |y| <= 3, where V rises somewhere.
+(set-logic QF_NRA)
+(set-info :source |own, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (<= (- 3) x 3))
+(assert (<= (- 3) y 3))
+(assert (or (not (= x 0)) (not (= y 0))))
+(assert (>= (+ (* (- (* 2 x) y) (- y)) (* (- (* 2 y) x) (- x (* (- 1 (* x x)) y)))) 0))
+(check-sat)

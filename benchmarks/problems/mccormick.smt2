@@ -1,0 +1,12 @@
+; The envelope of a product on the unit square.
+(set-logic QF_NRA)
+(set-info :source |McCormick 1976|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const w Real)
+(assert (<= 0 x 1))
+(assert (<= 0 y 1))
+(assert (= w (* x y)))
+(assert (or (> w x) (> w y) (< w 0) (< w (- (+ x y) 1))))
+(check-sat)

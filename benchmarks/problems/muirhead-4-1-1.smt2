@@ -1,0 +1,12 @@
+; (4, 1, 1) majorizes (2, 2, 2).
+(set-logic QF_NRA)
+(set-info :source |Muirhead|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (>= x 0))
+(assert (>= y 0))
+(assert (>= z 0))
+(assert (< (+ (* (* x x x x) y z) (* x (* y y y y) z) (* x y (* z z z z))) (* 3 (* x x) (* y y) (* z z))))
+(check-sat)

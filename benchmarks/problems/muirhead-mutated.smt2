@@ -1,0 +1,12 @@
+; (3, 3, 0) does not majorize (4, 1, 1).
+(set-logic QF_NRA)
+(set-info :source |Muirhead, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (> x 0))
+(assert (> y 0))
+(assert (> z 0))
+(assert (< (+ (* (* x x x) (* y y y)) (* (* y y y) (* z z z)) (* (* z z z) (* x x x))) (+ (* (* x x x x) y z) (* x (* y y y y) z) (* x y (* z z z z)))))
+(check-sat)

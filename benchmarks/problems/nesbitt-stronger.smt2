@@ -1,0 +1,12 @@
+; The bound 3/2 cannot be raised to 151/100.
+(set-logic QF_NRA)
+(set-info :source |Nesbitt, mutated|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const c Real)
+(assert (> a 0))
+(assert (> b 0))
+(assert (> c 0))
+(assert (< (+ (/ a (+ b c)) (/ b (+ c a)) (/ c (+ a b))) (/ 151 100)))
+(check-sat)

@@ -1,0 +1,12 @@
+; a/(b + c) + b/(c + a) + c/(a + b) >= 3/2 for positive reals.
+(set-logic QF_NRA)
+(set-info :source |Nesbitt|)
+(set-info :status unsat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const c Real)
+(assert (> a 0))
+(assert (> b 0))
+(assert (> c 0))
+(assert (< (+ (/ a (+ b c)) (/ b (+ c a)) (/ c (+ a b))) (/ 3 2)))
+(check-sat)

@@ -1,0 +1,12 @@
+; sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2).
+(set-logic QF_NRA)
+(set-info :source |classical exercise|)
+(set-info :status unsat)
+(declare-const a Real)
+(declare-const b Real)
+(assert (>= a 0))
+(assert (>= b 0))
+(assert (= (* a a) 2))
+(assert (= (* b b) (+ 3 (* 2 a))))
+(assert (not (= b (+ 1 a))))
+(check-sat)

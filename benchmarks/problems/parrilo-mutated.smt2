@@ -1,0 +1,10 @@
+; With 1 in place of 2 there are points.
+(set-logic QF_NRA)
+(set-info :source |Parrilo, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (>= (+ (- x (* y y)) 3) 0))
+(assert (= (+ y (* x x) 1) 0))
+(assert (not (= x 0)))
+(check-sat)

@@ -1,0 +1,10 @@
+; The same without the signs, and with both numbers at most 1.
+(set-logic QF_NRA)
+(set-info :source |power mean, a hypothesis dropped|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const b Real)
+(assert (<= a 1))
+(assert (<= b 1))
+(assert (> (* (/ (+ a b) 2) (/ (+ a b) 2) (/ (+ a b) 2)) (/ (+ (* a a a) (* b b b)) 2)))
+(check-sat)

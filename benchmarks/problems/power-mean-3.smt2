@@ -1,0 +1,10 @@
+; The cube of the mean is at most the mean of the cubes, for nonnegative reals.
+(set-logic QF_NRA)
+(set-info :source |power mean|)
+(set-info :status unsat)
+(declare-const a Real)
+(declare-const b Real)
+(assert (>= a 0))
+(assert (>= b 0))
+(assert (> (* (/ (+ a b) 2) (/ (+ a b) 2) (/ (+ a b) 2)) (/ (+ (* a a a) (* b b b)) 2)))
+(check-sat)

@@ -1,0 +1,10 @@
+; The bound 1/16 cannot be lowered to 624/10000.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (<= 0 x 1))
+(assert (<= 0 y 1))
+(assert (> (* x y (- 1 x) (- 1 y)) (/ 624 10000)))
+(check-sat)

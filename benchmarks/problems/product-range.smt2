@@ -1,0 +1,10 @@
+; x (1 - x) <= 1/4 on the unit interval, and with two variables x y (1 - x)(1 - y) <= 1/16.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(assert (<= 0 x 1))
+(assert (<= 0 y 1))
+(assert (> (* x y (- 1 x) (- 1 y)) (/ 1 16)))
+(check-sat)

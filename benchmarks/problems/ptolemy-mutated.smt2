@@ -1,0 +1,11 @@
+; Four points with p q < r s: the product of two lengths that need not be the diagonals.
+(set-logic QF_NRA)
+(set-info :source |Ptolemy, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(declare-const w Real)
+(assert (< (* (+ (* x x) (* y y)) (+ (* z z) (* w w))) (* (+ (* (- x z) (- x z)) (* (- y w) (- y w))) 1)))
+(assert (> (* x w) (* y z)))
+(check-sat)

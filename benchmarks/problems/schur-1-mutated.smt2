@@ -1,0 +1,12 @@
+; Two of the three terms doubled: no inequality any more.
+(set-logic QF_NRA)
+(set-info :source |Schur, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (>= x 0))
+(assert (>= y 0))
+(assert (>= z 0))
+(assert (< (+ (* x (- x y) (- x z)) (* 2 y (- y x) (- y z)) (* 2 z (- z x) (- z y))) 0))
+(check-sat)

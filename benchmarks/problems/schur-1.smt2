@@ -1,0 +1,12 @@
+; Schur's inequality of degree 3 for x, y, z >= 0.
+(set-logic QF_NRA)
+(set-info :source |Schur|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (>= x 0))
+(assert (>= y 0))
+(assert (>= z 0))
+(assert (< (+ (* x (- x y) (- x z)) (* y (- y x) (- y z)) (* z (- z x) (- z y))) 0))
+(check-sat)

@@ -1,0 +1,11 @@
+; Three spheres that meet in pairs, but not all three.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (= (+ (* x x) (* y y) (* z z)) 1))
+(assert (= (+ (* (- x (/ 9 5)) (- x (/ 9 5))) (* y y) (* z z)) 1))
+(assert (= (+ (* (- x (/ 9 10)) (- x (/ 9 10))) (* (- y (/ 8 5)) (- y (/ 8 5))) (* z z)) 1))
+(check-sat)

@@ -1,0 +1,11 @@
+; Three spheres that meet: a position found from three distances.
+(set-logic QF_NRA)
+(set-info :source |trilateration|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (= (+ (* x x) (* y y) (* z z)) 4))
+(assert (= (+ (* (- x 2) (- x 2)) (* y y) (* z z)) 3))
+(assert (= (+ (* x x) (* (- y 2) (- y 2)) (* z z)) 5))
+(check-sat)

@@ -1,0 +1,10 @@
+; Without its condition the first mode of the switched map may grow.
+(set-logic QF_NRA)
+(set-info :source |own, mutated|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const m Bool)
+(assert (= y (ite m (* x (- 1 (* x x))) (/ x 2))))
+(assert (> (* y y) (* x x)))
+(check-sat)

@@ -1,0 +1,11 @@
+; A switched map of two modes whose square never grows, whichever mode applies.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const m Bool)
+(assert (= y (ite m (* x (- 1 (* x x))) (/ x 2))))
+(assert (=> m (<= (* x x) 1)))
+(assert (> (* y y) (* x x)))
+(check-sat)

@@ -1,0 +1,13 @@
+; Without the sign of y it fails.
+(set-logic QF_NRA)
+(set-info :source |Titu, mutated|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const x Real)
+(declare-const y Real)
+(assert (> x 0))
+(assert (not (= y 0)))
+(assert (> (+ x y) 0))
+(assert (< (+ (/ (* a a) x) (/ (* b b) y)) (/ (* (+ a b) (+ a b)) (+ x y))))
+(check-sat)

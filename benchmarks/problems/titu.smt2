@@ -1,0 +1,12 @@
+; a^2/x + b^2/y >= (a + b)^2/(x + y) for positive x, y.
+(set-logic QF_NRA)
+(set-info :source |Titu (Engel form of Cauchy-Schwarz)|)
+(set-info :status unsat)
+(declare-const a Real)
+(declare-const b Real)
+(declare-const x Real)
+(declare-const y Real)
+(assert (> x 0))
+(assert (> y 0))
+(assert (< (+ (/ (* a a) x) (/ (* b b) y)) (/ (* (+ a b) (+ a b)) (+ x y))))
+(check-sat)

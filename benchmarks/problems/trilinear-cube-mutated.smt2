@@ -1,0 +1,12 @@
+; With the last term doubled the bound fails.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status sat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (<= 0 x 1))
+(assert (<= 0 y 1))
+(assert (<= 0 z 1))
+(assert (> (+ (- (- (- (+ x y z) (* x y)) (* y z)) (* z x)) (* 2 x y z)) 1))
+(check-sat)

@@ -1,0 +1,12 @@
+; x + y + z - x y - y z - z x + x y z <= 1 on the unit cube.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const x Real)
+(declare-const y Real)
+(declare-const z Real)
+(assert (<= 0 x 1))
+(assert (<= 0 y 1))
+(assert (<= 0 z 1))
+(assert (> (+ (- (- (- (+ x y z) (* x y)) (* y z)) (* z x)) (* x y z)) 1))
+(check-sat)

@@ -1,0 +1,13 @@
+; The same arm does not reach (3, 1).
+(set-logic QF_NRA)
+(set-info :source |inverse kinematics|)
+(set-info :status unsat)
+(declare-const c Real)
+(declare-const s Real)
+(declare-const d Real)
+(declare-const e Real)
+(assert (= (+ (* c c) (* s s)) 1))
+(assert (= (+ (* d d) (* e e)) 1))
+(assert (= (- (+ (* 2 c) (* c d)) (* s e)) 3))
+(assert (= (+ (* 2 s) (* s d) (* c e)) 1))
+(check-sat)

@@ -1,0 +1,12 @@
+; sqrt(2) + sqrt(3) < 63/20.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status unsat)
+(declare-const a Real)
+(declare-const b Real)
+(assert (>= a 0))
+(assert (>= b 0))
+(assert (= (* a a) 2))
+(assert (= (* b b) 3))
+(assert (>= (+ a b) (/ 63 20)))
+(check-sat)

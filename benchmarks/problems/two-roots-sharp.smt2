@@ -1,0 +1,12 @@
+; sqrt(2) + sqrt(3) > 314/100: two roots at once.
+(set-logic QF_NRA)
+(set-info :source |own|)
+(set-info :status sat)
+(declare-const a Real)
+(declare-const b Real)
+(assert (>= a 0))
+(assert (>= b 0))
+(assert (= (* a a) 2))
+(assert (= (* b b) 3))
+(assert (> (+ a b) (/ 314 100)))
+(check-sat)

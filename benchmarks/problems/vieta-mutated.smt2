@@ -1,0 +1,12 @@
+; Where the two roots may be equal their sum need not be -p.
+(set-logic QF_NRA)
+(set-info :source |Vieta, mutated|)
+(set-info :status sat)
+(declare-const p Real)
+(declare-const q Real)
+(declare-const x Real)
+(declare-const y Real)
+(assert (= (+ (* x x) (* p x) q) 0))
+(assert (= (+ (* y y) (* p y) q) 0))
+(assert (not (= (+ x y) (- p))))
+(check-sat)

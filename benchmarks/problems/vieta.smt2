@@ -1,0 +1,13 @@
+; Two different roots of x^2 + p x + q have the sum -p.
+(set-logic QF_NRA)
+(set-info :source |Vieta|)
+(set-info :status unsat)
+(declare-const p Real)
+(declare-const q Real)
+(declare-const x Real)
+(declare-const y Real)
+(assert (not (= x y)))
+(assert (= (+ (* x x) (* p x) q) 0))
+(assert (= (+ (* y y) (* p y) q) 0))
+(assert (not (= (+ x y) (- p))))
+(check-sat)

@@ -1,0 +1,64 @@
+"""Gram matrices from floats to exact squares: the image of a matrix as rationals, and LDL^T."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import lcm
+
+import numpy as np
+
+from .semidefinite import Array
+
+NEAR = 3e-4  # of a rational with a small denominator
+
+
+def rational_image(vectors: Array) -> list[list[int]] | None:
+    """A basis of the space that the columns span, as small integers, in echelon form; None where the space is no simple rational one."""
+    work, pivots = vectors.T.copy(), []
+    for row in range(len(work)):
+        size = np.abs(work[row:])
+        at = int(np.argmax(size.max(axis=0) > 0.3 * size.max()))
+        best = row + int(np.argmax(size[:, at]))
+        if abs(work[best, at]) < 1e-7:
+            return None
+        work[[row, best]] = work[[best, row]]
+        work[row] /= work[row, at]
+        for other in range(len(work)):
+            if other != row:
+                work[other] -= work[other, at] * work[row]
+        pivots.append(at)
+    result = []
+    for line in work:
+        fractions = [Fraction(float(c)).limit_denominator(60) for c in line]
+        if any(abs(float(f) - float(c)) > NEAR for f, c in zip(fractions, line)):
+            return None
+        common = lcm(*(f.denominator for f in fractions))
+        result.append([int(f * common) for f in fractions])
+    return result
+
+
+def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] | None:
+    """(c, row) with gram = sum c * row row^T, every c > 0, by LDL^T; None where the matrix is not positive semidefinite.
+
+    >>> as_squares([[Fraction(1), Fraction(-1)], [Fraction(-1), Fraction(1)]])
+    [(Fraction(1, 1), [1, -1])]
+    """
+    rest, squares = [list(row) for row in gram], []
+    for k in range(len(rest)):
+        head = rest[k][k]
+        if head < 0 or head == 0 and any(rest[k][k:]):
+            return None
+        if head == 0:
+            continue
+        line = [c / head for c in rest[k]]
+        common = lcm(*(c.denominator for c in line))
+        squares.append((head / common**2, [int(c * common) for c in line]))
+        for i in range(k + 1, len(rest)):
+            factor = rest[i][k]
+            if factor:
+                for j in range(k, len(rest)):
+                    rest[i][j] -= factor * line[j]
+        rest[k] = [Fraction(0)] * len(rest)
+        for i in range(k + 1, len(rest)):
+            rest[i][k] = Fraction(0)
+    return squares

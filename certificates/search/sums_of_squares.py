@@ -1,0 +1,263 @@
+"""Positive combinations with sums of squares as multipliers: sum s_k * product of facts + sum m_j * equation = 0, every s_k a sum of squares.
+
+A semidefinite program in floats hints at Gram matrices (Parrilo 2000).  Where they are singular, as at every point of equality, their kernel is
+read off as rationals and the squares are confined to its complement, so that what is left can be rounded (Peyrl and Parrilo 2008; Monniaux
+and Corbineau 2011).  The result is exact, and the checker confirms it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations_with_replacement
+from itertools import product as choices
+from math import prod
+from typing import Any
+
+import numpy as np
+from flint import fmpz_mpoly
+
+from .budget import Budget
+from .combination import lift, powers_of
+from .gram_equations import Entry, Linear, Monomial
+from .polynomials import total_degree
+from .problem import Problem
+from .rational_gram import as_squares, rational_image
+from .reduction import Factors
+from .semidefinite import Array
+
+Node = list[Any]
+Solved = tuple[Linear, list[Array]]
+MOST_ENTRIES = 2_000_000
+MOST_FOR_PAIRS = 12  # facts
+MOST_BITS = 6000  # of a coefficient
+MOST_MONOMIALS = 70  # in one block
+DENOMINATORS = (1, 2, 12, 60, 1 << 8, 1 << 14, 1 << 20, 1 << 28)
+ROUNDS = 6
+GOALS = ((1e-4, 1e-9), (1e-8, 1e-7))  # what the trace costs, and where to stop: at a simple solution, or in the middle of all
+KERNELS = (1e-3, 1e-5, 1e-2, 1e-7)
+
+
+@dataclass
+class Block:
+    """A product of facts that is multiplied by a sum of squares of combinations of the basis."""
+
+    factors: Factors
+    poly: fmpz_mpoly
+    strict: bool
+    basis: list[fmpz_mpoly]
+
+
+class Squares:
+    """One program: the blocks, and the equations with the monomials that multiply them."""
+
+    def __init__(self, problem: Problem, count: int, degree: int, only: Sequence[int]) -> None:
+        self.problem, self.ring, self.degree, self.only = problem, problem.ring, degree, only
+        polys = [*(equation.poly for equation in problem.reduction.left), *(problem.facts[k].poly for k in only)]
+        self.used = [v for v in range(self.ring.size) if any(p.degrees()[v] for p in polys)]
+        self.flips = self._flips(polys)
+        self.leading = [equation.poly.monoms()[0] for equation in problem.reduction.basis()]
+        self.blocks = list(self._blocks(count))
+        self.cofactors = [(place, monomial) for place, equation in enumerate(problem.reduction.left)
+                          for monomial in self._monomials(degree - total_degree(equation.poly))
+                          if self._class(monomial) == self._class(equation.poly.monoms()[0])]
+        self._prune()
+
+    # ------------------------------------------------------------ what is in the program
+
+    def _flips(self, polys: Sequence[fmpz_mpoly]) -> list[Monomial]:
+        """The sets of variables whose signs can be changed without changing any fact or equation, but for an equation's own sign."""
+        odd = [[tuple(e % 2 for e in m) for m in p.monoms()] for p in polys]
+        found = []
+        for signs in choices((0, 1), repeat=len(self.used)) if len(self.used) <= 9 else ():
+            flip = [0] * self.ring.size
+            for v, sign in zip(self.used, signs):
+                flip[v] = sign
+            parities = [{sum(a * b for a, b in zip(m, flip)) % 2 for m in p} for p in odd]
+            count = len(self.problem.reduction.left)
+            if any(signs) and all(len(one) == 1 for one in parities[:count]) and all(one <= {0} for one in parities[count:]):
+                found.append(tuple(flip))
+        return found
+
+    def _class(self, monomial: Monomial) -> Monomial:
+        return tuple(sum(a * b for a, b in zip(monomial, flip)) % 2 for flip in self.flips)
+
+    def _monomials(self, degree: int) -> list[Monomial]:
+        found = []
+        for total in range(degree + 1):
+            for chosen in combinations_with_replacement(self.used, total):
+                exponents = [0] * self.ring.size
+                for v in chosen:
+                    exponents[v] += 1
+                found.append(tuple(exponents))
+        return found
+
+    def _blocks(self, count: int) -> Iterator[Block]:
+        facts = self.problem.facts
+        for number in range(count + 1):
+            for chosen in combinations_with_replacement(self.only, number):
+                if len(set(chosen)) < number:
+                    continue  # a square already
+                poly = prod((facts[k].poly for k in chosen), start=self.ring.one)
+                room = (self.degree - total_degree(poly)) // 2
+                if room < 0:
+                    continue
+                parts: dict[Monomial, list[fmpz_mpoly]] = {}
+                for monomial in self._monomials(room):
+                    if any(all(a >= b for a, b in zip(monomial, leading)) for leading in self.leading):
+                        continue  # modulo the equations it is a combination of others
+                    parts.setdefault(self._class(monomial), []).append(self.ring.ctx.from_dict({monomial: 1}))
+                for basis in parts.values():
+                    yield Block(powers_of(chosen), poly, False, basis)
+                if all(facts[k].strict for k in chosen):
+                    yield Block(powers_of(chosen), poly, True, [self.ring.one])
+                if number == 1 and facts[chosen[0]].strict:
+                    for power in range(2, self.degree // max(1, total_degree(poly)) + 1):
+                        yield Block(((chosen[0], power),), poly**power, True, [self.ring.one])
+
+    def _prune(self) -> None:
+        """Drops squares that nothing can cancel: of a monomial that only squares reach, and all with one sign."""
+        while True:
+            fixed, signs = set[Monomial](), dict[Monomial, set[int]]()
+            owners: dict[Monomial, list[tuple[int, int]]] = {}
+            for place, monomial in self.cofactors:
+                fixed |= {tuple(map(sum, zip(m, monomial))) for m in self.problem.reduction.left[place].poly.monoms()}
+            for k, block in enumerate(self.blocks):
+                exponents = [b.monoms()[0] for b in block.basis]
+                terms = [(m, 1 if int(c) > 0 else -1) for m, c in zip(block.poly.monoms(), block.poly.coeffs())]
+                for i, one in enumerate(exponents):
+                    for j in range(i + 1):
+                        for m, sign in terms:
+                            whole = tuple(map(sum, zip(one, exponents[j], m)))
+                            if i != j:
+                                fixed.add(whole)
+                            else:
+                                signs.setdefault(whole, set()).add(sign)
+                                owners.setdefault(whole, []).append((k, i))
+            dead = {place for whole, found in signs.items() if len(found) == 1 and whole not in fixed for place in owners[whole]}
+            if not dead:
+                break
+            for k, block in enumerate(self.blocks):
+                block.basis = [b for i, b in enumerate(block.basis) if (k, i) not in dead]
+            self.blocks = [block for block in self.blocks if block.basis]
+
+    # ------------------------------------------------------------ solutions
+
+    def node(self, budget: Budget) -> Node | None:
+        """The node of an identity that the program leads to."""
+        blocks = self.blocks
+        for goal in GOALS:
+            self.blocks, tried = blocks, set[tuple[int, ...]]()
+            first = self._solved(budget, goal)
+            node = self._rounded(*first, DENOMINATORS[:4], budget) if first else None
+            if node is not None or not first:
+                return node
+            for threshold in KERNELS:
+                node = self._followed(blocks, first, threshold, goal, tried, budget)
+                if node is not None:
+                    return node
+        return None
+
+    def _followed(self, blocks: list[Block], solved: Solved | None, threshold: float, goal: tuple[float, float],
+                  tried: set[tuple[int, ...]], budget: Budget) -> Node | None:
+        """The node of a solution inside of the cone that is left when kernels are taken off, as long as there are any."""
+        self.blocks = blocks
+        for _ in range(ROUNDS):
+            confined = self._confined(solved[1], threshold) if solved else []
+            sizes = tuple(len(block.basis) for block in confined)
+            if not solved or not any(block.strict for block in confined):
+                return None
+            if sizes == tuple(len(block.basis) for block in self.blocks):
+                return self._rounded(*solved, DENOMINATORS, budget)
+            if sizes in tried:
+                return None
+            tried.add(sizes)
+            self.blocks = confined
+            solved = self._solved(budget, goal)
+        return None
+
+    def _solved(self, budget: Budget, goal: tuple[float, float]) -> Solved | None:
+        """The equations with matrices that meet them nearly."""
+        linear = self._linear()
+        budget.spend(100 + (sum(map(len, linear.terms)) // 2 if linear else 0))
+        grams = linear.solve(budget, *goal) if linear else None
+        return (linear, grams) if linear and grams else None
+
+    def _linear(self) -> Linear | None:
+        """The equations, where there are any that could be met, and they are not too many."""
+        if not any(block.strict for block in self.blocks) or max(len(block.basis) for block in self.blocks) > MOST_MONOMIALS:
+            return None
+        left = self.problem.reduction.left
+        linear = Linear(self.blocks, [left[place].poly * self.ring.ctx.from_dict({m: 1}) for place, m in self.cofactors])
+        return linear if linear.size <= MOST_ENTRIES else None
+
+    def _confined(self, grams: list[Array], threshold: float) -> list[Block]:
+        """The blocks, each confined to the complement of its matrix's kernel, where that is a simple rational space."""
+        kept = []
+        top = max(float(np.abs(gram).max()) for gram in grams)
+        for block, gram in zip(self.blocks, grams):
+            values, vectors = np.linalg.eigh(gram)
+            small = values < threshold * max(top, 1e-12)
+            image = rational_image(vectors[:, ~small]) if small.any() else None
+            if image is None:
+                kept.append(block)
+            elif image:
+                basis = [sum((b * c for b, c in zip(block.basis, row) if c), self.ring.zero) for row in image]
+                kept.append(Block(block.factors, block.poly, block.strict, basis))
+        return kept
+
+    def _rounded(self, linear: Linear, grams: list[Array], denominators: Sequence[int], budget: Budget) -> Node | None:
+        """The node of exact matrices near the floating ones."""
+        for denominator in denominators:
+            budget.spend(50 + linear.rows**2 * len(linear.terms) // 4000)
+            exact = linear.rounded(grams, denominator)
+            node = None if exact is None else self._lifted(*exact)
+            if node is not None:
+                return node
+        return None
+
+    def _lifted(self, entries: dict[Entry, Fraction], multipliers: list[Fraction]) -> Node | None:
+        """The node of exact Gram matrices, if all of them are positive semidefinite."""
+        used: list[tuple[tuple[Factors, int], Fraction]] = []
+        roots: list[fmpz_mpoly] = []
+        for k, block in enumerate(self.blocks):
+            size = len(block.basis)
+            gram = [[entries[(k, max(i, j), min(i, j))] for j in range(size)] for i in range(size)]
+            squares = as_squares(gram)
+            if squares is None or any(c.bit_length() > MOST_BITS for weight, row in squares for c in (*weight.as_integer_ratio(), *row)):
+                return None
+            for weight, row in squares:
+                root = sum((b * int(c) for b, c in zip(block.basis, row) if c), self.ring.zero)
+                if root == self.ring.one:
+                    used.append(((block.factors, -1), weight))
+                else:
+                    used.append(((block.factors, len(roots)), weight))
+                    roots.append(root)
+        cofactors = [(one, c) for one, c in zip(self.cofactors, multipliers) if c]
+        try:
+            return lift(self.problem, used, cofactors, roots)
+        except ValueError:  # a number too long to be written
+            return None
+
+
+# (facts in a product at most, degree beyond that of the facts, whether bounds and signs of single variables are left out)
+STAGES = ((1, 0, True), (1, 0, False), (2, 0, False), (1, 2, True), (1, 2, False), (2, 2, False), (1, 4, True), (1, 4, False))
+
+
+def search_squares(problem: Problem, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES) -> Node | None:
+    """The node of the first program that leads to an identity.
+
+    Without the signs of variables more changes of signs leave everything as it is, and programs are smaller and their kernels rational.
+    """
+    everything = list(range(len(problem.facts)))
+    bare = [k for k in everything if total_degree(problem.facts[k].poly) > 1 or sum(map(bool, problem.facts[k].poly.degrees())) > 1]
+    top = max(map(total_degree, problem.polys()), default=0)
+    for count, more, without in stages:
+        only = bare if without else everything
+        if not top or without and len(bare) == len(everything) or count > 1 and len(only) > MOST_FOR_PAIRS:
+            continue
+        node = Squares(problem, count, top + top % 2 + more, only).node(budget)
+        if node is not None:
+            return node
+    return None

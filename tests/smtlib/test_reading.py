@@ -1,0 +1,160 @@
+"""What the reader of SMT-LIB accepts, as the statement that it becomes, and what it refuses, in one line that names file, line and mend."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from certificates.terms import ClaimError
+from proofs.smtlib.script import problems_of_file, read_problems
+from proofs.smtlib.stating import statement_of
+
+XY = "(declare-const x Real)(declare-fun y () Real)"
+B = "(declare-const b Bool)"
+
+ACCEPTED = [
+    ("(assert (> x 0.5))", "x > 1/2"),
+    ("(assert (>= (/ 1 3) x))", "1/3 >= x"),
+    ("(assert (= x (- 3)))", "x = -3"),
+    ("(assert (< x y 2))", "x < y and y < 2"),
+    ("(assert (> (- x y 1) (+ x y 1)))", "x - y - 1 > x + y + 1"),
+    ("(assert (> (- x) (* 2 x y)))", "-x > 2*x*y"),
+    ("(assert (= (^ x 3) (/ y 2)))", "x^3 = y/2"),
+    ("(assert (distinct x y 1))", "y != x and 1 != x and 1 != y"),
+    ("(assert (=> (> x 0) (> y 0) (> x y)))", "implies(x > 0, implies(y > 0, x > y))"),
+    ("(assert (xor (> x 0) (> y 0)))", "iff(x > 0, not y > 0)"),
+    ("(assert (= (> x 0) (> y 0)))", "iff(x > 0, y > 0)"),
+    ("(assert (or (not (= x y)) (and (< x 1) true)))", "not x = y or x < 1"),
+    ("(assert (ite (> x 0) (> y 1) (< y 1)))", "x > 0 and y > 1 or not x > 0 and y < 1"),
+    ("(assert (> (ite (> x 0) x (- x)) 1))", "x > 0 and x > 1 or not x > 0 and -x > 1"),
+    ("(assert (let ((x y) (y x)) (> x (* 2 y))))", "y > 2*x"),
+    ("(assert (let ((z (+ x 1))) (let ((z (* z z))) (> z 0))))", "(x + 1)*(x + 1) > 0"),
+    ("(define-fun sq ((t Real)) Real (* t t))(assert (< (sq (+ x 1)) (sq y)))", "(x + 1)*(x + 1) < y*y"),
+    ("(define-fun pos ((x Real)) Bool (> x 0))(assert (pos y))", "y > 0"),
+    ("(define-const c Real 2.50)(assert (> x c))", "x > 5/2"),
+    ("(define-fun c () Real 2)(assert (> x c))", "x > 2"),
+    ("(assert (! (> x 0) :named positive))", "x > 0"),
+    ("(push 1)(assert (> x 9))(pop 1)(assert (> x 1))", "x > 1"),
+    ("(set-info :source |it; is ) so|)(set-option :produce-models true)(assert (> x 0)) ; (assert (< x 0))\n", "x > 0"),
+    (f"{B}(assert (and b (> x 0)))", "b > 0 and x > 0"),
+    ("(assert (> (ite (> x 0) 1 0) (ite (> x 0) 0 1)))", "x > 0 and 1 > 0 or not x > 0 and 0 > 1"),
+    ("(declare-const |a b'| Real)(declare-const lambda Real)(assert (> |a b'| lambda))", "a_b_ > lambda_"),
+    ("(declare-const |x| Bool)", None),
+]
+
+
+@pytest.mark.parametrize("body, shown", ACCEPTED)
+def test_a_script_is_read_as_this_statement_holds(body: str, shown: str | None) -> None:
+    if shown is None:
+        with pytest.raises(ClaimError, match="x is declared already"):
+            read_problems(f"{XY}{body}(check-sat)", "f")
+        return
+    (problem,) = read_problems(f"(set-logic QF_NRA){XY}{body}(check-sat)(get-model)(exit)(nonsense)", "f")
+    text = statement_of(problem, "f/check").text()
+    assert text.splitlines()[-1] == f"show not {shown if ' and ' not in shown and ' or ' not in shown else f'({shown})'}"
+
+
+DIVISIONS = [
+    ("(assert (> x 0))(assert (< (/ 1 x) y))", ["given x > 0", "show not 1/x < y"]),
+    ("(assert (not (= x y)))(assert (< (/ 1 (- x y)) 1))", ["given not x = y", "show not 1/(x - y) < 1"]),
+    ("(assert (< (/ y (+ 1 (* x x))) 1))", ["have 1 + x*x > 0", "show not y/(1 + x*x) < 1"]),
+    ("(assert (< x (- 1)))(assert (< (/ y (* 2 x)) 1))", ["given x < -1", "have 2*x < 0", "show not y/(2*x) < 1"]),
+    ("(assert (and (> x 1) (< (/ 1 (- 1 (/ 1 x))) y)))", ["given x > 1", "have x > 0", "show not 1/(1 - 1/x) < y"]),
+]
+
+
+@pytest.mark.parametrize("body, rows", DIVISIONS)
+def test_what_keeps_a_divisor_from_zero_stands_before_it_holds(body: str, rows: list[str]) -> None:
+    (problem,) = read_problems(f"{XY}{body}(check-sat)", "f")
+    assert statement_of(problem, "f/check").text().splitlines()[2:] == rows
+
+
+REJECTED = [
+    ("(assert (> (/ 1 x) 0))", 2, "division by x, which may vanish"),
+    ("(assert (or (= x 0) (> (/ 1 x) 0)))", 2, "division by x, which may vanish"),
+    ("(assert (> (/ y 0) 0))", 2, "division by 0, which may vanish"),
+    ("(assert (> z 0))", 2, "z is not declared"),
+    ("\n\n(assert (> x 0)", 4, "opened and never closed"),
+    ("(assert (> x 0)))", 2, "closed that was not opened"),
+    ("(assert (sin x))", 2, "sin: an unknown function"),
+    ("(assert (> (div x 2) 0))", 2, "div: an unknown function"),
+    ("(assert (forall ((z Real)) (> z x)))", 2, "quantifiers"),
+    ("(assert x)", 2, "x is a Real where a Bool is expected"),
+    ("(assert (> (> x 0) 0))", 2, "compares a Bool"),
+    ("(assert (= x (> y 0)))", 2, "compares a Bool with a Real"),
+    ("(assert (+ x 1))", 2, "is a Real where a Bool is expected"),
+    ("(assert (and x (> y 0)))", 2, "x is a Real where a Bool is expected"),
+    ("(assert (> x))", 2, "> takes at least 2 arguments, not 1"),
+    ("(assert (not (> x 0) (> y 0)))", 2, "not takes 1 argument, not 2"),
+    ("(assert (ite (> x 0) (> y 0)))", 2, "ite takes 3 arguments, not 2"),
+    ("(assert (ite (> x 0) x (> y 0)))", 2, "ite between a Bool and a Real"),
+    ("(assert (> (^ x y) 0))", 2, "the exponent is no numeral"),
+    ("(assert (> (^ x (- 1)) 0))", 2, "the exponent is no numeral"),
+    ("(assert (> (^ x 101) 0))", 2, "the exponent is no numeral"),
+    ("(assert (> x #b01))", 2, "is no part of SMT-LIB"),
+    ("(assert (> x 01))", 2, "is no part of SMT-LIB"),
+    ("(assert (> x 1e3))", 2, "is no part of SMT-LIB"),
+    ('(assert (> x "one"))', 2, '"one" where a term is expected'),
+    ("(assert)", 2, "assert takes 1 arguments, not 0"),
+    ("(assert ())", 2, "() where a term is expected"),
+    ("(assert ((x) 1))", 2, "is not the name of a function"),
+    ("(assert (x 1))", 2, "x is no function"),
+    ("(define-fun f ((t Real)) Real (* t s))", 2, "s is not declared"),
+    ("(define-fun f ((t Real)) Real (> t 0))", 2, "is a Bool where a Real is expected"),
+    ("(define-fun f ((t Real) (t Real)) Real t)", 2, "t is bound twice"),
+    ("(define-fun f ((t Real)) Real t)(assert (> (f x y) 0))", 2, "takes 1 argument, not 2"),
+    ("(define-fun f ((t Real)) Real t)(assert (> f 0))", 2, "takes 1 argument, not 0"),
+    ("(define-fun f ((t Real)) Real (f t))", 2, "f: an unknown function"),
+    ("(assert (let ((z 1) (z 2)) (> x z)))", 2, "z is bound twice"),
+    ("(assert (let (z 1) (> x z)))", 2, "not a name with what belongs to it"),
+    ("(declare-const n Int)", 2, "the sort Int is not taken on"),
+    ("(declare-const x Real)", 2, "x is declared already"),
+    ("(declare-const and Real)", 2, "and is declared already, or is reserved"),
+    ("(declare-fun f (Real) Real)", 2, "uninterpreted functions are not taken on"),
+    ("(declare-sort S 0)", 2, "declare-sort: an unknown command"),
+    ("(set-logic QF_LIA)", 2, "the logic QF_LIA is not taken on"),
+    ("(set-option :global-declarations true)", 2, "declarations that outlive"),
+    ("(set-info :status maybe)", 2, "the status maybe is none"),
+    ("(pop 1)", 2, "(pop 1) without that many (push)"),
+    ("(pop x)", 2, "x is no number of levels"),
+    ("(push 1)(declare-const z Real)(pop 1)(assert (> z 0))", 2, "z is not declared"),
+    ("(reset)(assert (> x 0))", 2, "x is not declared"),
+    ("assert", 2, "assert is no command"),
+    ("(assert " + "(not " * 250 + "true" + ")" * 251, 2, "nested more than 200 deep"),
+    ("(define-fun a0 () Real (+ x y))" + "".join(f"(define-fun a{k} () Real (* a{k - 1} a{k - 1}))" for k in range(1, 30)), 2,
+     "more than 20000 symbols"),
+    ("(assert (> (+ " + " ".join(f"(ite (> x {k}) y x)" for k in range(9)) + ") 0))", 2, "more than 64 cases of ite"),
+]
+
+
+@pytest.mark.parametrize("body, line, told", REJECTED)
+def test_rejects_what_is_not_understood_in_one_line(body: str, line: int, told: str) -> None:
+    with pytest.raises(ClaimError) as caught:
+        for problem in read_problems(f"{XY}\n{body}\n(check-sat)", "bad.smt2"):
+            statement_of(problem, "bad/check")
+    message = str(caught.value)
+    assert message.startswith(f"bad.smt2:{line}: ") and told in message and "; " in message and "\n" not in message, message
+
+
+def test_rejects_a_script_without_check_sat_and_a_file_that_is_none(tmp_path: Path) -> None:
+    with pytest.raises(ClaimError, match=r"no \(check-sat\)"):
+        read_problems(XY, "f")
+    with pytest.raises(ClaimError, match="no such file"):
+        problems_of_file(tmp_path / "absent.smt2")
+    (tmp_path / "bytes.smt2").write_bytes(b"\xff\xfe(")
+    with pytest.raises(ClaimError, match="cannot be read"):
+        problems_of_file(tmp_path / "bytes.smt2")
+
+
+def test_every_check_sat_has_the_assertions_and_the_status_of_its_place_holds() -> None:
+    text = ("(declare-const x Real)(set-info :status sat)(assert (> x 0))(check-sat)\n(push)(set-info :status unsat)(assert (< x 0))(check-sat)\n"
+            "(pop)(check-sat)(reset-assertions)(declare-const x Real)(assert (= x 7))(check-sat)(exit)(check-sat)")
+    found = [(problem.line, problem.status, [str(formula) for _, formula in problem.assertions]) for problem in read_problems(text, "f")]
+    assert found == [(1, "sat", ["x > 0"]), (2, "unsat", ["x > 0", "x < 0"]), (3, "", ["x > 0"]), (3, "", ["x = 7"])]
+
+
+def test_names_that_two_symbols_would_share_are_kept_apart_holds() -> None:
+    (problem,) = read_problems("(declare-const |a b| Real)(declare-const a_b Real)(assert (> |a b| a_b))(check-sat)", "f")
+    assert [variable.name for variable in problem.variables] == ["a_b", "a_b_2"]
+    assert statement_of(problem, "f/check").text().splitlines()[1:] == ["forall a_b a_b_2", "show not a_b > a_b_2"]
