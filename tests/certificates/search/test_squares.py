@@ -13,8 +13,8 @@ from certificates import checker
 from certificates.search.budget import Budget, Exhausted
 from certificates.search.certificate import SQUARES_FIRST, search_certificate
 from certificates.search.closing import SQUARED, search_closing
-from certificates.search.rational_gram import as_squares, rational_image
 from certificates.search.points import search_found
+from certificates.search.rational_gram import as_squares, rational_image
 from certificates.search.semidefinite import feasible
 
 rows = st.lists(st.lists(st.integers(-3, 3), min_size=4, max_size=4), min_size=1, max_size=4)
