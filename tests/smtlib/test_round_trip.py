@@ -117,7 +117,7 @@ def test_our_own_export_read_back_is_the_same_up_to_names_holds(name: str) -> No
         assert len(problem.assertions) == len(formulas)
         for _ in range(4):
             point = {symbol: Fraction(chance.randint(-6, 6), chance.randint(1, 4)) for symbol in question.names}
-            ours = {variable.name: point[variable.symbol] for variable in problem.variables}
+            ours = {variable.name: point[variable.symbol.removesuffix("!")] for variable in problem.variables}  # e! where Z3 has its own e
             values = [point[symbol] for symbol in question.names]
             for (_, read), formula in zip(problem.assertions, formulas):
                 assert truth(read, ours) == holds(formula, values)
