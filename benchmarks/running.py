@@ -1,4 +1,4 @@
-"""A peer's program in a process of its own, killed with its children when the seconds of the statement are over."""
+"""A peer's program in a process of its own, ended with its children when the seconds of the statement are over, or when its caller is."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import os
 import signal
 import subprocess
 import time
-from typing import Literal
+from typing import Any, Literal
 
 Answer = Literal["holds", "fails", "unsettled", "not expressible"]
+GRACE = 2.0  # seconds that a process has to end its own children
 
 
 class Clock:
@@ -24,6 +25,26 @@ class Clock:
         try:
             return process.communicate(text, timeout=max(0.0, self.end - time.monotonic()))[0]
         except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            process.communicate()
             return None
+        finally:
+            kill_with_children(process)
+
+
+def kill_with_children(process: subprocess.Popen[Any]) -> None:
+    """Kills a process that leads a session, and those that it started in that session; nothing where it has ended."""
+    if process.poll() is None:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+def end_with_children(process: subprocess.Popen[Any]) -> None:
+    """Asks a process to end, which gives it time to end what it started; kills it where it does not."""
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(GRACE)
+        except subprocess.TimeoutExpired:
+            kill_with_children(process)
+    for stream in (process.stdin, process.stdout, process.stderr):
+        if stream is not None:
+            stream.close()

@@ -72,6 +72,12 @@ def build_parser() -> argparse.ArgumentParser:
     report.add_argument("--format", required=True, metavar="F", help="html, latex, pdf, markdown, json, badge or figures")
     report.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: juggleproof-report)")
     add_simulate(commands)
+    bench = commands.add_parser("bench", help="speed against error: every method on the same questions, in one run")
+    bench.add_argument("--question", action="append", metavar="Q", help="only this question (may be given several times)")
+    bench.add_argument("--quick", action="store_true", help="one question, two widths, a few methods, unless told otherwise")
+    bench.add_argument("--widths", metavar="W", help="widths of enclosures (default: 1e-1,1e-2,...,1e-12)")
+    bench.add_argument("--seconds", metavar="S", help="limit for each answer (default: 10)")
+    bench.add_argument("-o", "--output", type=Path, metavar="DIR", help="where plots go (default: juggleproof-bench)")
     return parser
 
 
@@ -123,6 +129,10 @@ def _dispatch(parsed: argparse.Namespace) -> int:
         from proofs.command.report import report
 
         return report(parsed.format, parsed.output)
+    if parsed.command == "bench":
+        from proofs.command.bench import bench
+
+        return bench(parsed)
     if parsed.command == "simulate":
         from proofs.command.simulate import simulate
 

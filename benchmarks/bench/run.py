@@ -1,0 +1,174 @@
+"""The whole benchmark: questions in turn, each measured, judged against its closed form, printed and drawn."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from benchmarks.bench import growth, orbits, plot, table
+from benchmarks.bench.methods import ENSEMBLE, GROWTH, METHODS, NOTES, ORBITS, QUICK, Method
+from benchmarks.bench.questions import ALPHAS, questions
+from benchmarks.bench.timing import measure_all
+from certificates.store import write_file
+from certificates.terms import ClaimError
+
+WIDTHS = tuple(Fraction(1, 10**k) for k in range(1, 13))
+STEPS = tuple(Fraction(10**k) for k in range(7))
+STATES = tuple(Fraction(10**k) for k in range(2, 7))
+BALLS = tuple(Fraction(k) for k in range(1, 6))
+QUICK_WIDTHS, QUICK_SIZES, QUICK_SECONDS = (Fraction(1, 10), Fraction(1, 10**6)), 2, 2.0
+SECONDS = 10.0
+ENERGY = ("E-B1plus", "E-B1zero", "DE-H", "DE-outside-R", "p-outside-R")
+NAMES = (*ENERGY, *orbits.STARTS, "variables", "states")
+_WIDTH = re.compile(r"\d{0,4}\.?\d{1,40}(?:e-?\d{1,2})?|\d{1,10}/\d{1,40}", re.ASCII | re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is to be measured."""
+
+    names: tuple[str, ...]
+    widths: tuple[Fraction, ...]
+    seconds: float
+    quick: bool
+
+
+def wish(asked: Sequence[str] | None, widths: str | None, seconds: str | None, quick: bool) -> Wish:
+    """What the options say; ClaimError, one line, for what cannot be measured.
+
+    >>> wish(["orbit"], None, None, True).names, wish(None, "1e-2,1/7", "3", False).widths
+    (('orbit',), (Fraction(1, 7), Fraction(1, 100)))
+    """
+    for name in asked or ():
+        if name not in NAMES:
+            raise ClaimError(f"--question {name[:40]}: no such question; there are {', '.join(NAMES)}")
+    names = tuple(asked or (ENERGY[:1] if quick else NAMES))
+    return Wish(names, _widths(widths) if widths else QUICK_WIDTHS if quick else WIDTHS, _seconds(seconds) if seconds else
+                QUICK_SECONDS if quick else SECONDS, quick)
+
+
+def _widths(text: str) -> tuple[Fraction, ...]:
+    found = []
+    for part in text.split(","):
+        try:
+            width = Fraction(part.strip()) if _WIDTH.fullmatch(part.strip()) else Fraction(0)
+        except ZeroDivisionError:
+            width = Fraction(0)
+        if not Fraction(1, 10**40) <= width <= 1:
+            raise ClaimError(f"--widths {part.strip()[:40]!r}: a width is a number from 1e-40 to 1; write 1e-1,1e-6")
+        found.append(width)
+    return tuple(sorted(set(found), reverse=True))
+
+
+def _seconds(text: str) -> float:
+    if not re.fullmatch(r"\d{1,4}(\.\d{1,3})?", text, re.ASCII) or not 0.1 <= float(text) <= 3600:
+        raise ClaimError(f"--seconds {text[:40]!r}: a limit is a number of seconds from 0.1 to 3600")
+    return float(text)
+
+
+class Run:
+    """A run: prints as it goes, counts what is wrong."""
+
+    def __init__(self, wanted: Wish, folder: Path, tell: Any) -> None:
+        self.wanted, self.folder, self.tell, self.wrong = wanted, folder, tell, 0
+        self.judged: list[table.Judged] = []
+
+    def all(self) -> int:
+        """Every question; 1 where an enclosure does not hold the truth, else 0."""
+        print(head(self.wanted))
+        for name in self.wanted.names:
+            print(f"\n== {name}")
+            if name in ENERGY:
+                self.energy(name)
+            elif name in orbits.STARTS:
+                self.orbit(orbits.STARTS[name])
+            else:
+                {"variables": self.variables, "states": self.states}[name]()
+        if sum(name in ENERGY for name in self.wanted.names) > 1:
+            print("\n== the aim, over all questions and widths of this run\n" + "\n".join(one.line() for one in table.together(self.judged)))
+        if not plot.can_plot():
+            print(plot.ABSENT)
+        return 1 if self.wrong else 0
+
+    def energy(self, name: str) -> None:
+        """One of the questions about energy."""
+        question = questions()[name]
+        problem, truth, present = question.problem(), question.truth(), self.present(METHODS, QUICK)
+        print(f"{question.title}, for alpha in [{ALPHAS[0]}, {ALPHAS[1]}]; box methods: {question.how}")
+        print(f"closed form: {question.closed_form}; over these alphas {truth} = {float(truth):.15g}\n")
+        truth *= problem.sign
+        results = self.measure(present, problem, self.wanted.widths)
+        self.told(name, question.title, present, self.wanted.widths, results, truth)
+        print("\n" + table.ratios(present, self.wanted.widths, results, self.wanted.seconds))
+        judged = table.judged(name, present, self.wanted.widths, results, self.wanted.seconds)
+        self.judged += judged
+        print("\n" + "\n".join(one.line() for one in judged))
+        print("\n" + table.slopes(present, results, "1/width", True))
+
+    def orbit(self, start: orbits.Start) -> None:
+        """One orbit, by number of periods."""
+        present, sizes = self.present(ORBITS, tuple(ORBITS)), self.some(STEPS)
+        print(f"{start.title}: the state after so many periods; error: what is proved of it, or else the distance to the exact orbit\n")
+        results = self.measure(present, start, sizes)
+        self.told(start.name, start.title, present, sizes, results, Fraction(0))
+        print("\n" + table.slopes(present, results, "periods", False))
+
+    def variables(self) -> None:
+        """The sum of the energy that balls gain, by their number."""
+        present, sizes = self.present({name: METHODS[name] for name in GROWTH}, GROWTH), self.some(BALLS)
+        problems = {size: growth.balls(int(size)) for size in sizes}
+        print(f"sup of the sum of Delta E over so many balls on the table, and alpha besides; to a width of {table.power(growth.VARIABLE_WIDTH)}\n")
+        found = []
+        for size, (problem, truth) in problems.items():
+            for one in self.measure(present, problem, [growth.VARIABLE_WIDTH]).values():
+                found += [table.resized(each, size, truth) for each in one.values()]
+        results = table.by_method(found)
+        self.told("variables", "variables", present, sizes, results, Fraction(0))
+        print("\n" + table.slopes(present, results, "variables", False))
+
+    def states(self) -> None:
+        """Random states, by their number."""
+        present, sizes = self.present(ENSEMBLE, tuple(ENSEMBLE)), self.some(STATES)
+        print(f"so many random states, each followed for {growth.STATE_STEPS} periods; error: the largest bound of a state that is decided\n")
+        results = self.measure(present, growth.Ensemble(), sizes)
+        self.told("states", "states", present, sizes, results, Fraction(0))
+        print("\n" + table.slopes(present, results, "states", False))
+
+    def some(self, sizes: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+        """The sizes that are asked for."""
+        return sizes[:QUICK_SIZES] if self.wanted.quick else sizes
+
+    def present(self, methods: dict[str, Method], quick: Sequence[str]) -> list[Method]:
+        """The methods that are there, of a quick run's only some; says which are absent."""
+        absent = [method for method in methods.values() if not method.present()]
+        if absent:
+            print("absent: " + ", ".join(dict.fromkeys(method.package for method in absent)))
+        return [method for name, method in methods.items() if method not in absent and (not self.wanted.quick or name in quick)]
+
+    def measure(self, present: Sequence[Method], work: Any, sizes: Sequence[Fraction]) -> table.Results:
+        """All methods at all sizes."""
+        return table.by_method(list(measure_all(present, work, sizes, self.wanted.seconds, self.tell)))
+
+    def told(self, name: str, title: str, present: Sequence[Method], sizes: Sequence[Fraction], results: table.Results, truth: Fraction) -> None:
+        """Prints the table and what is wrong, and writes the plot."""
+        self.tell("")
+        print(table.measured(present, sizes, results, truth))
+        for line in table.faults(present, results):
+            print(line)
+        wrong = table.wrong(present, results, truth)
+        self.wrong += len(wrong)
+        print("\n".join(wrong) or "every enclosure holds the truth")
+        if plot.can_plot():
+            path = self.folder / f"{name}.svg"
+            write_file(path, plot.plot(title, present, results, truth))
+            print(f"plot: {path}")
+
+
+def head(wanted: Wish) -> str:
+    """What the numbers mean."""
+    return ("warm: the least of up to 3 answers after the first in one process; cold: the first, with all that the method loads, not the start of\n"
+            f"Python. Each answer has {wanted.seconds:g} s; a method that gave up is not asked for what is harder.\n{NOTES}")
