@@ -9,11 +9,11 @@ import numpy as np
 
 from .semidefinite import Array
 
-NEAR = 3e-4  # of a rational with a small denominator
+NEAR = 2e-3  # to a rational with a small denominator: eigenvectors of singular matrices are no better known
 
 
-def rational_image(vectors: Array) -> list[list[int]] | None:
-    """A basis of the space that the columns span, as small integers, in echelon form; None where the space is no simple rational one."""
+def rational_image(vectors: Array, near: float = NEAR) -> list[list[int]] | None:
+    """A basis of the space that the columns span, as small integers, in echelon form; None where none is near."""
     work, pivots = vectors.T.copy(), []
     for row in range(len(work)):
         size = np.abs(work[row:])
@@ -30,7 +30,7 @@ def rational_image(vectors: Array) -> list[list[int]] | None:
     result = []
     for line in work:
         fractions = [Fraction(float(c)).limit_denominator(60) for c in line]
-        if any(abs(float(f) - float(c)) > NEAR for f, c in zip(fractions, line)):
+        if any(abs(float(f) - float(c)) > near for f, c in zip(fractions, line)):
             return None
         common = lcm(*(f.denominator for f in fractions))
         result.append([int(f * common) for f in fractions])

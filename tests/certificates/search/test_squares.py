@@ -58,7 +58,7 @@ def test_the_image_of_a_matrix_is_found_again_as_integers_holds(vectors: list[li
 
 
 def test_an_irrational_direction_is_refused_holds() -> None:
-    assert rational_image(np.array([[1.0], [np.sqrt(2)]])) is None
+    assert rational_image(np.array([[1.0], [np.sqrt(2)]]), 1e-4) is None
 
 
 def test_a_semidefinite_program_without_a_solution_has_none_holds() -> None:
