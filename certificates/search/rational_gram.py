@@ -6,6 +6,7 @@ from fractions import Fraction
 from math import lcm
 
 import numpy as np
+from flint import fmpq
 
 from .semidefinite import Array
 
@@ -43,22 +44,26 @@ def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] |
     >>> as_squares([[Fraction(1), Fraction(-1)], [Fraction(-1), Fraction(1)]])
     [(Fraction(1, 1), [1, -1])]
     """
-    rest, squares = [list(row) for row in gram], []
-    for k in range(len(rest)):
+    size = len(gram)
+    near = np.array([[float(c) for c in row] for row in gram])
+    if size and np.linalg.eigvalsh(near)[0] < -1e-6 * np.abs(near).max():
+        return None  # told by floats where it is plain; exact arithmetic decides the rest
+    rest, squares = [[fmpq(c.numerator, c.denominator) for c in row] for row in gram], []
+    for k in range(size):
         head = rest[k][k]
         if head < 0 or head == 0 and any(rest[k][k:]):
             return None
         if head == 0:
             continue
         line = [c / head for c in rest[k]]
-        common = lcm(*(c.denominator for c in line))
-        squares.append((head / common**2, [int(c * common) for c in line]))
-        for i in range(k + 1, len(rest)):
+        common = lcm(*(int(c.q) for c in line))
+        squares.append((Fraction(int(head.p), int(head.q) * common**2), [int(c * common) for c in line]))
+        for i in range(k + 1, size):
             factor = rest[i][k]
             if factor:
-                for j in range(k, len(rest)):
+                for j in range(k, size):
                     rest[i][j] -= factor * line[j]
-        rest[k] = [Fraction(0)] * len(rest)
-        for i in range(k + 1, len(rest)):
-            rest[i][k] = Fraction(0)
+        rest[k] = [fmpq(0)] * size
+        for i in range(k + 1, size):
+            rest[i][k] = fmpq(0)
     return squares

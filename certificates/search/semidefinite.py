@@ -25,7 +25,7 @@ def feasible(blocks: list[Array], free: Array, right: Array, budget: Budget, tra
     solutions: where all of them are singular, X is nearly so, and its small eigenvalues show their common kernel.
     """
     if free.shape[1]:
-        budget.spend(20 + len(right) ** 3 // 400)
+        budget.spend(20 + len(right) ** 3 // 8000)
         values, left = np.linalg.eigh(free @ free.T)
         rest = left[:, values <= SMALL * max(1.0, values.max(initial=0.0))].T
         blocks, right = [np.tensordot(rest, block, 1) for block in blocks], rest @ right
@@ -64,7 +64,7 @@ def feasible(blocks: list[Array], free: Array, right: Array, budget: Budget, tra
 
 def _independent(blocks: list[Array], right: Array, budget: Budget) -> tuple[list[Array], Array] | None:
     """The same equations as orthonormal rows, without those that follow from others; None where they contradict one another."""
-    budget.spend(20 + len(right) ** 3 // 400)
+    budget.spend(20 + len(right) ** 3 // 8000)
     whole = np.hstack([block.reshape(len(right), -1) for block in blocks])
     values, left = np.linalg.eigh(whole @ whole.T)
     kept = values > SMALL * max(1.0, values.max(initial=0.0))

@@ -35,7 +35,7 @@ MOST_BITS = 6000  # of a coefficient
 MOST_MONOMIALS = 70  # in one block
 DENOMINATORS = (1, 2, 12, 60, 1 << 8, 1 << 14, 1 << 20, 1 << 28)
 ROUNDS = 6
-GOALS = ((1e-4, 1e-9), (1e-8, 1e-7))  # what the trace costs, and where to stop: at a simple solution, or in the middle of all
+GOALS = ((1e-4, 1e-9), (1e-5, 1e-8), (1e-6, 1e-7))  # what the trace costs, and where to stop: from simple solutions to the middle of all
 KERNELS = (1e-3, 1e-5, 1e-2, 1e-7)
 
 
@@ -151,9 +151,9 @@ class Squares:
             self.blocks, tried = blocks, set[tuple[int, ...]]()
             first = self._solved(budget, goal)
             node = self._rounded(*first, DENOMINATORS[:4], budget) if first else None
-            if node is not None or not first:
+            if node is not None or not first and goal == GOALS[0]:
                 return node
-            for threshold in KERNELS:
+            for threshold in KERNELS if first else ():
                 node = self._followed(blocks, first, threshold, goal, tried, budget)
                 if node is not None:
                     return node
@@ -211,6 +211,7 @@ class Squares:
         """The node of exact matrices near the floating ones."""
         for denominator in denominators:
             budget.spend(50 + linear.rows**2 * len(linear.terms) // 4000)
+            budget.spend(sum(len(block.basis) ** 3 for block in linear.blocks))
             exact = linear.rounded(grams, denominator)
             node = None if exact is None else self._lifted(*exact)
             if node is not None:

@@ -69,7 +69,7 @@ def meant(thing: Any, point: dict[str, Fraction]) -> Any:
             "choose": lambda: (b if a else more[1]) < 1}[op]()
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(formulas, st.lists(st.tuples(numbers, numbers, numbers), min_size=3, max_size=3))
 def test_a_formula_that_is_written_and_read_back_means_the_same_holds(formula: Any, points: list[tuple[Fraction, ...]]) -> None:
     declared = "".join(f"(declare-const {name} Real)" for name in NAMES)
