@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from itertools import product as choices
-from math import prod
+from math import comb, prod
 from typing import Any
 
 import numpy as np
@@ -52,16 +52,20 @@ class Block:
 class Squares:
     """One program: the blocks, and the equations with the monomials that multiply them."""
 
-    def __init__(self, problem: Problem, count: int, degree: int, only: Sequence[int]) -> None:
+    def __init__(self, problem: Problem, count: int, degree: int, only: Sequence[int], budget: Budget) -> None:
         self.problem, self.ring, self.degree, self.only = problem, problem.ring, degree, only
         polys = [*(equation.poly for equation in problem.reduction.left), *(problem.facts[k].poly for k in only)]
         self.used = [v for v in range(self.ring.size) if any(p.degrees()[v] for p in polys)]
         self.flips = self._flips(polys)
         self.leading = [equation.poly.monoms()[0] for equation in problem.reduction.basis()]
-        self.blocks = list(self._blocks(count))
+        self.blocks = list(self._blocks(count, budget))
         self.cofactors = [(place, monomial) for place, equation in enumerate(problem.reduction.left)
                           for monomial in self._monomials(degree - total_degree(equation.poly))
                           if self._class(monomial) == self._class(equation.poly.monoms()[0])]
+        products = sum(len(block.basis) ** 2 * len(block.poly) for block in self.blocks) // 2
+        if products > MOST_ENTRIES:
+            self.blocks = []
+        budget.spend(products // 4)
         self._prune()
 
     # ------------------------------------------------------------ what is in the program
@@ -93,7 +97,7 @@ class Squares:
                 found.append(tuple(exponents))
         return found
 
-    def _blocks(self, count: int) -> Iterator[Block]:
+    def _blocks(self, count: int, budget: Budget) -> Iterator[Block]:
         facts = self.problem.facts
         for number in range(count + 1):
             for chosen in combinations_with_replacement(self.only, number):
@@ -103,6 +107,7 @@ class Squares:
                 room = (self.degree - total_degree(poly)) // 2
                 if room < 0:
                     continue
+                budget.spend(comb(len(self.used) + room, room))
                 parts: dict[Monomial, list[fmpz_mpoly]] = {}
                 for monomial in self._monomials(room):
                     if any(all(a >= b for a, b in zip(monomial, leading)) for leading in self.leading):
@@ -122,10 +127,10 @@ class Squares:
             fixed, signs = set[Monomial](), dict[Monomial, set[int]]()
             owners: dict[Monomial, list[tuple[int, int]]] = {}
             for place, monomial in self.cofactors:
-                fixed |= {tuple(map(sum, zip(m, monomial))) for m in self.problem.reduction.left[place].poly.monoms()}
+                fixed |= {tuple(int(a) + b for a, b in zip(m, monomial)) for m in self.problem.reduction.left[place].poly.monoms()}
             for k, block in enumerate(self.blocks):
-                exponents = [b.monoms()[0] for b in block.basis]
-                terms = [(m, 1 if int(c) > 0 else -1) for m, c in zip(block.poly.monoms(), block.poly.coeffs())]
+                exponents = [tuple(map(int, b.monoms()[0])) for b in block.basis]
+                terms = [(tuple(map(int, m)), 1 if int(c) > 0 else -1) for m, c in zip(block.poly.monoms(), block.poly.coeffs())]
                 for i, one in enumerate(exponents):
                     for j in range(i + 1):
                         for m, sign in terms:
@@ -258,7 +263,7 @@ def search_squares(problem: Problem, budget: Budget, stages: Sequence[tuple[int,
         only = bare if without else everything
         if not top or without and len(bare) == len(everything) or count > 1 and len(only) > MOST_FOR_PAIRS:
             continue
-        node = Squares(problem, count, top + top % 2 + more, only).node(budget)
+        node = Squares(problem, count, top + top % 2 + more, only, budget).node(budget)
         if node is not None:
             return node
     return None
