@@ -1,0 +1,102 @@
+"""The block and the table as numbers for the kernels: what their parameters, states and counts are called, and where corners and table are.
+
+Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  theta = 0 is upright, with the long sides vertical, and
+grows counterclockwise.  A state is (t, X, Y, theta, V_X, V_Y, omega) of the centre of mass in the resting frame, then how the block is in contact.
+"""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+from typing import Protocol
+
+from scenes.part.compiling import compiled
+
+
+class Floats(Protocol):
+    """A row of float64, such as a NumPy array of one dimension."""
+
+    def __getitem__(self, k: int, /) -> float: ...
+    def __setitem__(self, k: int, value: float, /) -> None: ...
+
+
+
+# the parameters of a scene
+G, A_X, W_X, PHASE_X, A_Y, W_Y, PHASE_Y, HALF_SHORT, HALF_LONG, GYRATION, RESTITUTION, FRICTION, TOLERANCE, REST_SPEED, STEP = range(15)
+PARAMETERS = 15
+
+# a state; for the last two see `contact`
+TIME, X, Y, THETA, V_X, V_Y, OMEGA, MODE, CORNER, SLIDE = range(10)
+STATE = 10
+FLIGHT, PIVOT, FACE = 0.0, 1.0, 2.0
+
+# what is counted or noted of an orbit
+(IMPACTS, STEPS, CONTACTS, LAST_UPRIGHT, LAST_LYING, FALLS, RISES, LEAST_GAP, PULLS, CONES, GAINS, CLOSINGS, LARGEST_REMOVED, IMPULSES, SINCE,
+ ENERGY_BY_REST) = range(16)
+NOTES = 16
+
+# how a run ended
+DONE, TOO_MANY_STEPS, JAMMED, TOO_MANY_IMPACTS, NO_PROGRESS = range(5)
+
+QUARTER = pi / 2
+
+
+@compiled
+def corner_x(p: Floats, i: int, c: float, s: float) -> float:
+    """How far corner i is to the right of the centre, where c and s are cosine and sine of theta; corners 0 to 3 go around counterclockwise."""
+    a, b = p[HALF_SHORT], p[HALF_LONG]
+    if i == 0:
+        return -a * c + b * s
+    if i == 1:
+        return a * c + b * s
+    if i == 2:
+        return a * c - b * s
+    return -a * c - b * s
+
+
+@compiled
+def corner_y(p: Floats, i: int, c: float, s: float) -> float:
+    """How far corner i is above the centre."""
+    a, b = p[HALF_SHORT], p[HALF_LONG]
+    if i == 0:
+        return -a * s - b * c
+    if i == 1:
+        return a * s - b * c
+    if i == 2:
+        return a * s + b * c
+    return -a * s + b * c
+
+
+@compiled
+def table_height(p: Floats, t: float) -> float:
+    """The height of the table."""
+    return p[A_Y] * sin(p[W_Y] * t + p[PHASE_Y])
+
+
+@compiled
+def table_rise(p: Floats, t: float) -> float:
+    """The speed of the table upwards."""
+    return p[A_Y] * p[W_Y] * cos(p[W_Y] * t + p[PHASE_Y])
+
+
+@compiled
+def table_lift(p: Floats, t: float) -> float:
+    """The acceleration of the table upwards."""
+    return -p[A_Y] * p[W_Y] * p[W_Y] * sin(p[W_Y] * t + p[PHASE_Y])
+
+
+@compiled
+def table_place(p: Floats, t: float) -> float:
+    """The displacement of the table to the right."""
+    return p[A_X] * sin(p[W_X] * t + p[PHASE_X])
+
+
+@compiled
+def table_glide(p: Floats, t: float) -> float:
+    """The speed of the table to the right."""
+    return p[A_X] * p[W_X] * cos(p[W_X] * t + p[PHASE_X])
+
+
+@compiled
+def table_push(p: Floats, t: float) -> float:
+    """The acceleration of the table to the right."""
+    return -p[A_X] * p[W_X] * p[W_X] * sin(p[W_X] * t + p[PHASE_X])

@@ -1,0 +1,95 @@
+"""Free flight, and the first corner that meets the table: conservative advancement, which cannot step over a meeting.
+
+The gap of a corner at time s of a flight is at least gap + rate s - M s^2/2, where M = g + A_y W_y^2 + omega^2 rho bounds how fast its rate can fall.
+Each step goes to the first root of that parabola, raised by 9/10 of the tolerance, over all four corners; so no gap falls below the tolerance's
+negative, rounding included.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin, sqrt
+
+from scenes.part.body import (
+    A_Y,
+    DONE,
+    HALF_LONG,
+    HALF_SHORT,
+    LEAST_GAP,
+    OMEGA,
+    PHASE_Y,
+    STEPS,
+    THETA,
+    TIME,
+    TOLERANCE,
+    TOO_MANY_STEPS,
+    V_X,
+    V_Y,
+    W_Y,
+    Floats,
+    G,
+    X,
+    Y,
+)
+from scenes.part.compiling import compiled
+
+MOST_STEPS = 1_000_000  # of one flight
+NEAR = 1e-15  # metres: roots this near one another are all computed, so that the order of the corners does not matter
+
+
+@compiled
+def safe_step(value: float, rate: float, fall: float) -> float:
+    """How long value + rate s - fall s^2/2 stays at least 0, from value >= 0 on.
+
+    >>> safe_step(1.0, 0.0, 2.0), safe_step(3.0, -1.0, 4.0), safe_step(0.0, 2.0, 4.0)
+    (1.0, 1.0, 1.0)
+    """
+    root = sqrt(rate * rate + 2 * fall * value)
+    if rate >= 0:
+        return (rate + root) / fall
+    return 2 * value / (root - rate)
+
+
+@compiled
+def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
+    """Moves a flying block on until a corner meets the table, or to the time `until`; DONE, or why it gave up.
+
+    The first step is taken even where a corner touches: the corner has been told to leave, and the gap cannot fall below the tolerance's negative.
+    """
+    t, y, theta, rise, omega = z[TIME], z[Y], z[THETA], z[V_Y], z[OMEGA]
+    a, b, tolerance = p[HALF_SHORT], p[HALF_LONG], p[TOLERANCE]
+    half_g, reach = p[G] / 2, until - t
+    fall = p[G] + abs(p[A_Y]) * p[W_Y] * p[W_Y] + omega * omega * sqrt(a * a + b * b)
+    least, s, first = notes[LEAST_GAP], 0.0, True
+    ended = TOO_MANY_STEPS
+    for _ in range(MOST_STEPS):
+        notes[STEPS] += 1
+        angle = theta + omega * s
+        c, d = cos(angle), sin(angle)
+        phase = p[W_Y] * (t + s) + p[PHASE_Y]
+        centre = y + (rise - half_g * s) * s - p[A_Y] * sin(phase)
+        falling = rise - p[G] * s - p[A_Y] * p[W_Y] * cos(phase)
+        step = reach - s
+        met = False
+        for i in range(4):
+            sx, sy = -1.0 if i == 0 or i == 3 else 1.0, -1.0 if i < 2 else 1.0
+            gap = centre + (sx * a * d + sy * b * c)
+            rate = falling + omega * (sx * a * c - sy * b * d)
+            least = min(least, gap)
+            if gap <= tolerance and rate < 0 and not first:
+                met = True
+            above = max(gap + 0.9 * tolerance, 0.0)
+            if above + (rate - fall * step / 2) * step < NEAR:
+                step = min(step, safe_step(above, rate, fall))
+        first = False
+        if met:
+            ended = DONE
+            break
+        s += step
+        if s >= reach:
+            s = reach
+            ended = DONE
+            break
+    z[TIME], z[X], z[THETA] = t + s, z[X] + z[V_X] * s, theta + omega * s
+    z[Y], z[V_Y] = y + (rise - half_g * s) * s, rise - p[G] * s
+    notes[LEAST_GAP] = least
+    return ended

@@ -1,0 +1,138 @@
+"""A scene of the part: block, table, contact and accuracy, with what the paper gives and what is inferred."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenes.errors import SceneError
+from scenes.part import body
+
+Launch = Literal["rest", "table"]
+Array = NDArray[np.float64]
+JAMS = 4 / 3  # the friction from which a rectangle can jam: claim part-jamming
+LEAST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-4
+LONGEST = 1e5  # seconds of a run
+STANDARD_GRAVITY = 9.81
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A block on a vibrating table, in SI units: half sides a <= b in metres, frequencies in hertz, phases in radians; made by `scene`.
+
+    The table is at (A_x sin(2 pi f_x t + phase_x), A_y sin(2 pi f_y t + phase_y)).
+    """
+
+    a: float
+    b: float
+    e: float
+    mu: float
+    A_x: float
+    f_x: float
+    phase_x: float
+    A_y: float
+    f_y: float
+    phase_y: float
+    g: float
+    tolerance: float
+    rest_speed: float
+    launch: Launch
+
+    def parameters(self) -> Array:
+        """The numbers that the kernels take (`scenes.part.body`)."""
+        p = np.zeros(body.PARAMETERS)
+        p[body.G], p[body.RESTITUTION], p[body.FRICTION] = self.g, self.e, self.mu
+        p[body.A_X], p[body.W_X], p[body.PHASE_X] = self.A_x, 2 * math.pi * self.f_x, self.phase_x
+        p[body.A_Y], p[body.W_Y], p[body.PHASE_Y] = self.A_y, 2 * math.pi * self.f_y, self.phase_y
+        p[body.HALF_SHORT], p[body.HALF_LONG], p[body.GYRATION] = self.a, self.b, (self.a**2 + self.b**2) / 3
+        p[body.TOLERANCE], p[body.REST_SPEED], p[body.STEP] = self.tolerance, self.rest_speed, self.step()
+        return p
+
+    def step(self) -> float:
+        """The length of a step of Runge and Kutta, by its error term: fifth derivatives of table and fall, times h^5/120, make the tolerance."""
+        bound = abs(self.A_y) * (2 * math.pi * self.f_y) ** 5.0 + abs(self.A_x) * (2 * math.pi * self.f_x) ** 5 + 10 * self.g**2.5 / self.b**1.5
+        return min(float((120 * self.tolerance / bound) ** 0.2), 1e-3)
+
+
+def scene(
+    *, a: float = 0.01, b: float = 0.02, e: float, mu: float, A_x: float = 0.0, f_x: float = 0.0, phase_x: float = 0.0, A_y: float = 2e-4,
+    f_y: float = 60.0, phase_y: float = 0.0, g: float = STANDARD_GRAVITY, tolerance: float = 1e-12, rest_speed: float = 1e-3, launch: Launch = "rest",
+) -> Scene:
+    """A scene; SceneError, one line, for numbers that make none.
+
+    >>> scene(e=0.7, mu=0.08).b
+    0.02
+    """
+    given = {"a": a, "b": b, "e": e, "mu": mu, "A_x": A_x, "f_x": f_x, "phase_x": phase_x, "A_y": A_y, "f_y": f_y, "phase_y": phase_y,
+             "g": g, "tolerance": tolerance, "rest_speed": rest_speed}
+    numbers = {name: _finite(value, name) for name, value in given.items()}
+    for name in ("a", "b", "g", "rest_speed"):
+        if numbers[name] <= 0:
+            raise SceneError(f"{name} = {numbers[name]:.6g} is not positive")
+    for name in ("A_y", "f_x", "f_y"):
+        if numbers[name] < 0:
+            raise SceneError(f"{name} = {numbers[name]:.6g} is below 0; give the amount, and a phase")
+    if numbers["a"] > numbers["b"]:
+        raise SceneError(f"a = {a:.6g} is longer than b = {b:.6g}; a is half the short side")
+    if not 0 <= numbers["e"] <= 1:
+        raise SceneError(f"e = {e:.6g} is outside [0, 1]; it is the coefficient of restitution")
+    if numbers["mu"] < 0:
+        raise SceneError(f"mu = {mu:.6g} is below 0; it is the coefficient of friction")
+    if numbers["mu"] >= JAMS:
+        raise SceneError(f"mu = {mu:.6g} is not below 4/3: from there on a corner can jam, and the impact law has no answer")
+    if not LEAST_TOLERANCE <= numbers["tolerance"] <= LARGEST_TOLERANCE:
+        raise SceneError(f"tolerance = {tolerance:.6g} m is outside {LEAST_TOLERANCE:g} .. {LARGEST_TOLERANCE:g}")
+    if launch not in ("rest", "table"):
+        raise SceneError(f"launch = {str(launch)[:40]!r}: choose 'rest' or 'table'")
+    return Scene(launch=launch, **numbers)
+
+
+def _finite(value: float, name: str) -> float:
+    try:
+        found = float(value)
+    except (TypeError, ValueError):
+        raise SceneError(f"{name} = {str(value)[:40]!r} is no number") from None
+    if not math.isfinite(found):
+        raise SceneError(f"{name} = {found} is not finite")
+    return found
+
+
+def standing(setting: Scene, angles: Sequence[float] | Array) -> Array:
+    """States at time 0 with the lowest corner on the table, one row each; `angles` in radians, shape (n,); the result has shape (n, 10).
+
+    Blocks start at rest, or as fast as the table where the scene's launch says so.
+
+    >>> standing(scene(e=0.7, mu=0.08), [0.0])[0, body.Y]
+    np.float64(0.02)
+    """
+    theta = np.asarray(angles, dtype=float)
+    if theta.ndim != 1 or not len(theta) or not np.isfinite(theta).all():
+        raise SceneError(f"angles of shape {theta.shape}: one row of finite numbers is needed")
+    p = setting.parameters()
+    states = np.zeros((len(theta), body.STATE))
+    states[:, body.THETA] = theta
+    states[:, body.Y] = body.table_height(p, 0.0) + np.abs(setting.a * np.sin(theta)) + np.abs(setting.b * np.cos(theta))
+    states[:, body.X] = body.table_place(p, 0.0)
+    if setting.launch == "table":
+        states[:, body.V_X], states[:, body.V_Y] = body.table_glide(p, 0.0), body.table_rise(p, 0.0)
+    return states
+
+
+def moving(setting: Scene, X: float, Y: float, theta: float, V_X: float, V_Y: float, omega: float, t: float = 0.0) -> Array:
+    """One state, shape (1, 10), of the centre of mass in the resting frame; SceneError where the block and the table overlap."""
+    given = {"t": t, "X": X, "Y": Y, "theta": theta, "V_X": V_X, "V_Y": V_Y, "omega": omega}
+    numbers = [_finite(value, name) for name, value in given.items()]
+    if numbers[0] < 0:
+        raise SceneError(f"t = {t:.6g} is before the start, t = 0")
+    state = np.zeros((1, body.STATE))
+    state[0, :7] = numbers
+    lowest = abs(setting.a * math.sin(theta)) + abs(setting.b * math.cos(theta))
+    gap = Y - lowest - body.table_height(setting.parameters(), t)
+    if gap < -setting.tolerance:
+        raise SceneError(f"Y = {Y:.6g} m puts the lowest corner {-gap:.3g} m into the table; the centre is at least {Y - gap:.6g} m high there")
+    return state
