@@ -77,7 +77,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
             least = min(least, gap)
             if gap <= tolerance and rate < 0 and not first:
                 met = True
-            above = max(gap + 0.9 * tolerance, 0.0)
+            above = max(gap + 0.9 * tolerance, 0.1 * tolerance)
             if above + (rate - fall * step / 2) * step < NEAR:
                 step = min(step, safe_step(above, rate, fall))
         first = False
