@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import re
 from collections.abc import Sequence
 from fractions import Fraction
@@ -31,6 +32,15 @@ def exact(text: str, name: str) -> Fraction:
         raise ClaimError(f"{name} = {text[:40]!r} is no number; write it exactly, as 3/10, -41 or 10^300")
     sign, top, top_power, bottom, bottom_power = found.groups()
     return (-1 if sign else 1) * Fraction(_power(top, top_power, name), _power(bottom or "1", bottom_power, name, zero=False))
+
+
+def whole(text: str) -> int:
+    """A whole number, as an option of the command line takes it."""
+    if not text.removeprefix("-").isdecimal():
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number")
+    if len(text) > 30:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is too long a number")
+    return int(text)
 
 
 def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:

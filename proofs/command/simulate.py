@@ -26,11 +26,17 @@ STARTS = ("state", "grid", "boundary", "random")
 
 def simulate(options: argparse.Namespace) -> int:
     """Runs a scene; 0, or 130 where it was interrupted.  Raises ClaimError, one line, for what cannot be carried out."""
-    scenes: dict[str, Callable[[argparse.Namespace], int]] = {"juggler": juggler}
+    scenes: dict[str, Callable[[argparse.Namespace], int]] = {"juggler": juggler, "part": _part}
     try:
         return scenes[options.scene](options)
     except SceneError as problem:
         raise ClaimError(str(problem)) from None
+
+
+def _part(options: argparse.Namespace) -> int:
+    from proofs.command.part import part  # what one scene needs, the other does not load
+
+    return part(options)
 
 
 def juggler(options: argparse.Namespace) -> int:

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import Any
 
-
-def _whole(text: str) -> int:
-    if not text.removeprefix("-").isdecimal():
-        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number")
-    if len(text) > 30:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r} is too long a number")
-    return int(text)
+from proofs.command.numbers import whole
+from proofs.command.part_options import add_part
 
 
 def add_simulate(commands: Any) -> None:
     """Adds the command with its scenes."""
     scenes = commands.add_parser("simulate", help="orbits of a scene, with their error").add_subparsers(dest="scene", required=True, metavar="SCENE")
     _add_juggler(scenes)
+    add_part(scenes)
 
 
 def _add_juggler(scenes: Any) -> None:
@@ -29,15 +24,15 @@ def _add_juggler(scenes: Any) -> None:
     start = juggler.add_argument_group("where orbits start (one of them)")
     start.add_argument("--state", action="append", metavar="S", help="x=..,w=.. or beta=..,v=..; may be given several times")
     start.add_argument("--grid", metavar="G", help="x=FROM:TO:COUNT,w=FROM:TO:COUNT")
-    start.add_argument("--boundary", type=_whole, metavar="N", help="so many states on the boundary of R")
-    start.add_argument("--random", type=_whole, metavar="N", help="so many states of a box, by --seed")
-    start.add_argument("--seed", type=_whole, default=0, metavar="N", help="with --random (default: 0)")
+    start.add_argument("--boundary", type=whole, metavar="N", help="so many states on the boundary of R")
+    start.add_argument("--random", type=whole, metavar="N", help="so many states of a box, by --seed")
+    start.add_argument("--seed", type=whole, default=0, metavar="N", help="with --random (default: 0)")
     start.add_argument("--box", default="x=0:10,w=-5:5", metavar="B", help="with --random (default: x=0:10,w=-5:5)")
     how = juggler.add_argument_group("how they are followed")
     how.add_argument("--arithmetic", default="exact", metavar="A",
                      help="exact, enclosed (balls), mp (mpmath) or fast (float64 with proved bounds); default: exact")
-    how.add_argument("--precision", type=_whole, metavar="N", help="bits to begin with (enclosed) or digits (mp)")
-    how.add_argument("--steps", type=_whole, metavar="N", help="periods, or impacts with --impacts (default: 20; with --until-trap 1000 impacts)")
+    how.add_argument("--precision", type=whole, metavar="N", help="bits to begin with (enclosed) or digits (mp)")
+    how.add_argument("--steps", type=whole, metavar="N", help="periods, or impacts with --impacts (default: 20; with --until-trap 1000 impacts)")
     how.add_argument("--impacts", action="store_true", help="count and tell impacts only; flights are taken whole")
     how.add_argument("--until-trap", action="store_true", help="stop where only impacts follow for ever")
     how.add_argument("--keep", action="store_true", help="tell every state, not only where orbits end")
@@ -47,7 +42,7 @@ def _add_juggler(scenes: Any) -> None:
     out.add_argument("-o", "--output", type=Path, metavar="F", help="F.csv, F.npz or F.svg")
     words = juggler.add_argument_group("periodic orbits and hard cases")
     words.add_argument("--words", action="store_true", help="all periodic orbits at this alpha with at most --longest impacts")
-    words.add_argument("--longest", type=_whole, default=4, metavar="N", help="impacts of a word (default: 4)")
-    words.add_argument("--flight", type=_whole, metavar="N", help="periods of a flight (default: as many as can be)")
+    words.add_argument("--longest", type=whole, default=4, metavar="N", help="impacts of a word (default: 4)")
+    words.add_argument("--flight", type=whole, metavar="N", help="periods of a flight (default: as many as can be)")
     words.add_argument("--word", metavar="W", help="flights such as 1,2: for which alpha the periodic orbit exists")
     words.add_argument("--hard-cases", action="store_true", help="the cases at which floats go wrong or might")
