@@ -15,6 +15,12 @@ from scenes.part.table_one import Row, Table
 
 POINT_HEADS = "    e     mu   misfit   median onset of the six rows in s (chaotic ensembles)"
 
+RULES = (
+    "median: of the onsets; the onset of an ensemble is the last time at which one of its blocks is nearer to upright than to lying.",
+    "chaotic: ensembles in which blocks pass both ways between upright and lying in the second half of the run; a row is, if more than half are.",
+    "censored: ensembles that have not settled at the end of the run.",
+)
+
 
 def _console() -> Any:
     from rich.console import Console
@@ -40,8 +46,8 @@ def table(found: Table, setting: Scene, amplitudes: str, swept: bool) -> None:
     count = len(found.rows[0].chaotic)
     print(f"Table I: from when on all blocks lie; {count} ensembles of 91 blocks, {found.rows[0].horizon:g} s each.  Simulated, not proved.")
     draw(("along the table", "paper", "median", "16 to 84 %", "chaotic", "censored"), [line(row) for row in found.rows], _console())
-    print("median: of the onsets, the last time at which a block of an ensemble is nearer to upright than to lying.  chaotic: ensembles in which blocks\n"
-          "pass both ways between upright and lying in the second half of the run; a row is if more than half are.  censored: not settled at the end.")
+    for told in RULES:
+        print(told)
     print()
     known = assumptions(setting, amplitudes, swept)
     draw(("assumed", "value", "", "why"), [(one.name, one.value, one.standing, one.why) for one in known], _console())
