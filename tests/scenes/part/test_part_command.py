@@ -1,0 +1,101 @@
+"""`juggleproof simulate part`: what it prints and writes, and one line for every wish that cannot be carried out."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from proofs.command.main import run
+from scenes.part.assumptions import discrepancies
+from scenes.part.sweep import chosen, recorded
+from scenes.part.table_one import PAPER, Row
+
+pytest.importorskip("numba")
+SMALL = ["simulate", "part", "--ensembles", "2", "--horizon", "0.05"]
+
+BAD = [
+    (["--mu", "-0.1"], "mu = -0.1 is below 0"),
+    (["--mu", "4/3"], "mu = 1.33333 is not below 4/3: from there on a corner can jam"),
+    (["--e", "1.5"], "e = 1.5 is outside [0, 1]"),
+    (["--e", "-1e-9"], "e = -1e-09 is outside [0, 1]"),
+    (["--e", "nan"], "e = 'nan' is no number"),
+    (["--e", "one"], "e = 'one' is no number"),
+    (["--face", "3x4"], "--face '3x4': choose from 2x4, 1x2, 1x4"),
+    (["--amplitudes", "rms"], "--amplitudes 'rms': choose from peak, peak-to-peak"),
+    (["--launch", "thrown"], "launch = 'thrown': choose 'rest' or 'table'"),
+    (["--horizon", "-1"], "horizon = -1 s is outside 0 .. 100000"),
+    (["--horizon", "0"], "horizon = 0 s is outside 0 .. 100000"),
+    (["--ensembles", "0"], "ensembles = 0 is outside 1 .. 100000"),
+    (["--tolerance", "0"], "tolerance = 0 m is outside 1e-13 .. 0.0001"),
+    (["--rest-speed", "0"], "rest_speed = 0 is not positive"),
+    (["--vibration", "30"], "--vibration '30' is not HERTZ:MILLIMETRES"),
+    (["--vibration", "-3:1"], "f_x = -3 is below 0"),
+    (["--jobs", "0"], "--jobs 0 is outside 1 .. 1024"),
+    (["--sweep", "e=0:1:2"], "has not e and mu"),
+    (["--sweep", "e=0:1:2,mu=0:1"], "--sweep mu: '0:1' is not FROM:TO:COUNT"),
+    (["--sweep", "e=0:1:0,mu=0:1:2"], "a count of 0 is not a whole number from 1 to 1000"),
+    (["--sweep", "e=0:2:2,mu=0:0:1", "--ensembles", "1", "--horizon", "0.01"], "e = 2 is outside [0, 1]"),
+    (["--sweep", "e=0:1:2,mu=0:0:1", "--e", "0.5"], "--sweep takes e and mu itself"),
+    (["--still", "--sweep", "e=0:1:2,mu=0:0:1"], "do not go together"),
+    (["-o", "table.svg"], "table.svg: the name is to end in .csv or .npz"),
+    (["-o", "/dev/null/table.csv"], "cannot be written"),
+    (["--figure", "f.txt"], "f.txt: the name is to end in .svg or .pdf"),
+]
+
+
+@pytest.mark.parametrize(("options", "told"), BAD, ids=[" ".join(options) for options, _ in BAD])
+def test_rejects_a_wish_that_cannot_be_carried_out(options: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*SMALL, *options]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1 and told in lines[0]
+
+
+def test_table_is_told_with_what_it_assumes_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    written = {}
+    for name in ("table.csv", "table.npz"):
+        for jobs in "12":
+            path = tmp_path / jobs / name
+            assert run([*SMALL, "--check", "--jobs", jobs, "-o", str(path)]) == 0
+            written[jobs, name] = path.read_bytes()
+        assert written["1", name] == written["2", name]
+    told = capsys.readouterr().out
+    assert all(f"{f:g} Hz {1000 * a:g} mm" in told for f, a, _ in PAPER)
+    assert all(word in told for word in ("given", "inferred", "chosen", "0 impulses that pull", "0 energy gained"))
+    lines = list(csv.DictReader((tmp_path / "1" / "table.csv").open()))
+    assert len(lines) == 12 and {one["censored"] for one in lines} == {"1"}  # nothing settles in so short a run, and nothing is dropped
+    arrays = np.load(tmp_path / "1" / "table.npz")
+    assert arrays["onset"].shape == (6, 2) and np.isinf(arrays["onset"]).all() and arrays["theta"].shape == (6, 2, 91)
+
+
+def test_sweep_is_recorded_and_the_pair_with_the_least_misfit_told_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "sweep.json"
+    assert run([*SMALL, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path)]) == 0
+    record = json.loads(path.read_text())
+    assert [(p["e"], p["mu"]) for p in record["points"]] == [(0.6, 0.0), (0.6, 0.5), (0.8, 0.0), (0.8, 0.5)]
+    assert record["ensembles"] == 2 and record["horizon"] == 0.05
+    assert "least misfit: e = 0.6, mu = 0, 1.000" in capsys.readouterr().out
+
+
+def test_stored_sweep_gives_the_pair_of_the_scene_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    best = chosen(recorded())
+    assert all(best.misfit <= point.misfit for point in recorded()) and len(recorded()) > 50
+    assert run([*SMALL, "--ensembles", "1"]) == 0
+    told = capsys.readouterr().out
+    assert f"restitution e        {best.e:g} " in told and f"friction mu          {best.mu:g} " in told and "the least misfit of the stored sweep" in told
+
+
+def row(paper: float | None, onsets: list[float], chaotic: tuple[bool, ...]) -> Row:
+    return Row(15.0, 2e-3, paper, np.array(onsets), chaotic, 12.0)
+
+
+def test_difference_from_the_paper_is_told_holds() -> None:
+    settled, wild, late = row(4.0, [3.0, 4.0, 5.0], (False,) * 3), row(None, [np.inf] * 3, (True,) * 3), row(2.0, [3.0, np.inf, np.inf], (False, False, True))
+    assert discrepancies((settled, wild)) == []
+    assert discrepancies((late,)) == ["15 Hz 2 mm: 2 s in the paper, outside of 3 to inf s"]
+    assert discrepancies((row(None, [3.0] * 3, (False,) * 3),)) == ["15 Hz 2 mm: chaotic in the paper, 0 of 3 ensembles are chaotic here"]
+    assert discrepancies((row(4.0, [np.inf] * 3, (True,) * 3),)) == ["15 Hz 2 mm: 4 s in the paper, 3 of 3 ensembles are chaotic here"]
+    assert (late.censored(), wild.censored(), late.quantile(0.33), late.quantile(0.5)) == (1, 0, 3.0, np.inf)
