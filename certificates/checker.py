@@ -16,8 +16,8 @@ import os
 import re
 import sys
 from fractions import Fraction
-from functools import lru_cache
-from math import factorial, gcd, lcm, prod
+from functools import lru_cache, reduce
+from math import comb, gcd, lcm, prod
 
 MAX_DEGREE, MAX_VARIABLES, MAX_TERMS, MAX_BITS, MAX_WORK, MAX_FILE = 4000, 60, 10**5, 40000, 2 * 10**7, 16 << 20
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
@@ -97,7 +97,7 @@ class Poly:
         terms = {}
         for m, c in few.items():
             add_multiple(terms, c, many, m)
-        return Poly(terms, self.den * other.den, self.deg + other.deg, merged(sum, self.under, other.under))
+        return Poly(terms, self.den * other.den, self.deg + other.deg, merged(sum, self.under, other.under) if self.under or other.under else None)
 
     def __pow__(self, exponent):
         require(exponent * max(self.deg, 1) <= MAX_DEGREE, "an exponent is too large", exponent)
@@ -133,8 +133,6 @@ def add_multiple(terms, factor, others, shift=0):
 
 def merged(rule, one, other):
     """Exponents of licences, brought together by a rule: max or sum."""
-    if not one or not other:
-        return one or other
     return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
 
 
@@ -236,6 +234,8 @@ class Context:
         """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of such."""
         value = self.value(node)
         require(value.terms, "division by zero", lambda: ast.unparse(node))
+        if value.constant():
+            return number(1 / value.constant())
         content, key = value.primitive()
         licence = self.licensed.get(frozenset(key.terms.items()))
         if licence or key.constant():
@@ -364,8 +364,7 @@ class State:
     def __init__(self, variables, parent=None):
         self.context = Context(variables, {key: VARIABLES[i] for key, i in variables.index.items()})
         self.context.licensed = dict(parent.context.licensed) if parent else {}
-        self.facts, self.choices = (list(parent.facts), list(parent.choices)) if parent else ([], [])
-        self.closed = parent.closed if parent else False
+        self.facts, self.choices, self.closed = (list(parent.facts), list(parent.choices), parent.closed) if parent else ([], [], False)
 
     def assume(self, formula):
         for part in conjuncts(formula):
@@ -468,38 +467,48 @@ def close_by_interval(state, known, index, low, high):
     require(fails and relation in (">", ">="), "the fact does not fail on the whole interval", lambda: state.context.show(poly))
 
 
+def times(p, factor):
+    """p times first + last T, where (first, last) is the factor."""
+    return [factor[0] * x + factor[1] * y for x, y in zip([*p, 0], [0, *p])]
+
+
 def bernstein(poly, axes):
     """(sizes, coefficients): the Bernstein coefficients of poly on a box, up to one positive factor, the first axis varying slowest.
 
-    An axis is (shift, low, high).  x = (low + high T) / (1 + T) takes [low, high] to T >= 0; in degree n, the coefficient of T^j in
-    (1 + T)^n poly is C(n, j) times the j-th Bernstein coefficient.
+    An axis is (shift, low, high).  x = (a + b T) / (d + d T), where a/d = low and b/d = high, takes [low, high] to T >= 0; in degree n, the
+    coefficient of T^j in (d + d T)^n poly is d^n C(n, j) times the j-th Bernstein coefficient.
     """
-    sizes, weights, whole = [], {0: 1}, poly.terms
-    for shift, low, high in axes:
-        n, tee, d = max((m >> shift) % (1 << BITS) for m in whole), Poly({1 << shift: 1}, 1, 1), lcm(low.denominator, high.denominator)
-        spend((n + 1) * (8 * (n + 1) ** 2 + 64 * len(weights) + len(poly.terms)))
-        parts = [Poly({m - (e << shift): c for m, c in poly.terms.items() if (m >> shift) % (1 << BITS) == e}, 1, poly.deg) for e in range(n + 1)]
-        over, under = number(low * d) + number(high * d) * tee, number(d) + number(d) * tee
-        poly = sum((part * (over**e * under ** (n - e)) for e, part in enumerate(parts)), start=ZERO)
-        sizes, weights = [*sizes, n + 1], {m + (j << shift): w * factorial(j) * factorial(n - j) for m, w in weights.items() for j in range(n + 1)}
-    return sizes, [poly.terms.get(m, 0) * weight for m, weight in weights.items()]
+    sizes, parts, bits = [], {m: [c] for m, c in poly.terms.items()}, max(map(int.bit_length, poly.terms.values()))
+    for shift, low, high in reversed(axes):  # parts: by what is left of a monomial, the coefficients along the axes that are done
+        n, d, done, parts = max((m >> shift) % (1 << BITS) for m in poly.terms), lcm(low.denominator, high.denominator), parts, {}
+        a, b, whole, count = int(low * d), int(high * d), lcm(*(comb(n, j) for j in range(n + 1))), sum(map(len, done.values()))
+        sizes, bits = [n + 1, *sizes], bits + n * (3 + max(map(int.bit_length, (a, b, d))))  # so long at most, as (n + 1) * whole <= 8^n
+        spend((8 * (n + 1) ** 3 + (n + 1) * count) * (1 + (bits * bits >> 16)))
+        require(bits <= MAX_BITS and (n + 1) * count <= MAX_TERMS, "a polynomial is too large", lambda bits=bits: f"{bits} bits")
+        powers = [reduce(times, [(a, b)] * e + [(d, d)] * (n - e), [1]) for e in range(n + 1)]
+        columns = [[whole // comb(n, j) * x for j, x in enumerate(power)] for power in powers]
+        for m, c in done.items():
+            e = (m >> shift) % (1 << BITS)
+            rest, image = m - (e << shift), [factor * x for factor in columns[e] for x in c]
+            parts[rest] = [x + y for x, y in zip(parts[rest], image)] if rest in parts else image
+    return (sizes, *parts.values())
 
 
 def parts_of_box(sizes, c, letter):
     """The boxes, with their Bernstein coefficients, that a letter of a box tree asks to look at: see `close_by_boxes`."""
     to_end, place = (True, ord(letter) - ord("A")) if letter <= "Z" else (False, ord(letter) - ord("a"))
-    count, rest, step = at(sizes, place), sizes[:place] + sizes[place + 1:], prod(sizes[place + 1:])
-    spend(len(c) * (count + 4) * (1 + (max(map(int.bit_length, c)) >> 8)))
-    rows = [[x for k in range(j * step, len(c), count * step) for x in c[k:k + step]] for j in range(count)]
+    count, rest, step, size = at(sizes, place), sizes[:place] + sizes[place + 1:], prod(sizes[place + 1:]), len(c) // sizes[place]
+    spend(len(c) * (count + 4) * (1 + (max(map(int.bit_length, c)) >> 8)))  # the axis comes first from here on, each of its indices `size` times
+    c = [x for j in range(0, step * count, step) for k in range(j, len(c), count * step) for x in c[k:k + step]] if place else c
     if to_end:
-        steps = [y - x for pair in zip(rows, rows[1:]) for x, y in zip(*pair)]
+        steps = [y - x for x, y in zip(c, c[size:])]
         require(min(steps) >= 0 or max(steps) <= 0, "not monotone along an axis", letter)
-        return [(rest, rows[-1] if max(steps) > 0 else rows[0])]
-    levels = [rows]  # de Casteljau's triangle, with sums for means: so level k is 2^k times too large
-    while len(levels[-1]) > 1:
-        levels.append([[x + y for x, y in zip(*pair)] for pair in zip(levels[-1], levels[-1][1:])])
-    return [([count, *rest], [x << k for k, level in enumerate(levels[::-1]) for x in level[-1]]),
-            ([count, *rest], [x << (count - 1 - k) for k, level in enumerate(levels) for x in level[0]])]
+        return [(rest, c[-size:] if max(steps) > 0 else c[:size])]
+    levels = [c]  # de Casteljau's triangle, with sums for means: so level k is 2^k times too large
+    while len(levels[-1]) > size:
+        levels.append([x + y for x, y in zip(levels[-1], levels[-1][size:])])
+    return [([count, *rest], [x << k for k, level in enumerate(levels[::-1]) for x in level[-size:]]),
+            ([count, *rest], [x << (count - 1 - k) for k, level in enumerate(levels) for x in level[:size]])]
 
 
 def close_by_boxes(state, known, index, bounds, tree):
@@ -662,10 +671,10 @@ class Unfolding:
     """A statement's lines in order, as variables, premises, obligations and goals over polynomials.
 
     A variable whose value the context knows keeps it; any other is declared.  `sharp`: the domain and the condition of a sharp
-    range take the place of the statement's own range lines.
+    range take the place of the statement's own range lines.  Without `shown`, what is shown is left out: the premises are asked for alone.
     """
 
-    def __init__(self, statement, context, sharp=None):
+    def __init__(self, statement, context, sharp=None, shown=True):
         self.context, self.premises, self.obligations, self.goals = context, [], [], []
         self.variables, self.universal, self.given = set(), [], set(context.values)
         self.integers = {name for line in statement.get("integer") for name in line}
@@ -673,13 +682,11 @@ class Unfolding:
         valued = self.given <= quantified | {said[0] for said in statement.get("root")}
         require(self.integers <= quantified and valued, "an integer, or a value, for what is not a variable", statement.name)
         for keyword, said in statement.lines:
-            if keyword in ("forall", "exists"):
-                for name in said:
-                    self.variable(name, keyword == "forall")
-            if keyword == "forall":
-                for node in sharp or []:
-                    self.assume(node, self.premises)
-            elif keyword == "given" or keyword == "range" and sharp is None:
+            for name in said if keyword in ("forall", "exists") else []:
+                self.variable(name, keyword == "forall")
+            for node in sharp or [] if keyword == "forall" else []:
+                self.assume(node, self.premises)
+            if keyword == "given" or keyword == "range" and sharp is None:
                 self.assume(said, self.premises)
             elif keyword == "have":
                 self.obligations.append((len(self.premises), negate(context.formula(said))))
@@ -692,7 +699,7 @@ class Unfolding:
                 self.variable(name, True)
                 root = context.values[name]
                 self.premises += [context.atom(root, ">=", ZERO), context.atom(root * root, "=", value)]
-            elif keyword in ("with", "show"):
+            elif keyword == "with" or keyword == "show" and shown:
                 self.assume(said, self.goals)
 
     def variable(self, name, universal):
@@ -754,7 +761,7 @@ def find(state, found, known, purpose, statements, base, sharp=None):
     for entry in adjoined:
         adjoin(state, known, *entry)
     values = {variable: state.context.value(parse(text)) for variable, text in terms.items()}
-    story = Unfolding(statement, Context(state.context, {**values, **base}), sharp)
+    story = Unfolding(statement, Context(state.context, {**values, **base}), sharp, purpose != "point")
     one_value_each(state.context, story, terms, base, story.variables if purpose == "witness" else story.universal)
     close(state.branch(negate(join("and", story.goals if purpose == "witness" else story.premises))), node, known)
     for last in rest:
@@ -1024,8 +1031,7 @@ def settle(statement, certificate, known, statements):
         return "certified"
     if says[0] == "certified":
         prove(statement, certificate["certified"], known)
-    purpose = "point" if says[0] == "certified" else "counterexample"
-    find(State(Context()), certificate[says[-1]], known, purpose, {statement.name: statement}, {})
+    find(State(Context()), certificate[says[-1]], known, "counterexample" if says == ["refuted"] else "point", {statement.name: statement}, {})
     return says[0]
 
 
@@ -1066,10 +1072,8 @@ def check_one(statement, certificate, known, earlier):
     work_left[0] = MAX_WORK
     try:
         return settle(statement, certificate, known, earlier), ""
-    except Rejected as reason:
-        return "rejected", str(reason)
     except Exception as error:
-        return "rejected", f"malformed certificate ({type(error).__name__})"
+        return "rejected", str(error) if isinstance(error, Rejected) else f"malformed certificate ({type(error).__name__})"
 
 
 def check_folder(folder):
@@ -1094,9 +1098,8 @@ def check_folder(folder):
 
 def report(results):
     """Prints what is rejected, and how many statements have which outcome; 0 where nothing is rejected, else 1."""
-    for name, outcome, reason in results:
-        if outcome == "rejected":
-            print("rejected ", ascii(f"{name}: {reason}")[1:-1])
+    for name, _, reason in (one for one in results if one[1] == "rejected"):
+        print("rejected ", ascii(f"{name}: {reason}")[1:-1])
     kinds = ("certified", "refuted", "unknown", "rejected")
     print(f"{len(results)} statements: " + ", ".join(f"{sum(o == kind for _, o, _ in results)} {kind}" for kind in kinds))
     return int(not results or any(outcome == "rejected" for _, outcome, _ in results))

@@ -14,12 +14,14 @@ Worth = Literal["certificate", "rigorous", "unchecked", "no proof"]
 NOTES = """\
 certificate: what is printed was accepted by certificates/checker.py in this run, and that time is counted; the certificate can be read again.
 rigorous: enclosed by arithmetic that rounds outwards (coq-interval: by Coq's kernel); to believe it again is to run it again.
-unchecked: the answer of a solver.  no proof: floating point; its error is the distance to the truth, which it does not know itself."""
+unchecked: the answer of a solver.  no proof: floating point; its error is the distance to the truth, which it does not know itself.
+The aim is judged against the certified peers and against Z3.  Certified peers: coq-interval, cvc5 where it writes its proof (nothing here reads it;
+some of its steps say trust), and QEPCAD, whose answers are taken at their word.  Boxes in Arb and mpmath.iv are our own, measured beside."""
 
 
 @dataclass(frozen=True)
 class Method:
-    """A way to answer; `place` is module:function, `package` what to install where it is absent."""
+    """A way to answer; `place` is module:function, `package` what to install where it is absent, `peer` whether it is a certified peer of the aim."""
 
     name: str
     title: str
@@ -27,6 +29,7 @@ class Method:
     place: str
     package: str = ""
     present: Callable[[], bool] = lambda: True
+    peer: bool = False
 
     def solve(self, problem: Any, size: Fraction) -> Any:
         """The answer, at this width (or for so much work)."""
@@ -55,13 +58,14 @@ METHODS = {one.name: one for one in (
     Method("bernstein", "exact Bernstein, ours", "certificate", "methods_ours:bernstein"),
     Method("arb", "Arb boxes", "rigorous", "methods_boxes:arb_boxes", "python-flint (pip install python-flint)", has("flint")),
     Method("mpmath", "mpmath.iv boxes", "rigorous", "methods_boxes:mpmath_boxes", "mpmath (pip install mpmath)", has("mpmath")),
-    Method("coq", "coq-interval, one question", "rigorous", "methods_solvers:coq_interval_once", COQ, _interval),
+    Method("coq", "coq-interval, one question", "rigorous", "methods_solvers:coq_interval_once", COQ, _interval, peer=True),
     Method("z3", "Z3, bisection", "unchecked", "methods_solvers:z3_bisection", Z3, has("z3")),
     Method("z3-once", "Z3, one question", "unchecked", "methods_solvers:z3_once", Z3, has("z3")),
     Method("cvc5", "cvc5, bisection", "unchecked", "methods_solvers:cvc5_bisection", CVC5, has("cvc5")),
     Method("cvc5-once", "cvc5, one question", "unchecked", "methods_solvers:cvc5_once", CVC5, has("cvc5")),
-    Method("qepcad", "QEPCAD B, bisection", "unchecked", "methods_solvers:qepcad_bisection", QEPCAD, _qepcad),
-    Method("qepcad-once", "QEPCAD B, one question", "unchecked", "methods_solvers:qepcad_once", QEPCAD, _qepcad),
+    Method("cvc5-proof", "cvc5, one question with its proof", "unchecked", "methods_solvers:cvc5_proof_once", CVC5, has("cvc5"), peer=True),
+    Method("qepcad", "QEPCAD B, bisection", "unchecked", "methods_solvers:qepcad_bisection", QEPCAD, _qepcad, peer=True),
+    Method("qepcad-once", "QEPCAD B, one question", "unchecked", "methods_solvers:qepcad_once", QEPCAD, _qepcad, peer=True),
     Method("sampling", "float sampling", "no proof", "methods_floating:sampling"),
     Method("scipy", "scipy.optimize", "no proof", "methods_floating:scipy_optimize", SCIPY, has("scipy")),
 )}

@@ -55,17 +55,26 @@ def by_z3(problem: Problem, bound: Fraction) -> bool:
     return _decided(str(solver.check()))
 
 
-def by_cvc5(problem: Problem, bound: Fraction) -> bool:
-    """cvc5, in this process."""
+def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
+    """cvc5, in this process; if asked to, it writes its proof, in its own format."""
     import cvc5
 
     solver = cvc5.Solver()
+    solver.setOption("produce-proofs", "true" if proof else "false")
     parser: Any = cvc5.InputParser(solver)
     parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, f"(set-logic QF_NRA)\n{problem.asked(bound)}(check-sat)\n", "question")
     said = ""
     while not (command := parser.nextCommand()).isNull():
         said += str(command.invoke(solver, parser.getSymbolManager()))
-    return _decided(said.strip())
+    exceeds = _decided(said.strip())
+    if proof and not exceeds and not solver.proofToString(solver.getProof()[0]):
+        raise GaveUp("no proof")
+    return exceeds
+
+
+def by_cvc5_with_proof(problem: Problem, bound: Fraction) -> bool:
+    """cvc5, which writes its proof where nothing exceeds the bound."""
+    return by_cvc5(problem, bound, True)
 
 
 def by_qepcad(problem: Problem, bound: Fraction) -> bool:
@@ -103,6 +112,11 @@ def cvc5_bisection(problem: Problem, width: Fraction) -> Answer:
 def cvc5_once(problem: Problem, width: Fraction) -> Answer:
     """cvc5, asked once."""
     return asked_once(by_cvc5, problem, width)
+
+
+def cvc5_proof_once(problem: Problem, width: Fraction) -> Answer:
+    """cvc5, asked once, with its proof."""
+    return asked_once(by_cvc5_with_proof, problem, width)
 
 
 def qepcad_bisection(problem: Problem, width: Fraction) -> Answer:

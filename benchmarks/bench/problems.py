@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from itertools import permutations
 from math import lcm
+from typing import TypeVar
 
-Terms = Mapping[tuple[int, ...], Fraction]  # a polynomial: exponents and coefficient
+Exponents = tuple[int, ...]
+Terms = Mapping[Exponents, Fraction]  # a polynomial
 Box = Sequence[tuple[Fraction, Fraction]]
+Number = TypeVar("Number", Fraction, float)
 
 
 @dataclass(frozen=True)
@@ -29,7 +34,7 @@ class Problem:
     statement: str
     smt: str
 
-    def excess(self, bound: Fraction) -> dict[tuple[int, ...], Fraction]:
+    def excess(self, bound: Fraction) -> dict[Exponents, Fraction]:
         """bound * under - over, which is >= 0 on the box if and only if the supremum is at most the bound."""
         return combined(self.under, bound, self.over)
 
@@ -48,16 +53,30 @@ class Problem:
         size = f"(/ {abs(value.numerator)}.0 {value.denominator}.0)"
         return self.smt.format(bound=size if value >= 0 else f"(- {size})")
 
-    def of_box(self, bound: Fraction) -> str:
-        """The same statement of the box, as text in the checker's language."""
-        givens = [row for name, (low, high) in zip(self.names, self.box) for row in (f"given {low} <= {name}", f"given {name} <= {high}")]
-        shown = f"show {self.text(self.excess(bound))} >= 0"
-        return "\n".join([f"statement bench/{self.name}", "forall " + " ".join(self.names), *givens, shown, ""])
+    def of_box(self, low: Fraction, high: Fraction) -> str:
+        """The statement that over/under is at most `high` at every point of the box where it is at least `low`, in the checker's language.
 
-    def text(self, terms: Terms) -> str:
-        """A polynomial times the denominators of its coefficients, which changes no relation to 0, in the checker's language."""
-        unit = lcm(*(c.denominator for c in terms.values()))
-        return horner({e: c * unit for e, c in terms.items()}, self.names, str) or "0"
+        A certificate of it holds a point where what is given is true.  So the supremum is at least `low`, and at most `high`.
+        """
+        (a, b), (c, d) = low.as_integer_ratio(), high.as_integer_ratio()
+        return self.boxed.format(low=a, below=b, high=c, above=d)
+
+    @cached_property
+    def boxed(self) -> str:
+        """The text of `of_box`, with the bounds low/below and high/above still to be put in."""
+        unit = lcm(*(c.denominator for terms in (self.over, self.under) for c in terms.values()))
+        over, under = (_shortest({e: c * unit for e, c in terms.items()}, self.names) for terms in (self.over, self.under))
+        return "\n".join([f"statement bench/{self.name}", "forall " + " ".join(self.names),
+                          *(f"given {low} <= {name} <= {high}" for name, (low, high) in zip(self.names, self.box)),
+                          f"let over = {over}", f"let under = {under}",
+                          "given under > 0", "given {below}*over >= {low}*under", "show {above}*over <= {high}*under", ""])
+
+
+def _shortest(terms: Terms, names: Sequence[str]) -> str:
+    """The polynomial nested by its variables in the order in which the text is shortest, where they are few."""
+    orders = permutations(range(len(names))) if len(names) < 5 else [tuple(range(len(names)))]
+    texts = [horner({tuple(e[i] for i in order): c for e, c in terms.items()}, [names[i] for i in order], str) for order in orders]
+    return min(texts, key=len) or "0"
 
 
 def horner(terms: Terms, names: Sequence[str], write: Callable[[Fraction], str]) -> str:
@@ -79,11 +98,11 @@ def horner(terms: Terms, names: Sequence[str], write: Callable[[Fraction], str])
     return " + ".join(parts)
 
 
-def combined(first: Terms, factor: Fraction, second: Terms) -> dict[tuple[int, ...], Fraction]:
-    """factor * first - second."""
+def combined(first: Mapping[Exponents, Number], factor: Number, second: Mapping[Exponents, Number]) -> dict[Exponents, Number]:
+    """factor * first - second, all in Fractions or all in floats."""
     total = {exponents: c * factor for exponents, c in first.items()}
     for exponents, c in second.items():
-        total[exponents] = total.get(exponents, Fraction(0)) - c
+        total[exponents] = total[exponents] - c if exponents in total else -c
     return {exponents: c for exponents, c in total.items() if c}
 
 

@@ -107,6 +107,8 @@ class Run:
         judged = table.judged(name, present, self.wanted.widths, results, self.wanted.seconds)
         self.judged += judged
         print("\n" + "\n".join(one.line() for one in judged))
+        if not any(method.peer for method in present):
+            print("no certified peer was measured")
         print("\n" + table.slopes(present, results, "1/width", True))
 
     def orbit(self, start: orbits.Start) -> None:
@@ -170,5 +172,5 @@ class Run:
 
 def head(wanted: Wish) -> str:
     """What the numbers mean."""
-    return ("warm: the least of up to 3 answers after the first in one process; cold: the first, with all that the method loads, not the start of\n"
-            f"Python. Each answer has {wanted.seconds:g} s; a method that gave up is not asked for what is harder.\n{NOTES}")
+    return ("warm: the least of 3 answers after the first in one process, of more where they are quick; cold: the first, with all that the method\n"
+            f"loads, not the start of Python. Each answer has {wanted.seconds:g} s; a method that gave up is not asked for what is harder.\n{NOTES}")

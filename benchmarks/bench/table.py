@@ -143,12 +143,13 @@ class Judged:
 
 
 def judged(title: str, methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, seconds: float) -> list[Judged]:
-    """The aim, by what this run measured: against all rigorous peers together, and against Z3 in each way of asking it, warm and cold."""
+    """The aim, by what this run measured: against all certified peers together, and against Z3 in each way of asking it, warm and cold."""
     found = []
     for time in WORDS:
-        rigorous = [method for method in methods if method.worth == "rigorous" and method.name in results]
+        certified = [method for method in methods if method.peer and method.name in results]
         z3 = [method for method in methods if method.name.startswith("z3") and method.name in results]
-        for against, aim, peers in (("every rigorous peer", AIM, rigorous), *((one.title, 1, [one]) for one in z3)):
+        every = f"every certified peer ({'; '.join(method.title for method in certified)})"
+        for against, aim, peers in ((every, AIM, certified), *((one.title, 1, [one]) for one in z3)):
             least = [min((_times(methods, peer, size, results, seconds, time), f"{title} at {power(size)}, by {peer.title}") for peer in peers)
                      for size in sizes if peers]
             if least:

@@ -13,6 +13,7 @@ Exponents = tuple[int, ...]
 Terms = Mapping[Exponents, Fraction]  # a polynomial: its coefficients, none of them 0
 Array = Any  # of floats
 STEPS = 200
+NOISE = 2.0**-52
 DENOMINATORS = (1, 2, 12, 120, 1000, 10**4, 10**6, 10**8, 10**10, 10**13, 10**16, 10**20)
 
 
@@ -30,7 +31,7 @@ def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
 class FloatPolynomial:
     """Value, gradient and Hessian, all from one pass over the monomials of the polynomial and of its derivatives."""
 
-    def __init__(self, terms: Terms, size: int) -> None:
+    def __init__(self, terms: Mapping[Exponents, Fraction | float], size: int) -> None:
         self.size = size
         self.pairs = [(i, j) for i in range(size) for j in range(i, size)]
         own = {e: float(c) for e, c in terms.items()}
@@ -46,10 +47,17 @@ class FloatPolynomial:
 
     def values(self, x: Array, rows: int | None = None) -> Array:
         """The value, then the slopes, then the second derivatives: the first `rows` of them."""
+        return self.matrix[:rows] @ self._monomials(x)
+
+    def _monomials(self, x: Array) -> Array:
         table = np.ones((self.size, self.most + 1))
         for k in range(1, self.most + 1):
             table[:, k] = table[:, k - 1] * x
-        return self.matrix[:rows] @ table[np.arange(self.size), self.exponents].prod(axis=1)
+        return table[np.arange(self.size), self.exponents].prod(axis=1)
+
+    def noise(self, x: Array) -> float:
+        """What rounding may change in the value there."""
+        return NOISE * float(np.abs(self.matrix[0]) @ np.abs(self._monomials(x)))
 
     def __call__(self, x: Array) -> float:
         return float(self.values(x, 1)[0])
@@ -74,6 +82,8 @@ class FloatPolynomial:
                 after = self(moved)
                 found = after < value
                 damping = max(damping / 8, 1e-18) if found else damping * 8
+                if not found and float(slope @ step) <= self.noise(x):
+                    break  # a shorter step would gain even less
             if not found:
                 break
             x, value = moved, after
@@ -81,6 +91,8 @@ class FloatPolynomial:
 
     @staticmethod
     def _step(bend: Array, slope: Array, damping: float) -> Array:
+        if len(slope) == 1:  # the same, without the cost of a call to LAPACK
+            return slope / (bend[0] + damping + max(0.0, -2 * float(bend[0, 0])))
         least = float(np.linalg.eigvalsh(bend)[0])
         return np.linalg.solve(bend + (damping + max(0.0, -2 * least)) * np.eye(len(slope)), slope)
 

@@ -13,7 +13,7 @@ import pytest
 import sympy
 
 import symbolic
-from benchmarks.bench import growth, orbits, run, table
+from benchmarks.bench import growth, methods_ours, orbits, run, table
 from benchmarks.bench.answers import Answer, GaveUp, Measured, Strayed
 from benchmarks.bench.coq_interval import goal
 from benchmarks.bench.finding import best_point
@@ -59,7 +59,8 @@ def test_floating_point_comes_near_from_below_holds(name: str) -> None:
 def test_the_closed_form_is_the_bound_of_set_and_box_holds(name: str, more: Fraction) -> None:
     problem = questions()[name].problem()
     for text, holds in ((problem.of_set(truth(name) + more), True), (problem.of_set(truth(name) - Fraction(1, 10**6)), False),
-                        (problem.of_box(truth(name) + more), True), (problem.of_box(truth(name) - Fraction(1, 10**6)), False)):
+                        (problem.of_box(truth(name) - 1, truth(name) + more), True),
+                        (problem.of_box(truth(name) - 1, truth(name) - Fraction(1, 10**6)), False)):
         from benchmarks.peer_smt import z3
         from certificates.routes.questions import read_statement
 
@@ -70,6 +71,23 @@ def test_ours_rests_on_the_checker_holds(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(checker, "check_one", lambda *given: ("rejected", "on purpose"))
     with pytest.raises(ArithmeticError, match="on purpose"):
         bernstein(questions()["DE-H"].problem(), WIDTH)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_rejects_a_value_that_no_point_has(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    point, low = best_point(questions()[name].problem(), WIDTH)
+    monkeypatch.setattr(methods_ours, "best_point", lambda *given: (point, low + WIDTH / 10**6))
+    with pytest.raises(ArithmeticError, match="rejected nothing false is assumed"):
+        bernstein(questions()[name].problem(), WIDTH)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_rejects_a_bound_that_is_exceeded(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    point, low = best_point(questions()[name].problem(), WIDTH)
+    monkeypatch.setattr(methods_ours, "best_point", lambda *given: (point, low - COARSE))
+    monkeypatch.setattr(methods_ours, "search_tree", lambda *given: ".")
+    with pytest.raises(ArithmeticError, match="a Bernstein coefficient of a leaf has the wrong sign"):
+        bernstein(questions()[name].problem(), WIDTH)
 
 
 @pytest.mark.parametrize("numbers", [Arb(), Mpmath()])
@@ -156,14 +174,16 @@ def test_a_method_that_gives_up_is_ended_and_shown() -> None:
 
 
 def test_the_aim_is_judged_by_the_ratios_of_the_run() -> None:
-    methods = [METHODS[name] for name in ("bernstein", "arb", "z3")]
+    methods = [METHODS[name] for name in ("bernstein", "arb", "cvc5-proof", "z3")]
     answer, sizes = Answer(Fraction(0), Fraction(0)), [COARSE, WIDTH]
     found = [Measured("bernstein", size, 0.5, 0.001, answer) for size in sizes]
-    found += [Measured("arb", COARSE, 5.0, 0.02, answer), Measured("arb", WIDTH, 5.0, 0.005, answer), Measured("z3", COARSE, reason="gave up")]
+    found += [Measured("cvc5-proof", COARSE, 5.0, 0.02, answer), Measured("cvc5-proof", WIDTH, 5.0, 0.005, answer)]
+    found += [Measured("arb", COARSE, 0.4, 0.001, answer), Measured("z3", COARSE, reason="gave up")]  # Arb's boxes are our own
     lines = [one.line() for one in table.judged("DE-H", methods, sizes, table.by_method(found), 10.0)]
-    assert lines[0] == "warm: 10 times faster than every rigorous peer: NOT met, at 1 of 2 widths; least 5 times, DE-H at 1e-3, by Arb boxes"
+    peers = "every certified peer (cvc5, one question with its proof)"
+    assert lines[0] == f"warm: 10 times faster than {peers}: NOT met, at 1 of 2 widths; least 5 times, DE-H at 1e-3, by {METHODS['cvc5-proof'].title}"
     assert lines[1].startswith("warm: faster than Z3, bisection: met, at 2 of 2 widths; least 10000 times")
-    assert lines[2].startswith("cold: 10 times faster than every rigorous peer: met, at 2 of 2 widths")
+    assert lines[2].startswith(f"cold: 10 times faster than {peers}: met, at 2 of 2 widths")
     both = table.together(table.judged("DE-H", methods, sizes, table.by_method(found), 10.0) * 2)
     assert both[0].line() == lines[0].replace("1 of 2", "2 of 4")
 
@@ -171,7 +191,8 @@ def test_the_aim_is_judged_by_the_ratios_of_the_run() -> None:
 def test_a_quick_run_ends_with_table_plot_and_verdict_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert command(["bench", "--quick", "--question", "p-outside-R", "--seconds", "60", "-o", str(tmp_path / "bench")]) == 0
     said = capsys.readouterr().out
-    assert "exact Bernstein, ours" in said and "every enclosure holds the truth" in said and "faster than every rigorous peer" in said
+    assert "exact Bernstein, ours" in said and "every enclosure holds the truth" in said and "faster than Z3, one question" in said
+    assert "no certified peer was measured" in said and "faster than every certified peer" not in said
     assert "1e-1" in said and "1e-6" in said and "slope" in said
     from benchmarks.bench.plot import ABSENT, can_plot
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import random
 from fractions import Fraction
-from math import comb, prod
+from math import comb, lcm, prod
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -106,6 +106,18 @@ def test_coefficients_are_those_of_the_polynomial(text: str, box: list[tuple[Fra
         assert (total > 0) == (value > 0) and (total < 0) == (value < 0)
         factors |= {total / value} if value else set()
     assert len(factors) <= 1 and all(factor > 0 for factor in factors)
+
+
+@MANY
+@given(st.lists(st.integers(-(2**40), 2**40), min_size=3, max_size=9).filter(lambda c: c[-1] != 0), ends)
+def test_coefficients_are_as_short_as_the_limit_assumes(c: list[int], end: tuple[Fraction, Fraction]) -> None:
+    low, high, n = end[0], sum(end), len(c) - 1
+    poly = checker.Poly({k: value for k, value in enumerate(c) if value}, 1, n)
+    d = lcm(low.denominator, high.denominator)
+    more = n * (3 + max(x.bit_length() for x in (d, int(low * d), int(high * d))))
+    found = checker.bernstein(poly, [(0, low, high)])[1]
+    assert max(map(int.bit_length, found)) <= max(map(int.bit_length, c)) + more
+    assert all((k + 1) * lcm(*(comb(k, j) for j in range(k + 1))) <= 8**k for k in range(1, 200))
 
 
 def test_random_trees_are_accepted_often_enough_to_tell() -> None:
