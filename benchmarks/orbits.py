@@ -97,8 +97,8 @@ def _memory(queue: Any) -> None:
     queue.put((before, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024))
 
 
-def memory() -> None:
-    """Peak memory of a process that follows a million states."""
+def memory() -> float:
+    """Peak memory in MB of a process that follows a million states."""
     context = multiprocessing.get_context("spawn")
     queue = context.Queue()
     process = context.Process(target=_memory, args=(queue,))
@@ -107,6 +107,7 @@ def memory() -> None:
     process.join()
     print(f"{MEMORY[0]} states, {MEMORY[1]} periods: {after:.0f} MB at most, {before:.0f} MB of it before the run (aim: below 200); "
           f"computed beforehand {bytes_needed(MEMORY[0], MEMORY[1]) / 1e6:.0f} MB")
+    return float(after)
 
 
 if __name__ == "__main__":

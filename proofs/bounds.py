@@ -178,7 +178,7 @@ def _terms(text: str, names: list[str]) -> Terms:
             context.declare(name)
         poly = context.polynomial(text)
     except checker.Rejected as reason:
-        raise ClaimError(f"not a polynomial in {', '.join(names)}: {reason}; write it as x^2 - 3/2*x*y") from None
+        raise ClaimError(f"not a polynomial in {', '.join(names)}: {str(reason)[:200]}; write it as x^2 - 3/2*x*y") from None
     shifts = [checker.BITS * context.index[name] for name in names]
     return {tuple((m >> shift) % (1 << checker.BITS) for shift in shifts): Fraction(c, poly.den) for m, c in poly.terms.items()}
 

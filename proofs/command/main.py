@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from proofs.command.simulate_options import add_simulate
 
@@ -15,15 +17,19 @@ ROUTES = ("exact", "z3", "boxes")
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that tells a wrong argument in one line."""
+    """A parser that tells a wrong argument in one line, and takes all that begins as a negative number, such as -1/3 or -1:2:5, for a value."""
+
+    def __init__(self, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf)")
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}; `{self.prog} --help` tells what it takes\n")
 
 
 def _count(text: str) -> int:
-    if not text.isdecimal() or not int(text):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 on")
+    if not (text.isascii() and text.isdecimal() and len(text) <= 4000 and int(text)):
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number from 1 on")
     return int(text)
 
 
@@ -90,7 +96,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
     from certificates.terms import ClaimError
 
     try:
-        return _dispatch(parsed)
+        code = _dispatch(parsed)
+        print(end="", flush=True)  # there may be no standard output to flush
+        return code
     except ClaimError as problem:
         print(f"juggleproof: {problem}", file=sys.stderr)
         return 2
@@ -98,8 +106,19 @@ def run(arguments: Sequence[str] | None = None) -> int:
         print("juggleproof: interrupted; stored certificates are as they were", file=sys.stderr)
         return 130
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _leave_standard_output()
         return 0
+    except OSError as error:
+        if error.filename is not None or error.errno not in (errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EDQUOT):
+            raise
+        _leave_standard_output()
+        print(f"juggleproof: standard output cannot be written ({error.strerror}); send it elsewhere", file=sys.stderr)
+        return 2
+
+
+def _leave_standard_output() -> None:
+    """What is still to be written there is thrown away."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _dispatch(parsed: argparse.Namespace) -> int:

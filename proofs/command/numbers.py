@@ -36,9 +36,9 @@ def exact(text: str, name: str) -> Fraction:
 
 def whole(text: str) -> int:
     """A whole number, as an option of the command line takes it."""
-    if not text.removeprefix("-").isdecimal():
+    if not (text.isascii() and text.removeprefix("-").isdecimal()):
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number")
-    if len(text) > 30:
+    if len(text) > 4000:
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is too long a number")
     return int(text)
 
@@ -53,7 +53,8 @@ def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:
     for part in text.split(","):
         name, equals, value = (piece.strip() for piece in part.partition("="))
         if not equals or name not in names:
-            raise ClaimError(f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or beta=..,v=..,r=..,g=..")
+            units = ",r=..,g=.." if "r" in names else ""
+            raise ClaimError(f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or beta=..,v=..{units}")
         if name in given:
             raise ClaimError(f"{name} is given twice; give each component of the state once")
         given[name] = exact(value, name)

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import islice
 from typing import Any
 
 from proofs.command.columns import draw
 from proofs.command.numbers import DIGITS, shown
+from scenes.errors import SceneError
+from scenes.juggler.given import counted
 from scenes.juggler.hard_cases import CASES, Finding, finding
-from scenes.juggler.motion import heights
+from scenes.juggler.motion import MOST_TIMES, heights
 from scenes.juggler.orbits import Orbits, Row
-from scenes.juggler.periodic import exists_for, longest_flight, search_words
+from scenes.juggler.periodic import attracts_for, exists_for, family, longest_flight, orbit_of, search_words
 from scenes.juggler.setting import Scene
 from scenes.juggler.starts import axis
 from scenes.juggler.tables import NAMES, UNITS, in_units, written
 
-MOST_ROWS, SHORT_BITS = 40, 4000
+MOST_ROWS, SHORT_BITS, LONG_TEXT = 40, 4000, 100
 PROVED = {"exact": "exact", "enclosed": "enclosed: the true state differs by the error at most, proved",
           "mp": "mp: rounded to {} digits, nothing proved", "fast": "fast: the true state differs from the floats by the error at most, proved"}
 MARKS = {"": "not at its end", "reached": "", "trap": "in the trap", "undecided": "branch undecided", "too long": "numbers too long"}
@@ -82,10 +85,10 @@ def _tell_ends(found: Orbits) -> None:
     counts = found.counts()
     if len(found) > 1:
         print(", ".join(f"{count} {name or 'not at the end'}" for name, count in counts.items()))
-    undecided = found.undecided
+    undecided = counts.get("undecided", 0)
     if undecided:
-        first = ", ".join(f"{index} (period {shown(period)})" for index, period in undecided[:10])
-        more = f" and {len(undecided) - 10} more" if len(undecided) > 10 else ""
+        first = ", ".join(f"{index} (period {shown(period)})" for index, period in islice(found.each_undecided(), 10))
+        more = f" and {undecided - 10} more" if undecided > 10 else ""
         print(f"undecided: {first}{more}; whether the table strikes there is not known from these numbers; --arithmetic enclosed or exact tells")
     edges = sum(track.edges for track in found.tracks)
     if edges:
@@ -94,7 +97,9 @@ def _tell_ends(found: Orbits) -> None:
 
 def times(setting: Scene, low: Any, high: Any, count: int) -> int:
     """Heights of ball and table at times, in the units of r and g."""
-    found = heights(setting, axis(low, high, count, "times"))
+    if setting.starts.count > 1:
+        raise SceneError(f"times of {setting.starts.count} starts; give one start")
+    found = heights(setting, list(axis(low, high, counted(count, "the number of times", 1, MOST_TIMES), "times")))
     print(f"alpha = {_short(setting.alpha)}; exact heights, shown rounded to {DIGITS} digits")
     _draw(("time", "ball", "table"), [tuple(map(told, one)) for one in found])
     return 0
@@ -116,12 +121,37 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
     return 0
 
 
-def word(wanted: tuple[int, ...]) -> int:
-    """For which alpha the orbit of a word exists."""
-    found = exists_for(wanted)
+def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
+    """The orbit of a word, at this alpha or for all; for which alpha it exists, and for which it attracts."""
+    found, near = exists_for(wanted), attracts_for(wanted)
+    at = orbit_of(wanted, alpha) if alpha is not None else None
     print(f"word {','.join(map(str, wanted))}: {sum(wanted)} periods, impacts {len(wanted)}, spectral radius alpha^{len(wanted)}")
     print("exists for " + ("; ".join(map(str, found)) if found else "no alpha in (0, 1)"))
+    if near:
+        print(f"attracts near states for {'; '.join(map(str, near))}")
+    if found != near:
+        print("for the other alpha of these a state of it lies on x = w, where the affine map does not tell whether it attracts")
+    if alpha is None and found:
+        _draw(("impact", "x", "w"), [(str(k + 1), *(_formula(part) for part in place)) for k, place in enumerate(family(wanted))])
+    elif alpha is not None and at is None:
+        print(f"at alpha = {_short(alpha)} no orbit has this word")
+    elif at is not None:
+        print(f"at alpha = {_short(at.alpha)}, exactly; {'attracts near states' if at.attracts else 'a state lies on x = w'}")
+        _draw(("impact", "x", "w"), [(str(k + 1), *(_fraction(part) for part in place)) for k, place in enumerate(at.impacts)])
     return 0
+
+
+def _formula(expression: Any) -> str:
+    """A rational function of alpha."""
+    from sympy import factor
+
+    text = str(factor(expression)).replace("**", "^")
+    return text if len(text) <= LONG_TEXT else "a long formula; --alpha gives the numbers"
+
+
+def _fraction(value: Fraction) -> str:
+    text = str(value) if max(value.numerator.bit_length(), value.denominator.bit_length()) < 3 * LONG_TEXT else ""
+    return text if 0 < len(text) <= LONG_TEXT else told(value)
 
 
 def hard_cases() -> int:

@@ -16,12 +16,16 @@ from proofs.command.outputs import fault_of, written_aside
 from scenes.errors import SceneError
 from scenes.juggler.orbits import Orbits, Report, prepare
 from scenes.juggler.setting import Scene, scene
-from scenes.juggler.starts import Axis, Starts, boundary, grid, listed, physical, random
+from scenes.juggler.starts import Axis, boundary, grid, listed, physical, physical_box, physical_grid, random
+from scenes.juggler.states import Starts
+from scenes.juggler.tables import NAMES
 
+NORMAL, PHYSICAL = NAMES["normal"], NAMES["physical"]
 FORMATS = (".csv", ".npz", ".svg")
 STEPS, IMPACTS_TO_TRAP = 20, 1000
 Writer = Callable[[Orbits, BinaryIO], None]
 STARTS = ("state", "grid", "boundary", "random")
+LISTS: dict[str, tuple[str, ...]] = {"hard_cases": (), "words": ("alpha",), "word": ("alpha",), "times": ("alpha", *STARTS)}  # and what each takes
 
 
 def simulate(options: argparse.Namespace) -> int:
@@ -41,23 +45,33 @@ def _part(options: argparse.Namespace) -> int:
 
 def juggler(options: argparse.Namespace) -> int:
     """The orbits of the paper's map, or one of the lists of the juggler."""
-    lists = [name for name in ("hard_cases", "words", "word", "times") if getattr(options, name)]
-    if len(lists) > 1:
-        raise ClaimError(f"--{lists[0].replace('_', '-')} and --{lists[1].replace('_', '-')} do not go together; give one of them")
+    _refuse_what_does_not_go_together(options)
     if options.hard_cases:
         return orbit_tables.hard_cases()
-    if options.word:
-        return orbit_tables.word(tuple(_whole(part, "a flight") for part in options.word.split(",")))
+    if options.word is not None:
+        flights = tuple(_whole(part, "a flight") for part in options.word.split(","))
+        return orbit_tables.word(flights, None if options.alpha is None else exact(options.alpha, "alpha"))
     if options.alpha is None:
         raise ClaimError("--alpha is missing; give the restitution, such as --alpha 3/10")
     alpha = exact(options.alpha, "alpha")
     if options.words:
         return orbit_tables.words(alpha, options.longest, options.flight)
-    setting = scene(alpha, starts(options), exact(options.r, "r"), exact(options.g, "g"))
-    if options.times:
+    setting = scene(alpha, starts(options), *_units(options))
+    if options.times is not None:
         low, high, count = _axis(options.times, "times", 3)
         return orbit_tables.times(setting, low, high, count)
     return _follow(options, setting)
+
+
+def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
+    """Raises ClaimError for two lists at once, and for options that a list would leave out in silence."""
+    lists = [name for name in LISTS if getattr(options, name) not in (None, False)]
+    if not lists:
+        return
+    others = [name for name in ("alpha", *STARTS, "output") if getattr(options, name) is not None and name not in LISTS[lists[0]]]
+    if lists[1:] + others:
+        one, two = (name.replace("_", "-") for name in (lists[0], (lists[1:] + others)[0]))
+        raise ClaimError(f"--{one} and --{two} do not go together; leave one of them out")
 
 
 def starts(options: argparse.Namespace) -> Starts:
@@ -69,22 +83,28 @@ def starts(options: argparse.Namespace) -> Starts:
     if options.boundary is not None:
         return boundary(exact(options.alpha, "alpha"), options.boundary)
     if options.random is not None:
-        x, w = (axis[:2] for axis in _axes(options.box, "box", 2))
-        return random(options.random, options.seed, x, w)
+        names, (low, high, _), (slow, quick, _) = _axes(options.box, "box", 2)
+        sides = physical_box((low, high), (slow, quick), *_units(options)) if names == PHYSICAL else ((low, high), (slow, quick))
+        return random(options.random, options.seed, *sides)
     if options.grid is not None:
-        return grid(*_axes(options.grid, "grid", 3))
+        names, heights, speeds = _axes(options.grid, "grid", 3)
+        return physical_grid(heights, speeds, *_units(options)) if names == PHYSICAL else grid(heights, speeds)
     return listed([_state(text, options) for text in options.state])
 
 
 def _state(text: str, options: argparse.Namespace) -> tuple[Fraction, Fraction]:
-    given = components(text, ("x", "w", "beta", "v"))
+    given = components(text, (*NORMAL, *PHYSICAL))
     if set(given) == {"beta", "v"}:
-        x, w = physical(given["beta"], given["v"], exact(options.r, "r"), exact(options.g, "g")).exact(0)
+        x, w = physical(given["beta"], given["v"], *_units(options)).exact(0)
     elif set(given) == {"x", "w"}:
         x, w = given["x"], given["w"]
     else:
         raise ClaimError(f"{text[:40]} has not both components of a state; write x=..,w=.. or beta=..,v=..")
     return x, w
+
+
+def _units(options: argparse.Namespace) -> tuple[Fraction, Fraction]:
+    return exact(options.r, "r"), exact(options.g, "g")
 
 
 def _axis(text: str, name: str, parts: int) -> Axis:
@@ -102,14 +122,19 @@ def _whole(text: str, name: str) -> int:
     return int(value)
 
 
-def _axes(text: str, option: str, parts: int) -> tuple[Axis, Axis]:
-    found = {}
+def _axes(text: str, option: str, parts: int) -> tuple[tuple[str, str], Axis, Axis]:
+    """The names of both components, and the axis of each."""
+    found: dict[str, Axis] = {}
     for part in text.split(","):
         name, _, rest = part.partition("=")
-        found[name.strip()] = _axis(rest, f"--{option} {name.strip()[:20]}", parts)
-    if set(found) != {"x", "w"}:
-        raise ClaimError(f"--{option} {text[:40]!r} has not x and w; write x=..,w=..")
-    return found["x"], found["w"]
+        name = name.strip()
+        if name in found:
+            raise ClaimError(f"--{option}: {name[:20]} is given twice; give each component once")
+        found[name] = _axis(rest, f"--{option} {name[:20]}", parts)
+    for names in (NORMAL, PHYSICAL):
+        if set(found) == set(names):
+            return names, found[names[0]], found[names[1]]
+    raise ClaimError(f"--{option} {text[:40]!r} has not x and w, nor beta and v; write x=..,w=.. or beta=..,v=..")
 
 
 def _follow(options: argparse.Namespace, setting: Scene) -> int:

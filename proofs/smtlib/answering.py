@@ -103,6 +103,10 @@ def _searched(name: str, text: str, budget: int) -> dict[str, Any]:
         return search_certificate(checker.read_statements(text)[name], {}, Budget(budget), attempts=SQUARES_FIRST)
     except Exhausted:
         return {"unknown": f"the budget of {budget} units ran out"}
+    except (OverflowError, ValueError) as error:
+        if isinstance(error, ValueError) and "integer string conversion" not in str(error):
+            raise
+        return {"unknown": "its numbers grow too long for the search"}  # beyond floats, or beyond what Python writes
 
 
 def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:

@@ -13,7 +13,7 @@ from certificates.terms import Formula, Term, conjunction, different, disjunctio
 from .sexpr import Expression, Node, Script, Word
 from .values import Real, Sizes, TooLarge, Value, choice, combined, plain, relation
 
-LARGEST_POWER = 100
+LARGEST_POWER, LONGEST_NUMBER = 100, 1000
 SORTS = ("Real", "Bool")
 
 
@@ -72,6 +72,8 @@ class Reader:
 
     def _word(self, word: Word, scope: Scope) -> Value:
         if word.kind in ("numeral", "decimal"):
+            if len(word.text) > LONGEST_NUMBER:
+                self.script.fail(word, f"a number of {len(word.text)} signs; at most {LONGEST_NUMBER} are read", "scale the variables")
             return plain(term(Fraction(word.text)))
         if word.kind != "symbol":
             self.script.fail(word, f"{word} where a term is expected", "only reals and Bools can be spoken of")

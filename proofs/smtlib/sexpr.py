@@ -51,7 +51,7 @@ class Script:
     def fail(self, at: Expression | int, problem: str, mend: str) -> NoReturn:
         """Raises ClaimError, one line: file, line, what is wrong and how to mend it."""
         line = at if isinstance(at, int) else at.line
-        raise ClaimError(f"{self.file}:{line}: {problem}; {mend}")
+        raise ClaimError(f"{self.file}:{line}: {' '.join(problem.split())}; {' '.join(mend.split())}")
 
     def expressions(self) -> Iterator[Expression]:
         """The expressions at top level, in order.

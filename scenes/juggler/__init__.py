@@ -15,7 +15,7 @@ from typing import Any
 _NAMES = {
     "scenes.errors": "SceneError",
     "scenes.juggler.setting": "Goal Scene scene",
-    "scenes.juggler.starts": "arrays boundary grid listed physical point random",
+    "scenes.juggler.starts": "arrays boundary grid listed physical physical_box physical_grid point random",
     "scenes.juggler.orbits": "ARITHMETICS Orbits Row orbit prepare",
 }
 _PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}

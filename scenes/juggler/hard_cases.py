@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 
 from scenes.juggler.exact import flight, impact, strikes
 from scenes.juggler.formulas import formulas
+from scenes.juggler.given import nearest
 from scenes.juggler.orbits import Row, orbit
 from scenes.juggler.setting import Scene, scene
-from scenes.juggler.starts import nearest, point
+from scenes.juggler.starts import point
 
 TINY, HUGE, THIRD = Fraction(1, 10**300), Fraction(10**300), Fraction(1, 3)
 FLIGHT = 1000  # periods that plain floats are followed for where a case counts impacts
@@ -67,6 +68,7 @@ CASES = (
     _case("x = 10^-300", "3/10", TINY, "7/3", 50),
     _case("w = 0, x = 0", "3/10", "0", "0", 50),
     _case("w = 10^-300, x = 0", "3/10", "0", TINY, 50),
+    _case("w = -10^-300, x = 0", "3/10", "0", -TINY, 50),
     _case("w < 0", "3/10", "2", "-1/4", 50),
     _case("energy 10^-300", "3/10", TINY / 2, "1", 50),
     _case("energy 10^300", "3/10", HUGE / 2, "1", 3, True),

@@ -10,12 +10,13 @@ from typing import NamedTuple
 from scenes.errors import SceneError
 from scenes.juggler.exact import flight, flight_length, impact
 from scenes.juggler.formulas import Compiled, compiled, formulas
+from scenes.juggler.given import Number, brief, counted, rational
 from scenes.juggler.setting import Scene
-from scenes.juggler.starts import Number, rational
 from symbolic import ball_after_collision, collision_time, fly, period, state, table_at
 from symbolic.symbols import alpha, beta, r, t, v
 
 MOST_IMPACTS = 10**4  # before the last of the times
+MOST_TIMES = 10**6
 
 
 class Heights(NamedTuple):
@@ -46,8 +47,10 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
     """
     length, struck_at, table, before, after = _formulas()
     whole = length(scene.r, scene.g)
+    if isinstance(times, str) or not hasattr(times, "__len__") or len(times) > MOST_TIMES:
+        raise SceneError(f"times are to be a list of at most {MOST_TIMES} numbers >= 0")
     asked = sorted({_time(one) for one in times})
-    x, w = scene.starts.exact(index)
+    x, w = scene.starts.exact(counted(index, "index", 0, scene.starts.count - 1))
     found: dict[Fraction, Heights] = {}
     passed, struck = 0, 0
     for time in asked:
@@ -59,7 +62,7 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
             else:
                 passed, (x, w), struck = passed + 1, impact(scene.alpha, x, w), struck + 1
                 if struck > MOST_IMPACTS:
-                    raise SceneError(f"time {float(time):.6g} comes after more than {MOST_IMPACTS} impacts; choose an earlier one")
+                    raise SceneError(f"time {brief(time)} comes after more than {MOST_IMPACTS} impacts; choose an earlier one")
         height, speed = formulas().unscaled(x, w, scene.r, scene.g)
         within = time - now * whole
         hit = formulas().margin(x, w) > 0 and within > struck_at(height, speed, scene.r, scene.g)
@@ -71,5 +74,5 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
 def _time(value: Number) -> Fraction:
     time = rational(value, "time")
     if time < 0:
-        raise SceneError(f"time = {float(time):.6g} is before the start; times are >= 0")
+        raise SceneError(f"time = {brief(time)} is before the start; times are >= 0")
     return time

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from scenes.errors import SceneError
 from scenes.juggler import enclosed, exact, fast, high
 from scenes.juggler.formulas import formulas
-from scenes.juggler.setting import Goal, Scene, goal
-from scenes.juggler.starts import counted
+from scenes.juggler.given import Number, brief, counted, rational
+from scenes.juggler.setting import MOST_STEPS, Goal, Scene, goal
 from scenes.juggler.track import Arithmetic, Sample, Stop, Track, advance, begin
 
 ARITHMETICS = ("exact", "enclosed", "mp", "fast")
+MOST_TRACKS, MOST_KEPT = 10**6, 4 * 10**6  # as single numbers, of a kilobyte each
 Report = Callable[[int, int], None]  # how many states are done, of how many
 
 
@@ -93,8 +96,8 @@ class Orbits:
 
     def row(self, index: int) -> Row:
         """Where the orbit of this number stands."""
-        if not 0 <= index < self.followed:
-            raise SceneError(f"orbit {index} is not among the {self.followed} that were followed")
+        if isinstance(index, bool) or not isinstance(index, (int, np.integer)) or not 0 <= index < self.followed:
+            raise SceneError(f"orbit {brief(index)} is not among the {self.followed} that were followed")
         if self.ensemble is not None:
             e = self.ensemble
             return Row(index, int(e.periods[index]), int(e.impacts[index]), float(e.x[index]), float(e.w[index]),
@@ -129,10 +132,14 @@ class Orbits:
     @property
     def undecided(self) -> list[tuple[int, int]]:
         """The number of each orbit with a state whose branch was not decided, and the period of that state."""
+        return list(self.each_undecided())
+
+    def each_undecided(self) -> Iterator[tuple[int, int]]:
+        """The same, one by one."""
         if self.ensemble is not None:
             found = (self.ensemble.end[:self.followed] == fast.UNDECIDED).nonzero()[0]
-            return [(int(index), int(self.ensemble.periods[index])) for index in found]
-        return [(index, track.here.periods) for index, track in enumerate(self.tracks) if track.end == "undecided"]
+            yield from ((int(index), int(self.ensemble.periods[index])) for index in found)
+        yield from ((index, track.here.periods) for index, track in enumerate(self.tracks) if track.end == "undecided")
 
     def counts(self) -> dict[str, int]:
         """How many orbits have each end."""
@@ -148,23 +155,37 @@ def told(value: Any, arithmetic: str) -> Any:
     return exact.told(value) if arithmetic == "exact" and not isinstance(value, Fraction) else value
 
 
+def _refuse_many(count: int, arithmetic: str, steps: int, keep: bool) -> None:
+    """SceneError for more orbits or kept states than can be held as single numbers; fast arithmetic has limits of its own."""
+    if arithmetic == "fast":
+        return
+    if count > MOST_TRACKS:
+        raise SceneError(f"{count} starts in {arithmetic} arithmetic; at most {MOST_TRACKS} can be held, and fast arithmetic takes more")
+    if keep and count * (counted(steps, "steps", 0, MOST_STEPS) + 1) > MOST_KEPT:
+        raise SceneError(f"all states of {count} orbits of {steps} steps are more than {MOST_KEPT}; keep the ends only, or ask for fewer")
+
+
 def prepare(scene: Scene, arithmetic: str = "exact", steps: int = 100, *, impacts: bool = False, until_trap: bool = False, keep: bool = False,
-            precision: int | None = None, radius: Fraction = enclosed.RADIUS, most_bits: int | None = None) -> Orbits:
+            precision: int | None = None, radius: Number = enclosed.RADIUS, most_bits: int | None = None) -> Orbits:
     """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what cannot be."""
+    if not isinstance(scene, Scene):
+        raise SceneError(f"scene = {brief(scene)} is no scene; give scene(alpha, starts)")
     if arithmetic not in ARITHMETICS:
-        raise SceneError(f"arithmetic = {str(arithmetic)[:40]!r} is not one of {', '.join(ARITHMETICS)}")
+        raise SceneError(f"arithmetic = {brief(arithmetic)!r} is not one of {', '.join(ARITHMETICS)}")
     if precision is not None and arithmetic in ("exact", "fast"):
-        raise SceneError(f"precision = {precision} has no meaning in {arithmetic} arithmetic; it goes with enclosed (bits) and mp (digits)")
+        raise SceneError(f"precision = {brief(precision)} has no meaning in {arithmetic} arithmetic; it goes with enclosed (bits) and mp (digits)")
+    _refuse_many(scene.starts.count, arithmetic, steps, keep)
     digits = {"enclosed": enclosed.BITS, "mp": high.DIGITS}.get(arithmetic, 2)
-    if not radius > 0:
-        raise SceneError(f"radius = {radius} is not positive; an enclosure has a positive radius")
+    width = rational(radius, "radius")
+    if width <= 0:
+        raise SceneError(f"radius = {brief(width)} is not positive; an enclosure has a positive radius")
     most = most_bits if most_bits is not None else exact.MOST_BITS if arithmetic == "exact" else enclosed.MOST_BITS
     return Orbits(scene, arithmetic, goal(steps, impacts, until_trap), keep,
-                  counted(digits if precision is None else precision, "precision", 2, 10**6), radius, counted(most, "most_bits", 2, 2**32))
+                  counted(digits if precision is None else precision, "precision", 2, 10**6), width, counted(most, "most_bits", 2, 2**32))
 
 
 def orbit(scene: Scene, arithmetic: str = "exact", steps: int = 100, *, impacts: bool = False, until_trap: bool = False, keep: bool = False,
-          precision: int | None = None, radius: Fraction = enclosed.RADIUS, most_bits: int | None = None, report: Report | None = None) -> Orbits:
+          precision: int | None = None, radius: Number = enclosed.RADIUS, most_bits: int | None = None, report: Report | None = None) -> Orbits:
     """The orbits of all states of a scene under f (10, 12): f1 where x < w (7), f2 elsewhere.
 
     arithmetic "exact": rationals.  "enclosed": balls that hold the exact state, of at most `radius`, from `precision` bits up to `most_bits`.

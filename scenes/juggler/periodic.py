@@ -23,8 +23,8 @@ from sympy import Expr, cancel, fraction
 
 from scenes.errors import SceneError
 from scenes.juggler.exact import flight, impact, strikes
+from scenes.juggler.given import Number, brief, counted, restitution
 from scenes.juggler.roots import Range, where
-from scenes.juggler.starts import Number, counted, restitution
 from symbolic import normal_f1, normal_flight_power, normal_margin, solution_of
 from symbolic.symbols import K, alpha, w, x
 
@@ -55,6 +55,8 @@ class Orbit:
 
 def checked(word: Sequence[int]) -> Word:
     """The word: flights of at least one period each."""
+    if isinstance(word, str) or not isinstance(word, Sequence):
+        raise SceneError(f"{brief(word)} is no word; give the lengths of flights, such as (1, 2)")
     if not 1 <= len(word) <= LONGEST_WORD:
         raise SceneError(f"a word of {len(word)} flights; give from 1 to {LONGEST_WORD}")
     return tuple(counted(periods, "a flight", 1, LONGEST_FLIGHT) for periods in word)
@@ -107,13 +109,17 @@ def _back_again(at: Fraction, word: Word) -> Place:
     return (b * speed + c) / (1 - a), speed
 
 
-@cache
-def family(word: Word) -> tuple[tuple[Expr, Expr], ...]:
+def family(word: Sequence[int]) -> tuple[tuple[Expr, Expr], ...]:
     """The states at the impacts of the word as rational functions of alpha.
 
     >>> family((1,))[0][1]
     2/(alpha + 1)
     """
+    return _family(checked(word))
+
+
+@cache
+def _family(word: Word) -> tuple[tuple[Expr, Expr], ...]:
     def onwards(place: tuple[Expr, Expr], periods: int) -> tuple[Expr, Expr]:
         struck = [part.xreplace({x: place[0], w: place[1]}) for part in normal_f1()]
         flown = [part.xreplace({K: periods - 1}).xreplace({x: struck[0], w: struck[1]}) for part in normal_flight_power()]
@@ -129,23 +135,39 @@ def family(word: Word) -> tuple[tuple[Expr, Expr], ...]:
     return tuple(places)
 
 
-@cache
-def exists_for(word: Word) -> tuple[Range, ...]:
+def exists_for(word: Sequence[int]) -> tuple[Range, ...]:
     """All alpha in (0, 1) for which the orbit of the word exists, exactly.
 
     >>> [str(one) for one in exists_for((1,))], [str(one) for one in exists_for((2,))], [str(one) for one in exists_for((3,))]
     (['0 < alpha < 1'], ['1/3 <= alpha < 1'], ['1/2 <= alpha < 1'])
     """
-    nonnegative, positive = [], []
-    for place, periods in zip(family(checked(word)), word):
+    heights, margins, gaps = _conditions(checked(word))
+    return tuple(where([*heights, *gaps], margins))
+
+
+def attracts_for(word: Sequence[int]) -> tuple[Range, ...]:
+    """All alpha in (0, 1) for which the orbit of the word exists with no state on x = w: there it attracts a neighbourhood.
+
+    >>> [str(one) for one in attracts_for((1,))], [str(one) for one in attracts_for((2,))]
+    (['0 < alpha < 1'], ['1/3 < alpha < 1'])
+    """
+    heights, margins, gaps = _conditions(checked(word))
+    return tuple(where(heights, [*margins, *gaps]))
+
+
+@cache
+def _conditions(word: Word) -> tuple[list[Expr], list[Expr], list[Expr]]:
+    """Polynomials in alpha: heights, which are to be >= 0; margins at impacts, to be > 0; and their negatives at the ends of flights, to be >= 0."""
+    heights, margins, gaps = [], [], []
+    for place, periods in zip(_family(word), word):
         at = {x: place[0], w: place[1]}
-        nonnegative.append(_sign_of(place[0]))
-        positive.append(_sign_of(normal_margin().xreplace(at)))
+        heights.append(_sign_of(place[0]))
+        margins.append(_sign_of(normal_margin().xreplace(at)))
         struck = [part.xreplace(at) for part in normal_f1()]
         for k in {0, periods - 2} if periods > 1 else ():
             here = [part.xreplace({K: k}).xreplace({x: struck[0], w: struck[1]}) for part in normal_flight_power()]
-            nonnegative.append(_sign_of(-normal_margin().xreplace({x: here[0], w: here[1]})))
-    return tuple(where(nonnegative, positive))
+            gaps.append(_sign_of(-normal_margin().xreplace({x: here[0], w: here[1]})))
+    return heights, margins, gaps
 
 
 def _sign_of(expression: Expr) -> Expr:

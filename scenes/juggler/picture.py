@@ -64,8 +64,9 @@ def in_the_plane(orbits: Orbits) -> Figure:
     """The states in normal form, undecided ones marked apart; 5000 at most, taken evenly."""
     arrays = as_arrays(orbits)
     undecided = np.broadcast_to((arrays["end"] == ENDS.index("undecided")).reshape(-1, *[1] * (arrays["x"].ndim - 1)), arrays["x"].shape)
-    states = [(float(x), float(w), bool(odd)) for x, w, odd in zip(arrays["x"].flat, arrays["w"].flat, undecided.flat) if abs(x) + abs(w) < 1e300]
-    states = states[:: -(-len(states) // MOST_DOTS) or 1]
+    near = np.flatnonzero(np.abs(arrays["x"]) + np.abs(arrays["w"]) < 1e300)
+    drawn = np.unravel_index(near[:: -(-len(near) // MOST_DOTS) or 1], arrays["x"].shape)
+    states = [(float(x), float(w), bool(odd)) for x, w, odd in zip(arrays["x"][drawn], arrays["w"][drawn], undecided[drawn])]
     if not states:
         raise SceneError("no state is near enough to be drawn; choose a table instead")
     known = [(x, w) for x, w, _ in states]

@@ -7,7 +7,8 @@ from fractions import Fraction
 from typing import Literal
 
 from scenes.errors import SceneError
-from scenes.juggler.starts import Number, Starts, counted, rational, restitution
+from scenes.juggler.given import Number, brief, counted, positive, restitution
+from scenes.juggler.states import Starts
 
 Unit = Literal["periods", "impacts"]
 MOST_STEPS = 10**18
@@ -30,11 +31,9 @@ def scene(alpha: Number, starts: Starts, r: Number = 1, g: Number = 1) -> Scene:
     >>> scene("1/3", point(0, 3)).alpha
     Fraction(1, 3)
     """
-    units = {name: rational(value, name) for name, value in (("r", r), ("g", g))}
-    for name, value in units.items():
-        if value <= 0:
-            raise SceneError(f"{name} = {float(value):.6g} is not positive; the launch speed r and gravity g are")
-    return Scene(restitution(alpha), units["r"], units["g"], starts)
+    if not isinstance(starts, Starts):
+        raise SceneError(f"starts = {brief(starts)} are no starting states; give point(x, w), grid(..), random(..) or another of this package")
+    return Scene(restitution(alpha), positive(r, "r"), positive(g, "g"), starts)
 
 
 @dataclass(frozen=True)

@@ -15,21 +15,26 @@ from flint import arb, ctx
 from scenes.errors import SceneError
 from scenes.juggler.bounded import Bounded
 from scenes.juggler.exact import lifted
-from scenes.juggler.fast import ENDS
+from scenes.juggler.fast import CHUNK, ENDS
 from scenes.juggler.formulas import formulas
+from scenes.juggler.given import brief, nearest
 from scenes.juggler.orbits import Orbits, Row
-from scenes.juggler.starts import nearest
 
 UNITS = ("normal", "physical")
 NAMES = {"normal": ("x", "w"), "physical": ("beta", "v")}
 LONG_BITS, DIGITS = 4000, 40  # exact numbers beyond are written as balls of so many digits
 
 
+def checked_units(units: str) -> str:
+    """The name of the units; SceneError where there are none of that name."""
+    if units not in UNITS:
+        raise SceneError(f"units = {brief(units)!r} is not one of {', '.join(UNITS)}")
+    return units
+
+
 def in_units(orbits: Orbits, row: Row, units: str) -> Row:
     """The row in the wanted units: x and w, or beta and v of the paper."""
-    if units not in UNITS:
-        raise SceneError(f"units = {units[:40]!r} is not one of {', '.join(UNITS)}")
-    if units == "normal":
+    if checked_units(units) == "normal":
         return row
     r, g, unscaled = orbits.scene.r, orbits.scene.g, formulas().unscaled
     if isinstance(row.x, Fraction):
@@ -78,7 +83,7 @@ def rows(orbits: Orbits) -> Iterator[Row]:
 
 def as_csv(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:
     """Writes the rows as CSV, states with errors, row by row; the same to the byte from run to run."""
-    names = NAMES[units]
+    names = NAMES[checked_units(units)]
     text = io.TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
     table = csv.writer(text, lineterminator="\n")
     table.writerow(["start", "periods", "impacts", names[0], f"error of {names[0]}", names[1], f"error of {names[1]}", "end"])
@@ -109,14 +114,14 @@ def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Any]:
 
     In fast arithmetic the history, if kept, has the shape (starts, steps + 1) instead, nan where an orbit has no such state.
     """
-    names = NAMES[units]
+    names = NAMES[checked_units(units)]
     if orbits.ensemble is not None:
         e, upto = orbits.ensemble, orbits.followed
         x, w, error_x, error_w = ((part[:upto] for part in (e.x, e.w, e.error_x, e.error_w)) if e.history is None
                                   else np.moveaxis(e.history[:upto], 2, 0))
         one, two = Bounded(x, error_x), Bounded(w, error_w)
         if units == "physical":
-            one, two = formulas().unscaled(one, two, Bounded.of(orbits.scene.r), Bounded.of(orbits.scene.g))
+            one, two = _unscaled(one, two, Bounded.of(orbits.scene.r), Bounded.of(orbits.scene.g))
         return {"start": np.arange(upto), "periods": e.periods[:upto], "impacts": e.impacts[:upto], names[0]: one.v, f"error_{names[0]}": one.e,
                 names[1]: two.v, f"error_{names[1]}": two.e, "end": e.end[:upto]}
     told = [in_units(orbits, row, units) for row in rows(orbits)]
@@ -128,6 +133,18 @@ def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Any]:
         found[name] = np.array([pair[place][0] for pair in pairs], dtype=np.float64)
         found[f"error_{name}"] = np.array([pair[place][1] for pair in pairs], dtype=np.float64)
     return found
+
+
+def _unscaled(x: Bounded, w: Bounded, r: Bounded, g: Bounded) -> tuple[Bounded, Bounded]:
+    """The states in the paper's units, a part at a time, so that what is held in between does not grow with their number."""
+    beta, v = (Bounded(np.empty_like(x.v), np.empty_like(x.v)) for _ in range(2))
+    for low in range(0, len(x.v), CHUNK):
+        part = slice(low, low + CHUNK)
+        with np.errstate(all="ignore"):
+            found = formulas().unscaled(x.at(part), w.at(part), r, g)
+        beta.put(part, found[0])
+        v.put(part, found[1])
+    return beta, v
 
 
 def as_npz(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:

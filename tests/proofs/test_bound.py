@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 from fractions import Fraction
 from pathlib import Path
@@ -37,6 +38,17 @@ def test_the_readme_shows_what_is_printed_holds(capsys: pytest.CaptureFixture[st
     rows = README.read_text(encoding="utf-8").split("    $ juggleproof bound ")[1].split("\n\n")[0].splitlines()
     assert bound(*shlex.split(rows[0])) == 0
     assert capsys.readouterr().out.splitlines() == [row.removeprefix("    ") for row in rows[1:]]
+
+
+def test_the_problems_that_the_readme_shows_have_their_published_minima_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    text = README.read_text(encoding="utf-8").split("whose published minima are ")[1].split("Valleys")[0].replace("\\\n", "")
+    published = [Fraction(number) for number in re.findall(r"(-\d+\.\d+) \(", "whose " + text)]
+    commands = [line.strip() for line in text.splitlines() if "juggleproof bound" in line]
+    assert len(commands) == len(published) == 2
+    for command, minimum in zip(commands, published):
+        assert bound(*shlex.split(command)[2:]) == 0
+        low, high = (Fraction(line.split()[1]) for line in capsys.readouterr().out.splitlines()[:2])
+        assert low <= high <= low + Fraction(1, 10**9) and abs(high - minimum) < Fraction(1, 10**5)
 
 
 def test_an_irrational_minimum_is_enclosed_as_narrowly_as_asked() -> None:
@@ -174,3 +186,9 @@ def test_a_box_tree_is_refused_for_coq() -> None:
     certificate = json.loads(json.dumps(found.certificates[LOWER]))
     with pytest.raises(ClaimError, match="uses the rule boxes; only psatz, cases, sign, close and integral are written for Coq"):
         lemma(checker.read_statements(found.statements)[LOWER], certificate)
+
+
+def test_rejects_a_long_text_in_a_short_line() -> None:
+    with pytest.raises(ClaimError, match="not a polynomial in x") as caught:
+        enclose_minimum("(" * 5000 + "x" + ")" * 5000, UNIT, 0)
+    assert len(str(caught.value)) < 300

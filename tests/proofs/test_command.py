@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -224,3 +225,18 @@ def test_claims_that_the_readme_shows_hold(tmp_path: Path) -> None:
     path.write_text("\n".join(code) + "\n", encoding="utf-8")
     done = certify(path)
     assert done.returncode == 0 and "2 claims: 2 holds" in done.stdout, done.stdout + done.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no file that is always full")
+@pytest.mark.parametrize("arguments", [("bound", "x", "--box", "x=0..1", "--width", "0"), ("simulate", "juggler", "--word", "2")])
+def test_rejects_standard_output_that_is_full(arguments: tuple[str, ...]) -> None:
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = subprocess.run([sys.executable, "-m", "proofs.command.main", *arguments], stdout=full, stderr=subprocess.PIPE, text=True,
+                              cwd=ROOT, timeout=240, check=False)
+    assert done.returncode == 2 and "standard output cannot be written" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
+
+
+def test_a_closed_standard_output_changes_nothing_holds(tmp_path: Path) -> None:
+    command = f"{shlex.quote(sys.executable)} -m proofs.command.main bound x --box x=0..1 --width 0 -o {shlex.quote(str(tmp_path / 'bound'))} >&-"
+    done = subprocess.run(command, shell=True, stderr=subprocess.PIPE, text=True, cwd=ROOT, timeout=240, check=False)
+    assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "bound" / "bound.json").exists()

@@ -66,6 +66,15 @@ def test_every_check_sat_of_a_script_is_answered_holds(tmp_path: Path) -> None:
     assert checker.main([str(path.with_suffix(".certificates"))]) == 0
 
 
+NINES = "9" * 999
+
+
+@pytest.mark.parametrize("body", [f"(assert (> x (* {' '.join([NINES] * 5)})))", "(assert (> x (^ 99999 99)))(assert (< (^ x 20) 0))"])
+def test_numbers_that_the_search_cannot_hold_are_unknown_holds(body: str, tmp_path: Path) -> None:
+    (found,) = answer_files([script(tmp_path, f"(declare-const x Real){body}(check-sat)")])
+    assert found.answer.word == "unknown" and found.answer.reason == "its numbers grow too long for the search"
+
+
 def test_contradictory_givens_are_unsat_by_a_statement_of_their_own_holds(tmp_path: Path) -> None:
     path = script(tmp_path, "(declare-const x Real)(assert (> x 0))(assert (< x (- 1)))(assert (< (/ 1 x) 5))(check-sat)")
     (found,) = certify(path)

@@ -92,6 +92,8 @@ REJECTED = [
     ("(assert (> (^ x y) 0))", 2, "the exponent is no numeral"),
     ("(assert (> (^ x (- 1)) 0))", 2, "the exponent is no numeral"),
     ("(assert (> (^ x 101) 0))", 2, "the exponent is no numeral"),
+    (f"(assert (> x {'9' * 6000}))", 2, "a number of 6000 signs; at most 1000 are read"),
+    ("(assert (> |x\ny| 0))", 2, "x y is not declared"),
     ("(assert (> x #b01))", 2, "is no part of SMT-LIB"),
     ("(assert (> x 01))", 2, "is no part of SMT-LIB"),
     ("(assert (> x 1e3))", 2, "is no part of SMT-LIB"),

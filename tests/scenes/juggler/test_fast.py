@@ -13,11 +13,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from scenes.errors import SceneError
-from scenes.juggler import arrays, listed, orbit, point, random, scene
+from scenes.juggler import arrays, boundary, grid, listed, orbit, physical_grid, point, random, scene
 from scenes.juggler import fast as engine
 from scenes.juggler.bounded import Bounded, powers
+from scenes.juggler.given import nearest
+from scenes.juggler.picture import in_the_plane
 from scenes.juggler.setting import goal
-from scenes.juggler.starts import nearest
+from scenes.juggler.tables import as_arrays
 
 FULL = st.floats(allow_nan=False, allow_infinity=False)
 SIZES = st.floats(0, 1e300) | st.sampled_from([0.0, 5e-324, 1e-310])
@@ -94,6 +96,41 @@ def test_memory_depends_on_states_only_holds() -> None:
         tracemalloc.stop()
     assert max(used) <= engine.bytes_needed(20000, 150), used
     assert used[1] < 1.5 * used[0]
+
+
+MILLION = {"grid of heights": lambda: grid((0, 10, 10**6), (-5, 5, 1)), "grid of speeds": lambda: grid((0, 10, 1), (-5, 5, 10**6)),
+           "boundary": lambda: boundary("3/10", 10**6), "physical grid": lambda: physical_grid((0, 10, 1), (-5, 5, 10**6), 2, 3)}
+
+
+@pytest.mark.parametrize("name", MILLION)
+def test_a_million_starts_are_not_made_before_they_are_asked_for_holds(name: str) -> None:
+    MILLION[name]().block(0, 1)  # what is loaded once
+    tracemalloc.start()
+    starts = MILLION[name]()
+    x, w, error_x, error_w = starts.block(10**6 - 5, 10**6)
+    used = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert starts.count == 10**6 and used < 10**6, used
+    for place in range(5):
+        exact = starts.exact(10**6 - 5 + place)
+        assert abs(Fraction(float(x[place])) - exact[0]) <= Fraction(float(error_x[place]))
+        assert abs(Fraction(float(w[place])) - exact[1]) <= Fraction(float(error_w[place]))
+
+
+def test_what_is_told_of_many_states_takes_little_beside_them_holds() -> None:
+    pytest.importorskip("matplotlib")
+    count = 300000
+    found = orbit(scene("3/10", random(count, 1, (0, 0), (0, 0)), r=2, g=3), "fast", 3)  # all on x = w
+    in_the_plane(found)
+    used = {}
+    for name, tell in (("undecided", lambda: next(found.each_undecided())), ("arrays", lambda: as_arrays(found, "physical")["v"][-1]),
+                       ("picture", lambda: in_the_plane(found) is not None)):
+        tracemalloc.start()
+        assert tell() == {"undecided": (0, 0), "arrays": 2, "picture": True}[name]
+        used[name] = tracemalloc.get_traced_memory()[1] / count
+        tracemalloc.stop()
+    assert found.counts() == {"undecided": count}
+    assert used["undecided"] < 12 and used["arrays"] < 50 and used["picture"] < 60, used  # bytes a state
 
 
 def test_undecided_states_are_counted_and_listed_holds() -> None:

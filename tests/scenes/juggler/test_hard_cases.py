@@ -57,6 +57,7 @@ def test_a_false_orbit_of_floats_has_another_limit_holds() -> None:
 def test_every_hard_case_is_there_holds() -> None:
     said = " ".join(case.name for case in CASES)
     for wanted in ("alpha -> 0", "1/3 from below", "alpha = 1/3", "(K - 1)/(K + 1)", "alpha -> 1", "start on x = w", "x = w after an impact", "x = 0",
-                   "w = 0", "w < 0", "above x = w", "below x = w", "x = 10^-300", "w = 10^-300", "energy 10^-300", "energy 10^300", LONG,
+                   "w = 0", "w < 0", "above x = w", "below x = w", "x = 10^-300", "w = 10^-300", "w = -10^-300", "energy 10^-300",
+                   "energy 10^300", LONG,
                    "digits that grow"):
         assert wanted in said, wanted

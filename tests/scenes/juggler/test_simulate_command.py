@@ -41,7 +41,27 @@ def test_known_orbits_hold(capsys: pytest.CaptureFixture[str]) -> None:
 def test_words_hold(capsys: pytest.CaptureFixture[str]) -> None:
     found = told(capsys, "--alpha", "1/2", "--words", "--longest", "4")
     assert "e_2" in found and "on x = w" in found and found.count("attracts near") == 2
-    assert "exists for no alpha" in told(capsys, "--word", "1,2") and "exists for 1/3 <= alpha < 1" in told(capsys, "--word", "2")
+    assert "exists for no alpha" in told(capsys, "--word", "1,2")
+
+
+def test_a_word_is_told_with_its_orbit_where_it_exists_and_where_it_attracts_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    found = told(capsys, "--word", "2")
+    assert "exists for 1/3 <= alpha < 1\n" in found and "attracts near states for 1/3 < alpha < 1\n" in found
+    assert "2*(3*alpha - 1)/(alpha + 1)^2" in found and "4/(alpha + 1)" in found
+    assert "1       4/9  8/3" in told(capsys, "--word", "2", "--alpha", "1/2")
+    assert "at alpha = 1/3, exactly; a state lies on x = w" in told(capsys, "--word", "2", "--alpha", "1/3")
+    assert "at alpha = 1/4 no orbit has this word" in told(capsys, "--word", "2", "--alpha", "1/4")
+
+
+def test_grids_and_boxes_in_physical_units_hold(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    units, path = ["--alpha", "1/3", "--r", "2", "--g", "4", "--units", "physical", "--steps", "0"], tmp_path / "starts.csv"
+    told(capsys, *units, "--grid", "beta=0:4:3,v=-1:1:2", "-o", str(path))
+    rows = list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))))
+    assert [(row["beta"], row["v"]) for row in rows] == [("0", "-1"), ("0", "1"), ("2", "-1"), ("2", "1"), ("4", "-1"), ("4", "1")]
+    told(capsys, *units, "--random", "50", "--box", "beta=1:4,v=-1:1/2", "-o", str(path))
+    rows = list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))))
+    heights, speeds = ([Fraction(row[name]) for row in rows] for name in ("beta", "v"))
+    assert 1 <= min(heights) < 2 and 3 < max(heights) <= 4 and -1 <= min(speeds) < 0 and 0 < max(speeds) <= Fraction(1, 2)
 
 
 def test_hard_cases_are_printed_holds(capsys: pytest.CaptureFixture[str]) -> None:
@@ -92,6 +112,22 @@ WRONG = {
     "folder": ([*START, "-o", "/proc/none/orbit.csv"], "name another file"),
     "grid": (["--alpha", "1/3", "--grid", "x=0:1,w=0:1:2"], "FROM:TO:COUNT"),
     "grid names": (["--alpha", "1/3", "--grid", "x=0:1:2"], "has not x and w"),
+    "grid mixed": (["--alpha", "1/3", "--grid", "x=0:1:2,v=0:1:2"], "has not x and w, nor beta and v"),
+    "grid twice": (["--alpha", "1/3", "--grid", "x=0:1:2,w=0:1:2,x=0:2:2"], "--grid: x is given twice"),
+    "box twice": (["--alpha", "1/3", "--random", "3", "--box", "x=0:1,w=0:1,w=1:2"], "--box: w is given twice"),
+    "box beta": (["--alpha", "1/3", "--random", "3", "--box", "beta=-1:1,v=0:1"], "beta = -1 is below the table"),
+    "alpha negative": (["--alpha", "-1/3", "--state", "x=0,w=3"], "alpha = -1/3 is not between 0 and 1"),
+    "alpha -inf": (["--alpha", "-inf", "--state", "x=0,w=3"], "alpha = '-inf' is no number"),
+    "times negative": (["--alpha", "1/3", "--state", "x=0,w=3", "--times", "-1:2:4"], "time = -1 is before the start"),
+    "times of many": (["--alpha", "1/3", "--random", "3", "--times", "0:2:4"], "times of 3 starts; give one start"),
+    "many times": (["--alpha", "1/3", "--state", "x=0,w=3", "--times", "0:2:10^8"], "the number of times = 100000000"),
+    "times to a file": (["--alpha", "1/3", "--state", "x=0,w=3", "--times", "0:2:4", "-o", "times.csv"], "--times and --output do not go together"),
+    "start of a word": (["--word", "2", "--random", "3"], "--word and --random do not go together"),
+    "no word": (["--word", ""], "a flight = '' is no number"),
+    "no times": (["--alpha", "1/3", "--state", "x=0,w=3", "--times", ""], "'' is not FROM:TO:COUNT"),
+    "component": (["--alpha", "1/3", "--state", "x=0,w=3,r=2"], "'r=2' is no component of a state; write x=..,w=.. or beta=..,v=..\n"),
+    "digits": ([*START, "--steps", "\u0663"], "is not a whole number"),
+    "steps long": ([*START, "--steps", "1" + 39 * "0"], "steps = 1000000000000000000000000000000000000000 is not a whole number from 0 to"),
     "word": (["--word", "1,x"], "is no number"),
     "lists": (["--words", "--hard-cases"], "do not go together"),
     "r": ([*START, "--r", "0"], "r = 0"),
