@@ -46,8 +46,8 @@ def table(found: Table, setting: Scene, amplitudes: str, swept: bool) -> None:
     count = len(found.rows[0].chaotic)
     print(f"Table I: from when on all blocks lie; {count} ensembles of 91 blocks, {found.rows[0].horizon:g} s each.  Simulated, not proved.")
     draw(("along the table", "paper", "median", "16 to 84 %", "chaotic", "censored"), [line(row) for row in found.rows], _console())
-    for told in RULES:
-        print(told)
+    for rule in RULES:
+        print(rule)
     print()
     known = assumptions(setting, amplitudes, swept)
     draw(("assumed", "value", "", "why"), [(one.name, one.value, one.standing, one.why) for one in known], _console())

@@ -14,7 +14,7 @@ MAY_IMPORT = {"symbolic": {"symbolic"}, "certificates": {"certificates"}, "scene
               "proofs": {"proofs", "certificates", "symbolic", "scenes"}, "benchmarks": set(PACKAGES)}
 MORE = {"proofs/command/bench.py": {"benchmarks"}}  # the only door
 FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"},
-           "scenes": {"matplotlib", "sympy", "flint", "mpmath", "numpy"},
+           "scenes": {"matplotlib", "sympy", "flint", "mpmath", "numba", "numpy"},
            "proofs": {"sympy", "rich", "pytest", "matplotlib", "jinja2", "latex2mathml"},
            "benchmarks": {"sympy", "numpy", "flint", "mpmath", "z3", "cvc5", "scipy", "matplotlib", "rich"}}
 
