@@ -15,6 +15,7 @@ from typing import Any, BinaryIO
 from certificates.terms import ClaimError
 from proofs.command import part_tables
 from proofs.command.outputs import fault_of, written_aside
+from proofs.command.progress import clear, progress
 from scenes.part.assumptions import AMPLITUDES, FACES
 from scenes.part.setting import Scene, scene
 from scenes.part.sweep import Point, as_json, chosen, recorded, sweep
@@ -103,7 +104,8 @@ def _vibration(text: str) -> tuple[float, float]:
 
 def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     found = table_one(setting, ensembles=options.ensembles, horizon=_number(options.horizon, "horizon"), seed=options.seed,
-                      peak=AMPLITUDES[options.amplitudes], executor=executor)
+                      peak=AMPLITUDES[options.amplitudes], executor=executor, tell=progress())
+    clear()
     part_tables.table(found, setting, options.amplitudes, options.e is None and options.mu is None)
     if options.output is not None:
         with written_aside(options.output) as file:

@@ -13,8 +13,9 @@ from certificates.terms import ClaimError
 from proofs.command import orbit_tables
 from proofs.command.numbers import components, exact
 from proofs.command.outputs import fault_of, written_aside
+from proofs.command.progress import clear, progress
 from scenes.errors import SceneError
-from scenes.juggler.orbits import Orbits, Report, prepare
+from scenes.juggler.orbits import Orbits, prepare
 from scenes.juggler.setting import Scene, scene
 from scenes.juggler.starts import Axis, boundary, grid, listed, physical, physical_box, physical_grid, random
 from scenes.juggler.states import Starts
@@ -146,10 +147,10 @@ def _follow(options: argparse.Namespace, setting: Scene) -> int:
                      precision=options.precision)
     interrupted = False
     try:
-        orbits.run(_progress())
+        orbits.run(progress())
     except KeyboardInterrupt:
         interrupted = True
-    _clear()
+    clear()
     orbit_tables.orbits(orbits, options.units)
     if writer is not None:
         with written_aside(options.output) as file:
@@ -183,23 +184,3 @@ def _writer(options: argparse.Namespace) -> Writer | None:
     from scenes.juggler import tables
 
     return lambda orbits, file: (tables.as_csv if path.suffix == ".csv" else tables.as_npz)(orbits, file, units)
-
-
-def _progress() -> Report | None:
-    """Tells how far a run is, on a terminal only."""
-    if not sys.stderr.isatty():
-        return None
-    last = [-1]
-
-    def tell(done: int, of: int) -> None:
-        part = 1000 * done // max(of, 1)
-        if part != last[0]:
-            last[0] = part
-            print(f"\r{done} of {of}", end="", file=sys.stderr, flush=True)
-
-    return tell
-
-
-def _clear() -> None:
-    if sys.stderr.isatty():
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -76,11 +76,20 @@ def joined(parts: Iterable[tuple[Array, Array]]) -> Run:
     return Run(np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found]))
 
 
-def each(jobs: list[Job], executor: Executor | None) -> list[tuple[Array, Array]]:
-    """The chunks moved on, in the order given."""
+def each(jobs: list[Job], executor: Executor | None, tell: Callable[[int, int], None] | None = None) -> list[tuple[Array, Array]]:
+    """The chunks moved on, in the order given; `tell` hears how many are done, and of how many."""
     if len(jobs) == 1 and executor is None:
         return [moved(jobs[0])]
-    if executor is not None:
-        return [future.result() for future in [executor.submit(moved, job) for job in jobs]]
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        return list(threads.map(moved, jobs))
+    if executor is None:
+        with ThreadPoolExecutor(os.cpu_count()) as threads:
+            return each(jobs, threads, tell)
+    futures, done = [executor.submit(moved, job) for job in jobs], []
+    try:
+        for future in futures:
+            done.append(future.result())
+            if tell:
+                tell(len(done), len(jobs))
+    finally:
+        for future in futures:
+            future.cancel()  # where one failed, or the user has had enough
+    return done

@@ -7,6 +7,7 @@ with a block nearer to upright at the end, and not chaotic, is censored: its ons
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
@@ -70,10 +71,11 @@ def jittered(ensembles: int, seed: int) -> Array:
 
 def table_one(
     setting: Scene, *, ensembles: int = ENSEMBLES, horizon: float = HORIZON, seed: int = 1, peak: float = 1.0, executor: Executor | None = None,
+    tell: Callable[[int, int], None] | None = None,
 ) -> Table:
     """Table I with the block, contact and vertical vibration of a scene; its vibration along the table is replaced by that of each row.
 
-    `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak to peak.
+    `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak to peak.  `tell` hears how many ensembles are done.
     """
     if not 0 < horizon <= LONGEST:
         raise SceneError(f"horizon = {horizon:.6g} s is outside 0 .. {LONGEST:g}")
@@ -85,7 +87,7 @@ def table_one(
         shaken = replace(setting, f_x=frequency, A_x=peak * amplitude)
         p = shaken.parameters()
         jobs += [(p, standing(shaken, row), horizon, fresh_notes(ANGLES, horizon / 2)) for row in angles]
-    done = each(jobs, executor)
+    done = each(jobs, executor, tell)
     rows = tuple(judged(row, [notes for _, notes in done[k * ensembles : (k + 1) * ensembles]], horizon) for k, row in enumerate(PAPER))
     return Table(rows, joined(done))
 

@@ -160,7 +160,7 @@ def test_interrupt_keeps_what_is_done_holds(kind: str, start: list[str], after: 
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(5)  # in which the signal comes
 
-    monkeypatch.setattr(simulate, "_progress", lambda: report)
+    monkeypatch.setattr(simulate, "progress", lambda: report)
     assert run(["simulate", "juggler", *start, "--arithmetic", kind, "-o", str(path)]) == 130
     found = capsys.readouterr()
     assert "interrupted" in found.err and len(found.err.splitlines()) == 1 and f"{count} of" in found.err and "orbits written" in found.out
