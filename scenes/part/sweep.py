@@ -84,5 +84,8 @@ def recorded() -> tuple[Point, ...]:
     >>> min(point.misfit for point in recorded()) == chosen(recorded()).misfit
     True
     """
-    found = json.loads(RECORD.read_text(encoding="utf-8"))
-    return tuple(Point(p["e"], p["mu"], tuple(p["medians"]), tuple(p["chaotic"]), p["misfit"]) for p in found["points"])
+    try:
+        found = json.loads(RECORD.read_text(encoding="utf-8"))["points"]
+        return tuple(Point(p["e"], p["mu"], tuple(p["medians"]), tuple(p["chaotic"]), p["misfit"]) for p in found)
+    except (OSError, ValueError, KeyError, TypeError) as fault:
+        raise SceneError(f"{RECORD.name}: the stored sweep cannot be read ({fault}); give --e and --mu, or write it anew by a sweep") from None

@@ -75,7 +75,8 @@ def table_one(
 ) -> Table:
     """Table I with the block, contact and vertical vibration of a scene; its vibration along the table is replaced by that of each row.
 
-    `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak to peak.  `tell` hears how many ensembles are done.
+    `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak to peak.  `tell` hears how many
+    ensembles are done, and of how many.
     """
     if not 0 < horizon <= LONGEST:
         raise SceneError(f"horizon = {horizon:.6g} s is outside 0 .. {LONGEST:g}")
