@@ -16,6 +16,7 @@ from certificates.terms import ClaimError
 from proofs.command import part_tables
 from proofs.command.outputs import fault_of, written_aside
 from proofs.command.progress import clear, progress
+from proofs.reports.part import keep_results
 from scenes.part.assumptions import AMPLITUDES, FACES
 from scenes.part.setting import Scene, scene
 from scenes.part.sweep import Point, as_json, chosen, recorded, sweep
@@ -107,6 +108,7 @@ def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
                       peak=AMPLITUDES[options.amplitudes], executor=executor, tell=progress())
     clear()
     part_tables.table(found, setting, options.amplitudes, options.e is None and options.mu is None)
+    keep_results(setting, found, options.amplitudes, options.seed)
     if options.output is not None:
         with written_aside(options.output) as file:
             _writer(options.output)(found, file)
@@ -165,9 +167,9 @@ def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
 
 
 def _still(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
-    from scenes.part.split import no_vibration
+    from scenes.part.split import in_words, no_vibration
 
-    part_tables.still(no_vibration(setting), setting)
+    print(in_words(no_vibration(setting, executor)))
     return 0
 
 
@@ -175,13 +177,17 @@ def _drawn(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     path: Path = options.figure or options.animation
     if options.figure:
         from proofs.reports.extras import needed
+        from scenes.part.picture import figure_two
 
         needed("matplotlib")
-        from scenes.part.picture import figure_two as draw
+        with written_aside(path) as file:
+            figure_two(setting, file, path.suffix[1:])
     else:
-        from scenes.part.animation import animation as draw
-    with written_aside(path) as file:
-        draw(setting, file)
+        from scenes.part.animation import HORIZON, animation
+        from scenes.part.grid import ANGLES
+
+        with written_aside(path) as file:
+            animation(setting, ANGLES, HORIZON, file, executor)
     print(f"{path}: written")
     return 0
 

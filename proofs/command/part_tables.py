@@ -73,8 +73,3 @@ def point(one: Point) -> str:
     """A point of a sweep in one line."""
     rows = "  ".join(f"{'-' if m is None else f'{m:.2f}':>6} ({c})" for m, c in zip(one.medians, one.chaotic))
     return f"{one.e:6.3f} {one.mu:6.3f} {one.misfit:7.3f} {rows}"
-
-
-def still(found: Any, setting: Scene) -> None:
-    """The still table: how many blocks end upright and lying, and the angle between."""
-    print(found)

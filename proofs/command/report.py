@@ -46,8 +46,9 @@ def _refuse_what_is_no_folder(place: Path) -> None:
 
 def _html(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     from proofs.reports.page import FILE, build, pictures
+    from proofs.reports.part import kept_results
 
-    return {FILE: build(contents, pictures(contents) if _can_draw() else ())}, []
+    return {FILE: build(contents, pictures(contents) if _can_draw() else (), kept_results())}, []
 
 
 def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:

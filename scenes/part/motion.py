@@ -18,22 +18,29 @@ MOST_AT_ONCE = 10_000  # events that do not move time on
 
 
 @compiled
+def go_on(p: Floats, z: Floats, until: float, notes: Floats) -> int:
+    """Moves one block on by one event, a flight with its impacts or a phase of contact, or to the time `until`; DONE, or why it gave up."""
+    if z[MODE] == FACE:
+        return lie(p, z, until, notes)
+    if z[MODE] == PIVOT:
+        return pivot(p, z, until, notes)
+    before, theta = z[TIME], z[THETA]
+    code = fly(p, z, until, notes)
+    note_turn(p, notes, before, theta, z[TIME], z[THETA])
+    if code == DONE and z[TIME] < until:
+        return strike(p, z, notes)
+    return code
+
+
+@compiled
 def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves one block on to the time `until`, its state z and notes in place; DONE, or why it gave up."""
     still = 0
     for _ in range(MOST_EVENTS):
-        before, theta = z[TIME], z[THETA]
+        before = z[TIME]
         if before >= until:
             return DONE
-        if z[MODE] == FACE:
-            code = lie(p, z, until, notes)
-        elif z[MODE] == PIVOT:
-            code = pivot(p, z, until, notes)
-        else:
-            code = fly(p, z, until, notes)
-            note_turn(p, notes, before, theta, z[TIME], z[THETA])
-            if code == DONE and z[TIME] < until:
-                code = strike(p, z, notes)
+        code = go_on(p, z, until, notes)
         if code != DONE:
             return code
         still = still + 1 if z[TIME] == before else 0

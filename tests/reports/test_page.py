@@ -137,7 +137,7 @@ def test_certificates_of_the_theorem_are_whole_holds() -> None:
 
 
 def test_errata_stand_first_and_whole_holds() -> None:
-    wanted_order = ["errata", "the-theorem", "figures", "claims", "derived", "notation", "settled", "tools"]
+    wanted_order = ["errata", "the-theorem", "figures", "part-scene", "claims", "derived", "notation", "settled", "tools"]
     assert [one.attributes["id"] for one in by_id("main").all("section") if one.attributes["id"] in wanted_order] == wanted_order
     wanted = {f"erratum-{entry.claim.id}" for entry in contents().entries if entry.group}
     assert wanted and {one.attributes["id"] for one in document().with_class("erratum")} == wanted

@@ -13,6 +13,7 @@ from proofs.reports.extras import needed
 from proofs.reports.names import NOTATION, glyph
 from proofs.reports.page import formulas, view
 from proofs.reports.page.mathml import mathml
+from proofs.reports.part import HEADS, Results
 
 HERE = Path(__file__).parent
 FILE = "juggleproof.html"
@@ -36,8 +37,17 @@ def pictures(contents: Contents) -> list[Picture]:
     return [Picture(one.slug, one.title, one.caption, inline_svg(one.data, one.slug, one.title, one.alt)) for one in saved(contents)]
 
 
-def build(contents: Contents, drawn: Sequence[Picture] = ()) -> bytes:
-    """The page, the same to the byte for the same contents.
+def scene_picture(scene: Results | None) -> str:
+    """Figure 2 as it stands in the page; empty where it was not drawn."""
+    if scene is None or not scene.figure:
+        return ""
+    from scenes.figures.drawing import inline_svg
+
+    return inline_svg(scene.figure["svg"], scene.figure["slug"], scene.figure["title"], scene.figure["alt"])
+
+
+def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
+    """The page, the same to the byte for the same contents; `scene` is what is told of the part on the vibrating table.
 
     Raises ClaimError, one line, where a formula cannot be shown.
     """
@@ -47,17 +57,19 @@ def build(contents: Contents, drawn: Sequence[Picture] = ()) -> bytes:
     environment.filters["markup"] = markupsafe.Markup
     environment.filters["text"] = lambda text: markupsafe.Markup(escape(text, quote=False))
     environment.filters["prose"] = lambda text: markupsafe.Markup(formulas.prose(text))
-    text: str = environment.get_template("page.html.j2").render(**_shown(contents, drawn, markupsafe.Markup))
+    text: str = environment.get_template("page.html.j2").render(**_shown(contents, drawn, scene, markupsafe.Markup))
     return (text.rstrip() + "\n").encode()
 
 
-def _shown(contents: Contents, drawn: Sequence[Picture], raw: Any) -> dict[str, Any]:
+def _shown(contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Any) -> dict[str, Any]:
     by_section = view.sections(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
     headline, *further = [line.strip().rstrip(";") for line in contents.theorem.removeprefix("theorem: ").splitlines()] or [""]
     return {
         "contents": contents, "sections": by_section, "errata": view.errata(by_section), "panels": view.panels(contents.rules),
         "derivations": view.derivations(contents), "tree": view.tree(contents.rules, outcomes), "drawn": drawn,
+        "scene": scene, "scene_heads": HEADS, "scene_picture": raw(scene_picture(scene)),
+        "impact_law": [entry.verdict for entry in contents.entries if entry.claim.section == "part"],
         "verdicts": view.VERDICTS, "kinds": view.KINDS, "section_title": view.section_title,
         "headline": headline[:1].upper() + headline[1:], "further": list(map(formulas.line, further)),
         "notation": [(mathml(glyph(name)), name, said) for name, _, said in NOTATION if said],

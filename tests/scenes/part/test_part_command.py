@@ -101,3 +101,16 @@ def test_difference_from_the_paper_is_told_holds() -> None:
     assert discrepancies((row(None, [3.0] * 3, (False,) * 3),)) == ["15 Hz 2 mm: chaotic in the paper, 0 of 3 ensembles are chaotic here"]
     assert discrepancies((row(4.0, [np.inf] * 3, (True,) * 3),)) == ["15 Hz 2 mm: 4 s in the paper, 3 of 3 ensembles are chaotic here"]
     assert (late.censored(), wild.censored(), late.quantile(0.33), late.quantile(0.5)) == (1, 0, 3.0, np.inf)
+
+
+def test_still_table_is_told_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*SMALL, "--still", "--e", "0.7", "--mu", "0.08"]) == 0
+    told = capsys.readouterr().out
+    assert "27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the paper says" in told and "26.56505117" in told
+
+
+@pytest.mark.parametrize("name", ["f.svg", "f.pdf", "f.html"])
+def test_pictures_are_written_holds(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    wish, begins = {"svg": ("--figure", b"<?xml"), "pdf": ("--figure", b"%PDF"), "html": ("--animation", b"<!DOCTYPE html>")}[name[2:]]
+    assert run([*SMALL, wish, str(tmp_path / name), "--e", "0.7", "--mu", "0.08"]) == 0
+    assert (tmp_path / name).read_bytes().startswith(begins) and "written" in capsys.readouterr().out

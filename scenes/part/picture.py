@@ -1,0 +1,127 @@
+"""Figure 2: where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import cos, sin
+from typing import TYPE_CHECKING, BinaryIO
+
+from scenes.errors import SceneError
+from scenes.figures.arcs import Point, straight
+from scenes.figures.drawing import B1, INK, KEPT, Look, blank, pdf, styled, svg
+from scenes.figures.plane import Plane, polylines
+from scenes.part import body
+from scenes.part.frames import frames
+from scenes.part.grid import ANGLES, COLUMNS, lying, pitch, place, rows
+from scenes.part.setting import Array, Scene
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SLUG = "fig-2"
+TITLE = "Figure 2. Ninety-one blocks on the vibrating table"
+FREQUENCY, AMPLITUDE = 30.0, 1e-3  # of the vibration along the table in the paper's figure 2
+TIMES = (0.0, 0.8, 3.0)
+UPRIGHT = replace(KEPT, hatch="", dashes=(), tint=0.92)
+LYING = replace(B1, hatch="", tint=0.3)
+FORMS = {"svg": lambda figure: svg(figure, SLUG), "pdf": pdf}
+WIDTH, LEFT, TOP, BOTTOM, GAP = 7.6, 0.38, 0.48, 0.36, 0.12  # inches
+
+
+def as_in_figure_two(setting: Scene) -> Scene:
+    """The scene with the vibration along the table of the paper's figure 2: 30 Hz and 1 mm."""
+    return replace(setting, f_x=FREQUENCY, A_x=AMPLITUDE)
+
+
+def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
+    """Writes figure 2 for a scene as it is, as SVG or as PDF; `as_in_figure_two` gives the paper's vibration."""
+    if form not in FORMS:
+        raise SceneError(f"form = {form[:40]!r}: choose from {', '.join(FORMS)}")
+    file.write(FORMS[form](drawn(setting, frames(setting, ANGLES, TIMES))))
+
+
+def caption(setting: Scene, seen: Array) -> str:
+    """What stands below the figure."""
+    told = "; ".join(f"after {one[0, body.TIME]:g} s, {int(lying(setting, one).sum())} of {len(one)} are nearer to lying" for one in seen[1:])
+    return ("The foremost row starts at 0 to 9 degrees from left to right, each row behind it ten degrees further, the last block at 90 degrees."
+            " Rectangles are drawn at their true angles and heights above the table, each at its own place: how far a block has drifted along"
+            f" the table is left out. Here, {told}. The paper's figure shows all of them lying after 3 s.")
+
+
+def alt(setting: Scene, seen: Array) -> str:
+    """What is said to readers who do not see the figure."""
+    told = ", ".join(f"{int((~lying(setting, states)).sum())} at {states[0, body.TIME]:g} s" for states in seen)
+    return (f"{len(seen)} grids of {len(seen[0])} rectangles, one for each time. At the start the rectangles lean ever more to the left, from the"
+            f" upright one at the lower left to the one that lies in the back row. Nearer to upright are {told}; all others are nearer to lying.")
+
+
+def vibration(setting: Scene) -> str:
+    """The vibration and the contact of a scene, in a line.
+
+    >>> from scenes.part.setting import scene
+    >>> vibration(as_in_figure_two(scene(e=0.7, mu=0.08)))
+    'table: 60 Hz 0.2 mm up and down, 30 Hz 1 mm along; e = 0.7, mu = 0.08'
+    """
+    return (f"table: {setting.f_y:g} Hz {1e3 * setting.A_y:g} mm up and down, {setting.f_x:g} Hz {1e3 * setting.A_x:g} mm along;"
+            f" e = {setting.e:g}, mu = {setting.mu:g}")
+
+
+@styled
+def drawn(setting: Scene, seen: Array) -> Figure:
+    """The states as grids side by side, one for each time."""
+    step, count = pitch(setting), rows(seen.shape[1])
+    across, up = (-0.62 * step, (COLUMNS - 0.38) * step), (-0.1 * step, (count - 0.2) * step)
+    wide = (WIDTH - LEFT) / len(seen) - GAP
+    high = wide * (up[1] - up[0]) / (across[1] - across[0])
+    height = TOP + high + BOTTOM
+    figure = blank(WIDTH, height)
+    for k, states in enumerate(seen):
+        plane = Plane(figure, ((LEFT + (wide + GAP) * k) / WIDTH, BOTTOM / height, wide / WIDTH, high / height), across, up)
+        table(plane, setting, len(states), f"table-{k}")
+        for look, name, some in ((LYING, "lying", lying(setting, states)), (UPRIGHT, "upright", ~lying(setting, states))):
+            fill(plane, [outline(setting, states[block], int(block)) for block in some.nonzero()[0]], f"{name}-{k}", look)
+        middle = plane.left + plane.width / 2
+        plane.words((middle, plane.bottom + plane.height), rf"$t$ = {states[0, body.TIME]:g} s", (0, 4), va="bottom", fontsize=11)
+        if k == 0:
+            for row in range(count):
+                plane.text((across[0], row * step), f"{10 * row}°", (-3, 0), ha="right", va="bottom", fontsize=7.5)
+    said = vibration(setting).replace("mu", r"$\mu$").replace("; e", r"; $e$")
+    plane.words((72 * WIDTH / 2, 72 * height), said[:1].upper() + said[1:], (0, -4), va="top", fontsize=10)
+    legend(figure, height)
+    return figure
+
+
+def table(plane: Plane, setting: Scene, count: int, name: str) -> None:
+    """The table under each row that has blocks."""
+    step = pitch(setting)
+    plane.line([straight((-0.6 * step, row * step), ((min(COLUMNS, count - COLUMNS * row) - 0.4) * step, row * step)) for row in range(rows(count))],
+               name, linewidth=0.5, zorder=0.4)
+
+
+def outline(setting: Scene, state: Array, block: int) -> list[Point]:
+    """The corners of a block at its place of the grid."""
+    step, p = pitch(setting), setting.parameters()
+    column, row = place(block)
+    x, y = column * step, row * step + state[body.Y] - body.table_height(p, state[body.TIME])
+    c, s = cos(state[body.THETA]), sin(state[body.THETA])
+    return [(x + body.corner_x(p, i, c, s), y + body.corner_y(p, i, c, s)) for i in range(4)]
+
+
+def legend(figure: Figure, height: float) -> None:
+    """What the two colours say."""
+    plane = Plane(figure, (0, 0, 1, 1), (0, 72 * WIDTH), (0, 72 * height))
+    for x, look, said, (wide, high) in ((170.0, UPRIGHT, "nearer to upright", (6.0, 12.0)), (320.0, LYING, "nearer to lying", (12.0, 6.0))):
+        fill(plane, [[(x - wide / 2, 6.0), (x + wide / 2, 6.0), (x + wide / 2, 6 + high), (x - wide / 2, 6 + high)]], None, look)
+        plane.text((x, 6.0), said, (12, 0), ha="left", va="bottom", fontsize=10)
+
+
+def fill(plane: Plane, polygons: Sequence[Sequence[Point]], name: str | None, look: Look) -> None:
+    """Fills polygons with the tint of a look, and draws their sides in ink, which is light on a dark page."""
+    from matplotlib.colors import to_rgba
+    from matplotlib.patches import PathPatch
+
+    if polygons:
+        outline = polylines([[*corners, corners[0]] for corners in polygons])
+        plane.figure.add_artist(PathPatch(outline, gid=name, transform=plane.own, facecolor=to_rgba(look.colour, look.tint), edgecolor=INK,
+                                          linewidth=0.5, capstyle="projecting"), clip=False)
