@@ -16,7 +16,7 @@ except ImportError:  # the optional extra `part`
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 COMPILED = numba is not None
-KERNELS = ("body", "compiling", "impact", "flight", "contact", "turns", "strike", "pivot", "face", "motion", "watch")
+KERNELS = ("body", "compiling", "impact", "flight", "contact", "turns", "strike", "pivot", "face", "motion", "watch", "ending")
 
 
 def _digest() -> str:

@@ -14,8 +14,11 @@ from scenes.part.compiling import compiled
 
 
 @compiled
-def hold(p: Floats, t: float, theta: float, omega: float, i: int, slide: float) -> tuple[float, float]:
-    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the direction `slide`, or sticking where that is 0."""
+def hold(p: Floats, t: float, theta: float, omega: float, i: int, slide: float) -> tuple[float, float, float]:
+    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the direction `slide`, or sticking where that is 0.
+
+    Third, the angular acceleration by this force.
+    """
     c, s = cos(theta), sin(theta)
     x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
     k2 = p[GYRATION]
@@ -23,17 +26,12 @@ def hold(p: Floats, t: float, theta: float, omega: float, i: int, slide: float) 
     down = p[G] + omega * omega * y + table_lift(p, t)
     if slide != 0:
         normal = down / (B2 + slide * p[FRICTION] * B3)
-        return -slide * p[FRICTION] * normal, normal
-    across = omega * omega * x + table_push(p, t)
-    full = B1 * B2 - B3 * B3
-    return (B2 * across + B3 * down) / full, (B1 * down + B3 * across) / full
-
-
-@compiled
-def turning(p: Floats, theta: float, i: int, along: float, normal: float) -> float:
-    """The angular acceleration by a force at corner i."""
-    c, s = cos(theta), sin(theta)
-    return (corner_x(p, i, c, s) * normal - corner_y(p, i, c, s) * along) / p[GYRATION]
+        along = -slide * p[FRICTION] * normal
+    else:
+        across = omega * omega * x + table_push(p, t)
+        full = B1 * B2 - B3 * B3
+        along, normal = (B2 * across + B3 * down) / full, (B1 * down + B3 * across) / full
+    return along, normal, (x * normal - y * along) / k2
 
 
 @compiled

@@ -49,6 +49,7 @@ from scenes.part.turns import note_turn
 MOST_PHASES, MOST_STEPS = 100_000, 1_000_000
 SPEED_NEAR, FORCE_NEAR = 1e-12, 1e-9  # to what a stop and a slip are found, in m/s and m/s^2
 LEAST_FALL = 1e-3  # keeps steps finite where nothing changes
+LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of any of them
 
 
 @compiled
@@ -80,12 +81,14 @@ def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
         step = end - t
         for way in (-1.0, 1.0):
             value, rate = margin(p, t, grip, way)
-            if value <= FORCE_NEAR and rate < 0 and not first:
+            if value < -FORCE_NEAR and first or value <= FORCE_NEAR and rate < 0 and not first:
                 return t
             step = min(step, safe_step(max(value + FORCE_NEAR, 0.0), rate, fall))
-        first = False
         if t + step >= end:
             return end
+        if t + step == t and not first:  # as near as times can be told apart
+            return t
+        first = False
         t += step
     return -1.0
 
@@ -102,10 +105,12 @@ def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
         rate = -slide * table_push(p, t) - mu * (p[G] + table_lift(p, t))
         if speed <= SPEED_NEAR and rate < 0 and not first:
             return t
-        first = False
         step = safe_step(max(speed + SPEED_NEAR, 0.0), rate, fall)
         if t + step >= end:
             return end
+        if t + step == t and not first:  # as near as times can be told apart
+            return t
+        first = False
         t += step
     return -1.0
 
@@ -120,7 +125,7 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     tips = mu * tall > half
     grip = half / tall if tips else mu
     began, leaves = t, lift_off(p, t)
-    end = min(until, leaves)
+    end = min(until, leaves, t + LONGEST_PIECE)
     push, tipped, code = 0.0, False, NO_PROGRESS
     notes[CONTACTS] += 1
     for _ in range(MOST_PHASES):

@@ -1,6 +1,7 @@
-"""A block that pivots on one corner, which sticks or slides: Runge and Kutta's steps of fourth order in (X, V_X, theta, omega).
+"""A block that pivots on one corner, which sticks or slides: steps in (X, V_X, theta, omega), from one phase to the next.
 
-Height and vertical speed follow from the corner's place on the table.  What ends a phase (the table falls away, friction fails, sliding stops, the
+Height and vertical speed follow from the corner's height over the table, which stays what it was, at most two tolerances: to put it at 0 could add
+energy, and keep a block that rattles from coming to rest.  What ends a phase (the table falls away, friction fails, sliding stops, the
 next corner comes down) is looked for at the end of every step and then bracketed.
 """
 
@@ -22,6 +23,7 @@ from scenes.part.body import (
     STEP,
     THETA,
     TIME,
+    TOLERANCE,
     V_X,
     V_Y,
     Floats,
@@ -31,58 +33,16 @@ from scenes.part.body import (
     corner_y,
     table_glide,
     table_height,
-    table_place,
     table_rise,
 )
 from scenes.part.compiling import compiled
-from scenes.part.contact import first_turn, hold, turning
+from scenes.part.contact import first_turn, hold
+from scenes.part.ending import LANDS, LASTS, LETS_GO, SLIPS, STOPS, end_of, ending, pivoted
 from scenes.part.strike import strike
 from scenes.part.turns import note_turn
 
-Moved = tuple[float, float, float, float]  # X, V_X, theta, omega
-
-LASTS, LETS_GO, SLIPS, STOPS, LANDS = range(5)
 MOST_STEPS = 1_000_000  # of one pivot
-LEAST_STEP = 1e-10  # seconds
-BISECTIONS = 36
-FLAT = 1e-14  # radians
-
-
-@compiled
-def pivoted(p: Floats, t: float, x: float, vx: float, theta: float, omega: float, i: int, slide: float, h: float) -> Moved:
-    """(X, V_X, theta, omega) after a step of h."""
-    f1, n1 = hold(p, t, theta, omega, i, slide)
-    a1 = turning(p, theta, i, f1, n1)
-    theta2, omega2 = theta + h / 2 * omega, omega + h / 2 * a1
-    f2, n2 = hold(p, t + h / 2, theta2, omega2, i, slide)
-    a2 = turning(p, theta2, i, f2, n2)
-    theta3, omega3 = theta + h / 2 * omega2, omega + h / 2 * a2
-    f3, n3 = hold(p, t + h / 2, theta3, omega3, i, slide)
-    a3 = turning(p, theta3, i, f3, n3)
-    theta4, omega4 = theta + h * omega3, omega + h * a3
-    f4, n4 = hold(p, t + h, theta4, omega4, i, slide)
-    a4 = turning(p, theta4, i, f4, n4)
-    after = theta + h * (omega + h / 6 * (a1 + a2 + a3))
-    spin = omega + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-    if slide != 0:
-        return x + h * (vx + h / 6 * (f1 + f2 + f3)), vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4), after, spin
-    c, s = cos(after), sin(after)
-    foot = x + corner_x(p, i, cos(theta), sin(theta)) - table_place(p, t)  # where the corner sticks on the table
-    return foot + table_place(p, t + h) - corner_x(p, i, c, s), table_glide(p, t + h) + spin * corner_y(p, i, c, s), after, spin
-
-
-@compiled
-def ending(p: Floats, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: float) -> int:
-    """What no longer holds of the phase: LASTS where everything does."""
-    if theta < turn * QUARTER - FLAT or theta > (turn + 1) * QUARTER + FLAT:
-        return LANDS
-    along, normal = hold(p, t, theta, omega, i, slide)
-    if normal <= 0:
-        return LETS_GO
-    if slide == 0:
-        return SLIPS if abs(along) > p[FRICTION] * normal else LASTS
-    S = vx - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t)
-    return STOPS if slide * S < 0 else LASTS
+LEAST_STEP = 1e-10  # seconds: how long a phase lasts that would end at once
 
 
 @compiled
@@ -91,6 +51,7 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     i, slide = int(z[CORNER]), z[SLIDE]
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]
     turn = first_turn(i, theta)
+    gap = z[Y] + corner_y(p, i, cos(theta), sin(theta)) - table_height(p, t)
     ended, code = LASTS, NO_PROGRESS
     notes[CONTACTS] += 1
     for _ in range(MOST_STEPS):
@@ -98,43 +59,36 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
         x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         ended = ending(p, t + h, vx2, theta2, omega2, i, slide, turn)
         if ended != LASTS:
-            early, late = 0.0, h
-            for _ in range(BISECTIONS):
-                h = (early + late) / 2
-                x3, vx3, theta3, omega3 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
-                found = ending(p, t + h, vx3, theta3, omega3, i, slide, turn)
-                if found == LASTS:
-                    early, x2, vx2, theta2, omega2 = h, x3, vx3, theta3, omega3
-                else:
-                    late, ended = h, found
-                    if early == 0:
-                        x2, vx2, theta2, omega2 = x3, vx3, theta3, omega3
-                if late - early < LEAST_STEP * (1 if early == 0 else 1e-3):
-                    break
-            h = early if early > 0 else late
-            if ended == LETS_GO:
+            early, late, ended = end_of(p, t, x, vx, theta, omega, i, slide, turn, h, ended)
+            if ended == LANDS or ended == LETS_GO:
                 h = late
-                x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
+            else:
+                h = max(early, min(h, LEAST_STEP))
+            x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
+        if ended == LANDS:
+            theta2 = (turn if theta2 < (turn + 0.5) * QUARTER else turn + 1) * QUARTER
         note_turn(p, notes, t, theta, t + h, theta2)
         t, x, vx, theta, omega = t + h, x2, vx2, theta2, omega2
         if ended == STOPS:
             vx = omega * corner_y(p, i, cos(theta), sin(theta)) + table_glide(p, t)
             slide = 0.0
-            along, normal = hold(p, t, theta, omega, i, 0.0)
+            along, normal, _ = hold(p, t, theta, omega, i, 0.0)
             if abs(along) > p[FRICTION] * normal:
                 ended = SLIPS
         if ended == SLIPS:
-            along, normal = hold(p, t, theta, omega, i, 0.0)
+            along, normal, _ = hold(p, t, theta, omega, i, 0.0)
             slide = -1.0 if along > 0 else 1.0
-            along, normal = hold(p, t, theta, omega, i, slide)
+            along, normal, _ = hold(p, t, theta, omega, i, slide)
             if normal <= 0:
                 ended = LETS_GO
         if ended == LETS_GO or ended == LANDS or t >= until:
             code = DONE
             break
+    if ended == LETS_GO:
+        gap = max(gap, -p[TOLERANCE] / 2)  # see `strike`
     c, s = cos(theta), sin(theta)
     z[TIME], z[X], z[V_X], z[THETA], z[OMEGA] = t, x, vx, theta, omega
-    z[Y], z[V_Y] = table_height(p, t) - corner_y(p, i, c, s), table_rise(p, t) - omega * corner_x(p, i, c, s)
+    z[Y], z[V_Y] = table_height(p, t) + gap - corner_y(p, i, c, s), table_rise(p, t) - omega * corner_x(p, i, c, s)
     z[SLIDE] = slide
     if ended == LETS_GO or ended == LANDS:
         z[MODE] = FLIGHT

@@ -99,15 +99,16 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
     carried = p[G] + table_lift(p, t) > 0
     for _ in range(MOST_IMPACTS):
         touching, slow, resting = 0, 0, -1
-        fastest, first, second = -STILL, -1, -1
+        fastest, first, second, lowest = -STILL, -1, -1, 2 * touch
         for i in range(4):
-            if z[Y] + corner_y(p, i, c, s) - level > touch:
+            gap = z[Y] + corner_y(p, i, c, s) - level
+            if gap > touch:
                 continue
             C = z[V_Y] + z[OMEGA] * corner_x(p, i, c, s) - rise
             touching += 1
             slow += abs(C) < p[REST_SPEED]
-            if abs(C) <= STILL:
-                resting = i
+            if abs(C) <= STILL and gap < lowest:
+                resting, lowest = i, gap
             if C < fastest:
                 fastest, first, second = C, i, -1
             elif C == fastest:
@@ -119,6 +120,8 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
             z[MODE] = FLIGHT
             if resting >= 0:
                 stay(p, z, resting)
+                if z[MODE] == FLIGHT:
+                    z[Y] += max(-p[TOLERANCE] / 2 - lowest, 0.0)  # a corner without speed, any deeper, would end the next flight at once
             return DONE
         x, y = corner_x(p, first, c, s), corner_y(p, first, c, s)
         if second >= 0:
@@ -156,10 +159,10 @@ def stay(p: Floats, z: Floats, i: int) -> None:
     z[THETA] = min(max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER)  # two corners touch, and this one is not quite the lowest
     t, theta, omega = z[TIME], z[THETA], z[OMEGA]
     slide = slide_of(z[V_X] - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
-    along, normal = hold(p, t, theta, omega, i, slide)
+    along, normal, _ = hold(p, t, theta, omega, i, slide)
     if slide == 0 and abs(along) > p[FRICTION] * normal:
         slide = -1.0 if along > 0 else 1.0
-        along, normal = hold(p, t, theta, omega, i, slide)
+        along, normal, _ = hold(p, t, theta, omega, i, slide)
     if normal > 0:
         z[MODE], z[CORNER], z[SLIDE] = PIVOT, i, slide
     else:
