@@ -76,7 +76,7 @@ def strike_at(p: Floats, z: Floats, x: float, y: float, glide: float, rise: floa
     mode = mode_of(S0, C0, B1, B2, B3, e, mu, sigma)
     if mode == JAMMING:
         return JAMMED
-    before = energy(p, z, glide, rise)
+    before, terms = energy(p, z, glide, rise), abs(S0) - C0 + abs(rise) + abs(z[V_Y]) + abs(z[OMEGA] * x)
     P_x, P_y = impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)
     z[V_X] += P_x
     z[V_Y] += P_y
@@ -85,7 +85,7 @@ def strike_at(p: Floats, z: Floats, x: float, y: float, glide: float, rise: floa
     notes[PULLS] += P_y < 0
     notes[CONES] += abs(P_x) > mu * P_y + SLACK * (abs(P_x) + P_y)
     notes[GAINS] += energy(p, z, glide, rise) - before > SLACK * before
-    notes[CLOSINGS] += z[V_Y] + z[OMEGA] * x - rise < -SLACK * (abs(S0) - C0 + abs(rise))
+    notes[CLOSINGS] += z[V_Y] + z[OMEGA] * x - rise < -SLACK * terms
     return DONE
 
 
