@@ -16,8 +16,8 @@ _NAMES = {
     "scenes.errors": "SceneError",
     "scenes.part.setting": "Scene scene standing moving",
     "scenes.part.ensemble": "Run run fresh_notes",
-    "scenes.part.table_one": "Row Table table_one",
-    "scenes.part.sweep": "Point chosen misfit recorded sweep",
+    "scenes.part.onsets": "Row Table table_one",
+    "scenes.part.sweeping": "Point chosen misfit recorded sweep",
 }
 _PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
 

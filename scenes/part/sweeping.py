@@ -11,8 +11,8 @@ from functools import cache
 from pathlib import Path
 
 from scenes.errors import SceneError
+from scenes.part.onsets import Table, table_one
 from scenes.part.setting import Scene
-from scenes.part.table_one import Table, table_one
 
 RECORD = Path(__file__).with_name("sweep.json")
 WORST = 1.0  # of a row: as if its onset were off by a factor e
