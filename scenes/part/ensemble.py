@@ -11,7 +11,7 @@ import numpy as np
 
 from scenes.errors import SceneError
 from scenes.part import body
-from scenes.part.setting import LONGEST, Array, Scene
+from scenes.part.setting import Array, Scene, refuse_long
 
 CHUNK = 91
 WHY = {
@@ -60,11 +60,14 @@ def run(setting: Scene, states: Array, until: float, *, notes: Array | None = No
 
     Without an executor the chunks are shared over the cores by threads; kernels do not hold the interpreter's lock.
     """
-    if not 0 <= until <= LONGEST:
-        raise SceneError(f"time = {until:.6g} s is outside 0 .. {LONGEST:g}")
+    refuse_long(setting, until)
     if states.ndim != 2 or states.shape[1] != body.STATE:
         raise SceneError(f"states of shape {states.shape}: (n, {body.STATE}) is needed")
+    if not len(states) or not np.isfinite(states).all():
+        raise SceneError(f"states of shape {states.shape}: rows of finite numbers are needed")
     notes = fresh_notes(len(states)) if notes is None else notes
+    if notes.shape != (len(states), body.NOTES):
+        raise SceneError(f"notes of shape {notes.shape}: {(len(states), body.NOTES)} is needed")
     p = setting.parameters()
     jobs = [(p, states[k : k + CHUNK], until, notes[k : k + CHUNK]) for k in range(0, len(states), CHUNK)]
     return joined(each(jobs, executor))

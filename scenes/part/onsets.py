@@ -17,7 +17,7 @@ from scenes.errors import SceneError
 from scenes.part import body
 from scenes.part.compiling import COMPILED
 from scenes.part.ensemble import Job, Run, each, fresh_notes, joined
-from scenes.part.setting import LONGEST, Array, Scene, standing
+from scenes.part.setting import Array, Scene, refuse_long, standing
 
 # frequency in hertz, amplitude in metres, and the onset in seconds that the paper prints; None: "chaotic"
 PAPER: tuple[tuple[float, float, float | None], ...] = (
@@ -78,8 +78,9 @@ def table_one(
     `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak to peak.  `tell` hears how many
     ensembles are done, and of how many.
     """
-    if not 0 < horizon <= LONGEST:
-        raise SceneError(f"horizon = {horizon:.6g} s is outside 0 .. {LONGEST:g}")
+    refuse_long(setting, horizon)
+    if horizon == 0:
+        raise SceneError("horizon = 0 s leaves no time to settle in")
     if not COMPILED:
         raise SceneError("table I is computed by numba; install it with pip install -e '.[part]'")
     jobs: list[Job] = []

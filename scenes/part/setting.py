@@ -18,7 +18,14 @@ Array = NDArray[np.float64]
 JAMS = 4 / 3  # the friction from which a rectangle can jam: claim part-jamming
 LEAST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-4
 LONGEST = 1e5  # seconds of a run
+COARSEST = 0.01  # of half the short side: the largest tolerance
+ROUNDING = 0.05  # of the tolerance: the most by which a gap may be rounded
+FASTEST, FASTEST_TURN = 1e3, 1e5  # m/s and rad/s of a start
+RANGES = {"a": (1e-5, 10.0), "b": (1e-5, 10.0), "g": (1e-3, 1e3), "A_x": (-1.0, 1.0), "A_y": (0.0, 1.0), "f_x": (0.0, 1e4), "f_y": (0.0, 1e4),
+          "phase_x": (-100.0, 100.0), "phase_y": (-100.0, 100.0), "rest_speed": (1e-8, 1.0), "tolerance": (LEAST_TOLERANCE, LARGEST_TOLERANCE)}
+UNITS = {"a": " m", "b": " m", "g": " m/s^2", "A_x": " m", "A_y": " m", "f_x": " Hz", "f_y": " Hz", "rest_speed": " m/s", "tolerance": " m"}
 STANDARD_GRAVITY = 9.81
+EPSILON = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -85,8 +92,11 @@ def scene(
         raise SceneError(f"mu = {mu:.6g} is below 0; it is the coefficient of friction")
     if numbers["mu"] >= JAMS:
         raise SceneError(f"mu = {mu:.6g} is not below 4/3: from there on a corner can jam, and the impact law has no answer")
-    if not LEAST_TOLERANCE <= numbers["tolerance"] <= LARGEST_TOLERANCE:
-        raise SceneError(f"tolerance = {tolerance:.6g} m is outside {LEAST_TOLERANCE:g} .. {LARGEST_TOLERANCE:g}")
+    for name, (least, most) in RANGES.items():
+        if not least <= numbers[name] <= most:
+            raise SceneError(f"{name} = {numbers[name]:.6g}{UNITS.get(name, '')} is outside {least:g} .. {most:g}")
+    if numbers["tolerance"] > COARSEST * numbers["a"]:
+        raise SceneError(f"tolerance = {numbers['tolerance']:.6g} m is above {COARSEST:g} of a = {numbers['a']:.6g} m")
     if launch not in ("rest", "table"):
         raise SceneError(f"launch = {str(launch)[:40]!r}: choose 'rest' or 'table'")
     return Scene(launch=launch, **numbers)
@@ -113,6 +123,7 @@ def standing(setting: Scene, angles: Sequence[float] | Array) -> Array:
     theta = np.asarray(angles, dtype=float)
     if theta.ndim != 1 or not len(theta) or not np.isfinite(theta).all():
         raise SceneError(f"angles of shape {theta.shape}: one row of finite numbers is needed")
+    refuse_turned(setting, theta)
     p = setting.parameters()
     states = np.zeros((len(theta), body.STATE))
     states[:, body.THETA] = theta
@@ -129,6 +140,10 @@ def moving(setting: Scene, X: float, Y: float, theta: float, V_X: float, V_Y: fl
     numbers = [_finite(value, name) for name, value in given.items()]
     if numbers[0] < 0:
         raise SceneError(f"t = {t:.6g} is before the start, t = 0")
+    if max(map(abs, numbers[4:6])) > FASTEST or abs(numbers[6]) > FASTEST_TURN:
+        raise SceneError(f"({V_X:.6g}, {V_Y:.6g}) m/s, {omega:.6g} rad/s: a start has at most {FASTEST:g} m/s and {FASTEST_TURN:g} rad/s")
+    refuse_turned(setting, np.array([numbers[3]]))
+    refuse_long(setting, t)
     state = np.zeros((1, body.STATE))
     state[0, :7] = numbers
     lowest = abs(setting.a * math.sin(theta)) + abs(setting.b * math.cos(theta))
@@ -136,3 +151,19 @@ def moving(setting: Scene, X: float, Y: float, theta: float, V_X: float, V_Y: fl
     if gap < -setting.tolerance:
         raise SceneError(f"Y = {Y:.6g} m puts the lowest corner {-gap:.3g} m into the table; the centre is at least {Y - gap:.6g} m high there")
     return state
+
+
+def refuse_turned(setting: Scene, theta: Array) -> None:
+    """SceneError where an angle is so large that its rounding moves corners by more than a part of the tolerance."""
+    rounded = float(np.abs(theta).max()) * math.hypot(setting.a, setting.b) * EPSILON
+    if rounded > ROUNDING * setting.tolerance:
+        raise SceneError(f"theta = {float(np.abs(theta).max()):.6g} rad is too many turns for a tolerance of {setting.tolerance:g} m")
+
+
+def refuse_long(setting: Scene, until: float) -> None:
+    """SceneError for a time that is out of range, or so late that its rounding moves the table by more than a part of the tolerance."""
+    if not 0 <= until <= LONGEST:
+        raise SceneError(f"time = {until:.6g} s is outside 0 .. {LONGEST:g}")
+    rounded = setting.A_y * (2 * math.pi * setting.f_y * until + abs(setting.phase_y)) * EPSILON
+    if rounded > ROUNDING * setting.tolerance:
+        raise SceneError(f"time = {until:.6g} s is too late for a tolerance of {setting.tolerance:g} m: the table is rounded by {rounded:.2g} m")
