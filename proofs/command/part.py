@@ -18,9 +18,9 @@ from proofs.command.outputs import fault_of, written_aside
 from proofs.command.progress import clear, progress
 from proofs.reports.part import keep_results
 from scenes.part.assumptions import AMPLITUDES, FACES
+from scenes.part.onsets import Table, table_one
 from scenes.part.setting import Scene, scene
-from scenes.part.sweep import Point, as_json, chosen, recorded, sweep
-from scenes.part.table_one import Table, table_one
+from scenes.part.sweeping import Point, as_json, chosen, recorded, sweep
 
 WISHES = ("sweep", "still", "figure", "animation")
 SUFFIXES = {"figure": (".svg", ".pdf"), "animation": (".html",), "sweep": (".json",), "table": (".csv", ".npz")}
@@ -87,7 +87,8 @@ def _setting(options: argparse.Namespace) -> Scene:
     """The scene of the options; e and mu, where they are not given, those of the stored sweep."""
     a, b = _one_of(options.face, "--face", FACES)
     peak = _one_of(options.amplitudes, "--amplitudes", AMPLITUDES)
-    pair = chosen(recorded()) if options.e is None or options.mu is None else Point(0, 0, (), (), 0)
+    stored = options.sweep is None and (options.e is None or options.mu is None)
+    pair = chosen(recorded()) if stored else Point(0, 0, (), (), 0)
     frequency, amplitude = _vibration(options.vibration)
     return scene(
         a=a, b=b, e=pair.e if options.e is None else _number(options.e, "e"), mu=pair.mu if options.mu is None else _number(options.mu, "mu"),

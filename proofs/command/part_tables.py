@@ -9,9 +9,9 @@ from proofs.command.columns import draw
 from scenes.part import body
 from scenes.part.assumptions import assumptions, discrepancies
 from scenes.part.ensemble import Run
+from scenes.part.onsets import Row, Table
 from scenes.part.setting import Scene
-from scenes.part.sweep import Point, misfit
-from scenes.part.table_one import Row, Table
+from scenes.part.sweeping import Point, misfit
 
 POINT_HEADS = "    e     mu   misfit   median onset of the six rows in s (chaotic ensembles)"
 

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 from proofs import cache
 
 if TYPE_CHECKING:
+    from scenes.part.onsets import Table
     from scenes.part.setting import Scene
-    from scenes.part.table_one import Table
 
 SWEEP = Path(__file__).resolve().parents[2] / "scenes" / "part" / "sweep.json"  # where e and mu of the scene come from
 HEADS = ("along the table", "paper", "median onset", "16 to 84 %", "chaotic", "censored")
@@ -40,9 +40,9 @@ class Results:
 def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -> bool:
     """Whether a run of table I is the one that the report tells: nothing chosen, (e, mu) of the stored sweep, full ensembles."""
     from scenes.errors import SceneError
+    from scenes.part.onsets import ENSEMBLES, HORIZON
     from scenes.part.setting import scene
-    from scenes.part.sweep import chosen, recorded
-    from scenes.part.table_one import ENSEMBLES, HORIZON
+    from scenes.part.sweeping import chosen, recorded
 
     try:
         pair = chosen(recorded())
@@ -58,7 +58,7 @@ def results(setting: Scene, found: Table, amplitudes: str) -> Results:
     from proofs.command import part_tables
     from scenes.part.assumptions import assumptions, discrepancies
     from scenes.part.split import in_words, no_vibration
-    from scenes.part.sweep import misfit
+    from scenes.part.sweeping import misfit
 
     first = found.rows[0]
     return Results(

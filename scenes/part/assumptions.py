@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from scenes.part.onsets import JITTER, Row
 from scenes.part.setting import Scene
-from scenes.part.table_one import JITTER, Row
 
 Standing = Literal["given", "inferred", "chosen"]
 FACES = {"2x4": (0.01, 0.02), "1x2": (0.005, 0.01), "1x4": (0.005, 0.02)}  # half sides in metres of the block's face in the plane

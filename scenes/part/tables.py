@@ -9,7 +9,7 @@ from typing import BinaryIO
 import numpy as np
 
 from scenes.part import body
-from scenes.part.table_one import Table
+from scenes.part.onsets import Table
 
 HEADS = ("f_x [Hz]", "A_x [m]", "paper [s]", "ensemble", "onset [s]", "chaotic", "censored")
 

@@ -109,7 +109,7 @@ def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.Mon
     pytest.importorskip("matplotlib")
     from scenes.part import scene
 
-    swept, onsets = import_module("scenes.part.sweep"), import_module("scenes.part.table_one")
+    swept, onsets = import_module("scenes.part.sweeping"), import_module("scenes.part.onsets")
     monkeypatch.setenv(records.VARIABLE, str(tmp_path))
     monkeypatch.setattr(swept, "recorded", lambda: (swept.Point(0.7, 0.08, (), (), 0.1), swept.Point(0.5, 0.08, (), (), 0.3)))
     setting = scene(e=0.7, mu=0.08, A_x=1e-3, f_x=30.0)

@@ -11,8 +11,8 @@ import pytest
 
 from proofs.command.main import run
 from scenes.part.assumptions import discrepancies
-from scenes.part.sweep import chosen, recorded
-from scenes.part.table_one import PAPER, Row
+from scenes.part.onsets import PAPER, Row
+from scenes.part.sweeping import chosen, recorded
 
 pytest.importorskip("numba")
 SMALL = ["simulate", "part", "--ensembles", "2", "--horizon", "0.05"]
