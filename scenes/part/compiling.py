@@ -28,8 +28,8 @@ def _digest() -> str:
 
 
 def _folder() -> Path | None:
-    """Where machine code is kept, if anywhere: beside the other records of the project (see `proofs.cache`)."""
-    chosen = os.environ.get("JUGGLEPROOF_CACHE", "")
+    """Where machine code is kept, if anywhere: where numba is told to, or beside the other records of the project (see `proofs.cache`)."""
+    chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("JUGGLEPROOF_CACHE", "")
     if chosen == "off":
         return None
     try:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from scenes.errors import SceneError
 from scenes.part import body
 from scenes.part.compiling import COMPILED
 from scenes.part.ensemble import Job, Run, each, fresh_notes, joined
-from scenes.part.setting import Array, Scene, refuse_long, standing
+from scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
 # frequency in hertz, amplitude in metres, and the onset in seconds that the paper prints; None: "chaotic"
 PAPER: tuple[tuple[float, float, float | None], ...] = (
@@ -86,7 +86,7 @@ def table_one(
     jobs: list[Job] = []
     angles = jittered(ensembles, seed)
     for frequency, amplitude, _ in PAPER:
-        shaken = replace(setting, f_x=frequency, A_x=peak * amplitude)
+        shaken = changed(setting, f_x=frequency, A_x=peak * amplitude)
         p = shaken.parameters()
         jobs += [(p, standing(shaken, row), horizon, fresh_notes(ANGLES, horizon / 2)) for row in angles]
     done = each(jobs, executor, tell)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Literal
 
 import numpy as np
@@ -100,6 +100,15 @@ def scene(
     if launch not in ("rest", "table"):
         raise SceneError(f"launch = {str(launch)[:40]!r}: choose 'rest' or 'table'")
     return Scene(launch=launch, **numbers)
+
+
+def changed(setting: Scene, **numbers: float) -> Scene:
+    """The same scene but for some of its numbers; SceneError for numbers that make none.
+
+    >>> changed(scene(e=0.7, mu=0.08), e=0.5).e
+    0.5
+    """
+    return scene(**{**asdict(setting), **numbers})
 
 
 def _finite(value: float, name: str) -> float:

@@ -6,13 +6,13 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 
 from scenes.errors import SceneError
 from scenes.part.onsets import Table, table_one
-from scenes.part.setting import Scene
+from scenes.part.setting import Scene, changed
 
 RECORD = Path(__file__).with_name("sweep.json")
 WORST = 1.0  # of a row: as if its onset were off by a factor e
@@ -54,7 +54,7 @@ def sweep(
     points = []
     for e in es:
         for mu in mus:
-            table = table_one(replace(setting, e=e, mu=mu), ensembles=ensembles, horizon=horizon, seed=seed, peak=peak, executor=executor)
+            table = table_one(changed(setting, e=e, mu=mu), ensembles=ensembles, horizon=horizon, seed=seed, peak=peak, executor=executor)
             medians = [row.quantile(0.5) for row in table.rows]
             points.append(Point(e, mu, tuple(None if math.isinf(m) else round(m, 6) for m in medians),
                                 tuple(sum(row.chaotic) for row in table.rows), round(misfit(table), 6)))
