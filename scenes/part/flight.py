@@ -2,7 +2,8 @@
 
 The gap of a corner at time s of a flight is at least gap + rate s - M s^2/2, where M = g + A_y W_y^2 + omega^2 rho bounds how fast its rate can fall.
 Each step goes to the first root of that parabola, raised by 9/10 of the tolerance, over all four corners; so no gap falls below the tolerance's
-negative, rounding included.
+negative, rounding included.  From there one step of Newton's puts the corner on the table, to second order in the tolerance, where it comes down fast
+enough for that.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from scenes.part.body import (
 from scenes.part.compiling import compiled
 
 MOST_STEPS = 1_000_000  # of one flight
+NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton's
 NEAR = 1e-15  # metres: roots this near one another are all computed, so that the order of the corners does not matter
 
 
@@ -69,7 +71,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
         centre = y + (rise - half_g * s) * s - p[A_Y] * sin(phase)
         falling = rise - p[G] * s - p[A_Y] * p[W_Y] * cos(phase)
         step = reach - s
-        met = False
+        met, back = False, step
         for i in range(4):
             sx, sy = -1.0 if i == 0 or i == 3 else 1.0, -1.0 if i < 2 else 1.0
             gap = centre + (sx * a * d + sy * b * c)
@@ -77,11 +79,13 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
             least = min(least, gap)
             if gap <= tolerance and rate < 0 and not first:
                 met = True
+                back = min(back, -gap / rate if fall * abs(gap) < NEWTON * rate * rate else 0.0)
             above = max(gap + 0.9 * tolerance, 0.1 * tolerance)
             if above + (rate - fall * step / 2) * step < NEAR:
                 step = min(step, safe_step(above, rate, fall))
         first = False
         if met:
+            s += max(min(back, step), -s)
             ended = DONE
             break
         s += step
