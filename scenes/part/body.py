@@ -19,10 +19,9 @@ class Floats(Protocol):
     def __setitem__(self, k: int, value: float, /) -> None: ...
 
 
-
 # the parameters of a scene
-G, A_X, W_X, PHASE_X, A_Y, W_Y, PHASE_Y, HALF_SHORT, HALF_LONG, GYRATION, RESTITUTION, FRICTION, TOLERANCE, REST_SPEED, STEP = range(15)
-PARAMETERS = 15
+G, A_X, W_X, PHASE_X, A_Y, W_Y, PHASE_Y, HALF_SHORT, HALF_LONG, GYRATION, RESTITUTION, FRICTION, TOLERANCE, REST_SPEED, STEP, SPLIT = range(16)
+PARAMETERS = 16
 
 # a state; for the last two see `contact`
 TIME, X, Y, THETA, V_X, V_Y, OMEGA, MODE, CORNER, SLIDE = range(10)

@@ -58,6 +58,7 @@ class Scene:
         p[body.A_Y], p[body.W_Y], p[body.PHASE_Y] = self.A_y, 2 * math.pi * self.f_y, self.phase_y
         p[body.HALF_SHORT], p[body.HALF_LONG], p[body.GYRATION] = self.a, self.b, (self.a**2 + self.b**2) / 3
         p[body.TOLERANCE], p[body.REST_SPEED], p[body.STEP] = self.tolerance, self.rest_speed, self.step()
+        p[body.SPLIT] = math.atan(self.a / self.b)
         return p
 
     def step(self) -> float:

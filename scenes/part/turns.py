@@ -5,16 +5,16 @@ The two are parted where a block, tilted on a corner, has its centre above that 
 
 from __future__ import annotations
 
-from math import atan, floor, pi
+from math import floor, pi
 
-from scenes.part.body import FALLS, HALF_LONG, HALF_SHORT, LAST_LYING, LAST_UPRIGHT, RISES, SINCE, Floats
+from scenes.part.body import FALLS, LAST_LYING, LAST_UPRIGHT, RISES, SINCE, SPLIT, Floats
 from scenes.part.compiling import compiled
 
 
 @compiled
 def side(p: Floats, theta: float) -> int:
     """An even number where the block is nearer to upright, an odd one where to lying; it grows by 1 whenever theta passes from one to the other."""
-    split = atan(p[HALF_SHORT] / p[HALF_LONG])
+    split = p[SPLIT]
     turns = floor((theta + split) / pi)
     return 2 * int(turns) + (0 if theta + split - turns * pi < 2 * split else 1)
 
@@ -25,7 +25,7 @@ def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, the
     before, after = side(p, theta0), side(p, theta1)
     lying = after % 2 == 1
     if before != after:
-        split = atan(p[HALF_SHORT] / p[HALF_LONG])
+        split = p[SPLIT]
         step = 1 if after > before else -1
         last = t0
         for k in range(before, after, step):

@@ -1,0 +1,110 @@
+"""Flights end at the first corner that meets the table: no meeting is stepped over, and no corner gets below the tolerance's negative."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scenes.part import body, moving, scene
+from scenes.part.ensemble import fresh_notes
+from scenes.part.flight import fly, safe_step
+from scenes.part.reference import setting
+from scenes.part.reference.flight import Flight
+from scenes.part.reference.roots import first_crossing
+from scenes.part.reference.setting import Model, State
+
+UNTIL = 0.2
+TO_REFERENCE = (2, 3, 0, 1)  # the corner's number there
+
+
+def flights(count: int, tolerance: float) -> list[tuple[Any, Any]]:
+    """Scenes and states in flight: some spin fast, some are near the table, some graze it, some are flat."""
+    dice = np.random.default_rng(7)
+    found = []
+    for _ in range(count):
+        b = dice.choice([0.01, 0.02, 0.2])
+        block = scene(a=0.01, b=b, e=0.7, mu=0.1, A_y=dice.choice([0.0, 2e-4, 2e-3]), f_y=dice.choice([15.0, 60.0]), phase_y=dice.uniform(0, 6),
+                      tolerance=tolerance)
+        theta = dice.choice([dice.uniform(-7, 7), 0.0, math.pi / 2])
+        lowest = 0.01 * abs(math.sin(theta)) + b * abs(math.cos(theta)) + body.table_height(block.parameters(), 0.0)
+        height = dice.choice([1e-9, 1e-5, 1e-3, 1e-2])
+        found.append((block, moving(block, 0.0, lowest + height, theta, 0.1, dice.normal() * 0.3, dice.choice([0, 10, 100, 600]) * dice.normal())[0]))
+    return found
+
+
+def gaps(p: Any, z: Any, s: Any) -> Any:
+    """The four gaps at times s of the flight that leaves z, from the definition."""
+    theta = z[body.THETA] + z[body.OMEGA] * s
+    table = p[body.A_Y] * np.sin(p[body.W_Y] * (z[body.TIME] + s) + p[body.PHASE_Y])
+    centre = z[body.Y] + z[body.V_Y] * s - p[body.G] * s * s / 2 - table
+    a, b = p[body.HALF_SHORT], p[body.HALF_LONG]
+    return np.stack([centre + x * np.sin(theta) + y * np.cos(theta) for x, y in ((-a, -b), (a, -b), (a, b), (-a, b))])
+
+
+def flown(block: Any, start: Any) -> tuple[Any, float]:
+    z, notes = start.copy(), fresh_notes(1)[0]
+    assert fly(block.parameters(), z, UNTIL, notes) == body.DONE
+    return z, float(notes[body.LEAST_GAP])
+
+
+@pytest.mark.parametrize("tolerance", [1e-12, 1e-9, 1e-6])
+def test_no_corner_gets_below_the_table_holds(tolerance: float) -> None:
+    landed = 0
+    for block, start in flights(200, tolerance):
+        z, least = flown(block, start)
+        s = np.linspace(0.0, z[body.TIME], 4001)
+        found = gaps(block.parameters(), start, s)
+        assert found.min() >= -tolerance and least >= -tolerance
+        if z[body.TIME] < UNTIL:
+            landed += 1
+            assert -tolerance <= found[:, -1].min() <= tolerance
+    assert landed > 100
+
+
+def test_end_is_the_first_crossing_by_the_reference_holds() -> None:
+    landed = 0
+    for block, start in flights(60, 1e-12):
+        z, _ = flown(block, start)
+        model = Model(setting(block.a, block.b, e=block.e, mu=block.mu, g=block.g, A_y=block.A_y, f_y=block.f_y, phase_y=block.phase_y), 30)
+        flight = Flight(model, model.lifted(State(*map(float, start[:7]))))
+        met = first_crossing(flight.gaps, flight.bound(), flight.start.t, model.lift(UNTIL), model.noise)
+        if met is None:
+            assert z[body.TIME] == UNTIL
+            continue
+        landed += 1
+        time, corner = met
+        rate = abs(float(flight.gaps(time)[corner][1]))
+        assert abs(float(time) - z[body.TIME]) * rate <= 1.1e-12 + 1e-15 * rate
+        ours = gaps(block.parameters(), start, z[body.TIME] - start[0])
+        assert abs(ours[TO_REFERENCE.index(corner)]) <= 1.1e-12
+    assert landed > 30
+
+
+def test_flight_keeps_its_parabola_and_its_spin_holds() -> None:
+    for block, start in flights(50, 1e-12):
+        z, _ = flown(block, start)
+        s = z[body.TIME] - start[body.TIME]
+        assert z[body.X] == pytest.approx(start[body.X] + start[body.V_X] * s, abs=1e-15)
+        assert z[body.Y] == pytest.approx(start[body.Y] + start[body.V_Y] * s - 9.81 * s * s / 2, abs=1e-15)
+        assert (z[body.V_X], z[body.OMEGA]) == (start[body.V_X], start[body.OMEGA])
+
+
+def test_safe_step_is_the_first_root_of_its_parabola_holds() -> None:
+    dice = np.random.default_rng(3)
+    for _ in range(2000):
+        value, fall = 10.0 ** dice.uniform(-13, 0), 10.0 ** dice.uniform(0, 5)
+        rate = dice.choice([-1, 1]) * 10.0 ** dice.uniform(-8, 2)
+        step = safe_step(value, rate, fall)
+        terms = value + abs(rate) * step + fall * step * step / 2
+        assert step > 0 and abs(value + rate * step - fall * step * step / 2) <= 1e-14 * terms
+        assert all(value + rate * part * step - fall * (part * step) ** 2 / 2 > 0 for part in (0.1, 0.5, 0.9, 0.999))
+    assert safe_step(0.0, -1.0, 2.0) == 0.0 == safe_step(0.0, 0.0, 2.0)
+
+
+def test_least_gap_is_seen_where_a_corner_starts_too_low() -> None:
+    block, start = flights(1, 1e-12)[0]
+    start[body.Y] -= gaps(block.parameters(), start, 0.0).min() + 1e-9
+    assert flown(block, start)[1] < -1e-12
