@@ -93,12 +93,12 @@ def test_threads_give_the_same_bytes_holds(workers: int) -> None:
         assert same_as_alone(executor)
 
 
-def test_spawned_processes_give_the_same_bytes_holds(kept: None) -> None:
+def test_spawned_processes_give_the_same_bytes_holds() -> None:
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
         assert same_as_alone(executor)
 
 
-def test_dask_cluster_gives_the_same_bytes_holds(kept: None) -> None:
+def test_dask_cluster_gives_the_same_bytes_holds() -> None:
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None) as cluster:
         with cluster.get_client() as client:
