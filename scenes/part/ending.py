@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from scenes.part.body import FRICTION, QUARTER, Floats, corner_x, corner_y, table_glide, table_place
+from scenes.part.body import FRICTION, GYRATION, QUARTER, Floats, corner_x, corner_y, table_glide, table_place
 from scenes.part.compiling import compiled
 from scenes.part.contact import hold
 
@@ -36,6 +36,16 @@ def pivoted(p: Floats, t: float, x: float, vx: float, theta: float, omega: float
     c, s = cos(after), sin(after)
     foot = x + corner_x(p, i, cos(theta), sin(theta)) - table_place(p, t)  # where the corner sticks on the table
     return foot + table_place(p, t + h) - corner_x(p, i, c, s), table_glide(p, t + h) + spin * corner_y(p, i, c, s), after, spin
+
+
+@compiled
+def pace(p: Floats, theta: float, i: int, slide: float) -> float:
+    """The part of the usual step that is right here: near jamming the force at a sliding corner changes as fast as 1/(B2 +- mu B3) is large."""
+    if slide == 0:
+        return 1.0
+    c, s = cos(theta), sin(theta)
+    x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
+    return min(1.0, 1 + x * (x + slide * p[FRICTION] * y) / p[GYRATION])
 
 
 @compiled

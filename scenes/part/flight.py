@@ -93,7 +93,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
             s = reach
             ended = DONE
             break
-    z[TIME], z[X], z[THETA] = t + s, z[X] + z[V_X] * s, theta + omega * s
+    z[TIME], z[X], z[THETA] = until if s >= reach else t + s, z[X] + z[V_X] * s, theta + omega * s
     z[Y], z[V_Y] = y + (rise - half_g * s) * s, rise - p[G] * s
     notes[LEAST_GAP] = least
     return ended

@@ -37,7 +37,7 @@ from scenes.part.body import (
 )
 from scenes.part.compiling import compiled
 from scenes.part.contact import first_turn, hold
-from scenes.part.ending import LANDS, LASTS, LETS_GO, SLIPS, STOPS, end_of, ending, pivoted
+from scenes.part.ending import LANDS, LASTS, LETS_GO, SLIPS, STOPS, end_of, ending, pace, pivoted
 from scenes.part.strike import strike
 from scenes.part.turns import note_turn
 
@@ -55,7 +55,7 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     ended, code = LASTS, NO_PROGRESS
     notes[CONTACTS] += 1
     for _ in range(MOST_STEPS):
-        h = min(p[STEP], until - t)
+        h = min(p[STEP] * pace(p, theta, i, slide), until - t)
         x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         ended = ending(p, t + h, vx2, theta2, omega2, i, slide, turn)
         if ended != LASTS:
@@ -68,7 +68,7 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
         if ended == LANDS:
             theta2 = (turn if theta2 < (turn + 0.5) * QUARTER else turn + 1) * QUARTER
         note_turn(p, notes, t, theta, t + h, theta2)
-        t, x, vx, theta, omega = t + h, x2, vx2, theta2, omega2
+        t, x, vx, theta, omega = min(t + h, until), x2, vx2, theta2, omega2
         if ended == STOPS:
             vx = omega * corner_y(p, i, cos(theta), sin(theta)) + table_glide(p, t)
             slide = 0.0

@@ -75,6 +75,33 @@ def test_scene_that_broke_an_integrator_runs_to_its_end_holds(name: str) -> None
     check(block, np.concatenate([standing(block, ANGLES), moving(block, 0, block.b * 1.01, 0.0, 0.1, 0, 3)]), 1.0)
 
 
+@pytest.mark.parametrize("mu", [0.5, 1.2, 1.3, 1.33333])
+def test_still_table_gives_no_energy_near_jamming_either_holds(mu: float) -> None:
+    """At mu = 4/3 the force at a sliding corner of a 1:2 block has no bound: steps must become shorter near it."""
+    for e, rest in ((0.0, 1e-3), (0.5, 0.1), (0.9, 1e-2)):
+        block = scene(e=e, mu=mu, A_y=0.0, tolerance=1e-9, rest_speed=rest)
+        states = np.concatenate([moving(block, 0, 0.0225, theta, vx, -0.1, spin)
+                                 for theta in (0.0, 0.3, 0.6, 1.2, 1.5) for vx in (-3, -0.5, 1) for spin in (-5, 0, 20)])
+        k2 = (block.a**2 + block.b**2) / 3
+
+        def energies(states: Any, k2: float = k2) -> Any:
+            return (states[:, body.V_X]**2 + states[:, body.V_Y]**2 + k2 * states[:, body.OMEGA]**2) / 2 + 9.81 * states[:, body.Y]
+
+        last = energies(states)
+        for until in (0.02, 0.05, 0.1, 0.2, 0.5, 1.0):
+            check(block, states, until)
+            assert (energies(states) <= last + 1e-7).all()
+            last = energies(states)
+
+
+def test_face_that_trips_near_jamming_is_not_sped_up_holds() -> None:
+    block = scene(a=2.1860752568100615e-3, b=4.372150513620123e-3, e=0.999, mu=1.3333, A_x=5e-3, f_x=25.4, A_y=0.0, g=1.0, tolerance=2.2e-9,
+                  rest_speed=0.097)
+    states = standing(block, ANGLES)
+    assert check(block, states, 1.0)[:, body.CONTACTS].max() < 10_000
+    assert np.abs(states[:, body.V_X]).max() < 2
+
+
 def test_pivot_that_ends_at_once_does_not_go_into_the_table_holds() -> None:
     """The next corner is 3 tolerances high and comes down so fast that it lands within 4e-13 s."""
     block = scene(a=0.015, b=1.5, e=0.2, mu=0.5, A_y=0.0)
