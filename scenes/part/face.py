@@ -54,7 +54,9 @@ LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of
 
 @compiled
 def lift_off(p: Floats, t: float) -> float:
-    """When the table next falls faster than g, it now not doing so; 1e300 where it never does."""
+    """When the table next falls faster than g, now where it does; 1e300 where it never does."""
+    if p[G] + table_lift(p, t) <= 0:
+        return t
     if p[A_Y] * p[W_Y] * p[W_Y] <= p[G]:
         return 1e300
     ends = asin(p[G] / (p[A_Y] * p[W_Y] * p[W_Y]))

@@ -8,7 +8,7 @@ energy, w half its length; none is added.  Coming to rest moves a corner by at m
 
 from __future__ import annotations
 
-from math import cos, floor, sin
+from math import cos, floor, sin, sqrt
 
 from scenes.part.body import (
     CLOSINGS,
@@ -55,7 +55,7 @@ from scenes.part.impact import JAMMING, first_slide, impulse, mode_of
 
 MOST_IMPACTS = 10_000  # at one time
 STILL = 1e-12  # metres a second: closing speeds below are rounding
-SLACK = 1e-12  # relative rounding that the guarantees are counted with
+SLACK, ROUNDING = 1e-12, 1e-14  # relative rounding that the guarantees are counted with, and that of a difference of speeds
 
 
 @compiled
@@ -77,6 +77,7 @@ def strike_at(p: Floats, z: Floats, x: float, y: float, glide: float, rise: floa
     if mode == JAMMING:
         return JAMMED
     before, terms = energy(p, z, glide, rise), abs(S0) - C0 + abs(rise) + abs(z[V_Y]) + abs(z[OMEGA] * x)
+    rounded = ROUNDING * (abs(z[V_X]) + abs(glide) + abs(z[V_Y]) + abs(rise)) * sqrt(before)
     P_x, P_y = impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)
     z[V_X] += P_x
     z[V_Y] += P_y
@@ -84,7 +85,7 @@ def strike_at(p: Floats, z: Floats, x: float, y: float, glide: float, rise: floa
     notes[IMPACTS] += 1
     notes[PULLS] += P_y < 0
     notes[CONES] += abs(P_x) > mu * P_y + SLACK * (abs(P_x) + P_y)
-    notes[GAINS] += energy(p, z, glide, rise) - before > SLACK * before
+    notes[GAINS] += energy(p, z, glide, rise) - before > SLACK * before + rounded
     notes[CLOSINGS] += z[V_Y] + z[OMEGA] * x - rise < -SLACK * terms
     return DONE
 

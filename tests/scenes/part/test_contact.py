@@ -141,6 +141,17 @@ def test_face_leaves_when_the_table_falls_as_fast_as_the_block_holds() -> None:
     assert lift_off(scene(e=0.5, mu=0.3, A_y=6e-5).parameters(), 0.0) == 1e300  # 8.5 m/s^2
 
 
+def test_face_leaves_at_once_where_rounding_has_passed_the_time_to_holds() -> None:
+    """Where it could tip too, and nothing pushes it to a side."""
+    block = scene(e=0.0, mu=1.2, b=0.01, A_y=6.514857454574451e-05, f_y=1000.0, phase_y=1.1821471600847224, g=100.0)
+    p, z = block.parameters(), lying(block)
+    z[body.TIME] = 0.4168180450698706
+    z[body.Y], z[body.V_Y] = 0.01 + body.table_height(p, z[body.TIME]), body.table_rise(p, z[body.TIME])
+    assert -1e-8 < 100 + body.table_lift(p, z[body.TIME]) < 0
+    assert lie(p, z, 1.0, fresh_notes(1)[0]) == body.DONE and z[body.MODE] == body.FLIGHT
+    assert follow(p, z, 0.5, fresh_notes(1)[0]) == body.DONE
+
+
 def test_face_slips_and_stops_at_the_roots_of_its_forces_holds() -> None:
     block = scene(e=0.5, mu=0.3, A_x=1e-4, f_x=60.0, A_y=2e-5, f_y=60.0, phase_y=1.0)
     p, (wx, wy) = block.parameters(), (2 * mpmath.pi * 60,) * 2
