@@ -28,7 +28,8 @@ class Job(NamedTuple):
 def frames(setting: Scene, angles: Sequence[float] | Array, times: Sequence[float] | Array, executor: Executor | None = None) -> Array:
     """The states of blocks that start at these angles, in radians, at these times, in seconds, which do not fall: shape (len(times), n, 10).
 
-    Each orbit is, to the last bit, the one that `run` follows to the last of the times; without an executor threads share the chunks.
+    Each orbit is, to the last bit, the one that `run` follows to the last of the times; a run to an earlier one may round its last event otherwise.
+    Without an executor threads share the chunks.
     """
     looked = np.asarray(times, dtype=float)
     if looked.ndim != 1 or not len(looked) or not np.isfinite(looked).all() or (np.diff(looked) < 0).any():

@@ -27,8 +27,9 @@ def test_frames_are_of_the_orbit_without_stops_holds(setting: object) -> None:
     seen = frames(setting, ANGLES, times)
     start = standing(setting, ANGLES)
     assert seen.shape == (5, 91, body.STATE) and (seen[0] == start).all()
-    for frame, time in zip(seen, times):
-        assert (frame == run(setting, start, time).states).all()
+    assert (seen[-1] == run(setting, start, times[-1]).states).all()
+    for frame, time in zip(seen, times):  # the last event before a stop may round otherwise: the stop cuts the step in which it is looked for
+        assert np.abs(frame - run(setting, start, time).states).max() < 1e-9
 
 
 def test_orbits_are_the_same_fails_without_one_orbit() -> None:
