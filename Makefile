@@ -9,7 +9,7 @@ certify: $(VENV)/installed
 	$(BIN)/juggleproof certify
 
 test: $(VENV)/installed
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 lint: $(VENV)/installed
 	$(BIN)/ruff check .

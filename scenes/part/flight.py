@@ -3,7 +3,8 @@
 The gap of a corner at time s of a flight is at least gap + rate s - M s^2/2, where M = g + A_y W_y^2 + omega^2 rho bounds how fast its rate can fall.
 Each step goes to the first root of that parabola, raised by 9/10 of the tolerance, over all four corners; so no gap falls below the tolerance's
 negative, rounding included.  From there one step of Newton's puts the corner on the table, to second order in the tolerance, where it comes down fast
-enough for that.
+enough for that.  Where it does not, it is below the height from which it set out, if that was in the table, or below 0: the flight ends where it came
+through that, so that a corner that rattles, with hops below the tolerance, does not sink with every one of them.
 """
 
 from __future__ import annotations
@@ -30,12 +31,15 @@ from scenes.part.body import (
     G,
     X,
     Y,
+    table_height,
 )
 from scenes.part.compiling import compiled
 
 MOST_STEPS = 1_000_000  # of one flight
 NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton's
 NEAR = 1e-15  # metres: roots this near one another are all computed, so that the order of the corners does not matter
+LEAST_FLIGHT = 1e-10  # seconds: how long a flight takes that would end at once
+MOST_GUESSES, NEAR_TIME = 100, 1e-14  # of the time at which a corner comes down to a height, and the seconds to which it is found
 
 
 @compiled
@@ -52,6 +56,33 @@ def safe_step(value: float, rate: float, fall: float) -> float:
 
 
 @compiled
+def comes_down(p: Floats, z: Floats, i: int, height: float, late: float) -> float:
+    """A time of the flight from which on corner i is below `height` over the table, no later than `late`, by which it is.
+
+    By Newton's steps from the later end of a bracket, which for a gap that is concave stay on that side; half of the bracket where one leaves it.
+    """
+    a, b = p[HALF_SHORT], p[HALF_LONG]
+    sx, sy = -1.0 if i == 0 or i == 3 else 1.0, -1.0 if i < 2 else 1.0
+    early, s = 0.0, late
+    for _ in range(MOST_GUESSES):
+        angle, phase = z[THETA] + z[OMEGA] * s, p[W_Y] * (z[TIME] + s) + p[PHASE_Y]
+        c, d = cos(angle), sin(angle)
+        gap = z[Y] + (z[V_Y] - p[G] / 2 * s) * s - p[A_Y] * sin(phase) + (sx * a * d + sy * b * c)
+        rate = z[V_Y] - p[G] * s - p[A_Y] * p[W_Y] * cos(phase) + z[OMEGA] * (sx * a * c - sy * b * d)
+        if gap < height:
+            late = s
+        else:
+            early = s
+        if late - early <= NEAR_TIME:
+            break
+        guess = s + (height - gap) / rate if rate < 0 else early
+        if gap < height and s - guess <= NEAR_TIME and guess <= s:
+            break
+        s = guess if early < guess < late else (early + late) / 2
+    return max(late, LEAST_FLIGHT)
+
+
+@compiled
 def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves a flying block on until a corner meets the table, or to the time `until`; DONE, or why it gave up.
 
@@ -62,6 +93,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     half_g, reach = p[G] / 2, until - t
     fall = p[G] + abs(p[A_Y]) * p[W_Y] * p[W_Y] + omega * omega * sqrt(a * a + b * b)
     least, s, first = notes[LEAST_GAP], 0.0, True
+    c0, d0, level = cos(theta), sin(theta), table_height(p, t)
     ended = TOO_MANY_STEPS
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
@@ -79,13 +111,18 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
             least = min(least, gap)
             if gap <= tolerance and rate < 0 and not first:
                 met = True
-                back = min(back, -gap / rate if fall * abs(gap) < NEWTON * rate * rate else 0.0)
+                if fall * abs(gap) < NEWTON * rate * rate:
+                    back = min(back, -gap / rate)
+                elif gap < 0:
+                    back = min(back, min(comes_down(p, z, i, min(y + (sx * a * d0 + sy * b * c0) - level, 0.0), s) - s, 0.0))
+                else:
+                    back = min(back, 0.0)
             above = max(gap + 0.9 * tolerance, 0.1 * tolerance)
             if above + (rate - fall * step / 2) * step < NEAR:
                 step = min(step, safe_step(above, rate, fall))
         first = False
         if met:
-            s += max(min(back, step), -s / 2)  # not back to the start: a flight takes time
+            s += max(min(back, step), min(LEAST_FLIGHT - s, 0.0))
             ended = DONE
             break
         s += step

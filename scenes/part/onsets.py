@@ -78,7 +78,7 @@ def table_one(
     `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak to peak.  `tell` hears how many
     ensembles are done, and of how many.
     """
-    refuse_long(setting, horizon)
+    refuse_long(setting, horizon, "horizon")
     if horizon == 0:
         raise SceneError("horizon = 0 s leaves no time to settle in")
     if not COMPILED:

@@ -170,10 +170,10 @@ def refuse_turned(setting: Scene, theta: Array) -> None:
         raise SceneError(f"theta = {float(np.abs(theta).max()):.6g} rad is too many turns for a tolerance of {setting.tolerance:g} m")
 
 
-def refuse_long(setting: Scene, until: float) -> None:
+def refuse_long(setting: Scene, until: float, name: str = "time") -> None:
     """SceneError for a time that is out of range, or so late that its rounding moves the table by more than a part of the tolerance."""
     if not 0 <= until <= LONGEST:
-        raise SceneError(f"time = {until:.6g} s is outside 0 .. {LONGEST:g}")
+        raise SceneError(f"{name} = {until:.6g} s is outside 0 .. {LONGEST:g}")
     rounded = setting.A_y * (2 * math.pi * setting.f_y * until + abs(setting.phase_y)) * EPSILON
     if rounded > ROUNDING * setting.tolerance:
-        raise SceneError(f"time = {until:.6g} s is too late for a tolerance of {setting.tolerance:g} m: the table is rounded by {rounded:.2g} m")
+        raise SceneError(f"{name} = {until:.6g} s is too late for a tolerance of {setting.tolerance:g} m: the table is rounded by {rounded:.2g} m")

@@ -14,33 +14,44 @@ import pytest
 
 from tests.reports.browser import chromium, contrast, requests, resize, scheme
 from tests.reports.html_reader import read_html
-from tests.reports.made import contents, page
+from tests.reports.made import page, page_of_some, some_contents
 
 RULE = "rule-theorem-in-units/contracts"
 PREMISE = "premise-theorem-in-units/contracts.closer-1"
 
 
 @pytest.fixture(scope="module")
-def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Any, str]]:
+def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Any, Path]]:
     with chromium() as driver:
-        path = tmp_path_factory.mktemp("page") / "juggleproof.html"
-        path.write_bytes(page())
-        yield driver, path.as_uri()
+        folder = tmp_path_factory.mktemp("page")
+        (folder / "juggleproof.html").write_bytes(page())
+        (folder / "some.html").write_bytes(page_of_some())
+        yield driver, folder
 
 
-@pytest.fixture
-def show(opened: tuple[Any, str]) -> Iterator[Any]:
-    """Loads the page anew at a place and returns the driver."""
-    driver, address = opened
+def shows(driver: Any, path: Path) -> Any:
+    """What loads a page anew at a place and returns the driver."""
 
     def at(place: str = "") -> Any:
         driver.get("about:blank")
-        driver.get(address + place)
+        driver.get(path.as_uri() + place)
         return driver
 
     resize(driver, 1280)
     scheme(driver, "light")
-    yield at
+    return at
+
+
+@pytest.fixture
+def show(opened: tuple[Any, Path]) -> Any:
+    """Loads a page with some of the claims."""
+    return shows(opened[0], opened[1] / "some.html")
+
+
+@pytest.fixture
+def show_whole(opened: tuple[Any, Path]) -> Any:
+    """Loads the page as users have it."""
+    return shows(opened[0], opened[1] / "juggleproof.html")
 
 
 def find(driver: Any, selector: str) -> Any:
@@ -73,21 +84,21 @@ def shown(driver: Any) -> set[str]:
 
 
 def with_verdict(*words: str) -> set[str]:
-    return {entry.claim.id for entry in contents().entries if entry.verdict in words}
+    return {entry.claim.id for entry in some_contents().entries if entry.verdict in words}
 
 
 @cache
 def words_of_claims() -> dict[str, str]:
-    articles = read_html(page().decode("utf-8")).with_class("claim")
+    articles = read_html(page_of_some().decode("utf-8")).with_class("claim")
     return {one.attributes["id"]: " ".join((one.text() + " " + " ".join(m.attributes["alttext"] for m in one.all("math"))).lower().split())
             for one in articles}
 
 
-def test_loads_without_error_and_asks_for_nothing_else_holds(show: Any) -> None:
-    driver = show()
+def test_loads_without_error_and_asks_for_nothing_else_holds(show_whole: Any) -> None:
+    driver = show_whole()
     driver.get_log("browser")
     requests(driver)
-    driver = show("#errata")
+    driver = show_whole("#errata")
     assert [entry for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
     asked = {address.partition("#")[0] for address in requests(driver)} - {"about:blank"}
     assert asked == {driver.current_url.partition("#")[0]} and next(iter(asked)).startswith("file:")
@@ -103,8 +114,8 @@ def test_policy_stops_what_would_leave_the_file_holds(show: Any) -> None:
     driver.get_log("browser")
 
 
-def test_every_formula_is_drawn_holds(show: Any) -> None:
-    driver = show()
+def test_every_formula_is_drawn_holds(show_whole: Any) -> None:
+    driver = show_whole()
     driver.execute_script("document.querySelectorAll('details').forEach((box) => { box.open = true; })")
     count, wrong = driver.execute_script("""
         const found = [...document.querySelectorAll("math")];
@@ -120,7 +131,7 @@ def test_verdict_filter_shows_these_claims_only_holds(show: Any) -> None:
     for word in ("gap", "false"):
         find(driver, f"input[value={word}]").click()
     assert shown(driver) == with_verdict("gap", "false")
-    assert named(driver, "shown").text == f"{len(with_verdict('gap', 'false'))} of {len(contents().entries)} claims shown"
+    assert named(driver, "shown").text == f"{len(with_verdict('gap', 'false'))} of {len(some_contents().entries)} claims shown"
     assert driver.current_url.endswith("#?verdict=false,gap")
     assert not driver.execute_script("return [...document.querySelectorAll('.of-section:not([hidden])')].some("
                                      "(one) => !one.querySelector('article.claim:not([hidden])'))")
@@ -133,7 +144,7 @@ def test_section_filter_shows_this_section_only_holds(show: Any) -> None:
 
     driver = show()
     Select(named(driver, "section")).select_by_value("A.2")
-    assert shown(driver) == {entry.claim.id for entry in contents().entries if entry.claim.section == "A.2"}
+    assert shown(driver) == {entry.claim.id for entry in some_contents().entries if entry.claim.section == "A.2"}
     assert driver.current_url.endswith("#?section=A.2")
 
 
@@ -150,7 +161,7 @@ def test_search_finds_exactly_the_claims_with_all_words_holds(show: Any) -> None
 
 def test_shared_link_restores_the_filter_holds(show: Any) -> None:
     driver = show("#?verdict=misprint,false&section=4.3.1&q=impact")
-    wanted = {entry.claim.id for entry in contents().entries if entry.verdict in ("misprint", "false") and entry.claim.section == "4.3.1"
+    wanted = {entry.claim.id for entry in some_contents().entries if entry.verdict in ("misprint", "false") and entry.claim.section == "4.3.1"
               and "impact" in words_of_claims()[entry.claim.id]}
     assert wanted and shown(driver) == wanted
     assert named(driver, "q").get_property("value") == "impact"
@@ -159,7 +170,7 @@ def test_shared_link_restores_the_filter_holds(show: Any) -> None:
 
 def test_nonsense_in_the_address_does_no_harm_holds(show: Any) -> None:
     driver = show("#?verdict=nonsense&section=Q&q=")
-    assert len(shown(driver)) == len(contents().entries)
+    assert len(shown(driver)) == len(some_contents().entries)
     for place in ("#%E0%A4%A", "#?verdict=%00&q=%", "#no-such-place", "#<script>", "#?", "#"):
         driver.execute_script("location.hash = arguments[0]", place)
     assert named(driver, "main").is_displayed()
@@ -227,13 +238,13 @@ def test_first_key_leads_past_the_contents_and_is_seen_holds(show: Any) -> None:
     wait_for(driver, "return document.activeElement.id === 'main'")
 
 
-@pytest.mark.parametrize("width", [360, 768, 1280])
-def test_page_does_not_scroll_sideways_holds(show: Any, width: int) -> None:
-    driver = show()
-    resize(driver, width)
-    assert driver.execute_script("return document.documentElement.scrollWidth") <= width
-    driver.execute_script("document.querySelectorAll('details').forEach((box) => { box.open = true; })")
-    assert driver.execute_script("return document.documentElement.scrollWidth") <= width
+def test_page_does_not_scroll_sideways_holds(show_whole: Any) -> None:
+    driver = show_whole()
+    for is_open in ("false", "true"):
+        driver.execute_script(f"document.querySelectorAll('details').forEach((box) => {{ box.open = {is_open}; }})")
+        for width in (360, 768, 1280):
+            resize(driver, width)
+            assert driver.execute_script("return document.documentElement.scrollWidth") <= width, (width, is_open)
 
 
 def test_tree_is_legible_on_a_phone_holds(show: Any) -> None:
@@ -246,20 +257,20 @@ def test_tree_is_legible_on_a_phone_holds(show: Any) -> None:
     assert size >= 12 and wider
 
 
-@pytest.mark.parametrize("name", ["light", "dark"])
-def test_text_and_badges_stand_out_holds(show: Any, name: str) -> None:
-    driver = show()
-    scheme(driver, name)
+def test_text_and_badges_stand_out_holds(show_whole: Any) -> None:
+    driver = show_whole()
     driver.execute_script("document.querySelectorAll('details').forEach((box) => { box.open = true; })")
-    words = [f".badge.{word}" for word in contents().verdicts]
+    words = [f".badge.{word}" for word in some_contents().verdicts]
     texts = ["main p", "h1", "h2", "h3", "h4 a", "main a", ".place", ".aside", ".label", ".count", "small", "summary", "code", "pre", "dt", "dd"]
     texts += ["nav a", "th", "td", "footer p", "legend", "button", "select", "input[type=search]", "b.certified", "b.refuted", "math"]
-    for selector in [*texts, *words]:
-        element = find(driver, selector)
-        assert contrast(driver, element) >= 4.5, (name, selector)
-    paper = driver.execute_script("return getComputedStyle(document.body).backgroundColor")
-    dark = sum(map(int, paper.removeprefix("rgb(").removesuffix(")").split(", "))) < 200
-    assert dark == (name == "dark")
+    for name in ("light", "dark"):
+        scheme(driver, name)
+        for selector in [*texts, *words]:
+            element = find(driver, selector)
+            assert contrast(driver, element) >= 4.5, (name, selector)
+        paper = driver.execute_script("return getComputedStyle(document.body).backgroundColor")
+        dark = sum(map(int, paper.removeprefix("rgb(").removesuffix(")").split(", "))) < 200
+        assert dark == (name == "dark")
 
 
 def test_tree_stands_out_holds(show: Any) -> None:
@@ -295,6 +306,6 @@ def test_page_is_whole_without_a_script_holds(show: Any) -> None:
         driver = show("#eq-37/bound")
         assert not named(driver, "filter").is_displayed()
         assert named(driver, "eq-37").is_displayed() and named(driver, "eq-37/bound").is_displayed()
-        assert len(find_all(driver, "article.claim")) == len(contents().entries)
+        assert len(find_all(driver, "article.claim")) == len(some_contents().entries)
     finally:
         driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})

@@ -108,3 +108,27 @@ def test_least_gap_is_seen_where_a_corner_starts_too_low() -> None:
     block, start = flights(1, 1e-12)[0]
     start[body.Y] -= gaps(block.parameters(), start, 0.0).min() + 1e-9
     assert flown(block, start)[1] < -1e-12
+
+
+@pytest.mark.parametrize("depth", [0.0, 0.5, 0.89])
+@pytest.mark.parametrize("hop", [1e-1, 1e-3, 1e-6])
+def test_hop_below_the_tolerance_does_not_sink_the_corner_holds(depth: float, hop: float) -> None:
+    """It comes down to the height from which it set out, as fast as it went up: hops that sank a little each went through the table in time."""
+    block = scene(a=0.01, b=0.02, e=0.5, mu=0.0, A_y=0.0, tolerance=1e-7)
+    p, theta = block.parameters(), 0.3
+    up = math.sqrt(2 * block.g * hop * block.tolerance)  # the hop is this part of the tolerance high
+    lowest = 0.01 * math.sin(theta) + 0.02 * math.cos(theta)
+    z, notes = moving(block, 0.0, 1.0, theta, 0.0, up, 0.0)[0], fresh_notes(1)[0]
+    z[body.Y] = lowest - depth * block.tolerance
+    assert fly(p, z, UNTIL, notes) == body.DONE
+    assert abs(z[body.Y] - lowest + depth * block.tolerance) < 1e-8 * block.tolerance + 1e-9 * up
+    near = 1e-6 * up + 1e-16 / up  # rounding of heights by 1e-17 m
+    assert abs(z[body.V_Y] + up) < near and abs(z[body.TIME] - 2 * up / block.g) < near
+
+
+def test_flight_that_would_end_at_once_takes_a_time_holds() -> None:
+    block = scene(a=0.01, b=0.02, e=0.5, mu=0.0, A_y=0.0, tolerance=1e-7)
+    z = moving(block, 0.0, 1.0, 0.3, 0.0, 0.0, 0.0)[0]
+    z[body.Y] = 0.01 * math.sin(0.3) + 0.02 * math.cos(0.3)
+    assert fly(block.parameters(), z, UNTIL, fresh_notes(1)[0]) == body.DONE
+    assert 0 < z[body.TIME] < 1e-9
