@@ -17,6 +17,7 @@ from scenes.part.setting import Scene, changed
 RECORD = Path(__file__).with_name("sweep.json")
 WORST = 1.0  # of a row: as if its onset were off by a factor e
 MOST_POINTS = 10_000
+SCATTER = 0.1  # misfits this near one another are not told apart: two sweeps of 16 ensembles that differ in rounding alone differ by up to 0.12
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,15 @@ def chosen(points: Sequence[Point]) -> Point:
     0.7
     """
     return min(points, key=lambda point: point.misfit)
+
+
+def as_good(points: Sequence[Point]) -> list[Point]:
+    """The pairs whose misfit is within `SCATTER` of the least.
+
+    >>> len(as_good([Point(0.5, 0.1, (), (), 0.9), Point(0.7, 0.1, (), (), 0.2), Point(0.8, 0.1, (), (), 0.25)]))
+    2
+    """
+    return [point for point in points if point.misfit <= chosen(points).misfit + SCATTER]
 
 
 def as_json(points: Sequence[Point], ensembles: int, horizon: float, seed: int) -> str:
