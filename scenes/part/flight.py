@@ -56,13 +56,14 @@ def safe_step(value: float, rate: float, fall: float) -> float:
 
 
 @compiled
-def comes_down(p: Floats, z: Floats, i: int, height: float, late: float) -> float:
-    """A time of the flight from which on corner i is below `height` over the table, no later than `late`, by which it is.
+def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
+    """A time of the flight from which on corner i is below the table, or where it set out if that was in the table; at most `late`, by which it is.
 
     By Newton's steps from the later end of a bracket, which for a gap that is concave stay on that side; half of the bracket where one leaves it.
     """
     a, b = p[HALF_SHORT], p[HALF_LONG]
     sx, sy = -1.0 if i == 0 or i == 3 else 1.0, -1.0 if i < 2 else 1.0
+    height = min(z[Y] + (sx * a * sin(z[THETA]) + sy * b * cos(z[THETA])) - table_height(p, z[TIME]), 0.0)
     early, s = 0.0, late
     for _ in range(MOST_GUESSES):
         angle, phase = z[THETA] + z[OMEGA] * s, p[W_Y] * (z[TIME] + s) + p[PHASE_Y]
@@ -93,7 +94,6 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     half_g, reach = p[G] / 2, until - t
     fall = p[G] + abs(p[A_Y]) * p[W_Y] * p[W_Y] + omega * omega * sqrt(a * a + b * b)
     least, s, first = notes[LEAST_GAP], 0.0, True
-    c0, d0, level = cos(theta), sin(theta), table_height(p, t)
     ended = TOO_MANY_STEPS
     for _ in range(MOST_STEPS):
         notes[STEPS] += 1
@@ -114,7 +114,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
                 if fall * abs(gap) < NEWTON * rate * rate:
                     back = min(back, -gap / rate)
                 elif gap < 0:
-                    back = min(back, min(comes_down(p, z, i, min(y + (sx * a * d0 + sy * b * c0) - level, 0.0), s) - s, 0.0))
+                    back = min(back, min(comes_down(p, z, i, s) - s, 0.0))
                 else:
                     back = min(back, 0.0)
             above = max(gap + 0.9 * tolerance, 0.1 * tolerance)
