@@ -108,8 +108,8 @@ def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     found = table_one(setting, ensembles=options.ensembles, horizon=_number(options.horizon, "horizon"), seed=options.seed,
                       peak=AMPLITUDES[options.amplitudes], executor=executor, tell=progress())
     clear()
+    keep_results(setting, found, options.amplitudes, options.seed)  # before anything is printed, to a reader who may not stay
     part_tables.table(found, setting, options.amplitudes, options.e is None and options.mu is None)
-    keep_results(setting, found, options.amplitudes, options.seed)
     if options.output is not None:
         with written_aside(options.output) as file:
             _writer(options.output)(found, file)
