@@ -1,7 +1,8 @@
-"""The reports' tests share a folder of kept records of their own, as the runs of one user would."""
+"""The reports' tests, in all workers, share a folder of kept records of their own, as the runs of one user would."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 import pytest
@@ -12,5 +13,8 @@ from proofs import cache
 @pytest.fixture(scope="session", autouse=True)
 def kept_records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(cache.VARIABLE, str(tmp_path_factory.mktemp("kept")))
+        base = tmp_path_factory.getbasetemp()
+        kept = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "kept"
+        kept.mkdir(exist_ok=True)
+        patch.setenv(cache.VARIABLE, str(kept))
         yield
