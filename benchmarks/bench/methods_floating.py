@@ -5,11 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from benchmarks.bench.answers import Answer
-from benchmarks.bench.finding import Array, values
-from benchmarks.bench.problems import Problem
+from benchmarks.bench.problems import Problem, Terms
 from certificates.search.float_minimum import FloatPolynomial
+
+Array = NDArray[np.float64]
 
 MOST, AT_ONCE = 10**7, 10**5  # samples
 
@@ -37,3 +39,15 @@ def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
 
     found = differential_evolution(loss, [(float(low), float(high)) for low, high in problem.box], tol=float(width), atol=float(width), seed=1)
     return Answer(Fraction(-float(found.fun)), None, f"{found.nfev} values")
+
+
+def values(terms: Terms, points: Array) -> Array:
+    """The values of a polynomial at many points."""
+    total = np.zeros(len(points))
+    for exponents, c in terms.items():
+        part = np.full(len(points), float(c))
+        for axis, e in enumerate(exponents):
+            for _ in range(e):
+                part *= points[:, axis]
+        total += part
+    return total

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from math import comb, lcm
@@ -10,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from .float_minimum import Terms
+from .plain_polynomials import Box, Terms
 
 Array = Any
 BEFORE: Any = [(slice(None),) * axis for axis in range(26)]  # the axes before one, in an index
-Box = Sequence[tuple[Fraction, Fraction]]
 
 
 def bernstein_tensor(terms: Terms, box: Box) -> tuple[Array, int]:

@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from .bernstein_form import BEFORE, Box, along_first, bernstein_tensor, halving, part_of
-from .float_minimum import Terms
+from .bernstein_form import BEFORE, along_first, bernstein_tensor, halving, part_of
+from .plain_polynomials import LETTERS, Box, Terms
 
-LETTERS = "abcdefghijklmnopqrstuvwxyz"
 ROUNDING = 2.0**-46  # of the largest coefficient: what floating point may lose on the way down a tree
 MOST_BITS = 1500  # of the common denominator on a box
 WORK = 10**8  # products of Python's integers in one search

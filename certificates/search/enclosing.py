@@ -11,9 +11,9 @@ import numpy as np
 
 from certificates.terms import ClaimError
 
-from .bernstein_form import Box
 from .box_tree import ROUNDING, Branching, Tree
-from .float_minimum import FloatPolynomial, Terms, polished, rounded_down, rounded_up, simple_points, value_at
+from .float_minimum import FloatPolynomial, polished
+from .plain_polynomials import Box, Terms, rounded_down, rounded_up, simple_points, value_at
 from .sum_of_squares import search_squares
 
 Point = tuple[Fraction, ...]

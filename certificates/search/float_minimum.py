@@ -2,30 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import ceil, floor
 from typing import Any
 
 import numpy as np
 
-Exponents = tuple[int, ...]
-Terms = Mapping[Exponents, Fraction]  # a polynomial: its coefficients, none of them 0
+from .plain_polynomials import Exponents, Terms, derivative, value_at
+
 Array = Any  # of floats
 STEPS = 200
 NOISE = 2.0**-52
-DENOMINATORS = (1, 2, 12, 120, 1000, 10**4, 10**6, 10**8, 10**10, 10**13, 10**16, 10**20)
-
-
-def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
-    """The exact value at a point."""
-    powers = [[x**e for e in range(1 + max(exponents[i] for exponents in terms))] for i, x in enumerate(point)] if terms else []
-    total = Fraction(0)
-    for exponents, c in terms.items():
-        for table, e in zip(powers, exponents):
-            c = c * table[e] if e else c
-        total += c
-    return total
 
 
 class FloatPolynomial:
@@ -35,8 +22,8 @@ class FloatPolynomial:
         self.size = size
         self.pairs = [(i, j) for i in range(size) for j in range(i, size)]
         own = {e: float(c) for e, c in terms.items()}
-        slopes = [_derivative(own, i) for i in range(size)]
-        parts = [own, *slopes, *(_derivative(slopes[i], j) for i, j in self.pairs)]
+        slopes = [derivative(own, i) for i in range(size)]
+        parts = [own, *slopes, *(derivative(slopes[i], j) for i, j in self.pairs)]
         monomials = {e: k for k, e in enumerate(dict.fromkeys(e for part in parts for e in part))}
         self.exponents = np.array(list(monomials) or [(0,) * size], dtype=np.int64)
         self.most = int(self.exponents.max(initial=0))
@@ -101,7 +88,7 @@ def polished(terms: Terms, polynomial: FloatPolynomial, x: Array, box: Sequence[
     """The stationary point near x, in the coordinates that are not at an end of the box, to so many bits: exact gradients, a fixed Hessian."""
     point = [min(max(Fraction(float(v)), low), high) for v, (low, high) in zip(x, box)]
     free = [i for i, (v, (low, high)) in enumerate(zip(point, box)) if low < v < high]
-    slopes = [_derivative(terms, i) for i in free]
+    slopes = [derivative(terms, i) for i in free]
     data, bend = polynomial.values(x)[1 + polynomial.size:], np.zeros((len(free), len(free)))
     for (i, j), second in zip(polynomial.pairs, data):
         if i in free and j in free:
@@ -116,27 +103,3 @@ def polished(terms: Terms, polynomial: FloatPolynomial, x: Array, box: Sequence[
             moved = Fraction(round((point[i] - Fraction(float(change)) * scale) * 2**bits), 2**bits)
             point[i] = min(max(moved, box[i][0]), box[i][1])
     return point
-
-
-def _derivative(part: Mapping[Exponents, Any], axis: int) -> dict[Exponents, Any]:
-    return {(*e[:axis], e[axis] - 1, *e[axis + 1:]): c * e[axis] for e, c in part.items() if e[axis]}
-
-
-def simple_points(x: Array, box: Sequence[tuple[Fraction, Fraction]]) -> Iterator[tuple[Fraction, ...]]:
-    """Rational points of the box near x, the simplest first."""
-    seen = set()
-    for most in DENOMINATORS:
-        point = tuple(min(max(Fraction(float(v)).limit_denominator(most), low), high) for v, (low, high) in zip(x, box))
-        if point not in seen:
-            seen.add(point)
-            yield point
-
-
-def rounded_up(value: Fraction, unit: Fraction) -> Fraction:
-    """The least multiple of the unit that is not below the value."""
-    return ceil(value / unit) * unit
-
-
-def rounded_down(value: Fraction, unit: Fraction) -> Fraction:
-    """The greatest multiple of the unit that is not above the value."""
-    return floor(value / unit) * unit

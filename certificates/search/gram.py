@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .float_minimum import Exponents
+from .plain_polynomials import Exponents
 
 Array = Any
 Polynomial = dict[Exponents, Fraction]

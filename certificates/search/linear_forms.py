@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from .float_minimum import Exponents, Terms
 from .gram import Polynomial, product
+from .plain_polynomials import Exponents, Terms
 
 Linear = list[Fraction]
 

@@ -9,9 +9,7 @@ from math import lcm, prod
 
 from certificates import checker
 
-from .bernstein_form import Box
-from .box_tree import LETTERS
-from .float_minimum import Terms
+from .plain_polynomials import LETTERS, Box, Terms
 
 Part = tuple[list[int], list[int]]  # the sizes of a box's coefficients, and these, as the checker orders them
 

@@ -15,10 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from .bernstein_form import Box
-from .float_minimum import Exponents, Terms
 from .gram import Block, Matrix, Polynomial, inner, product, rounded, squares
 from .linear_forms import Linear, adapted_forms, inverse, substituted, unit
+from .plain_polynomials import Box, Exponents, Terms
 
 MOST_VARIABLES, MOST_BASIS = 6, 28
 Factors = list[list[int]]  # of a product: facts with exponents

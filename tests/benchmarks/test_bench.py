@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import subprocess
 import sys
 import time
 from fractions import Fraction
@@ -52,6 +53,18 @@ def test_floating_point_comes_near_from_below_holds(name: str) -> None:
     value = METHODS["sampling"].solve(questions()[name].problem(), WIDTH)
     assert value.high is None and truth(name) - Fraction(1, 2) < value.low <= truth(name) + Fraction(1, 10**12)
     assert best_point(questions()[name].problem(), Fraction(1, 10**12))[1] >= truth(name) - Fraction(1, 10**12)
+
+
+@pytest.mark.parametrize("balls", [1, 4, 7])
+def test_a_point_is_found_in_many_variables_holds(balls: int) -> None:
+    problem, truth = growth.balls(balls)
+    assert truth - Fraction(1, 10**12) <= best_point(problem, Fraction(1, 10**12))[1] <= truth
+
+
+def test_our_method_loads_without_numpy_holds() -> None:
+    """What it loads counts as part of its first answer."""
+    script = "import sys, benchmarks.bench.child, benchmarks.bench.methods_ours; print({'numpy', 'sympy', 'z3', 'flint'} & {*sys.modules})"
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "set()\n"
 
 
 @pytest.mark.parametrize("name", NAMES)

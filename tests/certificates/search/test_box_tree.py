@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from certificates import checker
 from certificates.search.bernstein_form import bernstein_tensor
 from certificates.search.box_tree import Branching
-from certificates.search.float_minimum import value_at
+from certificates.search.plain_polynomials import value_at
 from certificates.search.sum_of_squares import search_squares
 from proofs.bounds import LOWER, Enclosure, enclose_minimum
 from tests.certificates.checker.evaluator import term_at

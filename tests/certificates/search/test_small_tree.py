@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from certificates import checker
 from certificates.search.box_tree import Branching
-from certificates.search.float_minimum import value_at
+from certificates.search.plain_polynomials import value_at
 from certificates.search.small_tree import search_tree
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
