@@ -16,6 +16,7 @@ from flint import arb, ctx
 
 from scenes.juggler.exact import Exact, lifted, told
 from scenes.juggler.formulas import formulas
+from scenes.juggler.ratios import lowest
 from scenes.juggler.setting import Goal
 from scenes.juggler.track import Sample, Stop, Track, advance, begin
 
@@ -54,13 +55,13 @@ class Enclosed:
 
     def settle(self, track: Track) -> int:
         """The sign of the margin by the exact orbit, which is followed to this period; the ball is taken anew from there."""
-        exact = Exact(EXACT_SHARE * self.bits)
+        exact = Exact(self.alpha, EXACT_SHARE * self.bits)
         try:
             advance(self.checkpoint, exact, Goal(track.here.periods), formulas().fixed(lifted(self.alpha)))
         except Stop:
             raise _Again("undecided") from None
         here = self.checkpoint.here
-        track.here = Sample(here.periods, here.impacts, arb(here.x), arb(here.w))
+        track.here = Sample(here.periods, here.impacts, arb(lowest(here.x)), arb(lowest(here.w)))
         sign = exact.sign(formulas().margin(here.x, here.w))
         return 0 if sign is None else sign
 
@@ -80,7 +81,7 @@ def follow(alpha: Fraction, start: tuple[Fraction, Fraction], goal: Goal, keep: 
            show: Callable[[Track], None], report: Callable[[Track], None] | None = None) -> None:
     """Follows the orbit; `show` is given every track that is begun, the last of which holds the result."""
     first = Sample(0, 0, *start)
-    checkpoint = begin(Exact(), alpha, first, False)
+    checkpoint = begin(Exact(alpha), alpha, first, False)
     before = ctx.prec
     try:
         while True:
@@ -100,7 +101,7 @@ def follow(alpha: Fraction, start: tuple[Fraction, Fraction], goal: Goal, keep: 
                 return
             bits *= 2
             if keep:  # all states again, with the smaller radius
-                checkpoint = begin(Exact(), alpha, first, False)
+                checkpoint = begin(Exact(alpha), alpha, first, False)
     finally:
         ctx.prec = before
 

@@ -1,7 +1,8 @@
 """Orbits in exact rationals.
 
-Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction; results are told as Fraction.  They grow by the length
-of alpha with every impact, also in the trap, where the closed form is exact too.  They stay within a stated length, or the orbit ends there.
+Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction, and from a few hundred on `Ratio`s, which are faster
+still; results are told as Fraction.  They grow by the length of alpha with every impact, also in the trap, where the closed form is exact too.  They
+stay within a stated length, or the orbit ends there.
 """
 
 from __future__ import annotations
@@ -11,13 +12,16 @@ from fractions import Fraction
 from math import isqrt
 from typing import Any
 
-from flint import fmpq
+from flint import fmpq, fmpz
 
 from scenes.errors import SceneError
 from scenes.juggler.formulas import formulas
+from scenes.juggler.ratios import Powers, Ratio, lowest, shortened
 from scenes.juggler.track import Stop, Track
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
+FEW_BITS = 1024  # from which on `Ratio`s are faster
+PLACES = 64  # binary, of what only guesses are made from
 
 
 def lifted(value: Fraction) -> Any:
@@ -26,11 +30,12 @@ def lifted(value: Fraction) -> Any:
 
 
 def told(value: Any) -> Fraction:
-    """A rational of python-flint as a Fraction.
+    """A rational of an exact orbit, or of python-flint, as a Fraction.
 
     >>> told(lifted(Fraction(-2, 3)))
     Fraction(-2, 3)
     """
+    value = lowest(value)
     return _coprime(int(value.p), int(value.q))
 
 
@@ -53,29 +58,51 @@ _coprime = _of_coprime()
 class Exact:
     """Rationals: every sign is decided."""
 
-    def __init__(self, most_bits: int = MOST_BITS) -> None:
-        self.most_bits = most_bits
+    def __init__(self, alpha: Fraction, most_bits: int = MOST_BITS) -> None:
+        self.alpha, self.powers = lifted(alpha), Powers(alpha.denominator)
+        self.most_bits, self.due = most_bits, FEW_BITS
 
     def lift(self, value: Fraction) -> Any:
         return lifted(value)
 
     def sign(self, value: Any) -> int | None:
-        return int(value > 0) - int(value < 0)
+        top = value.top if isinstance(value, Ratio) else value
+        return int(top > 0) - int(top < 0)
 
     def middle(self, value: Any) -> Any:
-        return value
+        """The number cut off after 64 binary places, which takes no greatest common divisor."""
+        top, bottom = (value.top, value.bottom()) if isinstance(value, Ratio) else (value.p, value.q)
+        return fmpq((top << PLACES) // bottom, fmpz(1) << PLACES)
 
     def power(self, value: Any, exponent: int) -> Any:
-        if exponent * value.height_bits() > self.most_bits:
+        base = lowest(value)
+        if exponent * base.height_bits() > self.most_bits:
             raise Stop("too long")
-        return value**exponent
+        return base**exponent
 
     def check(self, track: Track) -> None:
-        if max(track.here.x.height_bits(), track.here.w.height_bits()) > self.most_bits:
+        bits = _bits(track)
+        if bits > self.due:
+            self._shorten(track)
+            bits = _bits(track)
+            self.due = max(2 * bits, FEW_BITS)
+        if bits > self.most_bits and max(lowest(part).height_bits() for part in track.here[2:]) > self.most_bits:
             raise Stop("too long")
+
+    def _shorten(self, track: Track) -> None:
+        """Makes long numbers `Ratio`s, takes out what they have in common with q, and makes those fmpq that are short then."""
+        x, w = (shortened(part if isinstance(part, Ratio) else Ratio.of(part, self.powers)) for part in track.here[2:])
+        if max(x.bits(), w.bits()) > FEW_BITS // 2:
+            track.here, track.alpha = track.here._replace(x=x, w=w), Ratio.of(self.alpha, self.powers)
+        else:
+            track.here, track.alpha = track.here._replace(x=lowest(x), w=lowest(w)), self.alpha
 
     def settle(self, track: Track) -> int:
         raise AssertionError("exact numbers have signs")
+
+
+def _bits(track: Track) -> int:
+    return max(part.bits() if isinstance(part, Ratio) else part.height_bits() for part in track.here[2:])
 
 
 def strikes(x: Fraction, w: Fraction) -> bool:

@@ -1,0 +1,59 @@
+"""Long exact numbers, which are not kept in lowest terms, are those of plain fractions; what does not grow stays short."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scenes.juggler import orbit, point, scene
+from scenes.juggler.exact import FEW_BITS, flight, flight_length, impact, lifted, strikes, told
+from scenes.juggler.ratios import Powers, Ratio, lowest, shortened
+
+numbers = st.fractions(-50, 50, max_denominator=600)
+
+
+@given(q=st.integers(1, 60), one=numbers, two=numbers, whole=st.integers(-9, 9), k=st.integers(0, 4))
+def test_sums_and_products_are_those_of_fractions_holds(q: int, one: Fraction, two: Fraction, whole: int, k: int) -> None:
+    powers = Powers(q)
+    a, b = (Ratio.of(lifted(value), powers) for value in (one, two / q**k))
+    two /= q**k
+    found = [a + b, a - b, a * b, -a, whole + a, whole - a, a - whole, whole * a, a * fmpq(2, 3), fmpq(2, 3) - a, a + fmpq(2, 3)]
+    wanted = [one + two, one - two, one * two, -one, whole + one, whole - one, one - whole, whole * one,
+              one * Fraction(2, 3), Fraction(2, 3) - one, one + Fraction(2, 3)]
+    assert [told(value) for value in found] == wanted
+    assert [told(shortened(value)) for value in found[:8]] == wanted[:8]
+
+
+@given(q=st.integers(2, 60), value=numbers, k=st.integers(0, 40))
+def test_what_is_common_is_taken_out_holds(q: int, value: Fraction, k: int) -> None:
+    powers = Powers(q)
+    short = Ratio.of(lifted(value), powers)
+    piled = Ratio(short.top * powers[k], short.rest, short.k + k, powers)
+    assert shortened(piled).k <= short.k and lowest(piled) == lifted(value)
+    assert short.rest.gcd(powers.q) == 1
+
+
+@pytest.mark.parametrize("alpha, x, w, periods", [("9/10", "1", "-4", 6000), ("5/6", "22/9", "-7/4", 3000), ("7/8", "1/3", "-5/2", 3000),
+                                                  ("13/15", "1", "-4", 4000), ("1/2", "100000", "7/10", 3000)])
+def test_long_orbits_are_those_of_fractions_holds(alpha: str, x: str, w: str, periods: int) -> None:
+    here, left = (Fraction(x), Fraction(w)), periods
+    while left:
+        if strikes(*here):
+            here, left = impact(Fraction(alpha), *here), left - 1
+        else:
+            length = min(flight_length(*here), left)
+            here, left = flight(*here, length), left - length
+    row = orbit(scene(alpha, point(x, w)), "exact", periods).row(0)
+    assert (row.x, row.w) == here
+    assert here[0].denominator.bit_length() > FEW_BITS
+
+
+@pytest.mark.parametrize("alpha, x, w", [("1/3", "0", "3"), ("1/2", "4/9", "8/3"), ("9/10", "180/361", "20/19")])
+def test_periodic_orbits_stay_short_holds(alpha: str, x: str, w: str) -> None:
+    found = orbit(scene(alpha, point(x, w)), "exact", 5000, keep=True)
+    assert max(row.x.denominator.bit_length() for row in found.history(0)) < 20
+    assert all(isinstance(part, fmpq) for part in found.tracks[0].here[2:])
