@@ -17,10 +17,10 @@ from flint import fmpq, fmpz
 from scenes.errors import SceneError
 from scenes.juggler.formulas import formulas
 from scenes.juggler.ratios import Powers, Ratio, lowest, shortened
-from scenes.juggler.track import Stop, Track
+from scenes.juggler.track import Sample, Stop, Track
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
-FEW_BITS = 1024  # from which on `Ratio`s are faster
+FEW_BITS, MANY_BITS = 2**10, 2**16  # from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
 PLACES = 64  # binary, of what only guesses are made from
 
 
@@ -82,7 +82,7 @@ class Exact:
 
     def check(self, track: Track) -> None:
         bits = _bits(track)
-        if bits > self.due:
+        if bits > self.due and (bits < MANY_BITS or isinstance(track.here.x, Ratio)):
             self._shorten(track)
             bits = _bits(track)
             self.due = max(2 * bits, FEW_BITS)
@@ -103,6 +103,11 @@ class Exact:
 
 def _bits(track: Track) -> int:
     return max(part.bits() if isinstance(part, Ratio) else part.height_bits() for part in track.here[2:])
+
+
+def finished(sample: Sample) -> Sample:
+    """The sample with numbers of python-flint, in lowest terms."""
+    return sample._replace(x=lowest(sample.x), w=lowest(sample.w))
 
 
 def strikes(x: Fraction, w: Fraction) -> bool:

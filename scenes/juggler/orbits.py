@@ -94,6 +94,9 @@ class Orbits:
             advance(track, numbers, self.goal, fixed, report)
         except Stop as stop:
             track.end = stop.end
+        if self.arithmetic == "exact":
+            track.here = exact.finished(track.here)
+            track.samples = track.samples and [exact.finished(sample) for sample in track.samples]
 
     def row(self, index: int) -> Row:
         """Where the orbit of this number stands."""

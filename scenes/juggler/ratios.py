@@ -46,8 +46,8 @@ class Ratio:
     @staticmethod
     def of(value: Any, powers: Powers) -> Ratio:
         """The fmpq over as small a power of q as there is, and what has no factor of q."""
-        common = value.q.gcd(powers.q**value.q.height_bits())
-        k = bisect_left(range(common.height_bits()), True, key=lambda k: not powers.q**k % common)
+        common = value.q.gcd(pow(powers.q, value.q.bit_length(), value.q))
+        k = bisect_left(range(common.bit_length()), True, key=lambda k: not pow(powers.q, k, common))
         return Ratio(value.p * (powers[k] // common), value.q // common, k, powers)
 
     def bottom(self) -> Any:

@@ -52,6 +52,14 @@ def test_long_orbits_are_those_of_fractions_holds(alpha: str, x: str, w: str, pe
     assert here[0].denominator.bit_length() > FEW_BITS
 
 
+@pytest.mark.parametrize("most_bits", [None, 2500])
+def test_what_is_told_is_in_lowest_terms_holds(most_bits: int | None) -> None:
+    found = orbit(scene("9/10", point(1, -4)), "exact", 9000, keep=True, most_bits=most_bits)
+    track = found.tracks[0]
+    assert track.end == ("too long" if most_bits else "reached")
+    assert all(isinstance(part, fmpq) for sample in (track.here, *(track.samples or [])) for part in sample[2:])
+
+
 @pytest.mark.parametrize("alpha, x, w", [("1/3", "0", "3"), ("1/2", "4/9", "8/3"), ("9/10", "180/361", "20/19")])
 def test_periodic_orbits_stay_short_holds(alpha: str, x: str, w: str) -> None:
     found = orbit(scene(alpha, point(x, w)), "exact", 5000, keep=True)
