@@ -78,6 +78,7 @@ class Exact:
         base = lowest(value)
         if exponent * base.height_bits() > self.most_bits:
             raise Stop("too long")
+        self.due = self.most_bits  # this is the last move
         return base**exponent
 
     def check(self, track: Track) -> None:
