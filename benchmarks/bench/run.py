@@ -47,8 +47,8 @@ def wish(asked: Sequence[str] | None, widths: str | None, seconds: str | None, q
         if name not in NAMES:
             raise ClaimError(f"--question {name[:40]}: no such question; there are {', '.join(NAMES)}")
     names = tuple(asked or (ENERGY[:1] if quick else NAMES))
-    return Wish(names, _widths(widths) if widths else QUICK_WIDTHS if quick else WIDTHS, _seconds(seconds) if seconds else
-                QUICK_SECONDS if quick else SECONDS, quick)
+    some, limit = (QUICK_WIDTHS, QUICK_SECONDS) if quick else (WIDTHS, SECONDS)
+    return Wish(names, some if widths is None else _widths(widths), limit if seconds is None else _seconds(seconds), quick)
 
 
 def _widths(text: str) -> tuple[Fraction, ...]:

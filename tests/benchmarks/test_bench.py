@@ -228,6 +228,8 @@ BAD = {
     "a width divided by 0": (["--widths", "1/0"], "a width is a number"),
     "a width of no number": (["--widths", "nan"], "a width is a number"),
     "an empty width": (["--widths", "1e-1,"], "a width is a number"),
+    "no width": (["--widths", ""], "a width is a number"),
+    "no number of seconds": (["--seconds", ""], "a limit is a number of seconds"),
     "no seconds": (["--seconds", "0"], "a limit is a number of seconds"),
     "seconds that are none": (["--seconds", "inf"], "a limit is a number of seconds"),
     "a folder that is a file": (["-o", __file__], "cannot be written"),
