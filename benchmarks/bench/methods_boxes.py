@@ -12,7 +12,8 @@ from typing import Any, Protocol
 
 from benchmarks.bench.answers import Answer, GaveUp
 from benchmarks.bench.finding import best_point
-from benchmarks.bench.problems import Problem, Terms
+from benchmarks.bench.problems import Problem
+from certificates.search.plain_polynomials import Terms
 
 SHARE = 8  # of the width, which the value at the point may take
 BITS = 128

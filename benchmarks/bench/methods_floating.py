@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.bench.answers import Answer
-from benchmarks.bench.problems import Problem, Terms
+from benchmarks.bench.problems import Problem
 from certificates.search.float_minimum import FloatPolynomial
+from certificates.search.plain_polynomials import Terms
 
 Array = NDArray[np.float64]
 

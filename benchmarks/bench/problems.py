@@ -10,9 +10,8 @@ from itertools import permutations
 from math import lcm
 from typing import TypeVar
 
-Exponents = tuple[int, ...]
-Terms = Mapping[Exponents, Fraction]  # a polynomial
-Box = Sequence[tuple[Fraction, Fraction]]
+from certificates.search.plain_polynomials import Exponents, Terms, value_at
+
 Number = TypeVar("Number", Fraction, float)
 
 
@@ -40,8 +39,8 @@ class Problem:
 
     def at(self, point: Sequence[Fraction]) -> Fraction | None:
         """over/under at a point; None where under is 0."""
-        under = value_of(self.under, point)
-        return value_of(self.over, point) / under if under else None
+        under = value_at(self.under, point)
+        return value_at(self.over, point) / under if under else None
 
     def of_set(self, bound: Fraction) -> str:
         """The statement that nothing in the set exceeds the bound (or is below its negative, where the question is for the infimum)."""
@@ -104,13 +103,3 @@ def combined(first: Mapping[Exponents, Number], factor: Number, second: Mapping[
     for exponents, c in second.items():
         total[exponents] = total[exponents] - c if exponents in total else -c
     return {exponents: c for exponents, c in total.items() if c}
-
-
-def value_of(terms: Terms, point: Sequence[Fraction]) -> Fraction:
-    """The exact value of a polynomial at a point."""
-    total = Fraction(0)
-    for exponents, c in terms.items():
-        for x, e in zip(point, exponents):
-            c = c * x**e if e else c
-        total += c
-    return total
