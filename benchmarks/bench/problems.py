@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
 from math import lcm
-from typing import TypeVar
 
 from certificates.search.plain_polynomials import Exponents, Terms, value_at
-
-Number = TypeVar("Number", Fraction, float)
 
 
 @dataclass(frozen=True)
@@ -35,7 +32,10 @@ class Problem:
 
     def excess(self, bound: Fraction) -> dict[Exponents, Fraction]:
         """bound * under - over, which is >= 0 on the box if and only if the supremum is at most the bound."""
-        return combined(self.under, bound, self.over)
+        total = {exponents: c * bound for exponents, c in self.under.items()}
+        for exponents, c in self.over.items():
+            total[exponents] = total.get(exponents, Fraction(0)) - c
+        return {exponents: c for exponents, c in total.items() if c}
 
     def at(self, point: Sequence[Fraction]) -> Fraction | None:
         """over/under at a point; None where under is 0."""
@@ -95,11 +95,3 @@ def horner(terms: Terms, names: Sequence[str], write: Callable[[Fraction], str])
         inside = horner(rest, names, write)
         parts.append(f"{names[0]}*{inside}" if inside.isalnum() else f"{names[0]}*({inside})")
     return " + ".join(parts)
-
-
-def combined(first: Mapping[Exponents, Number], factor: Number, second: Mapping[Exponents, Number]) -> dict[Exponents, Number]:
-    """factor * first - second, all in Fractions or all in floats."""
-    total = {exponents: c * factor for exponents, c in first.items()}
-    for exponents, c in second.items():
-        total[exponents] = total[exponents] - c if exponents in total else -c
-    return {exponents: c for exponents, c in total.items() if c}

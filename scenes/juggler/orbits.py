@@ -87,11 +87,10 @@ class Orbits:
             enclosed.follow(alpha, start, self.goal, self.keep, self.precision, self.radius, self.most_bits, show, report)
             return
         numbers: Arithmetic = exact.Exact(alpha, self.most_bits) if self.arithmetic == "exact" else high.HighPrecision(self.precision)
-        fixed = formulas().fixed(exact.lifted(alpha) if self.arithmetic == "exact" else numbers.lift(alpha))
         track = begin(numbers, alpha, Sample(0, 0, *start), self.keep)
         show(track)
         try:
-            advance(track, numbers, self.goal, fixed, report)
+            advance(track, numbers, self.goal, formulas().fixed(numbers.lift(alpha)), report)
         except Stop as stop:
             track.end = stop.end
         if self.arithmetic == "exact":

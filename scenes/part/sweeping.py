@@ -79,7 +79,8 @@ def as_good(points: Sequence[Point]) -> list[Point]:
     >>> len(as_good([Point(0.5, 0.1, (), (), 0.9), Point(0.7, 0.1, (), (), 0.2), Point(0.8, 0.1, (), (), 0.25)]))
     2
     """
-    return [point for point in points if point.misfit <= chosen(points).misfit + SCATTER]
+    most = chosen(points).misfit + SCATTER
+    return [point for point in points if point.misfit <= most]
 
 
 def as_json(points: Sequence[Point], ensembles: int, horizon: float, seed: int) -> str:

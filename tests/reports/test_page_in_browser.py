@@ -114,8 +114,15 @@ def test_policy_stops_what_would_leave_the_file_holds(show: Any) -> None:
     driver.get_log("browser")
 
 
+def fits(driver: Any) -> None:
+    for width in (360, 768, 1280):
+        resize(driver, width)
+        assert driver.execute_script("return document.documentElement.scrollWidth") <= width, width
+
+
 def test_every_formula_is_drawn_and_nothing_scrolls_sideways_holds(show_whole: Any) -> None:
     driver = show_whole()
+    fits(driver)
     driver.execute_script("document.querySelectorAll('details').forEach((box) => { box.open = true; })")
     count, wrong = driver.execute_script("""
         const found = [...document.querySelectorAll("math")];
@@ -123,9 +130,7 @@ def test_every_formula_is_drawn_and_nothing_scrolls_sideways_holds(show_whole: A
             || one.namespaceURI !== "http://www.w3.org/1998/Math/MathML"; });
         return [found.length, flat.slice(0, 5).map((one) => one.outerHTML)];""")
     assert count > 5000 and wrong == []
-    for width in (1280, 768, 360):
-        resize(driver, width)
-        assert driver.execute_script("return document.documentElement.scrollWidth") <= width, width
+    fits(driver)
 
 
 def test_verdict_filter_shows_these_claims_only_holds(show: Any) -> None:
