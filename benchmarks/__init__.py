@@ -1,1 +1,2 @@
-"""Comparisons of proof engines, and speed against error; may import everything, and nothing imports it but `juggleproof bench`."""
+"""Comparisons of proof engines, and speed against error; may import everything, and nothing imports
+it but `juggleproof bench`."""

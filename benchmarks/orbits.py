@@ -1,4 +1,5 @@
-"""Orbits of the juggler: seconds by states and steps for each arithmetic, error against the exact orbit, memory.  Run: python benchmarks/orbits.py
+"""Orbits of the juggler: seconds by states and steps for each arithmetic, error against the exact
+orbit, memory.  Run: python benchmarks/orbits.py
 
 Slopes are of log seconds against log size, by least squares: 1 is linear, 0 is no growth.
 """
@@ -61,39 +62,70 @@ def head(first: str, sizes: Sequence[str], last: str) -> None:
 
 def by_steps() -> None:
     """One orbit: seconds and error by the number of periods, of impacts, and by the energy."""
-    head(f"{'alpha':>6} {'arithmetic':>10}", [f"{steps} periods" for steps in STEPS], f"error after {STEPS[1]} periods")
+    head(
+        f"{'alpha':>6} {'arithmetic':>10}",
+        [f"{steps} periods" for steps in STEPS],
+        f"error after {STEPS[1]} periods",
+    )
     for alpha in ALPHAS:
         setting = scene(alpha, point(1, -4))
         exact = orbit(setting, "exact", STEPS[1]).row(0)
         for kind in ("exact", "enclosed", "mp", "fast"):
             times = [seconds(setting, kind, steps)[0] for steps in STEPS]
             told_error = error(kind, orbit(setting, kind, STEPS[1]).row(0), exact)
-            print(f"{alpha:>6} {kind:>10} " + " ".join(f"{one:16.5f}" for one in times) + f" {slope(STEPS, times):6.2f}  {told_error}")
+            print(
+                f"{alpha:>6} {kind:>10} "
+                + " ".join(f"{one:16.5f}" for one in times)
+                + f" {slope(STEPS, times):6.2f}  {told_error}"
+            )
     print()
     energies = (10, 10**3, 10**6, 10**12)
-    head(f"{'until the trap':>17}", [f"height {energy:.0e}" for energy in energies], "(alpha = 3/10)")
+    head(
+        f"{'until the trap':>17}", [f"height {energy:.0e}" for energy in energies], "(alpha = 3/10)"
+    )
     for kind in ("exact", "enclosed", "fast"):
-        times = [seconds(scene("3/10", point(energy, "1/7")), kind, 1000, impacts=True, until_trap=True)[0] for energy in energies]
-        print(f"{kind:>17} " + " ".join(f"{one:16.5f}" for one in times) + f" {slope(energies, times):6.2f}")
+        times = [
+            seconds(scene("3/10", point(energy, "1/7")), kind, 1000, impacts=True, until_trap=True)[
+                0
+            ]
+            for energy in energies
+        ]
+        print(
+            f"{kind:>17} "
+            + " ".join(f"{one:16.5f}" for one in times)
+            + f" {slope(energies, times):6.2f}"
+        )
     print()
 
 
 def by_states() -> None:
     """Many orbits in fast arithmetic."""
-    head(f"{'alpha':>6} {'fast':>10}", [f"{count} states" for count in STATES], f"undecided, greatest bound ({RANDOM_STEPS} periods)")
+    head(
+        f"{'alpha':>6} {'fast':>10}",
+        [f"{count} states" for count in STATES],
+        f"undecided, greatest bound ({RANDOM_STEPS} periods)",
+    )
     for alpha in ALPHAS:
         runs = [seconds(scene(alpha, random(count, 1)), "fast", RANDOM_STEPS) for count in STATES]
         ensemble = runs[-1][1].ensemble
-        worst = max(float(ensemble.error_x[ensemble.end == 1].max()), float(ensemble.error_w[ensemble.end == 1].max()))
-        print(f"{alpha:>6} {'':>10} " + " ".join(f"{one:16.4f}" for one, _ in runs) + f" {slope(STATES, [one for one, _ in runs]):6.2f}  "
-              f"{len(runs[-1][1].undecided)}, {worst:.1e}")
+        worst = max(
+            float(ensemble.error_x[ensemble.end == 1].max()),
+            float(ensemble.error_w[ensemble.end == 1].max()),
+        )
+        print(
+            f"{alpha:>6} {'':>10} "
+            + " ".join(f"{one:16.4f}" for one, _ in runs)
+            + f" {slope(STATES, [one for one, _ in runs]):6.2f}  "
+            f"{len(runs[-1][1].undecided)}, {worst:.1e}"
+        )
     print()
 
 
 def peak() -> float:
     """The most memory that this process has held, in MB.
 
-    Linux says it of the program itself; `getrusage` counts what its parent held when it was forked, too, and serves where there is no /proc.
+    Linux says it of the program itself; `getrusage` counts what its parent held when it was forked,
+    too, and serves where there is no /proc.
     """
     try:
         lines = Path("/proc/self/status").read_text().splitlines()
@@ -118,8 +150,11 @@ def memory() -> float:
     process.start()
     before, after = queue.get()
     process.join()
-    print(f"{MEMORY[0]} states, {MEMORY[1]} periods: {after:.0f} MB at most, {before:.0f} MB of it before the run (aim: below 200); "
-          f"computed beforehand {bytes_needed(MEMORY[0], MEMORY[1]) / 1e6:.0f} MB")
+    print(
+        f"{MEMORY[0]} states, {MEMORY[1]} periods: {after:.0f} MB at most, {before:.0f} MB of it"
+        " before the run (aim: below 200); computed beforehand"
+        f" {bytes_needed(MEMORY[0], MEMORY[1]) / 1e6:.0f} MB"
+    )
     return float(after)
 
 

@@ -1,4 +1,5 @@
-"""The part on the table: seconds for table I, how they grow, error against cost, and scatter against the number of ensembles.
+"""The part on the table: seconds for table I, how they grow, error against cost, and scatter
+against the number of ensembles.
 
 Run: python -m benchmarks.part [--plot FILE.svg] [--ensembles 48]
 """
@@ -46,7 +47,9 @@ def least(work: Callable[[], Any], runs: int) -> tuple[float, Any]:
 def once(cores: int, horizon: float, runs: int) -> tuple[float, float]:
     """Table I once, 6 x 91 parts: seconds, and nanoseconds an impact of one core."""
     with ThreadPoolExecutor(cores) as executor:
-        seconds, table = least(lambda: table_one(row(), ensembles=1, horizon=horizon, executor=executor), runs)
+        seconds, table = least(
+            lambda: table_one(row(), ensembles=1, horizon=horizon, executor=executor), runs
+        )
     return seconds, seconds * cores * 1e9 / float(table.run.notes[:, body.IMPACTS].sum())
 
 
@@ -56,8 +59,10 @@ def slope(sizes: Sequence[float], seconds: Sequence[float]) -> float:
 
 
 def growth(parts: Sequence[int], horizons: Sequence[float], runs: int) -> tuple[float, float]:
-    """The exponents of the seconds in the number of parts, and in the time that they are followed for, on one core."""
-    # with e = 1 blocks do not come to rest, so that every second has about as many impacts as the last
+    """The exponents of the seconds in the number of parts, and in the time that they are followed
+    for, on one core."""
+    # with e = 1 blocks do not come to rest, so that every second has about as many impacts as the
+    # last
     block = row(e=1.0)
 
     def seconds(count: int, horizon: float) -> float:
@@ -65,7 +70,9 @@ def growth(parts: Sequence[int], horizons: Sequence[float], runs: int) -> tuple[
         with ThreadPoolExecutor(1) as executor:
             return least(lambda: run(block, states, horizon, executor=executor), runs)[0]
 
-    return slope(parts, [seconds(count, horizons[0]) for count in parts]), slope(horizons, [seconds(parts[0], h) for h in horizons])
+    return slope(parts, [seconds(count, horizons[0]) for count in parts]), slope(
+        horizons, [seconds(parts[0], h) for h in horizons]
+    )
 
 
 def references(starts: Sequence[tuple[float, float]]) -> list[tuple[Any, Any]]:
@@ -75,15 +82,33 @@ def references(starts: Sequence[tuple[float, float]]) -> list[tuple[Any, Any]]:
     for theta, omega in starts:
         start = tuple(map(float, dropped(slow, theta, 0.001, omega=omega)))
         try:
-            last = reference_orbit(slow, type(dropped(slow, theta, 0.001))(*start), UNTIL, 35)[-1].after
+            last = reference_orbit(slow, type(dropped(slow, theta, 0.001))(*start), UNTIL, 35)[
+                -1
+            ].after
         except Stopped:
             continue
-        found.append((start, tuple(map(float, (last.X + last.VX * (UNTIL - last.t), last.theta + last.omega * (UNTIL - last.t))))))
+        found.append(
+            (
+                start,
+                tuple(
+                    map(
+                        float,
+                        (
+                            last.X + last.VX * (UNTIL - last.t),
+                            last.theta + last.omega * (UNTIL - last.t),
+                        ),
+                    )
+                ),
+            )
+        )
     return found
 
 
-def accuracy(tolerances: Sequence[float], known: Sequence[tuple[Any, Any]], parts: int, runs: int) -> list[tuple[float, float, float]]:
-    """For each tolerance: the median error of place and angle against the reference, in metres, and nanoseconds an impact."""
+def accuracy(
+    tolerances: Sequence[float], known: Sequence[tuple[Any, Any]], parts: int, runs: int
+) -> list[tuple[float, float, float]]:
+    """For each tolerance: the median error of place and angle against the reference, in metres, and
+    nanoseconds an impact."""
     found = []
     for tolerance in tolerances:
         block = row(tolerance=tolerance, rest_speed=1e-6)
@@ -95,26 +120,45 @@ def accuracy(tolerances: Sequence[float], known: Sequence[tuple[Any, Any]], part
         shaken = replace(block, rest_speed=1e-3)
         many = standing(shaken, np.radians(np.linspace(0, 90, parts)))
         seconds, done = least(lambda shaken=shaken, many=many: run(shaken, many, 1.0), runs)  # type: ignore[misc]
-        found.append((tolerance, float(np.median(errors.max(axis=1))), seconds * 1e9 / float(done.notes[:, body.IMPACTS].sum())))
+        found.append(
+            (
+                tolerance,
+                float(np.median(errors.max(axis=1))),
+                seconds * 1e9 / float(done.notes[:, body.IMPACTS].sum()),
+            )
+        )
     return found
 
 
 def scatter(sizes: Sequence[int], ensembles: int, horizon: float) -> list[tuple[int, float, float]]:
-    """For estimates from some ensembles of 91 parts each: the relative scatter of the median onset, and of the mean exit time.
+    """For estimates from some ensembles of 91 parts each: the relative scatter of the median onset,
+    and of the mean exit time.
 
-    Both are standard deviations over disjoint groups of ensembles; onsets that are censored count as the horizon.
+    Both are standard deviations over disjoint groups of ensembles; onsets that are censored count
+    as the horizon.
     """
     block = row()
-    notes = run(block, standing(block, jittered(ensembles, 1).ravel()), horizon).notes[:, body.LAST_UPRIGHT].reshape(ensembles, ANGLES)
+    notes = (
+        run(block, standing(block, jittered(ensembles, 1).ravel()), horizon)
+        .notes[:, body.LAST_UPRIGHT]
+        .reshape(ensembles, ANGLES)
+    )
     found = []
     for size in sizes:
         groups = [notes[k : k + size] for k in range(0, ensembles - size + 1, size)]
-        estimates = ([float(np.median(group.max(axis=1))) for group in groups], [float(group.mean()) for group in groups])
+        estimates = (
+            [float(np.median(group.max(axis=1))) for group in groups],
+            [float(group.mean()) for group in groups],
+        )
         found.append((size, *(statistics.stdev(one) / statistics.mean(one) for one in estimates)))
     return found
 
 
-def plot(file: Path, errors: Sequence[tuple[float, float, float]], scattered: Sequence[tuple[int, float, float]]) -> None:
+def plot(
+    file: Path,
+    errors: Sequence[tuple[float, float, float]],
+    scattered: Sequence[tuple[int, float, float]],
+) -> None:
     """Error against cost over tolerances, and scatter against the number of parts."""
     import matplotlib
 
@@ -123,14 +167,29 @@ def plot(file: Path, errors: Sequence[tuple[float, float, float]], scattered: Se
     from matplotlib import pyplot
 
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
-    left.loglog([cost for _, _, cost in errors], [error for _, error, _ in errors], "o-", color="#0072b2")
+    left.loglog(
+        [cost for _, _, cost in errors], [error for _, error, _ in errors], "o-", color="#0072b2"
+    )
     for tolerance, error, cost in errors:
-        left.annotate(f"{tolerance:g} m", (cost, error), textcoords="offset points", xytext=(5, 5), fontsize=8)
-    left.set(xlabel="nanoseconds an impact", ylabel=f"median error after {UNTIL:g} s, metres", title="Error against cost, by tolerance")
+        left.annotate(
+            f"{tolerance:g} m", (cost, error), textcoords="offset points", xytext=(5, 5), fontsize=8
+        )
+    left.set(
+        xlabel="nanoseconds an impact",
+        ylabel=f"median error after {UNTIL:g} s, metres",
+        title="Error against cost, by tolerance",
+    )
     parts = [size * ANGLES for size, _, _ in scattered]
-    for column, name, colour, mark in ((1, "median onset", "#d55e00", "s-"), (2, "mean exit time", "#0072b2", "o-")):
+    for column, name, colour, mark in (
+        (1, "median onset", "#d55e00", "s-"),
+        (2, "mean exit time", "#0072b2", "o-"),
+    ):
         right.loglog(parts, [one[column] for one in scattered], mark, color=colour, label=name)
-    right.set(xlabel="parts", ylabel="relative scatter of the estimate", title="Scatter against the number of parts")
+    right.set(
+        xlabel="parts",
+        ylabel="relative scatter of the estimate",
+        title="Scatter against the number of parts",
+    )
     right.legend()
     figure.savefig(file, metadata={"Date": None})
     pyplot.close(figure)
@@ -139,23 +198,39 @@ def plot(file: Path, errors: Sequence[tuple[float, float, float]], scattered: Se
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.part", description=__doc__)
     parser.add_argument("--plot", type=Path, help="an SVG file to write")
-    parser.add_argument("--ensembles", type=int, default=48, help="of 91 parts each, for the scatter")
+    parser.add_argument(
+        "--ensembles", type=int, default=48, help="of 91 parts each, for the scatter"
+    )
     parser.add_argument("--horizon", type=float, default=6.0, help="seconds of table I")
     parser.add_argument("--runs", type=int, default=5, help="of which the quickest counts")
     chosen = parser.parse_args(arguments)
     once(1, 0.01, 1)  # compiles
     for cores in (1, 2):
         seconds, each = once(cores, chosen.horizon, chosen.runs)
-        print(f"table I once, {cores} core{'s' * (cores > 1)}: {seconds:.3f} s (aim on two {AIM_SECONDS} s), "
-              f"{each:.0f} ns an impact of one core (aim {AIM_NANOSECONDS:.0f})")
-    in_parts, in_time = growth([182, 364, 728], [chosen.horizon / 6, chosen.horizon / 3, chosen.horizon], chosen.runs)
+        print(
+            f"table I once, {cores} core{'s' * (cores > 1)}: {seconds:.3f} s (aim on two"
+            f" {AIM_SECONDS} s), {each:.0f} ns an impact of one core (aim {AIM_NANOSECONDS:.0f})"
+        )
+    in_parts, in_time = growth(
+        [182, 364, 728], [chosen.horizon / 6, chosen.horizon / 3, chosen.horizon], chosen.runs
+    )
     print(f"seconds grow as parts^{in_parts:.2f} and time^{in_time:.2f}")
     errors = accuracy(TOLERANCES, references(STARTS), ANGLES, chosen.runs)
     for tolerance, error, cost in errors:
-        print(f"tolerance {tolerance:.0e} m: median error {error:.1e} m after {UNTIL} s, {cost:.0f} ns an impact")
-    scattered = scatter([size for size in (1, 2, 4, 8, 16) if 3 * size <= chosen.ensembles], chosen.ensembles, chosen.horizon)
+        print(
+            f"tolerance {tolerance:.0e} m: median error {error:.1e} m after {UNTIL} s, {cost:.0f}"
+            " ns an impact"
+        )
+    scattered = scatter(
+        [size for size in (1, 2, 4, 8, 16) if 3 * size <= chosen.ensembles],
+        chosen.ensembles,
+        chosen.horizon,
+    )
     for size, onset, exits in scattered:
-        print(f"{size * ANGLES:5} parts: scatter of the median onset {onset:.1%}, of the mean exit time {exits:.1%}")
+        print(
+            f"{size * ANGLES:5} parts: scatter of the median onset {onset:.1%}, of the mean exit"
+            f" time {exits:.1%}"
+        )
     if chosen.plot:
         plot(chosen.plot, errors, scattered)
     return 0

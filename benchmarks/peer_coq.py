@@ -1,6 +1,8 @@
-"""Coq's nra on the questions of a statement: what is assumed, and the denial of what is shown, lead to False.
+"""Coq's nra on the questions of a statement: what is assumed, and the denial of what is shown, lead
+to False.
 
-Real numbers only, and nothing that is said to exist: such a question is not expressible for nra, which has no quantifiers.  It refutes nothing.
+Real numbers only, and nothing that is said to exist: such a question is not expressible for nra,
+which has no quantifiers.  It refutes nothing.
 """
 
 from __future__ import annotations
@@ -50,7 +52,10 @@ def goal(question: Question) -> str | None:
     if question.integers & set(question.occurring()) or question.quantified:
         return None
     short = {name: f"v{i}" for i, name in enumerate(question.occurring())}
-    lines = [write(formula, short) for formula in (*question.assumed, *(denial.formula for denial in question.denials))]
+    lines = [
+        write(formula, short)
+        for formula in (*question.assumed, *(denial.formula for denial in question.denials))
+    ]
     over = f"forall {' '.join(short.values())} : R, " if short else ""
     return f"Goal {over}{' -> '.join([*lines, 'False'])}.\nProof. intros; split_up; nra. Qed.\n"
 
@@ -61,8 +66,18 @@ def write(formula: Formula, short: dict[str, str]) -> str:
         return "True" if formula else "False"
     if isinstance(formula, Atom):
         text = polynomial(formula.poly, short)
-        return f"({text} < 0 \\/ {text} > 0)" if formula.relation == "!=" else f"{text} {formula.relation} 0"
-    return "(" + (" /\\ " if formula.op == "and" else " \\/ ").join(write(part, short) for part in formula.parts) + ")"
+        return (
+            f"({text} < 0 \\/ {text} > 0)"
+            if formula.relation == "!="
+            else f"{text} {formula.relation} 0"
+        )
+    return (
+        "("
+        + (" /\\ " if formula.op == "and" else " \\/ ").join(
+            write(part, short) for part in formula.parts
+        )
+        + ")"
+    )
 
 
 def polynomial(poly: Polynomial, short: dict[str, str]) -> str:

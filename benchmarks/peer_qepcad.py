@@ -1,6 +1,8 @@
-"""QEPCAD B on the questions of a statement, each a prenex formula: there is a point, such that for all bound values, all of it is so.
+"""QEPCAD B on the questions of a statement, each a prenex formula: there is a point, such that for
+all bound values, all of it is so.
 
-The answer FALSE to every question means that the statement holds.  Source of the format: QEPCAD B 1.74, `qepcad -h` and its help file.
+The answer FALSE to every question means that the statement holds.  Source of the format: QEPCAD B
+1.74, `qepcad -h` and its help file.
 """
 
 from __future__ import annotations
@@ -13,7 +15,13 @@ from benchmarks.running import Answer, Clock
 from certificates.routes.polynomials import Atom, Formula, Polynomial, join
 from certificates.routes.questions import Question, questions
 
-CELLS = (2_000_000, 100_000_000)  # of memory for lists; setting up the second takes 1 s, so it is tried only where the first is too small
+CELLS = (
+    2_000_000,
+    100_000_000,
+    # of memory for lists; setting up the second takes 1 s, so it is tried only where the first is
+    # too
+    # small
+)
 TOO_FEW = "Too few cells"
 RELATIONS = {">": ">", ">=": ">=", "=": "=", "!=": "/="}
 
@@ -42,7 +50,8 @@ def qepcad(statement: Any, seconds: float) -> Answer:
 
 
 def prenex(question: Question) -> str | None:
-    """The input for one question; None where it has integers, or a second alternation of quantifiers.
+    """The input for one question; None where it has integers, or a second alternation of
+    quantifiers.
 
     >>> from certificates.routes.questions import read_statement
     >>> asked = questions(read_statement("statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nshow y^2 = x/2"))
@@ -54,14 +63,23 @@ def prenex(question: Question) -> str | None:
     finish
     <BLANKLINE>
     """
-    if question.integers & set(question.occurring()) or any(denial.chosen for denial in question.denials):
+    if question.integers & set(question.occurring()) or any(
+        denial.chosen for denial in question.denials
+    ):
         return None
     free = [name for name in question.occurring() if name not in question.bound] or ["none"]
     bound = [name for name in question.names if name in question.bound]
     short = {name: f"v{i}" for i, name in enumerate([*free, *bound])}
-    quantifiers = "".join(f"({'A' if name in question.bound else 'E'} {v})" for name, v in short.items())
-    formula = write(join("and", [*question.assumed, *(denial.formula for denial in question.denials)]), short)
-    return f"[ {question.statement} {question.part} ]\n({','.join(short.values())})\n0\n{quantifiers}[ {formula} ].\nfinish\n"
+    quantifiers = "".join(
+        f"({'A' if name in question.bound else 'E'} {v})" for name, v in short.items()
+    )
+    formula = write(
+        join("and", [*question.assumed, *(denial.formula for denial in question.denials)]), short
+    )
+    return (
+        f"[ {question.statement} {question.part} ]\n({','.join(short.values())})\n0\n{quantifiers}["
+        f" {formula} ].\nfinish\n"
+    )
 
 
 def write(formula: Formula, short: dict[str, str]) -> str:
@@ -70,14 +88,23 @@ def write(formula: Formula, short: dict[str, str]) -> str:
         return "0 = 0" if formula else "0 = 1"
     if isinstance(formula, Atom):
         return f"{polynomial(formula.poly, short)} {RELATIONS[formula.relation]} 0"
-    return "[" + (" /\\ " if formula.op == "and" else " \\/ ").join(write(part, short) for part in formula.parts) + "]"
+    return (
+        "["
+        + (" /\\ " if formula.op == "and" else " \\/ ").join(
+            write(part, short) for part in formula.parts
+        )
+        + "]"
+    )
 
 
 def polynomial(poly: Polynomial, short: dict[str, str]) -> str:
-    """The polynomial times its denominator, which changes no relation to 0; a product is written by a space."""
+    """The polynomial times its denominator, which changes no relation to 0; a product is written by
+    a space."""
     text = ""
     for exponents, c in poly.terms:
-        powers = [short[n] if e == 1 else f"{short[n]}^{e}" for n, e in zip(poly.names, exponents) if e]
+        powers = [
+            short[n] if e == 1 else f"{short[n]}^{e}" for n, e in zip(poly.names, exponents) if e
+        ]
         factors = " ".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
         text += (" - " if c < 0 else " + ") + factors if text else ("- " if c < 0 else "") + factors
     return text or "0"

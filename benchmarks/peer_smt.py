@@ -1,4 +1,5 @@
-"""Z3 alone and cvc5, each in a process of its own, on the SMT-LIB script that `juggleproof export smt2` writes."""
+"""Z3 alone and cvc5, each in a process of its own, on the SMT-LIB script that
+`juggleproof export smt2` writes."""
 
 from __future__ import annotations
 
@@ -44,7 +45,10 @@ def cvc5(statement: Any, seconds: float) -> Answer:
 
 def _answer(command: list[str], statement: Any, seconds: float) -> Answer:
     said = Clock(seconds).output_of(command, script(statement)) or ""
-    answers, asked = [line for line in said.split() if line in ("sat", "unsat", "unknown")], questions(statement)
+    answers, asked = (
+        [line for line in said.split() if line in ("sat", "unsat", "unknown")],
+        questions(statement),
+    )
     if any(answer == "sat" and question.refutes for answer, question in zip(answers, asked)):
         return "fails"
     return "holds" if answers == ["unsat"] * len(asked) else "unsettled"

@@ -1,7 +1,9 @@
-"""The same statements by our search with its check, and by peers: Z3 alone, cvc5, QEPCAD B and Coq's nra; absent ones are named.
+"""The same statements by our search with its check, and by peers: Z3 alone, cvc5, QEPCAD B and
+Coq's nra; absent ones are named.
 
-Run: python benchmarks/peers.py [--every 20] [--seconds 10].  A peer's answer is no certificate; ours is checked, and that time is counted.
-Exit 1 where two answers contradict each other, or one of them what the stored certificate says.
+Run: python benchmarks/peers.py [--every 20] [--seconds 10].  A peer's answer is no certificate;
+ours is checked, and that time is counted. Exit 1 where two answers contradict each other, or one of
+them what the stored certificate says.
 """
 
 from __future__ import annotations
@@ -50,18 +52,30 @@ class Method:
         began = time.perf_counter()
         answer = self.settle(statement, seconds)
         took = time.perf_counter() - began
-        self.said[name] = ("unsettled" if took > seconds and answer != "not expressible" else answer, took)
+        self.said[name] = (
+            "unsettled" if took > seconds and answer != "not expressible" else answer,
+            took,
+        )
 
     def row(self, start: float) -> str:
         """The method's line in the table."""
-        asked = [(answer, took) for answer, took in self.said.values() if answer != "not expressible"]
-        settled, seconds = [answer for answer, _ in asked if answer != "unsettled"], [took for _, took in asked] or [0.0]
-        return (f"{self.title:26} {len(settled):4}/{len(asked):<4} {settled.count('holds'):6} {settled.count('fails'):6} "
-                f"{len(self.said) - len(asked):15} {statistics.median(seconds):9.3f} {sum(seconds):9.2f} {start:8.3f}")
+        asked = [
+            (answer, took) for answer, took in self.said.values() if answer != "not expressible"
+        ]
+        settled, seconds = (
+            [answer for answer, _ in asked if answer != "unsettled"],
+            [took for _, took in asked] or [0.0],
+        )
+        return (
+            f"{self.title:26} {len(settled):4}/{len(asked):<4} {settled.count('holds'):6}"
+            f" {settled.count('fails'):6} {len(self.said) - len(asked):15}"
+            f" {statistics.median(seconds):9.3f} {sum(seconds):9.2f} {start:8.3f}"
+        )
 
 
 def ours(statement: Any, seconds: float) -> Answer:
     """Our search, and the checker's word on what it found; nothing else is believed."""
+
     def late(*_: object) -> None:
         raise TimeoutError
 
@@ -80,35 +94,51 @@ def ours(statement: Any, seconds: float) -> Answer:
 
 def methods() -> list[Method]:
     """Ours and every peer, present or not."""
-    return [Method("juggleproof, with its check", ours),
-            Method("Z3 alone", z3, z3_command() is not None, "z3 (pip install z3-solver)"),
-            Method("cvc5", cvc5, has_cvc5(), "cvc5 (pip install cvc5)"),
-            Method("QEPCAD B", qepcad, has_qepcad(), "QEPCAD B (Debian package qepcad)"),
-            Method("Coq's nra", coq_nra, has_coq(), "coqc (Debian package coq)")]
+    return [
+        Method("juggleproof, with its check", ours),
+        Method("Z3 alone", z3, z3_command() is not None, "z3 (pip install z3-solver)"),
+        Method("cvc5", cvc5, has_cvc5(), "cvc5 (pip install cvc5)"),
+        Method("QEPCAD B", qepcad, has_qepcad(), "QEPCAD B (Debian package qepcad)"),
+        Method("Coq's nra", coq_nra, has_coq(), "coqc (Debian package coq)"),
+    ]
 
 
 def contradictions(name: str, stored: Any, asked: Sequence[Method]) -> list[str]:
-    """One line where the stored certificate and the methods do not all say the same of a statement."""
+    """One line where the stored certificate and the methods do not all say the same of a
+    statement."""
     said: dict[str, Answer] = {method.title: method.said[name][0] for method in asked}
     if isinstance(stored, dict):
-        said["the stored certificate"] = next((word for key, word in SAID.items() if key in stored), "unsettled")
+        said["the stored certificate"] = next(
+            (word for key, word in SAID.items() if key in stored), "unsettled"
+        )
     if {"holds", "fails"} <= set(said.values()):
-        return [f"CONTRADICTION about {name}: " + "; ".join(f"{title}: {word}" for title, word in said.items())]
+        return [
+            f"CONTRADICTION about {name}: "
+            + "; ".join(f"{title}: {word}" for title, word in said.items())
+        ]
     return []
 
 
 def main() -> int:
-    """Runs every method that is present on the sample; prints the table, what contradicts, and what is absent."""
+    """Runs every method that is present on the sample; prints the table, what contradicts, and what
+    is absent."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--every", type=int, default=20, help="one statement in so many")
-    parser.add_argument("--seconds", type=float, default=10.0, help="limit for each statement and method")
+    parser.add_argument(
+        "--seconds", type=float, default=10.0, help="limit for each statement and method"
+    )
     options = parser.parse_args()
     store = Store(DEFAULT)
     statements = checker.read_statements("\n\n".join(store.texts.values()))
-    names = [name for name, statement in statements.items() if statement.kind == "universal"][::options.every]
+    names = [name for name, statement in statements.items() if statement.kind == "universal"][
+        :: options.every
+    ]
     present, wrong = [method for method in methods() if method.present], list[str]()
     print(f"{len(names)} statements, {options.seconds:g} s for each")
-    print(f"{'method':26} {'settled':>9} {'true':>6} {'false':>6} {'not expressible':>15} {'median s':>9} {'total s':>9} {'start s':>8}")
+    print(
+        f"{'method':26} {'settled':>9} {'true':>6} {'false':>6} {'not expressible':>15}"
+        f" {'median s':>9} {'total s':>9} {'start s':>8}"
+    )
     (trivial,) = checker.read_statements(TRIVIAL).values()
     for method in present:
         method.settle(trivial, options.seconds)  # once before, so that files are in memory
@@ -124,7 +154,10 @@ def main() -> int:
     for method in present:
         left = [name for name, (answer, _) in method.said.items() if answer == "unsettled"]
         print(f"unsettled by {method.title}: {', '.join(left) or 'none'}")
-    print("absent: " + (", ".join(method.package for method in methods() if not method.present) or "none"))
+    print(
+        "absent: "
+        + (", ".join(method.package for method in methods() if not method.present) or "none")
+    )
     print("\n".join(wrong) or "no two answers contradict each other")
     return 1 if wrong else 0
 

@@ -1,4 +1,5 @@
-"""A peer's program in a process of its own, ended with its children when the seconds of the statement are over, or when its caller is."""
+"""A peer's program in a process of its own, ended with its children when the seconds of the
+statement are over, or when its caller is."""
 
 from __future__ import annotations
 
@@ -20,8 +21,14 @@ class Clock:
 
     def output_of(self, command: list[str], text: str) -> str | None:
         """What the program writes when it reads the text; None where it is not done in time."""
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                   start_new_session=True)
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
         try:
             return process.communicate(text, timeout=max(0.0, self.end - time.monotonic()))[0]
         except subprocess.TimeoutExpired:
@@ -31,14 +38,16 @@ class Clock:
 
 
 def kill_with_children(process: subprocess.Popen[Any]) -> None:
-    """Kills a process that leads a session, and those that it started in that session; nothing where it has ended."""
+    """Kills a process that leads a session, and those that it started in that session; nothing
+    where it has ended."""
     if process.poll() is None:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
 
 
 def end_with_children(process: subprocess.Popen[Any]) -> None:
-    """Asks a process to end, which gives it time to end what it started; kills it where it does not."""
+    """Asks a process to end, which gives it time to end what it started; kills it where it does
+    not."""
     if process.poll() is None:
         process.terminate()
         try:

@@ -1,4 +1,5 @@
-"""Whole commands, each in a process of its own: seconds and peak memory against the aims.  Run: python benchmarks/speed.py [--runs 3]"""
+"""Whole commands, each in a process of its own: seconds and peak memory against the aims.  Run:
+python benchmarks/speed.py [--runs 3]"""
 
 from __future__ import annotations
 
@@ -20,7 +21,9 @@ THEOREM = ["--only", "theorem-roots", "--only", "theorem"]
 def measure(arguments: list[str]) -> tuple[float, float]:
     """Seconds and peak megabytes (largest single process) of one command."""
     began = time.perf_counter()
-    process = subprocess.Popen(arguments, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        arguments, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     _, _, usage = os.wait4(process.pid, 0)
     process.returncode = 0
     return time.perf_counter() - began, usage.ru_maxrss / 1024
@@ -33,13 +36,37 @@ def main() -> None:
     theorem = tempfile.mkdtemp()
     measure([*COMMAND, "certify", "--routes", "exact", *THEOREM, "--store", theorem])
     rows = [
-        ("certify, exact route, empty store", 6.0, lambda d: [*COMMAND, "certify", "--fresh", "--routes", "exact", "--store", d]),
-        ("certify, all routes, empty store", 12.0, lambda d: [*COMMAND, "certify", "--fresh", "--store", d]),
+        (
+            "certify, exact route, empty store",
+            6.0,
+            lambda d: [*COMMAND, "certify", "--fresh", "--routes", "exact", "--store", d],
+        ),
+        (
+            "certify, all routes, empty store",
+            12.0,
+            lambda d: [*COMMAND, "certify", "--fresh", "--store", d],
+        ),
         ("certify, from the store", 1.5, lambda d: [*COMMAND, "certify"]),
-        ("checker over everything", 0.2, lambda d: [sys.executable, "-I", "-S", "certificates/checker.py"]),
-        ("the theorem, exact route, empty store", 2.0, lambda d: [*COMMAND, "certify", "--fresh", "--routes", "exact", *THEOREM, "--store", d]),
-        ("checker over the theorem", 0.1, lambda d: [sys.executable, "-I", "-S", "certificates/checker.py", theorem]),
-        *([("the theorem in Coq, all of it", 20.0, lambda d: ["make", "-s", "coq"])] if shutil.which("coqc") else []),
+        (
+            "checker over everything",
+            0.2,
+            lambda d: [sys.executable, "-I", "-S", "certificates/checker.py"],
+        ),
+        (
+            "the theorem, exact route, empty store",
+            2.0,
+            lambda d: [*COMMAND, "certify", "--fresh", "--routes", "exact", *THEOREM, "--store", d],
+        ),
+        (
+            "checker over the theorem",
+            0.1,
+            lambda d: [sys.executable, "-I", "-S", "certificates/checker.py", theorem],
+        ),
+        *(
+            [("the theorem in Coq, all of it", 20.0, lambda d: ["make", "-s", "coq"])]
+            if shutil.which("coqc")
+            else []
+        ),
         ("juggleproof --help", 0.15, lambda d: [*COMMAND, "--help"]),
     ]
     print(f"{'command':36} {'aim':>6} {'median':>8} {'least':>8} {'most':>8} {'MB':>6}")
@@ -49,7 +76,10 @@ def main() -> None:
             with tempfile.TemporaryDirectory() as folder:
                 found.append(measure(command(folder)))
         seconds = [one for one, _ in found]
-        print(f"{title:36} {aim:6.2f} {statistics.median(seconds):8.2f} {min(seconds):8.2f} {max(seconds):8.2f} {max(m for _, m in found):6.0f}")
+        print(
+            f"{title:36} {aim:6.2f} {statistics.median(seconds):8.2f} {min(seconds):8.2f}"
+            f" {max(seconds):8.2f} {max(m for _, m in found):6.0f}"
+        )
 
 
 if __name__ == "__main__":

@@ -1,1 +1,2 @@
-"""The language of statements, the searches that find certificates, their store, and the checker that believes none of them."""
+"""The language of statements, the searches that find certificates, their store, and the checker
+that believes none of them."""

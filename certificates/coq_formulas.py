@@ -1,4 +1,5 @@
-"""The checker's polynomials and formulas as Coq text over the reals, with integer coefficients only."""
+"""The checker's polynomials and formulas as Coq text over the reals, with integer coefficients
+only."""
 
 from __future__ import annotations
 
@@ -8,9 +9,12 @@ from typing import Any
 
 from certificates import checker
 
-# Words that Coq keeps for itself or that the written proofs use: a variable of such a name gets an underscore.
-TAKEN = frozenset("as at cofix else end exists exists2 fix for forall fun if IF in let match mod return Set Prop SProp Type then using where with "
-                  "by R IZR pow whole wholly True False I eq_refl decided".split())
+# Words that Coq keeps for itself or that the written proofs use: a variable of such a name gets an
+# underscore.
+TAKEN = frozenset(
+    "as at cofix else end exists exists2 fix for forall fun if IF in let match mod return Set Prop"
+    " SProp Type then using where with by R IZR pow whole wholly True False I eq_refl decided".split()
+)
 
 PRELUDE = """(* Written by juggleproof from stored certificates. Each lemma is the polynomial form of a statement, denominators cleared as its strict
    lines allow and every constant factor dropped, and is proved by its certificate: products of what is known to be positive are positive,
@@ -60,31 +64,43 @@ Ltac decided := lazymatch goal with
 
 
 def coq_name(name: str) -> str:
-    """The name of a variable; names of hypotheses in the written proofs start with `of_`, which no variable then does."""
+    """The name of a variable; names of hypotheses in the written proofs start with `of_`, which no
+    variable then does."""
     return name + "_" if name in TAKEN or name.startswith("of_") else name
 
 
 def polynomial(names: dict[str, int], poly: Any, factor: int = 1) -> str:
-    """The numerator of a polynomial, its integer coefficients times the factor, as a sum of monomials."""
+    """The numerator of a polynomial, its integer coefficients times the factor, as a sum of
+    monomials."""
     rows = []
     for packed in sorted(poly.terms, reverse=True):
         coefficient = poly.terms[packed] * factor
-        exponents = [(name, (packed >> (checker.BITS * i)) % (1 << checker.BITS)) for name, i in names.items()]
-        powers = [coq_name(name) if e == 1 else f"{coq_name(name)} ^ {e}" for name, e in exponents if e]
+        exponents = [
+            (name, (packed >> (checker.BITS * i)) % (1 << checker.BITS))
+            for name, i in names.items()
+        ]
+        powers = [
+            coq_name(name) if e == 1 else f"{coq_name(name)} ^ {e}" for name, e in exponents if e
+        ]
         size = [] if abs(coefficient) == 1 and powers else [str(abs(coefficient))]
         rows.append(("- " if coefficient < 0 else "+ ") + " * ".join([*size, *powers]))
     return " ".join(rows).removeprefix("+ ") or "0"
 
 
 def proposition(names: dict[str, int], formula: Any) -> str:
-    """A formula of the checker; each polynomial stands for itself times its denominator, which is positive."""
+    """A formula of the checker; each polynomial stands for itself times its denominator, which is
+    positive."""
     if isinstance(formula, bool):
         return str(formula)
     if formula[0] == "atom":
         text = polynomial(names, formula[1])
-        return {">": f"0 < {text}", ">=": f"0 <= {text}", "=": f"{text} = 0", "!=": f"{text} <> 0"}[formula[2]]
+        return {">": f"0 < {text}", ">=": f"0 <= {text}", "=": f"{text} = 0", "!=": f"{text} <> 0"}[
+            formula[2]
+        ]
     parts = [proposition(names, part) for part in formula[1]]
-    enclosed = [part if inner[0] == "atom" else f"({part})" for part, inner in zip(parts, formula[1])]
+    enclosed = [
+        part if inner[0] == "atom" else f"({part})" for part, inner in zip(parts, formula[1])
+    ]
     return (" /\\ " if formula[0] == "and" else " \\/ ").join(enclosed)
 
 

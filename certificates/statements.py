@@ -1,4 +1,5 @@
-"""Statements built from terms and formulas, and written as the text that the checker reads and an auditor can read."""
+"""Statements built from terms and formulas, and written as the text that the checker reads and an
+auditor can read."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ Line = tuple[str, Union[Formula, tuple[str, Term]]]
 
 @dataclass(frozen=True)
 class Statement:
-    """For all `forall`: the lines (range, given, have, let, root) imply `show`, or that some `exists` meet `within` and `show`.
+    """For all `forall`: the lines (range, given, have, let, root) imply `show`, or that some
+    `exists` meet `within` and `show`.
 
     >>> from certificates.terms import reals
     >>> x, y = reals("x y")
@@ -63,7 +65,8 @@ class Statement:
 class SharpRange:
     """For all `over` in the domain: all the statements named hold <=> the condition holds.
 
-    `numbers` names algebraic end points: (name, polynomial, low, high), exactly one root in between.
+    `numbers` names algebraic end points: (name, polynomial, low, high), exactly one root in
+    between.
     """
 
     name: str
@@ -75,14 +78,23 @@ class SharpRange:
 
     def text(self) -> str:
         """The sharp range as the checker reads it."""
-        rows = [f"statement {self.name}", "sharp " + " ".join(self.of), "over " + " ".join(self.over), f"domain {self.domain}"]
-        rows += [f"number {name} = root({poly}, {term(low)}, {term(high)})" for name, poly, low, high in self.numbers]
+        rows = [
+            f"statement {self.name}",
+            "sharp " + " ".join(self.of),
+            "over " + " ".join(self.over),
+            f"domain {self.domain}",
+        ]
+        rows += [
+            f"number {name} = root({poly}, {term(low)}, {term(high)})"
+            for name, poly, low, high in self.numbers
+        ]
         return "\n".join([*rows, f"holds {self.condition}"])
 
 
 @dataclass(frozen=True)
 class Iterates:
-    """For every integer K >= 0, the K-th iterate of the map state -> images is the map state -> powers."""
+    """For every integer K >= 0, the K-th iterate of the map state -> images is the map state ->
+    powers."""
 
     name: str
     state: tuple[str, ...]
@@ -93,17 +105,25 @@ class Iterates:
 
     def text(self) -> str:
         """The recurrence as the checker reads it."""
+
         def tuple_of(terms: Iterable[object]) -> str:
             return "(" + ", ".join(map(str, terms)) + ("" if len(self.state) > 1 else ",") + ")"
 
-        return "\n".join([
-            f"statement {self.name}", "forall " + " ".join([*self.state, *self.parameters, self.count]), f"integer {self.count}",
-            f"iterates {tuple_of(self.state)} -> {tuple_of(self.images)}", f"after {self.count} -> {tuple_of(self.powers)}"])
+        return "\n".join(
+            [
+                f"statement {self.name}",
+                "forall " + " ".join([*self.state, *self.parameters, self.count]),
+                f"integer {self.count}",
+                f"iterates {tuple_of(self.state)} -> {tuple_of(self.images)}",
+                f"after {self.count} -> {tuple_of(self.powers)}",
+            ]
+        )
 
 
 @dataclass(frozen=True)
 class MapRule:
-    """What holds of every orbit of a map, by a rule of the checker that writes its own premises: the lines as (keyword, text).
+    """What holds of every orbit of a map, by a rule of the checker that writes its own premises:
+    the lines as (keyword, text).
 
     >>> print(MapRule("demo/halves", (("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))).text())
     statement demo/halves
@@ -119,10 +139,18 @@ class MapRule:
 
     def text(self) -> str:
         """The statement as the checker reads it."""
-        return "\n".join([f"statement {self.name}", *(f"{keyword} {said}" for keyword, said in self.rows)])
+        return "\n".join(
+            [f"statement {self.name}", *(f"{keyword} {said}" for keyword, said in self.rows)]
+        )
 
 
-RESTING = ("attraction", "escape", "descent", "contraction", "map")  # the lines that name an earlier statement
+RESTING = (
+    "attraction",
+    "escape",
+    "descent",
+    "contraction",
+    "map",
+)  # the lines that name an earlier statement
 
 
 def rests_on(statement: checker.Statement) -> list[str]:

@@ -1,4 +1,5 @@
-"""The store: the statement file and one certificate file a claim, in canonical bytes, written aside and renamed."""
+"""The store: the statement file and one certificate file a claim, in canonical bytes, written aside
+and renamed."""
 
 from __future__ import annotations
 
@@ -22,6 +23,7 @@ def canonical(data: Any) -> bytes:
     >>> canonical({"b": [1, "x"], "a": {}})
     b'{"a":{},\\n"b":[1,"x"]}\\n'
     """
+
     def write(value: Any) -> str:
         return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
 
@@ -32,7 +34,8 @@ def canonical(data: Any) -> bytes:
 
 
 def write_file(path: Path, content: bytes) -> bool:
-    """Writes the file unless it has this content already; never leaves half of it.  Returns whether anything was written.
+    """Writes the file unless it has this content already; never leaves half of it.  Returns whether
+    anything was written.
 
     Raises ClaimError, one line that names the path, where the folder cannot be written.
     """
@@ -50,12 +53,15 @@ def write_file(path: Path, content: bytes) -> bool:
             os.unlink(aside)
             raise
     except OSError as error:
-        raise ClaimError(f"{path}: cannot be written ({error.strerror}); choose a folder that can be") from None
+        raise ClaimError(
+            f"{path}: cannot be written ({error.strerror}); choose a folder that can be"
+        ) from None
     return True
 
 
 class Store:
-    """The statements and certificates of a folder, as last written; an absent folder is an empty store."""
+    """The statements and certificates of a folder, as last written; an absent folder is an empty
+    store."""
 
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
@@ -69,7 +75,8 @@ class Store:
                     self.texts[rows[0].removeprefix("statement ")] = "\n".join(rows)
 
     def certificate(self, name: str, text: str) -> Any:
-        """The stored certificate of a statement, if the stored statement has this very text; else None."""
+        """The stored certificate of a statement, if the stored statement has this very text; else
+        None."""
         if self.texts.get(name) != text:
             return None
         claim = name.split("/")[0]
@@ -84,14 +91,26 @@ class Store:
     def only(self, claims: Collection[str]) -> Store:
         """What the store has of some claims, read from their files: plain data."""
         part = object.__new__(Store)
-        part.folder, part.texts = self.folder, {name: text for name, text in self.texts.items() if name.split("/")[0] in claims}
-        part._certificates = {claim: {name: self.certificate(name, text) for name, text in part.texts.items() if name.split("/")[0] == claim}
-                              for claim in claims}
+        part.folder, part.texts = (
+            self.folder,
+            {name: text for name, text in self.texts.items() if name.split("/")[0] in claims},
+        )
+        part._certificates = {
+            claim: {
+                name: self.certificate(name, text)
+                for name, text in part.texts.items()
+                if name.split("/")[0] == claim
+            }
+            for claim in claims
+        }
         return part
 
 
-def write_store(folder: Path, statements: str, certificates: Mapping[str, Mapping[str, Any]]) -> int:
-    """Writes the statement file and the certificates of every claim, removes those of claims that are gone; returns the files changed."""
+def write_store(
+    folder: Path, statements: str, certificates: Mapping[str, Mapping[str, Any]]
+) -> int:
+    """Writes the statement file and the certificates of every claim, removes those of claims that
+    are gone; returns the files changed."""
     changed = int(write_file(folder / STATEMENTS, statements.encode()))
     for claim, entries in certificates.items():
         changed += write_file(folder / f"{claim}.json", canonical(entries))

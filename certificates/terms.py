@@ -1,6 +1,8 @@
-"""Terms and formulas: exact rational expressions and relations, written out as the text that the checker reads.
+"""Terms and formulas: exact rational expressions and relations, written out as the text that the
+checker reads.
 
-No floats: a `float` anywhere raises `ClaimError`.  `==` compares structure; a claimed equality is `equal(a, b)`.
+No floats: a `float` anywhere raises `ClaimError`.  `==` compares structure; a claimed equality is
+`equal(a, b)`.
 """
 
 from __future__ import annotations
@@ -17,7 +19,8 @@ Number = Union[int, Fraction, "Term"]
 
 
 class ClaimError(ValueError):
-    """A claim cannot be stated as written; the message is one line that says what is wrong and how to mend it."""
+    """A claim cannot be stated as written; the message is one line that says what is wrong and how
+    to mend it."""
 
 
 class Term:
@@ -39,13 +42,19 @@ class Term:
         return self._hash
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Term) and self._hash == other._hash and (self.op, self.args) == (other.op, other.args)
+        return (
+            isinstance(other, Term)
+            and self._hash == other._hash
+            and (self.op, self.args) == (other.op, other.args)
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:  # a hash of another process would not do
         return Term, (self.op, *self.args)
 
     def __bool__(self) -> bool:
-        raise ClaimError("a term has no truth value; compare it with <, <=, >, >=, equal() or different()")
+        raise ClaimError(
+            "a term has no truth value; compare it with <, <=, >, >=, equal() or different()"
+        )
 
     def __add__(self, other: Number) -> Term:
         return Term("+", self, term(other)) if _is_operand(other) else NotImplemented
@@ -76,8 +85,14 @@ class Term:
 
     def __pow__(self, exponent: int) -> Term:
         if not isinstance(exponent, int) or isinstance(exponent, bool):
-            raise ClaimError(f"the exponent {exponent!r} is not an integer; only integer powers are rational")
-        return Term("^", self, exponent) if exponent >= 0 else Term("/", term(1), Term("^", self, -exponent))
+            raise ClaimError(
+                f"the exponent {exponent!r} is not an integer; only integer powers are rational"
+            )
+        return (
+            Term("^", self, exponent)
+            if exponent >= 0
+            else Term("/", term(1), Term("^", self, -exponent))
+        )
 
     def __lt__(self, other: Number) -> Formula:
         return Formula("<", self, term(other))
@@ -99,7 +114,8 @@ class Term:
 
 
 def _is_operand(value: object) -> bool:
-    """Whether the term answers for the operation: numbers, also those that it refuses; other classes may know better."""
+    """Whether the term answers for the operation: numbers, also those that it refuses; other
+    classes may know better."""
     return isinstance(value, (Term, int, Fraction, float, complex, str)) or value is None
 
 
@@ -157,7 +173,8 @@ def _write(expr: Term, level: int) -> str:
 
 
 class Formula:
-    """A relation between terms, or a boolean combination of such; `str` gives the text that the checker reads.
+    """A relation between terms, or a boolean combination of such; `str` gives the text that the
+    checker reads.
 
     >>> x, w = reals("x w")
     >>> str((x >= 0) & ~(x < w))
@@ -181,7 +198,10 @@ class Formula:
         return Formula, (self.op, *self.args)
 
     def __bool__(self) -> bool:
-        raise ClaimError("a formula has no truth value here; join formulas with &, | and ~, and write a < b, b < c apart")
+        raise ClaimError(
+            "a formula has no truth value here; join formulas with &, | and ~, and write a < b, b <"
+            " c apart"
+        )
 
     def __and__(self, other: Formula) -> Formula:
         return conjunction([self, other])
@@ -242,7 +262,9 @@ def _join(op: str, parts: Iterable[Formula], empty: str) -> Formula:
     flat: list[Formula] = []
     for part in parts:
         if not isinstance(part, Formula):
-            raise ClaimError(f"{part!r} is not a formula; compare two terms with <, <=, >, >= or equal(a, b)")
+            raise ClaimError(
+                f"{part!r} is not a formula; compare two terms with <, <=, >, >= or equal(a, b)"
+            )
         for piece in part.args if part.op == op else (part,):
             if piece.op != empty and piece not in flat:
                 flat.append(piece)
@@ -260,7 +282,8 @@ def iff(left: Formula, right: Formula) -> Formula:
 
 
 def transform(thing: Any, leaf: Callable[[Term], Term], done: dict[Any, Any] | None = None) -> Any:
-    """The same term or formula with `leaf` applied to every variable; parts that are shared are visited once."""
+    """The same term or formula with `leaf` applied to every variable; parts that are shared are
+    visited once."""
     done = {} if done is None else done
     if not isinstance(thing, (Term, Formula)):
         raise ClaimError(f"{thing!r} is neither a term nor a formula")
@@ -270,7 +293,13 @@ def transform(thing: Any, leaf: Callable[[Term], Term], done: dict[Any, Any] | N
         elif thing.op == "num":
             result = thing
         else:
-            result = type(thing)(thing.op, *(transform(p, leaf, done) if isinstance(p, (Term, Formula)) else p for p in thing.args))
+            result = type(thing)(
+                thing.op,
+                *(
+                    transform(p, leaf, done) if isinstance(p, (Term, Formula)) else p
+                    for p in thing.args
+                ),
+            )
         done[id(thing)] = result
     return done[id(thing)]
 
@@ -282,7 +311,9 @@ def substitute(thing: Any, values: Mapping[str, Number]) -> Any:
     >>> str(substitute(x < w, {"x": w + 1}))
     'w + 1 < w'
     """
-    return transform(thing, lambda name: term(values[name.args[0]]) if name.args[0] in values else name)
+    return transform(
+        thing, lambda name: term(values[name.args[0]]) if name.args[0] in values else name
+    )
 
 
 def names_in(thing: Any) -> set[str]:
@@ -295,5 +326,7 @@ def _names_of(thing: Any) -> frozenset[str]:
         raise ClaimError(f"{thing!r} is neither a term nor a formula")
     if thing._names is None:  # kept, since terms never change and share their parts
         parts = [_names_of(part) for part in thing.args if isinstance(part, (Term, Formula))]
-        thing._names = frozenset((thing.args[0],)) if thing.op == "var" else frozenset().union(*parts)
+        thing._names = (
+            frozenset((thing.args[0],)) if thing.op == "var" else frozenset().union(*parts)
+        )
     return thing._names

@@ -1,4 +1,5 @@
-"""What the paper says, as claims; the command that derives, proves and checks them; and the language for claims of one's own."""
+"""What the paper says, as claims; the command that derives, proves and checks them; and the
+language for claims of one's own."""
 
 from certificates.statements import Iterates, MapRule, Statement
 from certificates.terms import (
@@ -19,6 +20,27 @@ from proofs.claims import Argument, Assertion, Claim, Following, Readings, claim
 from proofs.forms import always, exists_some
 
 __all__ = [
-    "Argument", "Assertion", "Claim", "ClaimError", "Following", "Formula", "Iterates", "MapRule", "Readings", "Statement", "Term",
-    "always", "claim", "conjunction", "different", "disjunction", "equal", "exists_some", "iff", "implies", "real", "reals", "term",
+    "Argument",
+    "Assertion",
+    "Claim",
+    "ClaimError",
+    "Following",
+    "Formula",
+    "Iterates",
+    "MapRule",
+    "Readings",
+    "Statement",
+    "Term",
+    "always",
+    "claim",
+    "conjunction",
+    "different",
+    "disjunction",
+    "equal",
+    "exists_some",
+    "iff",
+    "implies",
+    "real",
+    "reals",
+    "term",
 ]

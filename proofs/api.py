@@ -1,4 +1,5 @@
-"""The same as `juggleproof certify`, from Python: claims, or scripts of SMT-LIB, judged here or by any executor."""
+"""The same as `juggleproof certify`, from Python: claims, or scripts of SMT-LIB, judged here or by
+any executor."""
 
 from __future__ import annotations
 
@@ -19,8 +20,9 @@ What = Union[str, Path, Sequence[Claim]]
 class Result:
     """What was found: of a claim its verdict, of a problem sat, unsat or unknown.
 
-    `statements` gives the text of every statement by its name, and `certificates` what the checker accepted of it; `model` is an exact point of
-    a problem, in the script's own symbols, where an irrational value is a term in `numbers`.
+    `statements` gives the text of every statement by its name, and `certificates` what the checker
+    accepted of it; `model` is an exact point of a problem, in the script's own symbols, where an
+    irrational value is a term in `numbers`.
     """
 
     name: str
@@ -31,13 +33,21 @@ class Result:
     numbers: tuple[str, ...] = ()
 
 
-def certify(what: What, executor: Executor | None = None, budget: int = 0, store: Path | None = None, routes: Sequence[str] = ("exact",),
-            ) -> list[Result]:
-    """Judges every claim of a file FILE.py or of a sequence of claims, or every check-sat of a script FILE.smt2, in order.
+def certify(
+    what: What,
+    executor: Executor | None = None,
+    budget: int = 0,
+    store: Path | None = None,
+    routes: Sequence[str] = ("exact",),
+) -> list[Result]:
+    """Judges every claim of a file FILE.py or of a sequence of claims, or every check-sat of a
+    script FILE.smt2, in order.
 
-    `executor` is any `concurrent.futures.Executor`, such as `ProcessPoolExecutor(8)` or Dask's `Client.get_executor()`; the results do not depend
-    on it, and what is sent is text and plain data.  `budget` is counted work for each statement, 0 for the default.  Statements and certificates
-    are kept in `store`; without one, beside a file, and nowhere for claims in hand.  `routes` are those of `certify --routes`, for claims.
+    `executor` is any `concurrent.futures.Executor`, such as `ProcessPoolExecutor(8)` or Dask's
+    `Client.get_executor()`; the results do not depend on it, and what is sent is text and plain
+    data.  `budget` is counted work for each statement, 0 for the default.  Statements and
+    certificates are kept in `store`; without one, beside a file, and nowhere for claims in hand.
+    `routes` are those of `certify --routes`, for claims.
 
     Raises ClaimError, one line, for what cannot be read or stated.
 
@@ -59,12 +69,17 @@ def certify(what: What, executor: Executor | None = None, budget: int = 0, store
         return _claims([path], (), executor, budget, store, routes)
     claims = list(what)
     if not claims or not all(isinstance(one, Claim) for one in claims):
-        raise ClaimError(f"{what!r}: neither a path nor claims; give FILE.py, FILE.smt2 or what `claims_of` returns")
+        raise ClaimError(
+            f"{what!r}: neither a path nor claims; give FILE.py, FILE.smt2 or what `claims_of`"
+            " returns"
+        )
     with tempfile.TemporaryDirectory() as folder:
         return _claims([], claims, executor, budget, store or Path(folder), routes)
 
 
-def _problems(path: Path, executor: Executor | None, budget: int, store: Path | None) -> list[Result]:
+def _problems(
+    path: Path, executor: Executor | None, budget: int, store: Path | None
+) -> list[Result]:
     from proofs.smtlib.answering import BUDGET, in_script
     from proofs.smtlib.running import answer_files
 
@@ -73,19 +88,38 @@ def _problems(path: Path, executor: Executor | None, budget: int, store: Path | 
         if one.rejected:
             raise ClaimError(f"{one.answer.name}: rejected by the checker: {one.rejected}")
         model = dict(in_script(one.answer, one.problem)) if one.answer.word == "sat" else {}
-        results.append(Result(one.name, one.answer.word, {one.answer.name: one.answer.text}, {one.answer.name: one.answer.certificate}, model,
-                              one.answer.numbers))
+        results.append(
+            Result(
+                one.name,
+                one.answer.word,
+                {one.answer.name: one.answer.text},
+                {one.answer.name: one.answer.certificate},
+                model,
+                one.answer.numbers,
+            )
+        )
     return results
 
 
-def _claims(files: Sequence[Path], claims: Sequence[Claim], executor: Executor | None, budget: int, store: Path | None, routes: Sequence[str],
-            ) -> list[Result]:
+def _claims(
+    files: Sequence[Path],
+    claims: Sequence[Claim],
+    executor: Executor | None,
+    budget: int,
+    store: Path | None,
+    routes: Sequence[str],
+) -> list[Result]:
     from proofs.command.certify import run
     from proofs.command.main import build_parser
 
-    options = build_parser().parse_args(["certify", "--jobs", "1", "--routes", ",".join(routes), "--", *map(str, files)])
+    options = build_parser().parse_args(
+        ["certify", "--jobs", "1", "--routes", ",".join(routes), "--", *map(str, files)]
+    )
     options.store, options.budget = store, budget
     done = run(options, executor=executor, given=claims)
     if done.rejected:
         raise ClaimError("{}: rejected by the checker: {}".format(*done.rejected[0]))
-    return [Result(one.id, one.verdict.word, dict(one.statements), one.certificates, {}) for one in done.judgements]
+    return [
+        Result(one.id, one.verdict.word, dict(one.statements), one.certificates, {})
+        for one in done.judgements
+    ]

@@ -1,4 +1,5 @@
-"""A certified enclosure of the minimum of a polynomial over a box: two statements, and the checker's word for both."""
+"""A certified enclosure of the minimum of a polynomial over a box: two statements, and the
+checker's word for both."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ Terms = dict[tuple[int, ...], Fraction]
 
 @dataclass(frozen=True)
 class Enclosure:
-    """low <= minimum <= high, both certified: `point` is where the value is at most high, `statements` and `certificates` are what was checked."""
+    """low <= minimum <= high, both certified: `point` is where the value is at most high,
+    `statements` and `certificates` are what was checked."""
 
     low: Fraction
     high: Fraction
@@ -48,36 +50,53 @@ class Enclosure:
         return len(canonical(self.certificates))
 
     def write(self, folder: Path) -> None:
-        """Writes statements and certificates as `juggleproof check` reads them; raises ClaimError where the folder holds others."""
+        """Writes statements and certificates as `juggleproof check` reads them; raises ClaimError
+        where the folder holds others."""
         refuse_other_files(folder)
         write_file(folder / STATEMENTS, self.statements.encode())
         write_file(folder / OWN, canonical(self.certificates))
 
 
 def refuse_other_files(folder: Path) -> None:
-    """Raises ClaimError, one line, where the folder is none, or holds statements or certificates that are not of a bound."""
+    """Raises ClaimError, one line, where the folder is none, or holds statements or certificates
+    that are not of a bound."""
     if folder.exists() and not folder.is_dir():
         raise ClaimError(f"{folder} is no folder; name one that is new or empty")
-    others = sorted(path.name for path in folder.glob("*.json") if path.name != OWN) if folder.exists() else []
+    others = (
+        sorted(path.name for path in folder.glob("*.json") if path.name != OWN)
+        if folder.exists()
+        else []
+    )
     statements = folder / STATEMENTS
-    if statements.exists() and not statements.read_text(encoding="utf-8", errors="replace").startswith(f"statement {LOWER}\n"):
+    if statements.exists() and not statements.read_text(
+        encoding="utf-8", errors="replace"
+    ).startswith(f"statement {LOWER}\n"):
         others.append(STATEMENTS)
     if others:
-        raise ClaimError(f"{folder} holds {others[0]}, which is not of a bound; name a folder that is new or empty")
+        raise ClaimError(
+            f"{folder} holds {others[0]}, which is not of a bound; name a folder that is new or"
+            " empty"
+        )
 
 
-def enclose_minimum(polynomial: str | Term, box: Box, width: Number, budget: int = BUDGET) -> Enclosure:
-    """An enclosure low <= min p <= high with high - low <= width, where p runs over the box {name: (low, high)}.
+def enclose_minimum(
+    polynomial: str | Term, box: Box, width: Number, budget: int = BUDGET
+) -> Enclosure:
+    """An enclosure low <= min p <= high with high - low <= width, where p runs over the box {name:
+    (low, high)}.
 
-    Numbers are exact (int or Fraction), in the units of the polynomial and of its variables; `width` 0 asks for the minimum itself,
-    which is met only where it is rational and the search gets there.  `budget` counts boxes.  Both bounds are certified by the checker before
-    anything is returned; where the budget ends first, `reached` is False, and the bounds are what the search came to.
+    Numbers are exact (int or Fraction), in the units of the polynomial and of its variables;
+    `width` 0 asks for the minimum itself, which is met only where it is rational and the search
+    gets there.  `budget` counts boxes.  Both bounds are certified by the checker before anything is
+    returned; where the budget ends first, `reached` is False, and the bounds are what the search
+    came to.
 
     >>> found = enclose_minimum("x^2 - x*y + y^2/2", {"x": (-1, 1), "y": (Fraction(1, 2), 1)}, 0)
     >>> found.low, found.high, found.point
     (Fraction(1, 16), Fraction(1, 16), {'x': Fraction(1, 4), 'y': Fraction(1, 2)})
 
-    Raises ClaimError, one line, for a width below 0, an empty box, what is no polynomial in the variables of the box, or one too large.
+    Raises ClaimError, one line, for a width below 0, an empty box, what is no polynomial in the
+    variables of the box, or one too large.
     """
     text, ends, sought = _readable(str(polynomial)), _ends(box), _exact(width, "width")
     if sought < 0:
@@ -91,13 +110,19 @@ def enclose_minimum(polynomial: str | Term, box: Box, width: Number, budget: int
     if not used:
         value = sum(terms.values(), start=Fraction(0))
         return question.enclosure(Found(value, value, (), ["close"], 0, True), used)
-    problem = Problem({tuple(exponents[k] for k in used): c for exponents, c in terms.items()}, [list(ends.values())[k] for k in used],
-                      [list(ends)[k] for k in used], [[2 * k, 2 * k + 1] for k in used], 2 * len(ends))
+    problem = Problem(
+        {tuple(exponents[k] for k in used): c for exponents, c in terms.items()},
+        [list(ends.values())[k] for k in used],
+        [list(ends)[k] for k in used],
+        [[2 * k, 2 * k + 1] for k in used],
+        2 * len(ends),
+    )
     return question.enclosure(search_enclosure(problem, sought, budget, question.holds), used)
 
 
 class _Question:
-    """The two statements about a polynomial on a box, and what the checker says of their certificates."""
+    """The two statements about a polynomial on a box, and what the checker says of their
+    certificates."""
 
     def __init__(self, text: str, ends: Ends) -> None:
         self.text, self.ends = text, ends
@@ -105,13 +130,34 @@ class _Question:
 
     def lower(self, low: Fraction) -> str:
         """For all points of the box, the polynomial is at least `low`."""
-        givens = [row for name, (first, last) in self.ends.items() for row in (f"given {first} <= {name}", f"given {name} <= {last}")]
-        return "\n".join([f"statement {LOWER}", "forall " + " ".join(self.ends), *givens, f"show {self.text} >= {low}", ""])
+        givens = [
+            row
+            for name, (first, last) in self.ends.items()
+            for row in (f"given {first} <= {name}", f"given {name} <= {last}")
+        ]
+        return "\n".join(
+            [
+                f"statement {LOWER}",
+                "forall " + " ".join(self.ends),
+                *givens,
+                f"show {self.text} >= {low}",
+                "",
+            ]
+        )
 
     def attained(self, high: Fraction) -> str:
         """There is a point of the box where the polynomial is at most `high`."""
-        inside = " and ".join(f"{first} <= {name} and {name} <= {last}" for name, (first, last) in self.ends.items())
-        return "\n".join([f"statement {ATTAINED}", "exists " + " ".join(self.ends), f"show {inside} and {self.text} <= {high}", ""])
+        inside = " and ".join(
+            f"{first} <= {name} and {name} <= {last}" for name, (first, last) in self.ends.items()
+        )
+        return "\n".join(
+            [
+                f"statement {ATTAINED}",
+                "exists " + " ".join(self.ends),
+                f"show {inside} and {self.text} <= {high}",
+                "",
+            ]
+        )
 
     def _lower_certificate(self, node: list[Any]) -> Any:
         corner = {name: str(first) for name, (first, _) in self.ends.items()}
@@ -133,22 +179,40 @@ class _Question:
         return str(reason or outcome)
 
     def enclosure(self, found: Found, used: list[int]) -> Enclosure:
-        """The enclosure, once the checker has accepted both statements; raises ArithmeticError where it does not."""
-        point = {name: first for name, (first, _) in self.ends.items()} | dict(zip((list(self.ends)[k] for k in used), found.point))
+        """The enclosure, once the checker has accepted both statements; raises ArithmeticError
+        where it does not."""
+        point = {name: first for name, (first, _) in self.ends.items()} | dict(
+            zip((list(self.ends)[k] for k in used), found.point)
+        )
         witness = [ATTAINED, [], {name: str(value) for name, value in point.items()}, ["close"]]
-        certificates = {LOWER: self._lower_certificate(found.node),
-                        ATTAINED: {"certified": ["witness", [], witness], "point": [ATTAINED, [], {}, ["close"]]}}
+        certificates = {
+            LOWER: self._lower_certificate(found.node),
+            ATTAINED: {
+                "certified": ["witness", [], witness],
+                "point": [ATTAINED, [], {}, ["close"]],
+            },
+        }
         texts = {LOWER: self.lower(found.low), ATTAINED: self.attained(found.high)}
         for name, text in texts.items():
             reason = self._reason(text, certificates[name])
             if reason:
                 raise ArithmeticError(f"the checker rejects {name}: {reason}")
-        return Enclosure(found.low, found.high, point, found.boxes, found.reached, "\n".join(texts.values()), certificates)
+        return Enclosure(
+            found.low,
+            found.high,
+            point,
+            found.boxes,
+            found.reached,
+            "\n".join(texts.values()),
+            certificates,
+        )
 
 
 def _exact(value: object, name: str) -> Fraction:
     if isinstance(value, bool) or not isinstance(value, (int, Fraction)):
-        raise ClaimError(f"{name} = {value!r} is not exact; write it as an int or as Fraction(p, q)")
+        raise ClaimError(
+            f"{name} = {value!r} is not exact; write it as an int or as Fraction(p, q)"
+        )
     return Fraction(value)
 
 
@@ -162,10 +226,14 @@ def _ends(box: Box) -> Ends:
             raise ClaimError(f"{name} has {len(pair)} bounds; give low and high")
         low, high = (_exact(value, name) for value in pair)
         if low > high:
-            raise ClaimError(f"the box is empty: {name} from {low} to {high}; put the lower bound first")
+            raise ClaimError(
+                f"the box is empty: {name} from {low} to {high}; put the lower bound first"
+            )
         ends[name] = (low, high)
     if len(ends) > checker.MAX_VARIABLES:
-        raise ClaimError(f"the box has {len(ends)} variables; at most {checker.MAX_VARIABLES} can be declared")
+        raise ClaimError(
+            f"the box has {len(ends)} variables; at most {checker.MAX_VARIABLES} can be declared"
+        )
     return ends
 
 
@@ -178,26 +246,46 @@ def _terms(text: str, names: list[str]) -> Terms:
             context.declare(name)
         poly = context.polynomial(text)
     except checker.Rejected as reason:
-        raise ClaimError(f"not a polynomial in {', '.join(names)}: {str(reason)[:200]}; write it as x^2 - 3/2*x*y") from None
+        raise ClaimError(
+            f"not a polynomial in {', '.join(names)}: {str(reason)[:200]}; write it as x^2 -"
+            " 3/2*x*y"
+        ) from None
     shifts = [checker.BITS * context.index[name] for name in names]
-    return {tuple((m >> shift) % (1 << checker.BITS) for shift in shifts): Fraction(c, poly.den) for m, c in poly.terms.items()}
+    return {
+        tuple((m >> shift) % (1 << checker.BITS) for shift in shifts): Fraction(c, poly.den)
+        for m, c in poly.terms.items()
+    }
 
 
 def _refuse_large(terms: Terms, ends: Ends, used: Sequence[int]) -> None:
-    """Raises ClaimError, one line that says the limit, for what the search or the checker could not hold."""
+    """Raises ClaimError, one line that says the limit, for what the search or the checker could not
+    hold."""
     degrees = [max(exponents[k] for exponents in terms) for k in used]
     if max(degrees, default=0) > MOST_DEGREE:
-        raise ClaimError(f"degree {max(degrees)} in one variable; at most {MOST_DEGREE} can be searched")
+        raise ClaimError(
+            f"degree {max(degrees)} in one variable; at most {MOST_DEGREE} can be searched"
+        )
     coefficients, total = prod(n + 1 for n in degrees), sum(n + 1 for n in degrees)
     if coefficients * total > MOST_PRODUCTS:
-        raise ClaimError(f"degree + 1 of the {len(used)} variables has the product {coefficients} and the sum {total}; "
-                         f"product times sum may be at most {MOST_PRODUCTS}: fewer variables, or lower degrees, can be searched")
+        raise ClaimError(
+            f"degree + 1 of the {len(used)} variables has the product {coefficients} and the sum"
+            f" {total}; product times sum may be at most {MOST_PRODUCTS}: fewer variables, or lower"
+            " degrees, can be searched"
+        )
     sizes = [max(abs(low), abs(high), Fraction(1)) for low, high in ends.values()]
-    if any(abs(c) * prod(size**e for size, e in zip(sizes, exponents)) > MOST_VALUE for exponents, c in terms.items()):
-        raise ClaimError(f"a term of the polynomial exceeds 10^{len(str(MOST_VALUE)) - 1} on the box; choose other units for the variables")
+    if any(
+        abs(c) * prod(size**e for size, e in zip(sizes, exponents)) > MOST_VALUE
+        for exponents, c in terms.items()
+    ):
+        raise ClaimError(
+            f"a term of the polynomial exceeds 10^{len(str(MOST_VALUE)) - 1} on the box; choose"
+            " other units for the variables"
+        )
 
 
 def _readable(text: str) -> str:
     """The text in the checker's notation: ^ for powers, and 0.1 for exactly 1/10."""
     text = " ".join(text.replace("**", "^").split())
-    return re.sub(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])", lambda found: f"({Fraction(found[0])})", text)
+    return re.sub(
+        r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])", lambda found: f"({Fraction(found[0])})", text
+    )

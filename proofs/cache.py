@@ -1,8 +1,9 @@
-"""A file outside the tree with the records of the last runs, under a digest of all that they depend on; every fault of it only costs time.
+"""A file outside the tree with the records of the last runs, under a digest of all that they depend
+on; every fault of it only costs time.
 
-What is read back is compared, statement by statement, with the store (`proofs.records`), and the checker reads the store in every run.
-Figures are kept likewise (`proofs.reports.figures`): they are shown, and nothing is concluded from them.
-JUGGLEPROOF_CACHE names another folder, or is `off`.
+What is read back is compared, statement by statement, with the store (`proofs.records`), and the
+checker reads the store in every run. Figures are kept likewise (`proofs.reports.figures`): they are
+shown, and nothing is concluded from them. JUGGLEPROOF_CACHE names another folder, or is `off`.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ LARGEST = 50_000_000
 
 
 def folder() -> Path | None:
-    """Where records are kept: JUGGLEPROOF_CACHE, or juggleproof in the user's cache folder; None where it is off or there is no home."""
+    """Where records are kept: JUGGLEPROOF_CACHE, or juggleproof in the user's cache folder; None
+    where it is off or there is no home."""
     chosen = os.environ.get(VARIABLE, "")
     if chosen == "off":
         return None
@@ -41,8 +43,11 @@ def folder() -> Path | None:
 
 
 def key(*settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES) -> str:
-    """A digest of the packages' sources, the versions of Python and of the libraries, and the settings."""
-    said = hashlib.sha256(repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode())
+    """A digest of the packages' sources, the versions of Python and of the libraries, and the
+    settings."""
+    said = hashlib.sha256(
+        repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
+    )
     for path in _sources(root, packages):
         content = path.read_bytes()
         said.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
@@ -64,33 +69,50 @@ def _sources(root: Path, packages: Sequence[str] = SOURCES) -> Iterator[Path]:
 
 
 def load(key: str) -> list[dict[str, Any]]:
-    """The records that were kept under the key; none where there is no such file, or it is not whole, or not the user's own."""
+    """The records that were kept under the key; none where there is no such file, or it is not
+    whole, or not the user's own."""
     place = folder()
     if place is None:
         return []
     path = place / f"{key}.json"
     try:
         found = path.stat()
-        if found.st_size > LARGEST or hasattr(os, "getuid") and (found.st_uid != os.getuid() or found.st_mode & 0o022):
+        if (
+            found.st_size > LARGEST
+            or hasattr(os, "getuid")
+            and (found.st_uid != os.getuid() or found.st_mode & 0o022)
+        ):
             return []
         head, _, rest = path.read_bytes().partition(b"\n")
         if head.decode() != hashlib.sha256(key.encode() + rest).hexdigest():
             return []
         records = json.loads(rest)["records"]
-        return records if isinstance(records, list) and all(isinstance(one, dict) for one in records) else []
+        return (
+            records
+            if isinstance(records, list) and all(isinstance(one, dict) for one in records)
+            else []
+        )
     except (OSError, ValueError, KeyError, TypeError, RecursionError, MemoryError):
         return []
 
 
 def keep(key: str, records: Sequence[dict[str, Any]]) -> None:
-    """Keeps the records under the key, and only the latest few files; a folder that cannot be written is let be."""
+    """Keeps the records under the key, and only the latest few files; a folder that cannot be
+    written is let be."""
     place = folder()
     if place is None:
         return
     content = canonical({"records": list(records)})
     try:
-        write_file(place / f"{key}.json", hashlib.sha256(key.encode() + content).hexdigest().encode() + b"\n" + content)
-        files = sorted(place.glob(key[:-64] + "[0-9a-f]" * 64 + ".json"), key=lambda path: path.stat().st_mtime, reverse=True)
+        write_file(
+            place / f"{key}.json",
+            hashlib.sha256(key.encode() + content).hexdigest().encode() + b"\n" + content,
+        )
+        files = sorted(
+            place.glob(key[:-64] + "[0-9a-f]" * 64 + ".json"),
+            key=lambda path: path.stat().st_mtime,
+            reverse=True,
+        )
         for path in files[KEPT:]:
             path.unlink()
     except (OSError, ClaimError):

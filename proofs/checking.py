@@ -1,4 +1,5 @@
-"""The checker's reading of a whole stored folder, in processes of its own while claims are stated; every run reads everything."""
+"""The checker's reading of a whole stored folder, in processes of its own while claims are stated;
+every run reads everything."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ Results = list[tuple[str, str, str]]
 
 
 class Reading:
-    """What `checker.check_folder` says of a folder: with several jobs by shares, found out meanwhile; with one, when it is asked for.
+    """What `checker.check_folder` says of a folder: with several jobs by shares, found out
+    meanwhile; with one, when it is asked for.
 
     A folder without statements, one that cannot be read, and `nothing` come to no results.
     """
@@ -54,23 +56,38 @@ class Reading:
         return {name: outcome for name, outcome, _ in self.results}
 
     def _by_shares(self) -> Results:
-        """The results of all shares, if every outcome that one of them assumed is the one that another found; else none.
+        """The results of all shares, if every outcome that one of them assumed is the one that
+        another found; else none.
 
-        Then each statement was checked with the very lemmas that `check_folder` would have given it.
+        Then each statement was checked with the very lemmas that `check_folder` would have given
+        it.
         """
         try:
             parts = [receiver.recv() for _process, receiver in self._processes]
         except EOFError:  # a process died
             return []
         true = {name: outcome for _, found, _ in parts for name, outcome in found.items()}
-        if not parts or any(outcome != true.get(name) for _, _, assumed in parts for name, outcome in assumed.items()):
+        if not parts or any(
+            outcome != true.get(name)
+            for _, _, assumed in parts
+            for name, outcome in assumed.items()
+        ):
             return []
-        reasons = {(name, outcome): reason for results, found, _ in parts for name, outcome, reason in results if name in found}
-        return [(name, outcome, reasons.get((name, outcome), reason)) for name, outcome, reason in parts[0][0]]
+        reasons = {
+            (name, outcome): reason
+            for results, found, _ in parts
+            for name, outcome, reason in results
+            if name in found
+        }
+        return [
+            (name, outcome, reasons.get((name, outcome), reason))
+            for name, outcome, reason in parts[0][0]
+        ]
 
 
 def results_for(folder: Path, jobs: int) -> Results:
-    """What the checker says of a folder: kept from an earlier reading of these very files by this very checker, or found out now."""
+    """What the checker says of a folder: kept from an earlier reading of these very files by this
+    very checker, or found out now."""
     key = _key(folder)
     kept = cache.load(key) if key else []
     try:
@@ -88,14 +105,25 @@ def keep_results(folder: Path, results: Results) -> None:
     """Keeps what the checker said of the files that are now in the folder."""
     key = _key(folder)
     if key and results:
-        cache.keep(key, [{"name": name, "outcome": outcome, "reason": reason} for name, outcome, reason in results])
+        cache.keep(
+            key,
+            [
+                {"name": name, "outcome": outcome, "reason": reason}
+                for name, outcome, reason in results
+            ],
+        )
 
 
 def _key(folder: Path) -> str:
     if cache.folder() is None or not folder.is_dir():
         return ""
     said = hashlib.sha256(sys.version.encode())
-    for path in [Path(str(checker.__file__)), *sorted(path for path in folder.iterdir() if path.name == STATEMENTS or path.suffix == ".json")]:
+    for path in [
+        Path(str(checker.__file__)),
+        *sorted(
+            path for path in folder.iterdir() if path.name == STATEMENTS or path.suffix == ".json"
+        ),
+    ]:
         content = path.read_bytes()
         said.update(f"\n{path.name} {len(content)}\n".encode())
         said.update(content)
@@ -104,7 +132,11 @@ def _key(folder: Path) -> str:
 
 def shares(folder: Path, count: int) -> list[Set[str]]:
     """The claims of a folder in `count` shares of about the same size on disk."""
-    sizes = {entry.name.removesuffix(".json"): entry.stat().st_size for entry in os.scandir(folder) if entry.name.endswith(".json")}
+    sizes = {
+        entry.name.removesuffix(".json"): entry.stat().st_size
+        for entry in os.scandir(folder)
+        if entry.name.endswith(".json")
+    }
     found: list[set[str]] = [set() for _ in range(count)]
     weights = [0] * count
     for claim in sorted(sizes, key=lambda claim: (-sizes[claim], claim)):
@@ -115,7 +147,8 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
 
 
 def check_share(folder: Path, share: Set[str]) -> tuple[Results, dict[str, str], dict[str, str]]:
-    """What `check_folder` says where outcomes outside the share are assumed to be what their certificates claim; with what was found, and assumed."""
+    """What `check_folder` says where outcomes outside the share are assumed to be what their
+    certificates claim; with what was found, and assumed."""
     check_one, found, assumed = checker.check_one, dict[str, str](), dict[str, str]()
 
     def check_own(statement: Any, certificate: Any, known: Any, earlier: Any) -> tuple[str, str]:
@@ -123,7 +156,11 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Results, dict[str, str],
             outcome, reason = check_one(statement, certificate, known, earlier)
             found[statement.name] = outcome
             return outcome, reason
-        claimed = [word for word in ("certified", "refuted", "unknown") if isinstance(certificate, dict) and word in certificate]
+        claimed = [
+            word
+            for word in ("certified", "refuted", "unknown")
+            if isinstance(certificate, dict) and word in certificate
+        ]
         assumed[statement.name] = claimed[0] if claimed else "rejected"
         return assumed[statement.name], ""
 

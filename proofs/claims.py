@@ -1,7 +1,8 @@
 """Claims: an assertion with its place and print, and the formal reading that is judged.
 
-A claim is a function from its parsed print to statements.  What it returns is an assertion (all its statements hold), readings
-(a sentence that can be read in several ways), an argument (steps and a conclusion), or what follows from map rules.
+A claim is a function from its parsed print to statements.  What it returns is an assertion (all its
+statements hold), readings (a sentence that can be read in several ways), an argument (steps and a
+conclusion), or what follows from map rules.
 """
 
 from __future__ import annotations
@@ -35,7 +36,8 @@ class Readings:
 class Argument:
     """Steps, each with its label, that are said to give the conclusion.
 
-    If a step fails, the conclusion stands by its own certificate, by the claim `rescue`, or by the map rules that it `rests_on`.
+    If a step fails, the conclusion stands by its own certificate, by the claim `rescue`, or by the
+    map rules that it `rests_on`.
     """
 
     steps: Mapping[str, Assertion]
@@ -46,9 +48,11 @@ class Argument:
 
 @dataclass(frozen=True)
 class Following:
-    """A limit or a stability statement that is the conclusion of map rules, named by their statements, together with what is asserted beside.
+    """A limit or a stability statement that is the conclusion of map rules, named by their
+    statements, together with what is asserted beside.
 
-    The last rule named is the one whose conclusion the sentence is: where its domain ends, the sentence's range ends.
+    The last rule named is the one whose conclusion the sentence is: where its domain ends, the
+    sentence's range ends.
     """
 
     rests_on: tuple[str, ...]
@@ -60,7 +64,8 @@ Body = Union[Assertion, Readings, Argument, Following]
 
 @dataclass(frozen=True)
 class Said:
-    """What a claim was read to assert, in place of its function: data, which passes between processes."""
+    """What a claim was read to assert, in place of its function: data, which passes between
+    processes."""
 
     body: Body
     where: str
@@ -126,10 +131,19 @@ def as_body(returned: Any, claim_id: str) -> Body:
         parts: list[AnyStatement] = []
         for item in returned:
             body = item if isinstance(item, Statement) else as_body(item, claim_id)
-            parts += [body] if isinstance(body, Statement) else body.parts if isinstance(body, Assertion) else []
+            parts += (
+                [body]
+                if isinstance(body, Statement)
+                else body.parts
+                if isinstance(body, Assertion)
+                else []
+            )
         if parts:
             return Assertion(tuple(parts))
-    raise ClaimError(f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such, Readings, Argument or Following")
+    raise ClaimError(
+        f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such,"
+        " Readings, Argument or Following"
+    )
 
 
 def assertions(body: Body) -> list[tuple[str, Assertion]]:
@@ -145,7 +159,8 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
 
 
 def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[AnyStatement]:
-    """The statements of an assertion under their full names ID/label; two of one label are numbered."""
+    """The statements of an assertion under their full names ID/label; two of one label are
+    numbered."""
     count: dict[str, int] = {}
     named: list[AnyStatement] = []
     for part in assertion.parts:
@@ -153,12 +168,19 @@ def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[A
         count[label] = count.get(label, 0) + 1
         label = label if count[label] == 1 else f"{label}-{count[label]}"
         if isinstance(part, SharpRange):
-            raise ClaimError(f"{claim_id}: a sharp range is found by the program, not stated by a claim")
+            raise ClaimError(
+                f"{claim_id}: a sharp range is found by the program, not stated by a claim"
+            )
         if isinstance(part, Statement) and part.undeclared():
-            raise ClaimError(f"{claim_id}: undeclared symbol {sorted(part.undeclared())[0]}; add it to the statement's variables")
+            raise ClaimError(
+                f"{claim_id}: undeclared symbol {sorted(part.undeclared())[0]}; add it to the"
+                " statement's variables"
+            )
         full = f"{claim_id}/{prefix}{label}"
         if not re.fullmatch(r"[\w.\-]+/[\w.\-]+", full, re.ASCII):
-            raise ClaimError(f"{claim_id}: {full!r} is no name for a statement; use letters, digits, - and .")
+            raise ClaimError(
+                f"{claim_id}: {full!r} is no name for a statement; use letters, digits, - and ."
+            )
         named.append(replace(part, name=full))
     return named
 
@@ -167,17 +189,27 @@ _registry: list[Claim] = []
 
 
 def claim(
-    id: str, section: str = "", place: str = "", *, printed: str = "", as_it_stands: str = "", repeats: str = "",
-    parameters: Sequence[str] = ("alpha",), derived: Callable[[], Any] | None = None,
-    nearby: tuple[str, Callable[[], Any]] | None = None, hints: Mapping[str, Any] | None = None,
+    id: str,
+    section: str = "",
+    place: str = "",
+    *,
+    printed: str = "",
+    as_it_stands: str = "",
+    repeats: str = "",
+    parameters: Sequence[str] = ("alpha",),
+    derived: Callable[[], Any] | None = None,
+    nearby: tuple[str, Callable[[], Any]] | None = None,
+    hints: Mapping[str, Any] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
-    `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription has where it mangles the print.
-    `derived` gives the true right-hand side, and `nearby` a true assertion near a false one, with its text: both are tried as corrections
-    where no change of one mark mends the print.  Raises ClaimError for a duplicate name, an empty docstring, or a name that is not
-    letters, digits, - and dots.
+    `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription
+    has where it mangles the print. `derived` gives the true right-hand side, and `nearby` a true
+    assertion near a false one, with its text: both are tried as corrections where no change of one
+    mark mends the print.  Raises ClaimError for a duplicate name, an empty docstring, or a name
+    that is not letters, digits, - and dots.
     """
+
     def register(read: Callable[..., Any]) -> Callable[..., Any]:
         if not re.fullmatch(r"[A-Za-z0-9.\-]+", id):
             raise ClaimError(f"{id!r} is no name for a claim; use letters, digits, - and .")
@@ -186,8 +218,23 @@ def claim(
         says = " ".join((inspect.getdoc(read) or "").split())
         if not says:
             raise ClaimError(f"{id} has no docstring; say in a sentence what it asserts")
-        _registry.append(Claim(id, section, place, says, read, printed, as_it_stands, repeats, tuple(parameters), derived,
-                               nearby, dict(hints or {}), f"{read.__module__}.{read.__qualname__}"))
+        _registry.append(
+            Claim(
+                id,
+                section,
+                place,
+                says,
+                read,
+                printed,
+                as_it_stands,
+                repeats,
+                tuple(parameters),
+                derived,
+                nearby,
+                dict(hints or {}),
+                f"{read.__module__}.{read.__qualname__}",
+            )
+        )
         return read
 
     return register

@@ -1,6 +1,8 @@
-"""Corrections of a print that is refuted: one mark changed, rational coefficients on the printed terms, the derived form.
+"""Corrections of a print that is refuted: one mark changed, rational coefficients on the printed
+terms, the derived form.
 
-Nothing here is believed: a candidate is a print (or a right-hand side) that the same claim function reads and the checker then judges.
+Nothing here is believed: a candidate is a print (or a right-hand side) that the same claim function
+reads and the checker then judges.
 """
 
 from __future__ import annotations
@@ -23,7 +25,8 @@ LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
 
 @dataclass(frozen=True)
 class Candidate:
-    """A corrected print: its kind, what was changed, the LaTeX or the text of the corrected right side, and what the claim reads."""
+    """A corrected print: its kind, what was changed, the LaTeX or the text of the corrected right
+    side, and what the claim reads."""
 
     kind: str
     change: str
@@ -32,7 +35,8 @@ class Candidate:
 
     @property
     def possible_transcription_error(self) -> bool:
-        """One lost mark mends the print, so the fault may be the transcription's and not the authors'."""
+        """One lost mark mends the print, so the fault may be the transcription's and not the
+        authors'."""
         return self.kind in LOST_MARKS
 
 
@@ -57,20 +61,25 @@ class Amended(Printed):
         for left, relation, right in self.relation_chain(environment):
             if relation not in ("=", ":="):
                 raise ClaimError("only an equation can be amended on its right")
-            pairs = zip(getattr(left, "entries", (left,)), getattr(right, "entries", (right,)), strict=True)
+            pairs = zip(
+                getattr(left, "entries", (left,)), getattr(right, "entries", (right,)), strict=True
+            )
             parts += [equal(term(a), term(b)) for a, b in pairs]
         return conjunction(parts)
 
 
 def candidates(claim: Claim, first: tuple[str, str] | None = None) -> Iterator[Candidate]:
-    """Corrections to try, in order: one mark, then the derived form (after coefficients on the printed terms).
+    """Corrections to try, in order: one mark, then the derived form (after coefficients on the
+    printed terms).
 
     `first` is the kind and text of one to try before all others.
     """
     if first is not None:
         ways = (_derived,) if first[0] in DERIVED else (_one_mark,)
         yield from (one for way in ways for one in way(claim) if (one.kind, one.text) == first)
-    yield from (one for way in (_one_mark, _derived) for one in way(claim) if (one.kind, one.text) != first)
+    yield from (
+        one for way in (_one_mark, _derived) for one in way(claim) if (one.kind, one.text) != first
+    )
 
 
 def _one_mark(claim: Claim) -> Iterator[Candidate]:
@@ -82,10 +91,23 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
     if claim.derived is not None:
         truth = claim.derived()
         right = _printed_right(claim)
-        fitted = coefficients_on_printed_terms(right, truth) if isinstance(right, Term) and isinstance(truth, Term) else None
+        fitted = (
+            coefficients_on_printed_terms(right, truth)
+            if isinstance(right, Term) and isinstance(truth, Term)
+            else None
+        )
         if fitted is not None:
-            yield Candidate("coefficients", "rational coefficients on the printed terms", str(fitted), Amended(claim.read_print(), fitted))
-        shown = ", ".join(str(term(e)) for e in truth.entries) if hasattr(truth, "entries") else str(truth)
+            yield Candidate(
+                "coefficients",
+                "rational coefficients on the printed terms",
+                str(fitted),
+                Amended(claim.read_print(), fitted),
+            )
+        shown = (
+            ", ".join(str(term(e)) for e in truth.entries)
+            if hasattr(truth, "entries")
+            else str(truth)
+        )
         yield Candidate("derived", "the derived form", shown, Amended(claim.read_print(), truth))
 
 
@@ -100,7 +122,8 @@ def _printed_right(claim: Claim) -> Any:
 
 
 def coefficients_on_printed_terms(printed: Term, truth: Term) -> Term | None:
-    """The printed sum with other rational coefficients on its terms that equals the truth; None where there is none.
+    """The printed sum with other rational coefficients on its terms that equals the truth; None
+    where there is none.
 
     >>> from certificates.terms import reals
     >>> x, y = reals("x y")
@@ -114,7 +137,10 @@ def coefficients_on_printed_terms(printed: Term, truth: Term) -> Term | None:
     names = sorted(names_in(printed) | names_in(truth))
     rows = []
     for seed in range(len(terms) + 4):
-        point = {name: Fraction(7 * (seed + 2) + 3 * i * (seed + 1), 11 + 5 * i + seed) for i, name in enumerate(names)}
+        point = {
+            name: Fraction(7 * (seed + 2) + 3 * i * (seed + 1), 11 + 5 * i + seed)
+            for i, name in enumerate(names)
+        }
         if "s" in point:  # the adjoined root of 2 + 2 alpha
             point["alpha"] = point["s"] ** 2 / 2 - 1
         try:
@@ -130,7 +156,8 @@ def coefficients_on_printed_terms(printed: Term, truth: Term) -> Term | None:
 
 
 def _sum_inside(expression: Term) -> tuple[list[Term], Any] | None:
-    """The first sum inside products and quotients, as its terms with their signs, and how to put another sum in its place."""
+    """The first sum inside products and quotients, as its terms with their signs, and how to put
+    another sum in its place."""
     if expression.op in ("+", "-"):
         return _terms_of(expression), _total
     if expression.op in ("*", "/"):
@@ -171,7 +198,13 @@ def _value(expression: Term, point: dict[str, Fraction]) -> Fraction:
     if expression.op == "neg":
         return -Fraction(parts[0])
     a, b = parts
-    arithmetic = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "^": operator.pow}
+    arithmetic = {
+        "+": operator.add,
+        "-": operator.sub,
+        "*": operator.mul,
+        "/": operator.truediv,
+        "^": operator.pow,
+    }
     return Fraction(arithmetic[expression.op](a, b))
 
 

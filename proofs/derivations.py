@@ -1,4 +1,5 @@
-"""What a claim rests on in `symbolic`: each derivation that it uses, with what this says of itself, its result, and what it is made from."""
+"""What a claim rests on in `symbolic`: each derivation that it uses, with what this says of itself,
+its result, and what it is made from."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ Rows = tuple[tuple[str, ...], ...]
 
 @dataclass(frozen=True)
 class Derivation:
-    """A derived expression: the function of `symbolic` with its arguments, its docstring's first sentence, its entries, what it calls.
+    """A derived expression: the function of `symbolic` with its arguments, its docstring's first
+    sentence, its entries, what it calls.
 
     `shown` has the entries in the paper's manner, where T stands for 2 r/g.
     """
@@ -34,14 +36,20 @@ class Derivation:
     @property
     def line(self) -> str:
         """The derivation in one line, as `explain` tells it."""
-        shown = "; ".join("(" * (len(row) > 1) + ", ".join(row) + ")" * (len(row) > 1) for row in self.rows)
+        shown = "; ".join(
+            "(" * (len(row) > 1) + ", ".join(row) + ")" * (len(row) > 1) for row in self.rows
+        )
         return f"symbolic.{self.function.partition('(')[0]}: {self.said} {shown}"
 
     @property
     def title(self) -> str:
         """What is derived, in words: the sentence up to its colon, without formula or source."""
         arguments = self.function.partition("(")[2].rstrip(")")
-        said = re.sub(r" \((section|equation|inequality|appendix|after|figure)[^()]*\)", "", self.said.partition(":")[0]).rstrip(".")
+        said = re.sub(
+            r" \((section|equation|inequality|appendix|after|figure)[^()]*\)",
+            "",
+            self.said.partition(":")[0],
+        ).rstrip(".")
         return said + (f", for {arguments}" if arguments else "")
 
     def data(self) -> dict[str, Any]:
@@ -59,7 +67,9 @@ def kept_derivations(record: Mapping[str, Any]) -> tuple[list[Derivation], list[
 def derivation_of(data: Mapping[str, Any]) -> Derivation:
     """The derivation from its data, also where this came back from a file."""
     rows, shown = (tuple(tuple(map(str, row)) for row in data[kind]) for kind in ("rows", "shown"))
-    return Derivation(str(data["function"]), str(data["said"]), rows, shown, tuple(map(str, data["uses"])))
+    return Derivation(
+        str(data["function"]), str(data["said"]), rows, shown, tuple(map(str, data["uses"]))
+    )
 
 
 @cache
@@ -74,9 +84,11 @@ def derivation(name: str, arguments: tuple[Any, ...] = ()) -> Derivation:
 
     value = getattr(symbolic, name)(*arguments)
     rows = rows_of(name, arguments)
-    entries = [str(paper_form(entry)) for entry in (value if hasattr(value, "shape") else [value])]  # by rows
+    entries = [
+        str(paper_form(entry)) for entry in (value if hasattr(value, "shape") else [value])
+    ]  # by rows
     width = value.shape[1] if getattr(value, "shape", (1, 1))[1] > 1 else len(entries)
-    manner = tuple(tuple(entries[start:start + width]) for start in range(0, len(entries), width))
+    manner = tuple(tuple(entries[start : start + width]) for start in range(0, len(entries), width))
     said = (getattr(symbolic, name).__doc__ or "").strip().splitlines()[0]
     shown = f"({', '.join(map(str, arguments))})" if arguments else ""
     return Derivation(name + shown, said, rows, manner, made_from(name))
@@ -84,7 +96,8 @@ def derivation(name: str, arguments: tuple[Any, ...] = ()) -> Derivation:
 
 @cache
 def made_from(name: str) -> tuple[str, ...]:
-    """The derivations without arguments that this one calls, itself or through functions that take some, in the order of its code.
+    """The derivations without arguments that this one calls, itself or through functions that take
+    some, in the order of its code.
 
     >>> made_from("E_max"), made_from("total_energy")
     (('normal_energy_change', 'unscaling', 'collision_margin', 'period', 'normal_energy'), ('acceleration',))
@@ -96,7 +109,12 @@ def _called(function: Any, seen: set[str]) -> Iterator[str]:
     plain = inspect.unwrap(function)
     for name in _names_in(plain.__code__):
         called = plain.__globals__.get(name)
-        if name in seen or not callable(called) or not getattr(called, "__module__", "").startswith("symbolic.") or inspect.isclass(called):
+        if (
+            name in seen
+            or not callable(called)
+            or not getattr(called, "__module__", "").startswith("symbolic.")
+            or inspect.isclass(called)
+        ):
             continue
         seen.add(name)
         if _is_derivation(called, name):
@@ -116,7 +134,11 @@ def _is_derivation(function: Any, name: str) -> bool:
     """Whether it takes no arguments and comes to an expression, column or matrix."""
     if name not in dir(symbolic) or inspect.signature(function).parameters:
         return False
-    return inspect.unwrap(function).__annotations__.get("return") in ("Expr", "State", "ImmutableMatrix")
+    return inspect.unwrap(function).__annotations__.get("return") in (
+        "Expr",
+        "State",
+        "ImmutableMatrix",
+    )
 
 
 def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
@@ -139,9 +161,11 @@ def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
 
 
 def body_and_derivations(claim: Claim) -> tuple[Body, list[Derivation]]:
-    """What the claim asserts, and each derivation used: the constants that its print names, then what its reading asks for.
+    """What the claim asserts, and each derivation used: the constants that its print names, then
+    what its reading asks for.
 
-    Raises ClaimError, naming the claim, for whatever the function of a claim outside of this package raises.
+    Raises ClaimError, naming the claim, for whatever the function of a claim outside of this
+    package raises.
     """
     if not claim.source.startswith(("proofs.paper.", "proofs.theorem.", "proofs.part.")):
         try:
@@ -149,12 +173,16 @@ def body_and_derivations(claim: Claim) -> tuple[Body, list[Derivation]]:
         except (checker.Rejected, ClaimError):
             raise
         except Exception as problem:
-            raise ClaimError(f"{claim.id} raises {type(problem).__name__}: {problem}; mend its function") from problem
+            raise ClaimError(
+                f"{claim.id} raises {type(problem).__name__}: {problem}; mend its function"
+            ) from problem
     from proofs.paper import vocabulary
 
     vocabulary.derivations_used.clear()
     body = claim.body()
-    used = dict.fromkeys([*((name, ()) for name in _constants_in(claim)), *vocabulary.derivations_used])
+    used = dict.fromkeys(
+        [*((name, ()) for name in _constants_in(claim)), *vocabulary.derivations_used]
+    )
     return body, [derivation(name, arguments) for name, arguments in used]
 
 

@@ -12,7 +12,8 @@ from certificates.terms import ClaimError, Term, real, term
 def from_sympy(expression: Any, roots: Mapping[Any, Term] | None = None) -> Term:
     """The term of a SymPy expression that is rational in its symbols.
 
-    `roots` gives the term that stands for the square root of a SymPy radicand.  Raises ClaimError for floats and functions.
+    `roots` gives the term that stands for the square root of a SymPy radicand.  Raises ClaimError
+    for floats and functions.
 
     >>> from sympy import Rational, Symbol
     >>> x, y = Symbol("x"), Symbol("y")
@@ -34,7 +35,9 @@ def from_sympy(expression: Any, roots: Mapping[Any, Term] | None = None) -> Term
         twice = 2 * exponent
         if twice.is_Integer:
             return _root(base, roots) ** int(twice) if twice != 1 else _root(base, roots)
-    raise ClaimError(f"{expression} is not rational in its symbols; adjoin its roots and write the rest exactly")
+    raise ClaimError(
+        f"{expression} is not rational in its symbols; adjoin its roots and write the rest exactly"
+    )
 
 
 def _sum(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
@@ -50,7 +53,8 @@ def _sum(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
 
 
 def _product(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
-    """Factors with positive exponents above, those with negative ones below, as SymPy holds them: nothing is multiplied out."""
+    """Factors with positive exponents above, those with negative ones below, as SymPy holds them:
+    nothing is multiplied out."""
     above: list[Term] = []
     below: list[Term] = []
     negative = False

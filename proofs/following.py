@@ -1,4 +1,5 @@
-"""What follows from map rules: verdicts that wait for rules of other claims, and the range of alpha for which a rule speaks."""
+"""What follows from map rules: verdicts that wait for rules of other claims, and the range of alpha
+for which a rule speaks."""
 
 from __future__ import annotations
 
@@ -12,17 +13,28 @@ if TYPE_CHECKING:
     from proofs.judging import Judgement
 
 
-def settle_by_rules(judgements: Sequence[Judgement], outcomes: Mapping[str, str], texts: Mapping[str, str]) -> None:
-    """Gives each judgement that rests on map rules its verdict and range, now that the outcomes of all statements are known."""
+def settle_by_rules(
+    judgements: Sequence[Judgement], outcomes: Mapping[str, str], texts: Mapping[str, str]
+) -> None:
+    """Gives each judgement that rests on map rules its verdict and range, now that the outcomes of
+    all statements are known."""
     for one in judgements:
         if one.rests_on and all(outcomes.get(name) == "certified" for name in one.rests_on):
             one.verdict = one.by_rules
         if one.follows:
-            one.sharp[""] = {"text": range_of_rule(one.rests_on[-1], texts) if one.verdict.word == "holds" else "not found", "by": list(one.rests_on)}
+            one.sharp[""] = {
+                "text": (
+                    range_of_rule(one.rests_on[-1], texts)
+                    if one.verdict.word == "holds"
+                    else "not found"
+                ),
+                "by": list(one.rests_on),
+            }
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
-    """The domain of a map rule's conclusion as text, and whether the rule says that outside of it the conclusion is false."""
+    """The domain of a map rule's conclusion as text, and whether the rule says that outside of it
+    the conclusion is false."""
     rows = dict(row.partition(" ")[::2] for row in texts[name].splitlines())
     for inner in ("attraction", "descent"):
         if inner in rows:
@@ -31,12 +43,14 @@ def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
 
 
 def range_of_rule(name: str, texts: Mapping[str, str]) -> str:
-    """The alpha in (0, 1) for which the rule's conclusion is proved, told as sharp where it is refuted for all others.
+    """The alpha in (0, 1) for which the rule's conclusion is proved, told as sharp where it is
+    refuted for all others.
 
     >>> range_of_rule("t/map", {"t/map": "statement t/map\\nover alpha r\\ndomain alpha > 0 and 3*alpha < 1 and r > 0"})
     'at least 0 < alpha < 1/3'
 
-    Nothing is told where the domain does not speak of alpha, and the domain itself where its conditions on alpha are not linear.
+    Nothing is told where the domain does not speak of alpha, and the domain itself where its
+    conditions on alpha are not linear.
     """
     domain, is_sharp = rule_domain(name, texts)
     if "alpha" not in checker.names_in(domain):
@@ -48,11 +62,14 @@ def range_of_rule(name: str, texts: Mapping[str, str]) -> str:
     if low[0] == high[0]:
         return f"alpha = {low[0]}"
     whole = low == ("0", "<") and high == ("1", "<")
-    return ("" if is_sharp or whole else "at least ") + f"{low[0]} {low[1]} alpha {high[1]} {high[0]}"
+    return (
+        "" if is_sharp or whole else "at least "
+    ) + f"{low[0]} {low[1]} alpha {high[1]} {high[0]}"
 
 
 def alpha_interval(domain: str) -> tuple[tuple[str, str], tuple[str, str]] | None:
-    """The ends, with < or <=, of the interval in (0, 1) that the conditions on alpha alone make; None where one is not linear in alpha.
+    """The ends, with < or <=, of the interval in (0, 1) that the conditions on alpha alone make;
+    None where one is not linear in alpha.
 
     >>> alpha_interval("3*alpha >= 1 and alpha < 1 and g > 0")
     (('1/3', '<='), ('1', '<'))

@@ -1,7 +1,9 @@
-"""The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes plain statements.
+"""The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes
+plain statements.
 
-A vocabulary says what is understood without being said: the standing assumption on a parameter (0 < alpha < 1), what an
-abbreviation stands for (T = 2 r/g) and which square root a name is.  The lines it adds stand in the statement, where an auditor reads them.
+A vocabulary says what is understood without being said: the standing assumption on a parameter (0 <
+alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a name is.  The lines
+it adds stand in the statement, where an auditor reads them.
 """
 
 from __future__ import annotations
@@ -12,12 +14,23 @@ from fractions import Fraction
 
 from certificates import checker
 from certificates.statements import Line, Statement
-from certificates.terms import ClaimError, Formula, Number, Term, equal, names_in, real, substitute, term
+from certificates.terms import (
+    ClaimError,
+    Formula,
+    Number,
+    Term,
+    equal,
+    names_in,
+    real,
+    substitute,
+    term,
+)
 
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """What names mean where nothing is said: order of variables, standing assumptions, abbreviations and roots."""
+    """What names mean where nothing is said: order of variables, standing assumptions,
+    abbreviations and roots."""
 
     order: tuple[str, ...] = ()
     ranges: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
@@ -25,14 +38,17 @@ class Vocabulary:
     abbreviations: Mapping[str, Term] = field(default_factory=dict)
     roots: Mapping[str, Term] = field(default_factory=dict)
     integers: frozenset[str] = frozenset()
-    sample: Mapping[str, Fraction] = field(default_factory=lambda: {"alpha": Fraction(3, 11), "r": Fraction(1), "g": Fraction(1)})
+    sample: Mapping[str, Fraction] = field(
+        default_factory=lambda: {"alpha": Fraction(3, 11), "r": Fraction(1), "g": Fraction(1)}
+    )
 
 
 PLAIN = Vocabulary()
 
 
 class _Writer:
-    """Collects the lines of one statement: each line is preceded by the abbreviations, roots and side conditions that it needs.
+    """Collects the lines of one statement: each line is preceded by the abbreviations, roots and
+    side conditions that it needs.
 
     What the checker would know by then is worked out only where a denominator asks for it.
     """
@@ -46,12 +62,16 @@ class _Writer:
     def declare(self, names: Sequence[str]) -> None:
         for name in names:
             self.known.add(name)
-            self.later.append(lambda context, name=name: context.declare(name, name in self.vocabulary.integers))  # type: ignore[misc]
+            self.later.append(
+                lambda context, name=name: context.declare(name, name in self.vocabulary.integers)
+            )  # type: ignore[misc]
 
     def add(self, keyword: str, formula: Formula) -> None:
         self.prepare(formula)
         self.lines.append((keyword, formula))
-        self.later.append(lambda context: context.license(context.formula(checker.parse(str(formula)))))
+        self.later.append(
+            lambda context: context.license(context.formula(checker.parse(str(formula))))
+        )
 
     def by_now(self) -> checker.Context:
         """What the checker knows after the lines so far."""
@@ -75,13 +95,17 @@ class _Writer:
                 value = self.vocabulary.abbreviations[name]
                 self.prepare(value)
                 self.lines.append(("let", (name, value)))
-                self.later.append(lambda context, name=name, value=value:  # type: ignore[misc]
-                                  context.define(name, context.value(checker.parse(str(value)))))
+                self.later.append(
+                    lambda context, name=name, value=value: (  # type: ignore[misc]
+                        context.define(name, context.value(checker.parse(str(value))))
+                    )
+                )
         for below in _denominators(thing):
             self.license(below)
 
     def license(self, below: Term) -> None:
-        """A denominator that no strict line makes nonzero yet gets a `have` line, factor by factor, which the certificate must prove."""
+        """A denominator that no strict line makes nonzero yet gets a `have` line, factor by factor,
+        which the certificate must prove."""
         if below.op == "num":
             return
         context = self.by_now()
@@ -99,7 +123,9 @@ class _Writer:
             sign = _likely_sign(below, self.vocabulary)
             formula = below > 0 if sign > 0 else below < 0
             self.lines.append(("have", formula))
-            self.later.append(lambda context: context.license(context.formula(checker.parse(str(formula)))))
+            self.later.append(
+                lambda context: context.license(context.formula(checker.parse(str(formula))))
+            )
 
 
 def _denominators(thing: Term | Formula) -> list[Term]:
@@ -113,9 +139,12 @@ def _denominators(thing: Term | Formula) -> list[Term]:
 
 
 def _likely_sign(value: Term, vocabulary: Vocabulary) -> int:
-    """The sign at the vocabulary's sample point, 2 for names that it lacks: a guess that the certificate of the `have` line has to confirm."""
+    """The sign at the vocabulary's sample point, 2 for names that it lacks: a guess that the
+    certificate of the `have` line has to confirm."""
     for _ in range(8):
-        hidden = {n: vocabulary.abbreviations[n] for n in names_in(value) if n in vocabulary.abbreviations}
+        hidden = {
+            n: vocabulary.abbreviations[n] for n in names_in(value) if n in vocabulary.abbreviations
+        }
         if not hidden:
             break
         value = substitute(value, hidden)
@@ -134,10 +163,18 @@ def _evaluate(value: Term, sample: Mapping[str, Fraction]) -> Fraction:
         return -parts[0]
     if value.op == "/":
         return parts[0] / parts[1] if parts[1] else Fraction(0)
-    return parts[0] + parts[1] if value.op == "+" else parts[0] - parts[1] if value.op == "-" else parts[0] * parts[1]
+    return (
+        parts[0] + parts[1]
+        if value.op == "+"
+        else parts[0] - parts[1]
+        if value.op == "-"
+        else parts[0] * parts[1]
+    )
 
 
-def _needed(formulas: Sequence[Term | Formula], vocabulary: Vocabulary, exists: Sequence[str]) -> list[str]:
+def _needed(
+    formulas: Sequence[Term | Formula], vocabulary: Vocabulary, exists: Sequence[str]
+) -> list[str]:
     """The variables that occur, abbreviations opened, in the vocabulary's order."""
     names: set[str] = set()
     work = set().union(*(names_in(formula) for formula in formulas))
@@ -164,9 +201,11 @@ def always(
     label: str = "main",
     vocabulary: Vocabulary = PLAIN,
 ) -> Statement:
-    """For all values of the names that occur: the standing assumptions and the givens imply what is shown.
+    """For all values of the names that occur: the standing assumptions and the givens imply what is
+    shown.
 
-    `in_range` replaces the vocabulary's standing range of the parameters; it is what a sharp range leaves open.
+    `in_range` replaces the vocabulary's standing range of the parameters; it is what a sharp range
+    leaves open.
 
     >>> from certificates.terms import reals
     >>> x, y = reals("x y")
@@ -190,16 +229,25 @@ def exists_some(
     label: str = "main",
     vocabulary: Vocabulary = PLAIN,
 ) -> Statement:
-    """For all values of the other names, under the assumptions, some values of `exists` meet `within` and what is shown."""
+    """For all values of the other names, under the assumptions, some values of `exists` meet
+    `within` and what is shown."""
     if isinstance(exists, str) or not all(isinstance(name, str) for name in exists):
-        raise ClaimError(f"{exists!r} is no list of names; write what exists as names, such as [\"x\"]")
+        raise ClaimError(
+            f'{exists!r} is no list of names; write what exists as names, such as ["x"]'
+        )
     for formula in (*given, *within, show, *(in_range or ())):
         if not isinstance(formula, Formula):
-            raise ClaimError(f"{formula!r} is not a formula; compare two terms with <, <=, >, >= or equal(a, b)")
+            raise ClaimError(
+                f"{formula!r} is not a formula; compare two terms with <, <=, >, >= or equal(a, b)"
+            )
     forall = _needed([*given, *within, show, *(in_range or ())], vocabulary, exists)
     writer = _Writer(vocabulary)
     writer.declare(forall)
-    standing = [f for name in forall for f in vocabulary.ranges.get(name, ())] if in_range is None else list(in_range)
+    standing = (
+        [f for name in forall for f in vocabulary.ranges.get(name, ())]
+        if in_range is None
+        else list(in_range)
+    )
     for formula in standing:
         writer.add("range", formula)
     for name in forall:
@@ -221,46 +269,98 @@ def exists_some(
         for formula in within:
             writer.add("with", formula)
     writer.prepare(show)
-    lines, inner = writer.lines[:count] if exists else writer.lines, writer.lines[count:] if exists else []
+    lines, inner = (
+        writer.lines[:count] if exists else writer.lines,
+        writer.lines[count:] if exists else [],
+    )
     if any(keyword in ("have", "root") for keyword, _ in inner):
-        raise ClaimError(f"{label}: a division or root behind `exists` needs a strict `within` formula before it")
+        raise ClaimError(
+            f"{label}: a division or root behind `exists` needs a strict `within` formula before it"
+        )
     integers = tuple(name for name in forall if name in vocabulary.integers)
-    return Statement(label, tuple(forall), tuple(lines), show, integers, tuple(exists), tuple(inner))
+    return Statement(
+        label, tuple(forall), tuple(lines), show, integers, tuple(exists), tuple(inner)
+    )
 
 
 def is_maximum(
-    value: Term, of: Term, state: Mapping[str, Term], at: Mapping[str, Number], on: Formula,
-    *, vocabulary: Vocabulary = PLAIN, given: Sequence[Formula] = (), in_range: Sequence[Formula] | None = None,
+    value: Term,
+    of: Term,
+    state: Mapping[str, Term],
+    at: Mapping[str, Number],
+    on: Formula,
+    *,
+    vocabulary: Vocabulary = PLAIN,
+    given: Sequence[Formula] = (),
+    in_range: Sequence[Formula] | None = None,
 ) -> list[Statement]:
-    """`value` is the maximum of `of` on the region, attained at the state `at`: bound, member, equality."""
+    """`value` is the maximum of `of` on the region, attained at the state `at`: bound, member,
+    equality."""
     there = {name: term(place) for name, place in at.items()}
     if set(there) != set(state):
         raise ClaimError("a maximum is attained at a whole state; give every component")
     return [
-        always(of <= value, label="bound", vocabulary=vocabulary, in_range=in_range, given=[*given, on]),
-        always(substitute(on, there), label="member", vocabulary=vocabulary, in_range=in_range, given=given),
-        always(equal(substitute(of, there), value), label="attained", vocabulary=vocabulary, in_range=in_range, given=given),
+        always(
+            of <= value, label="bound", vocabulary=vocabulary, in_range=in_range, given=[*given, on]
+        ),
+        always(
+            substitute(on, there),
+            label="member",
+            vocabulary=vocabulary,
+            in_range=in_range,
+            given=given,
+        ),
+        always(
+            equal(substitute(of, there), value),
+            label="attained",
+            vocabulary=vocabulary,
+            in_range=in_range,
+            given=given,
+        ),
     ]
 
 
 def is_supremum(
-    value: Term, of: Term, state: Sequence[str], on: Formula, *, strict: bool = False,
-    vocabulary: Vocabulary = PLAIN, given: Sequence[Formula] = (), in_range: Sequence[Formula] | None = None,
+    value: Term,
+    of: Term,
+    state: Sequence[str],
+    on: Formula,
+    *,
+    strict: bool = False,
+    vocabulary: Vocabulary = PLAIN,
+    given: Sequence[Formula] = (),
+    in_range: Sequence[Formula] | None = None,
 ) -> list[Statement]:
-    """`value` is the supremum of `of` on the region: a bound (strict where it is not attained), and states that come within any eps > 0."""
+    """`value` is the supremum of `of` on the region: a bound (strict where it is not attained), and
+    states that come within any eps > 0."""
     eps = real("eps")
     bound = of < value if strict else of <= value
     return [
         always(bound, label="bound", vocabulary=vocabulary, in_range=in_range, given=[*given, on]),
-        exists_some(state, of > value - eps, within=[on], label="approached", vocabulary=vocabulary, in_range=in_range,
-                    given=[*given, eps > 0]),
+        exists_some(
+            state,
+            of > value - eps,
+            within=[on],
+            label="approached",
+            vocabulary=vocabulary,
+            in_range=in_range,
+            given=[*given, eps > 0],
+        ),
     ]
 
 
-def same_set(left: Formula, right: Formula, *, vocabulary: Vocabulary = PLAIN, given: Sequence[Formula] = (),
-             in_range: Sequence[Formula] | None = None) -> list[Statement]:
+def same_set(
+    left: Formula,
+    right: Formula,
+    *,
+    vocabulary: Vocabulary = PLAIN,
+    given: Sequence[Formula] = (),
+    in_range: Sequence[Formula] | None = None,
+) -> list[Statement]:
     """The two regions have the same states: two inclusions."""
     return [
-        always(right, given=[*given, left], label="forth", vocabulary=vocabulary, in_range=in_range),
+        always(
+            right, given=[*given, left], label="forth", vocabulary=vocabulary, in_range=in_range
+        ),
         always(left, given=[*given, right], label="back", vocabulary=vocabulary, in_range=in_range),
     ]

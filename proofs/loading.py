@@ -21,7 +21,8 @@ def paper_claims() -> list[Claim]:
 def claims_of_file(path: Path) -> list[Claim]:
     """The claims of a Python file.
 
-    Raises ClaimError, one line with file and line, where it does not parse, fails, or holds no claim.
+    Raises ClaimError, one line with file and line, where it does not parse, fails, or holds no
+    claim.
     """
     if path.is_dir():
         raise ClaimError(f"{path}: a folder; name a Python file with claims")
@@ -39,13 +40,17 @@ def claims_of_file(path: Path) -> list[Claim]:
         except ClaimError as problem:
             raise ClaimError(f"{path}:{_line_in(path)}: {problem}") from None
         except SyntaxError as problem:
-            raise ClaimError(f"{path}:{problem.lineno}: does not parse ({problem.msg}); mend the syntax") from None
+            raise ClaimError(
+                f"{path}:{problem.lineno}: does not parse ({problem.msg}); mend the syntax"
+            ) from None
         except (Exception, SystemExit) as problem:
-            raise ClaimError(f"{path}:{_line_in(path)}: {type(problem).__name__}: {problem}; mend this line") from None
+            raise ClaimError(
+                f"{path}:{_line_in(path)}: {type(problem).__name__}: {problem}; mend this line"
+            ) from None
 
     claims = claims_of(load)
     if not claims:
-        raise ClaimError(f"{path}: no claims; decorate a function with @claim(\"its-name\")")
+        raise ClaimError(f'{path}: no claims; decorate a function with @claim("its-name")')
     return claims
 
 

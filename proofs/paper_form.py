@@ -1,4 +1,5 @@
-"""Derived expressions as the paper writes such: collected by what varies, each coefficient factored, 1 - alpha below the line, T for 2 r/g."""
+"""Derived expressions as the paper writes such: collected by what varies, each coefficient
+factored, 1 - alpha below the line, T for 2 r/g."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ def paper_form(expression: Expr) -> Term:
     s = Symbol("s")
     plain = expression.replace(
         lambda one: one.is_Pow and one.exp.is_Rational and one.exp.q == 2,
-        lambda one: _root(one.base, s) ** (2 * one.exp))
+        lambda one: _root(one.base, s) ** (2 * one.exp),
+    )
     above, below = fraction(factor(together(plain)))
     states = [one for one in map(_symbol, VARYING) if plain.has(one)]
     if below.free_symbols & set(states):  # one quotient
@@ -38,7 +40,9 @@ def paper_form(expression: Expr) -> Term:
     if len(addends) > 1 and below.has(_symbol("g")):
         with_period = [_with_period(coefficient) for coefficient, _ in addends]
         if not any(fraction(one)[1].has(_symbol("g")) for one in with_period):
-            addends = [(coefficient, monomial) for coefficient, (_, monomial) in zip(with_period, addends)]
+            addends = [
+                (coefficient, monomial) for coefficient, (_, monomial) in zip(with_period, addends)
+            ]
     return _equal_to(plain, _sum(addends))
 
 
@@ -54,7 +58,13 @@ def _sum(addends: list[tuple[Expr, Expr]]) -> Term:
     for coefficient, monomial in addends:
         negative, part = _coefficient(factor(coefficient))
         piece = _times(part, from_sympy(monomial))
-        total = (-piece if negative else piece) if total is None else total - piece if negative else total + piece
+        total = (
+            (-piece if negative else piece)
+            if total is None
+            else total - piece
+            if negative
+            else total + piece
+        )
     return total if total is not None else term(0)
 
 
@@ -72,8 +82,11 @@ def _root(base: Expr, s: Symbol) -> Expr:
 
 
 def _addends(above: Expr, below: Expr, states: list[Symbol]) -> list[tuple[Expr, Expr]]:
-    """The coefficients of the monomials in the states, in the order of these, what is constant last."""
-    ordered = sorted(_by_monomial(expand(above), states).items(), key=lambda one: _order(one[0], states))
+    """The coefficients of the monomials in the states, in the order of these, what is constant
+    last."""
+    ordered = sorted(
+        _by_monomial(expand(above), states).items(), key=lambda one: _order(one[0], states)
+    )
     return [(coefficient / below, monomial) for monomial, coefficient in ordered]
 
 
@@ -87,7 +100,11 @@ def _by_monomial(above: Expr, states: list[Symbol]) -> dict[Expr, Expr]:
 
 def _order(monomial: Expr, states: list[Symbol]) -> tuple[Any, ...]:
     held = [place for place, one in enumerate(states) if monomial.has(one)]
-    return (not held, max(held, default=0), -sum(int(monomial.as_powers_dict().get(one, 0)) for one in states))
+    return (
+        not held,
+        max(held, default=0),
+        -sum(int(monomial.as_powers_dict().get(one, 0)) for one in states),
+    )
 
 
 def _with_period(coefficient: Expr) -> Expr:
@@ -95,11 +112,16 @@ def _with_period(coefficient: Expr) -> Expr:
     r, g = _symbol("r"), _symbol("g")
     coefficient = cancel(coefficient)
     changed = cancel(coefficient.subs(g, 2 * r / Symbol("T")))
-    return changed if fraction(coefficient)[1].has(g) and not fraction(changed)[1].has(r) else coefficient
+    return (
+        changed
+        if fraction(coefficient)[1].has(g) and not fraction(changed)[1].has(r)
+        else coefficient
+    )
 
 
 def _coefficient(coefficient: Expr) -> tuple[bool, Term]:
-    """Whether the coefficient is negative as written, and the rest of it as one quotient, 1 - alpha standing for alpha - 1 below."""
+    """Whether the coefficient is negative as written, and the rest of it as one quotient, 1 - alpha
+    standing for alpha - 1 below."""
     above, below = fraction(coefficient)
     negative = False
     upper, lower = list[tuple[Term, int]](), list[tuple[Term, int]]()
@@ -109,7 +131,11 @@ def _coefficient(coefficient: Expr) -> tuple[bool, Term]:
                 negative ^= bool(base < 0) and exponent % 2 == 1
                 found.append((term(Fraction(abs(int(base.p)), int(base.q))), int(exponent)))
                 continue
-            flipped = base.is_Add and base.subs(symbolic.alpha, 0) < 0 if base.free_symbols == {symbolic.alpha} else False
+            flipped = (
+                base.is_Add and base.subs(symbolic.alpha, 0) < 0
+                if base.free_symbols == {symbolic.alpha}
+                else False
+            )
             if flipped:
                 negative ^= exponent % 2 == 1
             found.append((_ascending(-base if flipped else base), int(exponent)))
@@ -117,9 +143,14 @@ def _coefficient(coefficient: Expr) -> tuple[bool, Term]:
     if not lower:
         return negative, _product(upper)
     of_alpha = [one for one in upper if names_in(one[0]) <= {"alpha"}]
-    if any(names_in(base) - {"alpha"} for base, _ in lower) or not any(base.op in "+-" for base, _ in of_alpha):
+    if any(names_in(base) - {"alpha"} for base, _ in lower) or not any(
+        base.op in "+-" for base, _ in of_alpha
+    ):
         return negative, _product(upper) / _product(lower)
-    return negative, _times(_product(of_alpha) / _product(lower), _product([one for one in upper if one not in of_alpha]))
+    return negative, _times(
+        _product(of_alpha) / _product(lower),
+        _product([one for one in upper if one not in of_alpha]),
+    )
 
 
 def _powers(side: Expr) -> list[tuple[Expr, int]]:
@@ -145,10 +176,18 @@ def _ascending(base: Expr) -> Term:
     if not base.is_Add or base.free_symbols != {symbolic.alpha}:
         return from_sympy(base)
     total: Term | None = None
-    for part in sorted(base.as_ordered_terms(), key=lambda one: one.as_powers_dict().get(symbolic.alpha, 0)):
+    for part in sorted(
+        base.as_ordered_terms(), key=lambda one: one.as_powers_dict().get(symbolic.alpha, 0)
+    ):
         negative = part.could_extract_minus_sign()
         piece = from_sympy(-part if negative else part)
-        total = (-piece if negative else piece) if total is None else total - piece if negative else total + piece
+        total = (
+            (-piece if negative else piece)
+            if total is None
+            else total - piece
+            if negative
+            else total + piece
+        )
     return total if total is not None else term(0)
 
 
@@ -175,4 +214,8 @@ def _back(found: Term) -> Any:
     if found.op == "^":
         return left ** found.args[1]
     right = _back(found.args[1])
-    return {"+": left + right, "-": left - right, "*": left * right}[found.op] if found.op != "/" else left / right
+    return (
+        {"+": left + right, "-": left - right, "*": left * right}[found.op]
+        if found.op != "/"
+        else left / right
+    )

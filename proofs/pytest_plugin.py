@@ -1,8 +1,10 @@
-"""Claims as test items: `pytest --juggleproof` judges the paper's, `pytest --juggleproof-claims mine.py` those of a file of one's own.
+"""Claims as test items: `pytest --juggleproof` judges the paper's,
+`pytest --juggleproof-claims mine.py` those of a file of one's own.
 
-Each claim is an item `juggleproof::ID`.  Of the paper it passes where its verdict is as registered; of one's own where the claim holds.
-What is unknown fails, and nothing is skipped.  A session judges once, as `juggleproof certify` does, and the checker reads everything.
-Python files named beside `--juggleproof` that have claims are judged instead of the paper's, as with `certify FILE.py`.
+Each claim is an item `juggleproof::ID`.  Of the paper it passes where its verdict is as registered;
+of one's own where the claim holds. What is unknown fails, and nothing is skipped.  A session judges
+once, as `juggleproof certify` does, and the checker reads everything. Python files named beside
+`--juggleproof` that have claims are judged instead of the paper's, as with `certify FILE.py`.
 """
 
 from __future__ import annotations
@@ -25,14 +27,27 @@ CLAIMS = pytest.StashKey["Claims"]()
 def pytest_addoption(parser: pytest.Parser) -> None:
     """`--juggleproof` and `--juggleproof-claims FILE.py`."""
     group = parser.getgroup(NAME, "claims as test items")
-    group.addoption("--juggleproof", action="store_true", help="judge the paper's claims, or those of the files named, one test item a claim")
-    group.addoption("--juggleproof-claims", action="append", default=[], metavar="FILE.py", help="judge the claims of this file, one test item each")
+    group.addoption(
+        "--juggleproof",
+        action="store_true",
+        help="judge the paper's claims, or those of the files named, one test item a claim",
+    )
+    group.addoption(
+        "--juggleproof-claims",
+        action="append",
+        default=[],
+        metavar="FILE.py",
+        help="judge the claims of this file, one test item each",
+    )
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Takes from the arguments what names claims: pytest itself would look for files of these names."""
-    files = [config.invocation_params.dir / name for name in config.getoption("--juggleproof-claims")]
+    """Takes from the arguments what names claims: pytest itself would look for files of these
+    names."""
+    files = [
+        config.invocation_params.dir / name for name in config.getoption("--juggleproof-claims")
+    ]
     papers: bool = config.getoption("--juggleproof")
     if not papers and not files:
         return
@@ -46,7 +61,9 @@ def pytest_configure(config: pytest.Config) -> None:
             config.args.remove(argument)
             named += [place] if is_file else []
             chosen.append(name)
-    config.stash[CLAIMS] = Claims(papers and not named, list(dict.fromkeys([*files, *named])), [] if "" in chosen else chosen)
+    config.stash[CLAIMS] = Claims(
+        papers and not named, list(dict.fromkeys([*files, *named])), [] if "" in chosen else chosen
+    )
 
 
 def _has_claims(path: Path) -> bool:
@@ -62,16 +79,19 @@ def _is_for_tests(config: pytest.Config, path: Path) -> bool:
 
 
 class Claims:
-    """The claims that a session has asked for, and their results, which are found once, when the first item runs."""
+    """The claims that a session has asked for, and their results, which are found once, when the
+    first item runs."""
 
     def __init__(self, of_paper: bool, files: Sequence[Path], chosen: Sequence[str]) -> None:
         self.of_paper, self.files, self.chosen = of_paper, files, chosen
         self.found: dict[bool, Any] = {}
 
     def names(self) -> Iterator[tuple[str, bool]]:
-        """The id of every claim, of the user's own or not, and of every claim that is registered and gone.
+        """The id of every claim, of the user's own or not, and of every claim that is registered
+        and gone.
 
-        Raises ClaimError for a file that cannot be read, and for an id that two claims bear, or none.
+        Raises ClaimError for a file that cannot be read, and for an id that two claims bear, or
+        none.
         """
         from certificates.terms import ClaimError
         from proofs.command.certify import refuse_duplicates
@@ -87,11 +107,15 @@ class Claims:
         names = [*((name, False) for name in known), *((claim.id, True) for claim in own)]
         missing = set(self.chosen) - {name for name, _ in names}
         if missing:
-            raise ClaimError(f"{NAME}::{sorted(missing)[0]}: no such claim; `pytest --collect-only` with the same options lists them")
+            raise ClaimError(
+                f"{NAME}::{sorted(missing)[0]}: no such claim; `pytest --collect-only` with the"
+                " same options lists them"
+            )
         yield from (item for item in names if not self.chosen or item[0] in self.chosen)
 
     def results(self, own: bool) -> Results:
-        """The results; the same problem is raised to every item where the claims cannot be judged."""
+        """The results; the same problem is raised to every item where the claims cannot be
+        judged."""
         if own not in self.found:
             try:
                 self.found[own] = _judged(self.files if own else [])
@@ -104,7 +128,8 @@ class Claims:
 
 
 def _judged(files: Sequence[Path]) -> Results:
-    """A run as `certify` makes it; the paper's on a copy of the store, so that tests leave the tree as it is."""
+    """A run as `certify` makes it; the paper's on a copy of the store, so that tests leave the tree
+    as it is."""
     from certificates.store import DEFAULT
     from proofs.command.certify import run
     from proofs.command.main import build_parser
@@ -118,7 +143,9 @@ def _judged(files: Sequence[Path]) -> Results:
         options = build_parser().parse_args(["certify", "--jobs", "1", *map(str, files)])
         options.store = None if files else Path(folder) / "store"
         done = run(options)
-        return results_of_run(done.claims, done.judgements, register, theorem=done.theorem, rejected=done.rejected)
+        return results_of_run(
+            done.claims, done.judgements, register, theorem=done.theorem, rejected=done.rejected
+        )
 
 
 class NotAsItShouldBe(Exception):
@@ -140,16 +167,25 @@ class ClaimItem(pytest.Item):
 
     def hint(self) -> str:
         """The command that tells more of the claim."""
-        return f"certify {' '.join(map(_short, self.of.files))} --only {self.name}" if self.own else f"explain {self.name}"
+        return (
+            f"certify {' '.join(map(_short, self.of.files))} --only {self.name}"
+            if self.own
+            else f"explain {self.name}"
+        )
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Our own lines where they say all; no traceback through the prover."""
         from certificates.terms import ClaimError
 
-        return str(excinfo.value) if isinstance(excinfo.value, (NotAsItShouldBe, ClaimError)) else super().repr_failure(excinfo, style)
+        return (
+            str(excinfo.value)
+            if isinstance(excinfo.value, (NotAsItShouldBe, ClaimError))
+            else super().repr_failure(excinfo, style)
+        )
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Shown by its node id; the heading is no ending of it, or pytest would write its dots as colons."""
+        """Shown by its node id; the heading is no ending of it, or pytest would write its dots as
+        colons."""
         return self.config.rootpath / NAME, None, f"claim {self.name}"
 
 
@@ -173,17 +209,23 @@ class ClaimCollector(pytest.Collector):
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_make_collect_report(collector: pytest.Collector) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+def pytest_make_collect_report(
+    collector: pytest.Collector,
+) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
     """Puts the claims after what the session collects."""
     report = yield
     claims = collector.config.stash.get(CLAIMS, None)
     if isinstance(collector, pytest.Session) and claims is not None and report.passed:
-        report.result = [*(report.result or ()), ClaimCollector.from_parent(collector, name=NAME, nodeid=NAME, of=claims)]
+        report.result = [
+            *(report.result or ()),
+            ClaimCollector.from_parent(collector, name=NAME, nodeid=NAME, of=claims),
+        ]
     return report
 
 
 def told(results: Results, name: str) -> list[str]:
-    """What is wrong with a claim, with before and after and where it fails; nothing where it is as it should be."""
+    """What is wrong with a claim, with before and after and where it fails; nothing where it is as
+    it should be."""
     from proofs.reports.junit import failing, fails_at
 
     one = next((one for one in results.claims if one.id == name), None)

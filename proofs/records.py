@@ -1,7 +1,9 @@
-"""What a claim comes to, as plain data with digests in place of statements: enough to know again, beside the store, what is judged.
+"""What a claim comes to, as plain data with digests in place of statements: enough to know again,
+beside the store, what is judged.
 
-A record holds no statement: it says which stored ones the claim's sources build, by the digest of each text, and in what shape they make
-up the claim.  What does not agree with the store to the letter is not known again, and the claim is stated anew from its sources.
+A record holds no statement: it says which stored ones the claim's sources build, by the digest of
+each text, and in what shape they make up the claim.  What does not agree with the store to the
+letter is not known again, and the claim is stated anew from its sources.
 """
 
 from __future__ import annotations
@@ -19,7 +21,8 @@ _BODIES = {kind.__name__: kind for kind in get_args(Body)}
 
 
 class Forgotten(Exception):
-    """The record does not agree with the store, or with the work at hand: the claim has to be stated from its sources."""
+    """The record does not agree with the store, or with the work at hand: the claim has to be
+    stated from its sources."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,26 +67,47 @@ def digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def record_of(claim: Claim, body: Body, statements: Sequence[tuple[str, str]], voted: Collection[str],
-              correction: Mapping[str, Any] | None) -> dict[str, Any]:
+def record_of(
+    claim: Claim,
+    body: Body,
+    statements: Sequence[tuple[str, str]],
+    voted: Collection[str],
+    correction: Mapping[str, Any] | None,
+) -> dict[str, Any]:
     """The record of a claim that was just judged."""
     named: dict[int, list[Any]] = {}
     for prefix, assertion in assertions(body):
-        named[id(assertion)] = [[part.name, whole.name, digest(whole.text()), type(part).__name__]
-                                for part, whole in zip(assertion.parts, named_statements(claim.id, prefix, assertion))]
+        named[id(assertion)] = [
+            [part.name, whole.name, digest(whole.text()), type(part).__name__]
+            for part, whole in zip(assertion.parts, named_statements(claim.id, prefix, assertion))
+        ]
     if len(named) != len(assertions(body)):
         return {}
-    corrected = [[name, digest(text), "Statement" if name in voted else "Iterates"]
-                 for name, text in statements if name.startswith(f"{claim.id}/corrected.")]
-    return {**{name: getattr(claim, name) for name in TOLD}, "parameters": list(claim.parameters), "nearby": claim.nearby is not None,
-            "body": _plain(body, named), "correction": dict(correction) if correction else None, "corrected": corrected}
+    corrected = [
+        [name, digest(text), "Statement" if name in voted else "Iterates"]
+        for name, text in statements
+        if name.startswith(f"{claim.id}/corrected.")
+    ]
+    return {
+        **{name: getattr(claim, name) for name in TOLD},
+        "parameters": list(claim.parameters),
+        "nearby": claim.nearby is not None,
+        "body": _plain(body, named),
+        "correction": dict(correction) if correction else None,
+        "corrected": corrected,
+    }
 
 
 def _plain(value: Any, named: Mapping[int, list[Any]]) -> Any:
     if isinstance(value, Assertion):
         return {"Assertion": named[id(value)]}
     if type(value).__name__ in _BODIES:
-        return {type(value).__name__: {one.name: _plain(getattr(value, one.name), named) for one in dataclasses.fields(value)}}
+        return {
+            type(value).__name__: {
+                one.name: _plain(getattr(value, one.name), named)
+                for one in dataclasses.fields(value)
+            }
+        }
     if isinstance(value, Mapping):
         return {"mapping": [[key, _plain(one, named)] for key, one in value.items()]}
     if isinstance(value, tuple):
@@ -94,16 +118,24 @@ def _plain(value: Any, named: Mapping[int, list[Any]]) -> Any:
 
 
 def claim_of(record: Mapping[str, Any]) -> Claim:
-    """The claim as a table tells it; what it asserts is not here, and to ask for it raises Forgotten."""
+    """The claim as a table tells it; what it asserts is not here, and to ask for it raises
+    Forgotten."""
+
     def read(*_: object) -> Any:
         raise Forgotten
 
     told: dict[str, Any] = {name: _text(record[name]) for name in TOLD}
-    return Claim(**told, read=read, parameters=tuple(map(_text, record["parameters"])), nearby=("", read) if record["nearby"] else None)
+    return Claim(
+        **told,
+        read=read,
+        parameters=tuple(map(_text, record["parameters"])),
+        nearby=("", read) if record["nearby"] else None,
+    )
 
 
 def body_of(record: Mapping[str, Any], texts: Mapping[str, str]) -> Body:
-    """The body of a claim from its record and the store's texts; raises Forgotten where they do not agree."""
+    """The body of a claim from its record and the store's texts; raises Forgotten where they do not
+    agree."""
     body: Body = _body(record["body"], texts)
     return body
 
@@ -111,10 +143,14 @@ def body_of(record: Mapping[str, Any], texts: Mapping[str, str]) -> Body:
 def _body(data: Any, texts: Mapping[str, str]) -> Any:
     if data is None or isinstance(data, str):
         return data
-    (kind, inside), = data.items()
+    ((kind, inside),) = data.items()
     if kind == "Assertion":
-        return Assertion(tuple(stored_as(label, texts[whole], marked, kind)
-                               if whole in texts else _forget() for label, whole, marked, kind in inside))
+        return Assertion(
+            tuple(
+                stored_as(label, texts[whole], marked, kind) if whole in texts else _forget()
+                for label, whole, marked, kind in inside
+            )
+        )
     if kind == "mapping":
         return {_text(key): _body(one, texts) for key, one in inside}
     if kind == "tuple":
@@ -123,16 +159,30 @@ def _body(data: Any, texts: Mapping[str, str]) -> Any:
 
 
 def stored_as(name: str, text: str, marked: str, kind: str) -> Any:
-    """A stored text as a statement of this name; raises Forgotten where the text is not the one that was marked."""
+    """A stored text as a statement of this name; raises Forgotten where the text is not the one
+    that was marked."""
     if digest(text) != marked:
         raise Forgotten
     rest = text.partition("\n")[2]
     if kind == "MapRule":
-        return MapRule(name, tuple((keyword, said) for keyword, _, said in (line.partition(" ") for line in rest.split("\n"))))
+        return MapRule(
+            name,
+            tuple(
+                (keyword, said)
+                for keyword, _, said in (line.partition(" ") for line in rest.split("\n"))
+            ),
+        )
     if kind not in ("Statement", "StoredStatement"):
         return StoredRule(name, rest)
-    lines: Any = tuple((keyword, Quoted(said)) for keyword, _, said in (line.partition(" ") for line in rest.split("\n")))
-    forall, integer = (tuple(str(said).split()) for keyword in ("forall", "integer") for said in [_said(lines, keyword)])
+    lines: Any = tuple(
+        (keyword, Quoted(said))
+        for keyword, _, said in (line.partition(" ") for line in rest.split("\n"))
+    )
+    forall, integer = (
+        tuple(str(said).split())
+        for keyword in ("forall", "integer")
+        for said in [_said(lines, keyword)]
+    )
     return StoredStatement(name, forall, lines, integer=integer, stored=rest)
 
 

@@ -1,4 +1,5 @@
-"""The register: the verdicts that stand, committed; only `certify --accept` writes it, showing before and after."""
+"""The register: the verdicts that stand, committed; only `certify --accept` writes it, showing
+before and after."""
 
 from __future__ import annotations
 
@@ -19,18 +20,27 @@ FIELDS = ("verdict", "detail", "correction", "sharp")
 def load_register(path: Path = PATH) -> dict[str, dict[str, Any]]:
     """The registered verdicts by claim; empty where there is no register yet.
 
-    Raises ClaimError, one line that names file, claim and mend, where the file cannot be read as a register.
+    Raises ClaimError, one line that names file, claim and mend, where the file cannot be read as a
+    register.
     """
     if not path.exists():
         return {}
     try:
         data = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_each_name_once)
     except _Twice as problem:
-        raise ClaimError(f"{path}: {problem} stands there twice; keep one, or restore the file from the repository") from None
+        raise ClaimError(
+            f"{path}: {problem} stands there twice; keep one, or restore the file from the"
+            " repository"
+        ) from None
     except (OSError, ValueError, RecursionError) as error:
-        raise ClaimError(f"{path}: not a register ({type(error).__name__}); restore it from the repository") from None
+        raise ClaimError(
+            f"{path}: not a register ({type(error).__name__}); restore it from the repository"
+        ) from None
     if not isinstance(data, dict):
-        raise ClaimError(f"{path}: not a register, which is an object of entries by claim; restore it from the repository")
+        raise ClaimError(
+            f"{path}: not a register, which is an object of entries by claim; restore it from the"
+            " repository"
+        )
     for claim, entry in data.items():
         fault = _fault(entry)
         if fault:
@@ -56,9 +66,11 @@ def _fault(entry: Any) -> str:
     if not isinstance(entry, dict):
         return 'not an object; write {"verdict": ...}'
     if "verdict" not in entry:
-        return "no verdict; add \"verdict\", one of " + ", ".join(VERDICTS)
+        return 'no verdict; add "verdict", one of ' + ", ".join(VERDICTS)
     if entry["verdict"] not in VERDICTS:
-        return f"{json.dumps(entry['verdict'])[:40]} is no verdict; write one of {', '.join(VERDICTS)}"
+        return (
+            f"{json.dumps(entry['verdict'])[:40]} is no verdict; write one of {', '.join(VERDICTS)}"
+        )
     for name, value in entry.items():
         if name not in FIELDS:
             return f"{name[:40]!r} is no field of an entry; it has {', '.join(FIELDS)}"
@@ -67,15 +79,23 @@ def _fault(entry: Any) -> str:
     return ""
 
 
-def registered(verdict: str, detail: str, correction: Mapping[str, Any] | None, sharp: str) -> dict[str, Any]:
+def registered(
+    verdict: str, detail: str, correction: Mapping[str, Any] | None, sharp: str
+) -> dict[str, Any]:
     """The entry of a claim: its verdict, and what there is of the rest."""
-    told = {"verdict": verdict, "detail": detail, "correction": correction["text"] if correction else "", "sharp": sharp}
+    told = {
+        "verdict": verdict,
+        "detail": detail,
+        "correction": correction["text"] if correction else "",
+        "sharp": sharp,
+    }
     return {name: value for name, value in told.items() if value}
 
 
 @dataclass(frozen=True)
 class Change:
-    """What differs between the register and a run, about one claim; None where the claim is absent."""
+    """What differs between the register and a run, about one claim; None where the claim is
+    absent."""
 
     claim: str
     before: Mapping[str, Any] | None
@@ -84,16 +104,27 @@ class Change:
     def __str__(self) -> str:
         old, new = self.before or {}, self.after or {}
         keys = sorted(key for key in {*old, *new} if old.get(key) != new.get(key))
-        return f"{self.claim}: " + "; ".join(f"{key} was {old.get(key, 'absent')}, is {new.get(key, 'absent')}" for key in keys)
+        return f"{self.claim}: " + "; ".join(
+            f"{key} was {old.get(key, 'absent')}, is {new.get(key, 'absent')}" for key in keys
+        )
 
 
-def differences(before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool) -> list[Change]:
-    """Each claim whose verdict, correction or sharp range differs, or that is new or gone; `partial` leaves absent claims alone."""
+def differences(
+    before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool
+) -> list[Change]:
+    """Each claim whose verdict, correction or sharp range differs, or that is new or gone;
+    `partial` leaves absent claims alone."""
     names = [name for name in sorted({*before, *after}) if name in after or not partial]
-    return [Change(name, before.get(name), after.get(name)) for name in names if before.get(name) != after.get(name)]
+    return [
+        Change(name, before.get(name), after.get(name))
+        for name in names
+        if before.get(name) != after.get(name)
+    ]
 
 
-def changes(before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool) -> list[str]:
+def changes(
+    before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool
+) -> list[str]:
     """One line for each difference, before and after."""
     return [str(change) for change in differences(before, after, partial)]
 

@@ -1,4 +1,5 @@
-"""Runs the judgement of many claims over processes, or over any executor; results come in order and do not depend on who does the work."""
+"""Runs the judgement of many claims over processes, or over any executor; results come in order and
+do not depend on who does the work."""
 
 from __future__ import annotations
 
@@ -21,7 +22,9 @@ from proofs.loading import paper_claims
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 _work: tuple[Sequence[Claim], Options] | None = None
-_alone = threading.Lock()  # the checker counts its work in one place: threads of one process take turns
+_alone = (
+    threading.Lock()
+)  # the checker counts its work in one place: threads of one process take turns
 
 
 def start() -> None:
@@ -29,14 +32,22 @@ def start() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def spread(work: Callable[[Item], Result], items: Sequence[Item], executor: Executor | None, done: Callable[[int, Result], None]) -> list[Result]:
-    """The results of the work on every item, in order; here where there is no executor.  `done` hears of each as it is ready.
+def spread(
+    work: Callable[[Item], Result],
+    items: Sequence[Item],
+    executor: Executor | None,
+    done: Callable[[int, Result], None],
+) -> list[Result]:
+    """The results of the work on every item, in order; here where there is no executor.  `done`
+    hears of each as it is ready.
 
     Raises what the work on the first item in order raised, when the others are finished.
     """
     results: dict[int, Result] = {}
     problems: dict[int, ClaimError] = {}
-    futures = {executor.submit(work, item): index for index, item in enumerate(items)} if executor else {}
+    futures = (
+        {executor.submit(work, item): index for index, item in enumerate(items)} if executor else {}
+    )
     try:
         for future in as_completed(futures):
             try:
@@ -61,7 +72,8 @@ def spread(work: Callable[[Item], Result], items: Sequence[Item], executor: Exec
 
 @dataclass(frozen=True)
 class Sent:
-    """A claim as it goes to another process: one of the paper by its name, another by what it asserts; with what its judge is told."""
+    """A claim as it goes to another process: one of the paper by its name, another by what it
+    asserts; with what its judge is told."""
 
     claim: str | Claim
     options: Options
@@ -76,7 +88,9 @@ def judge_sent(sent: Sent) -> tuple[Judgement, float]:
     """The judgement on a claim that was sent, and the seconds it took."""
     with _alone:
         began = time.perf_counter()
-        judgement = judge(_by_name()[sent.claim] if isinstance(sent.claim, str) else sent.claim, sent.options)
+        judgement = judge(
+            _by_name()[sent.claim] if isinstance(sent.claim, str) else sent.claim, sent.options
+        )
         return judgement, time.perf_counter() - began
 
 
@@ -91,14 +105,22 @@ def sent(claim: Claim, options: Options) -> Sent:
     if claim.source.startswith("proofs."):
         return Sent(claim.id, options.only(claim))
     if claim.printed or claim.derived or claim.nearby:
-        raise ClaimError(f"{claim.id} has a print to be corrected, which only this process can do; certify it without an executor")
+        raise ClaimError(
+            f"{claim.id} has a print to be corrected, which only this process can do; certify it"
+            " without an executor"
+        )
     return Sent(replace(claim, read=Said(claim.body(), claim.where)), options.only(claim))
 
 
 def judge_all(
-    claims: Sequence[Claim], options: Options, jobs: int, progress: Callable[[Claim, Judgement], None], executor: Executor | None = None,
+    claims: Sequence[Claim],
+    options: Options,
+    jobs: int,
+    progress: Callable[[Claim, Judgement], None],
+    executor: Executor | None = None,
 ) -> tuple[list[Judgement], dict[str, float]]:
-    """The judgements on all claims in order, and the seconds that each took; by an executor where one is given.
+    """The judgements on all claims in order, and the seconds that each took; by an executor where
+    one is given.
 
     Raises ClaimError for the first claim in order that cannot be stated.
     """
@@ -109,7 +131,12 @@ def judge_all(
         progress(claims[index], found[0])
 
     if executor is not None:
-        return [judgement for judgement, _ in spread(judge_sent, [sent(claim, options) for claim in claims], executor, take)], seconds
+        return [
+            judgement
+            for judgement, _ in spread(
+                judge_sent, [sent(claim, options) for claim in claims], executor, take
+            )
+        ], seconds
     global _work
     _work = (claims, options)
     everything = range(len(claims))
@@ -117,7 +144,9 @@ def judge_all(
         return [judgement for judgement, _ in spread(_judge_one, everything, None, take)], seconds
     with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=start) as pool:
         try:
-            return [judgement for judgement, _ in spread(_judge_one, everything, pool, take)], seconds
+            return [
+                judgement for judgement, _ in spread(_judge_one, everything, pool, take)
+            ], seconds
         except ClaimError:
             raise
         except BaseException:

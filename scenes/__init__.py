@@ -1,1 +1,2 @@
-"""The moving system: orbits of the map, and figures of the states, maps and regions, from what `symbolic` derives."""
+"""The moving system: orbits of the map, and figures of the states, maps and regions, from what
+`symbolic` derives."""

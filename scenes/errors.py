@@ -1,4 +1,5 @@
-"""The one error of the scenes: a scene, a state or a wish that cannot be carried out, told in one line."""
+"""The one error of the scenes: a scene, a state or a wish that cannot be carried out, told in one
+line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Exact algebra that every derivation uses: states, maps in (beta, v), linear systems, unipotent powers."""
+"""Exact algebra that every derivation uses: states, maps in (beta, v), linear systems, unipotent
+powers."""
 
 from __future__ import annotations
 
@@ -11,7 +12,9 @@ from sympy.polys.fields import FracField
 
 from symbolic.symbols import beta, v
 
-State: TypeAlias = ImmutableMatrix  # a column (height, speed); a map is a State whose entries contain beta and v
+State: TypeAlias = (
+    ImmutableMatrix  # a column (height, speed); a map is a State whose entries contain beta and v
+)
 
 
 class DerivationError(ArithmeticError):
@@ -24,9 +27,11 @@ def _fractions(symbols: tuple[Symbol, ...]) -> FracField:
 
 
 def lowest_terms(expression: Expr) -> Expr:
-    """A rational expression as one fraction with coprime, expanded numerator and denominator (equal ones look equal).
+    """A rational expression as one fraction with coprime, expanded numerator and denominator (equal
+    ones look equal).
 
-    The same as SymPy's `cancel`, without its care for what is not rational: such expressions are refused.
+    The same as SymPy's `cancel`, without its care for what is not rational: such expressions are
+    refused.
 
     >>> from symbolic.symbols import alpha
     >>> lowest_terms((alpha**2 - 1) / (alpha + 1) ** 2)
@@ -72,7 +77,8 @@ def integral_from_zero(integrand: Expr, variable: Symbol) -> Expr:
 
 
 def solution_of(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...]:
-    """The only solution of a linear system (each expression is to vanish); DerivationError if there is not exactly one.
+    """The only solution of a linear system (each expression is to vanish); DerivationError if there
+    is not exactly one.
 
     >>> from symbolic.symbols import beta, v
     >>> solution_of([beta + v - 3, beta - v - 1], [beta, v])
@@ -98,7 +104,8 @@ def root_of(expression: Expr, unknown: Symbol) -> Expr:
 
 
 def affine_parts(mapping: State) -> tuple[State, State]:
-    """The matrix M and the offset c of an affine map b -> M b + c; DerivationError if the map is not affine.
+    """The matrix M and the offset c of an affine map b -> M b + c; DerivationError if the map is
+    not affine.
 
     >>> from symbolic.symbols import beta, v
     >>> affine_parts(state(beta + 2 * v, 3 - v))
@@ -129,7 +136,9 @@ def unipotent_power(matrix: State, exponent: Expr) -> State:
     rest = matrix - identity
 
     def power(k: Expr) -> State:
-        return ImmutableMatrix((identity + k * rest + k * (k - 1) / 2 * rest**2).applyfunc(lowest_terms))
+        return ImmutableMatrix(
+            (identity + k * rest + k * (k - 1) / 2 * rest**2).applyfunc(lowest_terms)
+        )
 
     for left, right in ((power(S.Zero), identity), (power(exponent) * matrix, power(exponent + 1))):
         if any(lowest_terms(entry) != 0 for entry in left - right):
@@ -138,7 +147,8 @@ def unipotent_power(matrix: State, exponent: Expr) -> State:
 
 
 def eigenvalues_of(matrix: State) -> tuple[Expr, ...]:
-    """The eigenvalues with their multiplicity, where the characteristic polynomial splits into rational factors.
+    """The eigenvalues with their multiplicity, where the characteristic polynomial splits into
+    rational factors.
 
     >>> from sympy import ImmutableMatrix
     >>> eigenvalues_of(ImmutableMatrix([[2, 7], [0, 3]]))

@@ -1,4 +1,5 @@
-"""The energy bounds E_max, Delta E_max and Delta E_sup, for all 0 < alpha < 1 (section 4.1, appendix A)."""
+"""The energy bounds E_max, Delta E_max and Delta E_sup, for all 0 < alpha < 1 (section 4.1,
+appendix A)."""
 
 from __future__ import annotations
 
@@ -17,24 +18,34 @@ from symbolic.table import period
 
 
 class Extremum(NamedTuple):
-    """The least upper bound of a function on a set: its value, the state it belongs to, and whether it is reached."""
+    """The least upper bound of a function on a set: its value, the state it belongs to, and whether
+    it is reached."""
 
     value: Expr
     state: State
     attained: bool
 
 
-def _supremum_on_b1(objective: Expr, closed: list[Expr], opened: list[Expr], bounding: Expr) -> Extremum:
-    """The supremum of the objective over the states of B1 with closed constraints >= 0 and opened ones > 0.
+def _supremum_on_b1(
+    objective: Expr, closed: list[Expr], opened: list[Expr], bounding: Expr
+) -> Extremum:
+    """The supremum of the objective over the states of B1 with closed constraints >= 0 and opened
+    ones > 0.
 
-    `bounding` falls without bound on B1. It is the objective, or a closed constraint: either way candidates suffice.
+    `bounding` falls without bound on B1. It is the objective, or a closed constraint: either way
+    candidates suffice.
     """
     if not falls_without_bound(bounding) or bounding not in (objective, *closed):
         raise DerivationError(f"the supremum may lie at infinity: {bounding}")
     opened = [scaled(collision_margin(), r**2), *opened]
     best = greatest(candidates(objective, [x, *closed, *opened]))
-    touched = [g for g in opened if g in best.active or sign_for_lossy_impacts(g.subs({x: best.x, w: best.w})) == 0]
-    # Raising the height leaves the touched boundary into the set, so the point is a limit of the set.
+    touched = [
+        g
+        for g in opened
+        if g in best.active or sign_for_lossy_impacts(g.subs({x: best.x, w: best.w})) == 0
+    ]
+    # Raising the height leaves the touched boundary into the set, so the point is a limit of the
+    # set.
     if any(sign_for_lossy_impacts(g.diff(x)) <= 0 for g in touched):
         raise DerivationError(f"the candidate may be isolated: {best}")
     return Extremum(best.value * r**2, physical_state(best.x, best.w), not touched)
@@ -49,7 +60,8 @@ def physical_state(height: Expr, closing_speed: Expr) -> State:
     units = (r * period(), r)
     entries = []
     for entry, unit in zip(unscaling(), units, strict=True):
-        # Measured in its unit the entry has no symbol but alpha, so that a root in it can be reduced.
+        # Measured in its unit the entry has no symbol but alpha, so that a root in it can be
+        # reduced.
         value = lowest_terms(entry / unit).subs({x: height, w: closing_speed})
         entries.append(reduced(value) * unit)
     return ImmutableMatrix(entries)
@@ -57,9 +69,11 @@ def physical_state(height: Expr, closing_speed: Expr) -> State:
 
 @cache
 def largest_kept_energy() -> Extremum:
-    """The greatest energy in B1 where an impact does not lose energy: E_max, at (0, -(1 + alpha) / (1 - alpha) r) (34).
+    """The greatest energy in B1 where an impact does not lose energy: E_max, at (0, -(1 + alpha) /
+    (1 - alpha) r) (34).
 
-    Candidates in the set 0 <= x <= w, energy change >= 0: stationary points along the three curves, and their corners.
+    Candidates in the set 0 <= x <= w, energy change >= 0: stationary points along the three curves,
+    and their corners.
 
     >>> from symbolic.symbols import alpha
     >>> found = largest_kept_energy()
@@ -72,7 +86,8 @@ def largest_kept_energy() -> Extremum:
 
 @cache
 def E_max() -> Expr:
-    """The greatest energy of a state of B1 whose impact does not lose energy: ((1 + alpha) / (1 - alpha) r)^2 / 2 (equation 34).
+    """The greatest energy of a state of B1 whose impact does not lose energy: ((1 + alpha) / (1 -
+    alpha) r)^2 / 2 (equation 34).
 
     >>> E_max()
     r**2*(alpha + 1)**2/(2*(alpha - 1)**2)
@@ -103,7 +118,8 @@ def delta_E_max() -> Expr:
 
 @cache
 def region_energy() -> Expr:
-    """The energy up to which the region R reaches: E_max + Delta E_max = (1 + alpha) / (1 - alpha)^2 r^2 (equation 23).
+    """The energy up to which the region R reaches: E_max + Delta E_max = (1 + alpha) / (1 -
+    alpha)^2 r^2 (equation 23).
 
     >>> region_energy()
     r**2*(alpha + 1)/(alpha - 1)**2
@@ -113,7 +129,8 @@ def region_energy() -> Expr:
 
 @cache
 def least_energy_loss() -> Extremum:
-    """The supremum of the energy change on B1 - R: Delta E_sup, at the corner where R = 0 meets beta = 0 (A.3, 39).
+    """The supremum of the energy change on B1 - R: Delta E_sup, at the corner where R = 0 meets
+    beta = 0 (A.3, 39).
 
     The corner belongs to R, so the supremum is not reached.
 

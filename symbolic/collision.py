@@ -14,7 +14,8 @@ from symbolic.table import launch_state, period, table_at
 
 @cache
 def gap() -> Expr:
-    """The height of the ball above the table at time t, if they do not meet before: beta + t (v - r) (section 3.2).
+    """The height of the ball above the table at time t, if they do not meet before: beta + t (v -
+    r) (section 3.2).
 
     >>> gap()
     beta - r*t + t*v
@@ -44,7 +45,8 @@ def time_after_collision() -> Expr:
 
 @cache
 def relative_state_at_collision() -> State:
-    """Ball less table at the collision: A_tau (b - r_0) = (0, v - r) (section 3.2, before equation 9).
+    """Ball less table at the collision: A_tau (b - r_0) = (0, v - r) (section 3.2, before equation
+    9).
 
     >>> relative_state_at_collision().T
     Matrix([[0, -r + v]])
@@ -74,9 +76,11 @@ def table_speed_at_collision() -> Expr:
 
 @cache
 def collision_margin() -> Expr:
-    """Positive where the collision comes before the period ends: r^2 - (g beta / 2 + r v) (inequality 7).
+    """Positive where the collision comes before the period ends: r^2 - (g beta / 2 + r v)
+    (inequality 7).
 
-    It is (T - tau_c) (r - v) g / 2: of the sign of T - tau_c where the bodies approach (v < r) and g > 0.
+    It is (T - tau_c) (r - v) g / 2: of the sign of T - tau_c where the bodies approach (v < r) and
+    g > 0.
 
     >>> collision_margin()
     -beta*g/2 + r**2 - r*v
@@ -86,7 +90,8 @@ def collision_margin() -> Expr:
 
 @cache
 def boundary_speed() -> Expr:
-    """The speed on the line tau_c = T between B1 and B2, as a function of height: r - beta / T (equation 29).
+    """The speed on the line tau_c = T between B1 and B2, as a function of height: r - beta / T
+    (equation 29).
 
     >>> boundary_speed()
     (-beta*g + 2*r**2)/(2*r)
@@ -96,7 +101,8 @@ def boundary_speed() -> Expr:
 
 @cache
 def boundary_height() -> Expr:
-    """The height on the line tau_c = T between B1 and B2, as a function of speed: T (r - v) (equation 29).
+    """The height on the line tau_c = T between B1 and B2, as a function of speed: T (r - v)
+    (equation 29).
 
     >>> boundary_height()
     (2*r**2 - 2*r*v)/g

@@ -1,7 +1,9 @@
-"""A corner of a rigid body and the table that it strikes: what an impulse at the corner does (scene of section 2.1, figure 2).
+"""A corner of a rigid body and the table that it strikes: what an impulse at the corner does (scene
+of section 2.1, figure 2).
 
-All of it per unit of mass, which drops out.  The corner stands (x_c, y_c) from the centre of mass; J, the moment of inertia about that centre,
-is the square of the radius of gyration.  S and C are the tangential and the normal velocity of the corner relative to the table.
+All of it per unit of mass, which drops out.  The corner stands (x_c, y_c) from the centre of mass;
+J, the moment of inertia about that centre, is the square of the radius of gyration.  S and C are
+the tangential and the normal velocity of the corner relative to the table.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ C0 = Symbol("C0")  # less than 0 where corner and table approach
 
 @cache
 def corner_velocity() -> State:
-    """The velocity (S, C) of the corner of a body that moves at (c_x, c_y) and turns at omega (rigid body).
+    """The velocity (S, C) of the corner of a body that moves at (c_x, c_y) and turns at omega
+    (rigid body).
 
     >>> corner_velocity().T
     Matrix([[c_x - omega*y_c, c_y + omega*x_c]])
@@ -39,7 +42,8 @@ def corner_velocity() -> State:
 
 @cache
 def motion_after_impulse() -> ImmutableMatrix:
-    """The motion (c_x, c_y, omega) after the impulse (P_x, P_y) at the corner (momentum and angular momentum).
+    """The motion (c_x, c_y, omega) after the impulse (P_x, P_y) at the corner (momentum and angular
+    momentum).
 
     >>> motion_after_impulse().T
     Matrix([[P_x + c_x, P_y + c_y, omega + (-P_x*y_c + P_y*x_c)/J]])
@@ -54,7 +58,8 @@ def _moved(expression: Expr) -> Expr:
 
 @cache
 def contact_coefficients() -> ImmutableMatrix:
-    """What an impulse does to the corner's velocity: (B1, B2, B3), where S grows by B1 P_x - B3 P_y and C by B2 P_y - B3 P_x (Routh).
+    """What an impulse does to the corner's velocity: (B1, B2, B3), where S grows by B1 P_x - B3 P_y
+    and C by B2 P_y - B3 P_x (Routh).
 
     >>> contact_coefficients().T
     Matrix([[(J + y_c**2)/J, (J + x_c**2)/J, x_c*y_c/J]])
@@ -77,7 +82,8 @@ def velocity_after_impulse() -> State:
 
 @cache
 def work_of_impulse() -> Expr:
-    """The work of an impulse on a body, the power of the growing impulse at the corner summed up: P_x (S0 + S)/2 + P_y (C0 + C)/2 (Routh).
+    """The work of an impulse on a body, the power of the growing impulse at the corner summed up:
+    P_x (S0 + S)/2 + P_y (C0 + C)/2 (Routh).
 
     It does not depend on how the impulse grows, since the response is symmetric.
 
@@ -86,12 +92,15 @@ def work_of_impulse() -> Expr:
     """
     part = Symbol("part")
     moving = velocity_after_impulse().xreplace({P_x: part * P_x, P_y: part * P_y})
-    return lowest_terms(integral_from_zero(P_x * moving[0] + P_y * moving[1], part).xreplace({part: 1}))
+    return lowest_terms(
+        integral_from_zero(P_x * moving[0] + P_y * moving[1], part).xreplace({part: 1})
+    )
 
 
 @cache
 def kinetic_energy_gained() -> Expr:
-    """What an impulse at the corner adds to the kinetic energy of the body in the table's frame, per unit of mass (rigid body).
+    """What an impulse at the corner adds to the kinetic energy of the body in the table's frame,
+    per unit of mass (rigid body).
 
     >>> kinetic_energy_gained().xreplace({x_c: 2, y_c: 1, J: 1, c_x: 0, c_y: -1, omega: 0, P_x: 0, P_y: 1})
     3/2

@@ -1,10 +1,14 @@
-"""The impact of a corner with Coulomb friction and Poisson's restitution, by a walk through impulse space (Routh; Wang and Mason 1992).
+"""The impact of a corner with Coulomb friction and Poisson's restitution, by a walk through impulse
+space (Routh; Wang and Mason 1992).
 
-The walk begins on the line of sliding, where friction is mu times the normal impulse and opposes the sliding.  Where the corner stops (S = 0) it goes
-on along the line of sticking or, where friction cannot hold it, along the line of sliding back.  Compression is greatest where C = 0, at the
-normal impulse n; the walk ends at (1 + e) n.  Five modes: no stop at all, or one in compression or in restitution, then sticking or sliding back.
+The walk begins on the line of sliding, where friction is mu times the normal impulse and opposes
+the sliding.  Where the corner stops (S = 0) it goes on along the line of sticking or, where
+friction cannot hold it, along the line of sliding back.  Compression is greatest where C = 0, at
+the normal impulse n; the walk ends at (1 + e) n.  Five modes: no stop at all, or one in compression
+or in restitution, then sticking or sliding back.
 
-All is derived for a corner that slides to the right, S0 >= 0.  The mirror image of an impact is one: sigma = 1 or -1 is the direction of sliding.
+All is derived for a corner that slides to the right, S0 >= 0.  The mirror image of an impact is
+one: sigma = 1 or -1 is the direction of sliding.
 """
 
 from __future__ import annotations
@@ -38,13 +42,18 @@ def _at(expression: Expr, tangential: Expr, normal: Expr = P_y) -> Expr:
 def _mirrored(expression: Expr) -> Expr:
     """The same for a corner that slides in the direction sigma."""
     above, below = fraction(factor(lowest_terms(expression)))
-    turned = [_without_squares(part.xreplace({B3: sigma * B3, S0: sigma * S0})) for part in (above.expand(), below)]
+    turned = [
+        _without_squares(part.xreplace({B3: sigma * B3, S0: sigma * S0}))
+        for part in (above.expand(), below)
+    ]
     return factor(turned[0]) / turned[1]
 
 
 def _without_squares(expression: Expr) -> Expr:
     """The same by sigma^2 = 1."""
-    return expression.replace(lambda one: one.is_Pow and one.base == sigma, lambda one: sigma ** (one.exp % 2))
+    return expression.replace(
+        lambda one: one.is_Pow and one.base == sigma, lambda one: sigma ** (one.exp % 2)
+    )
 
 
 def _mirrored_pair(tangential: Expr, normal: Expr) -> State:
@@ -54,13 +63,15 @@ def _mirrored_pair(tangential: Expr, normal: Expr) -> State:
 
 @cache
 def _stop() -> Expr:
-    """The normal impulse at which a corner that slides to the right stops: S = 0 on the line of sliding."""
+    """The normal impulse at which a corner that slides to the right stops: S = 0 on the line of
+    sliding."""
     return root_of(_at(velocity_after_impulse()[0], -mu * P_y), P_y)
 
 
 @cache
 def _line(name: str) -> Expr:
-    """The tangential impulse at the normal impulse P_y on one of the three lines, for a corner that slides to the right."""
+    """The tangential impulse at the normal impulse P_y on one of the three lines, for a corner that
+    slides to the right."""
     if name == "sliding":
         return -mu * P_y
     if name == "reversed":
@@ -137,13 +148,16 @@ def velocity_after_contact(mode: str) -> State:
     """
     compression, end = MODES[mode]
     normal = (1 + e) * _compressed(compression)
-    after = state(*(_at(speed, _at(_line(end), P_x, normal), normal) for speed in velocity_after_impulse()))
+    after = state(
+        *(_at(speed, _at(_line(end), P_x, normal), normal) for speed in velocity_after_impulse())
+    )
     return _mirrored_pair(after[0], after[1])
 
 
 @cache
 def energy_gained_in_contact(mode: str) -> Expr:
-    """What the impact adds to the kinetic energy in the table's frame, per unit of mass: never more than 0 (Routh).
+    """What the impact adds to the kinetic energy in the table's frame, per unit of mass: never more
+    than 0 (Routh).
 
     >>> from symbolic.contact import B1, B2
     >>> example = {B1: 1, B2: 4, B3: 0, S0: 0, C0: -2, e: S.Half, mu: 1, sigma: 1}
@@ -157,7 +171,8 @@ def energy_gained_in_contact(mode: str) -> Expr:
 
 @cache
 def closing_rate() -> Expr:
-    """The rate at which a normal impulse ends the approach of a sliding corner: of C along the line of sliding (Routh).
+    """The rate at which a normal impulse ends the approach of a sliding corner: of C along the line
+    of sliding (Routh).
 
     Where it is not positive, friction jams the corner.
 
@@ -169,7 +184,8 @@ def closing_rate() -> Expr:
 
 @cache
 def stopping_rate() -> Expr:
-    """The rate at which a normal impulse stops the sliding corner: of -S along the line of sliding (Routh).
+    """The rate at which a normal impulse stops the sliding corner: of -S along the line of sliding
+    (Routh).
 
     Where it is not positive, the corner never stops.
 
@@ -186,7 +202,8 @@ def _rate(which: int) -> Expr:
 
 @cache
 def slides_through_compression() -> Expr:
-    """The margin by which the corner slides through compression: P_d - P_q, S at its greatest times the closing rate (Wang and Mason).
+    """The margin by which the corner slides through compression: P_d - P_q, S at its greatest times
+    the closing rate (Wang and Mason).
 
     >>> slides_through_compression()
     B1*C0*mu + B2*S0*sigma + B3*C0*sigma + B3*S0*mu
@@ -196,7 +213,8 @@ def slides_through_compression() -> Expr:
 
 @cache
 def slides_through_restitution() -> Expr:
-    """The margin by which the corner slides through restitution: P_d - (1 + e) P_q, S at the end times the closing rate (Wang and Mason).
+    """The margin by which the corner slides through restitution: P_d - (1 + e) P_q, S at the end
+    times the closing rate (Wang and Mason).
 
     >>> slides_through_restitution().xreplace({e: 0}) == slides_through_compression()
     True
@@ -211,7 +229,8 @@ def _slides_through(part: Expr) -> Expr:
 
 @cache
 def slides_back() -> Expr:
-    """The margin by which friction fails to hold a corner that has stopped: the speed gained on the line of sliding back (Routh).
+    """The margin by which friction fails to hold a corner that has stopped: the speed gained on the
+    line of sliding back (Routh).
 
     >>> slides_back()
     -B1*mu + B3*sigma
@@ -221,7 +240,8 @@ def slides_back() -> Expr:
 
 @cache
 def newton_impulse() -> State:
-    """The impulse of a corner that sticks, were the impact to end with C = -e C0 (Newton's restitution).
+    """The impulse of a corner that sticks, were the impact to end with C = -e C0 (Newton's
+    restitution).
 
     >>> from symbolic.contact import B1, B2
     >>> newton_impulse().xreplace({B1: 2, B2: 2, B3: 1, S0: 0, C0: -3, e: 0}).T  # e = 0: as by Poisson's

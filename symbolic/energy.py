@@ -6,7 +6,14 @@ from functools import cache
 
 from sympy import Expr, expand
 
-from symbolic.algebra import DerivationError, State, integral_from_zero, lowest_terms, root_of, state
+from symbolic.algebra import (
+    DerivationError,
+    State,
+    integral_from_zero,
+    lowest_terms,
+    root_of,
+    state,
+)
 from symbolic.fixed_points import relative_map
 from symbolic.flight import acceleration, flight_map, fly
 from symbolic.impact import collide
@@ -17,7 +24,8 @@ from symbolic.table import table_at
 
 @cache
 def total_energy() -> Expr:
-    """The first integral of flight: kinetic energy less the work of gravity, E = g beta + v^2 / 2 (equation 14).
+    """The first integral of flight: kinetic energy less the work of gravity, E = g beta + v^2 / 2
+    (equation 14).
 
     Zero at rest on the ground; its conservation, v dE/dbeta + (acceleration) dE/dv = 0, is checked.
 
@@ -72,7 +80,8 @@ def energy_change_2() -> Expr:
 
 @cache
 def energy_change_at_impact() -> Expr:
-    """The kinetic energy gained at an impact at time tau: half the difference of squared speeds (equation 16).
+    """The kinetic energy gained at an impact at time tau: half the difference of squared speeds
+    (equation 16).
 
     >>> from symbolic.symbols import r
     >>> energy_change_at_impact().xreplace({tau: 0})
@@ -97,7 +106,8 @@ def energy_gradient() -> State:
 def zero_change_speed() -> Expr:
     """The speed v for which an impact at time tau keeps the energy (equation 22, appendix B.5).
 
-    The energy change is quadratic in v. One root is that of grazing, where the bodies move alike; this is the other.
+    The energy change is quadratic in v. One root is that of grazing, where the bodies move alike;
+    this is the other.
 
     >>> from symbolic.symbols import r
     >>> zero_change_speed().xreplace({tau: 0})
@@ -109,7 +119,8 @@ def zero_change_speed() -> Expr:
 
 @cache
 def zero_change_height() -> Expr:
-    """The height beta for which a period with an impact keeps the energy: a parabola in v (section 4.1, figure 8).
+    """The height beta for which a period with an impact keeps the energy: a parabola in v (section
+    4.1, figure 8).
 
     >>> zero_change_height().xreplace({v: 0})
     (alpha*r**2 + r**2)/(2*g)
@@ -129,7 +140,8 @@ def relative_kinetic_energy() -> Expr:
 
 @cache
 def relative_kinetic_energy_change() -> Expr:
-    """The change of the relative kinetic energy under f1: (alpha^2 - 1) z2^2 / 2, zero on the whole line z2 = 0 (section 4.3.1).
+    """The change of the relative kinetic energy under f1: (alpha^2 - 1) z2^2 / 2, zero on the whole
+    line z2 = 0 (section 4.3.1).
 
     >>> relative_kinetic_energy_change()
     alpha**2*z2**2/2 - z2**2/2

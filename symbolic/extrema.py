@@ -1,7 +1,9 @@
-"""Maximum of a function of (x, w) on a set, exactly for all 0 < alpha < 1, by comparing all candidates.
+"""Maximum of a function of (x, w) on a set, exactly for all 0 < alpha < 1, by comparing all
+candidates.
 
-Candidates are the points where the function is stationary inside, along each boundary curve (Lagrange), and the corners
-where two curves meet. Every function and constraint here is linear in x, so a curve gives x as a function of w.
+Candidates are the points where the function is stationary inside, along each boundary curve
+(Lagrange), and the corners where two curves meet. Every function and constraint here is linear in
+x, so a curve gives x as a function of w.
 """
 
 from __future__ import annotations
@@ -18,7 +20,8 @@ from symbolic.symbols import w, x
 
 
 class Candidate(NamedTuple):
-    """A point (x, w) with the value there and the constraints that hold with equality by its construction."""
+    """A point (x, w) with the value there and the constraints that hold with equality by its
+    construction."""
 
     x: Expr
     w: Expr
@@ -27,7 +30,8 @@ class Candidate(NamedTuple):
 
 
 def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[Candidate]:
-    """The stationary points inside, along each curve constraint = 0, and the corners that satisfy all constraints >= 0.
+    """The stationary points inside, along each curve constraint = 0, and the corners that satisfy
+    all constraints >= 0.
 
     >>> candidates(w - x, [x, 1 - w, w])
     [Candidate(x=0, w=1, value=1, active=(x, 1 - w)), Candidate(x=0, w=0, value=0, active=(x, w))]
@@ -46,7 +50,8 @@ def candidates(objective: Expr, constraints: Sequence[Expr]) -> list[Candidate]:
 
 
 def greatest(found: Sequence[Candidate]) -> Candidate:
-    """The candidate of the greatest value for all 0 < alpha < 1; DerivationError where the order depends on alpha.
+    """The candidate of the greatest value for all 0 < alpha < 1; DerivationError where the order
+    depends on alpha.
 
     >>> greatest(candidates(w - x, [x, 1 - w, w])).value
     1
@@ -63,7 +68,8 @@ def greatest(found: Sequence[Candidate]) -> Candidate:
 def falls_without_bound(objective: Expr) -> bool:
     """Whether the objective tends to minus infinity at infinity in the wedge 0 <= x <= w.
 
-    There it is enough that it decreases in x and is, along x = 0, a quadratic in w with negative leading coefficient.
+    There it is enough that it decreases in x and is, along x = 0, a quadratic in w with negative
+    leading coefficient.
 
     >>> falls_without_bound(w - x - w**2), falls_without_bound(w - x)
     (True, False)

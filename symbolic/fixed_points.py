@@ -17,7 +17,8 @@ from symbolic.table import period
 
 @cache
 def fixed_point() -> State:
-    """The fixed point e_K of the map over K periods, sampled at the start of its flight: f1 o f2^(K - 1) keeps it (section 3.5.1).
+    """The fixed point e_K of the map over K periods, sampled at the start of its flight: f1 o f2^(K
+    - 1) keeps it (section 3.5.1).
 
     >>> from sympy import Rational
     >>> from symbolic.symbols import g
@@ -29,7 +30,8 @@ def fixed_point() -> State:
 
 @cache
 def impact_fixed_point() -> State:
-    """The orbit of e_K where its impact comes: f2^(K - 1)(e_K), the fixed point of f2^(K - 1) o f1 (section 3.5.1).
+    """The orbit of e_K where its impact comes: f2^(K - 1)(e_K), the fixed point of f2^(K - 1) o f1
+    (section 3.5.1).
 
     >>> from sympy import Rational
     >>> from symbolic.symbols import g
@@ -41,7 +43,8 @@ def impact_fixed_point() -> State:
 
 @cache
 def e_1() -> State:
-    """The fixed point of f1: (4 alpha r^2 / ((1 + alpha)^2 g), -(1 - alpha) r / (1 + alpha)) (section 3.3, B.4).
+    """The fixed point of f1: (4 alpha r^2 / ((1 + alpha)^2 g), -(1 - alpha) r / (1 + alpha))
+    (section 3.3, B.4).
 
     >>> from sympy import Rational
     >>> from symbolic.symbols import g
@@ -53,7 +56,8 @@ def e_1() -> State:
 
 @cache
 def epsilon_1() -> Expr:
-    """The time for which e_1 = -(1 - alpha) / (1 + alpha) A_-epsilon r_0: 2 alpha T / (1 - alpha^2) (section 3.3).
+    """The time for which e_1 = -(1 - alpha) / (1 + alpha) A_-epsilon r_0: 2 alpha T / (1 - alpha^2)
+    (section 3.3).
 
     >>> epsilon_1()
     -4*alpha*r/(alpha**2*g - g)
@@ -85,7 +89,8 @@ def relative_map() -> State:
 
 @cache
 def equilibrium_speed() -> Expr:
-    """The speed that an impact only reverses, the table moving at r: (1 + alpha) / (1 - alpha) r (equation 33).
+    """The speed that an impact only reverses, the table moving at r: (1 + alpha) / (1 - alpha) r
+    (equation 33).
 
     >>> equilibrium_speed()
     (-alpha*r - r)/(alpha - 1)
@@ -96,7 +101,8 @@ def equilibrium_speed() -> Expr:
 
 @cache
 def subharmonic_ball_speed() -> Expr:
-    """The launch speed of a flight that lasts K periods: K g T / 2 = K r (section 3.5.1, before equation 17).
+    """The launch speed of a flight that lasts K periods: K g T / 2 = K r (section 3.5.1, before
+    equation 17).
 
     >>> subharmonic_ball_speed()
     K*r
@@ -106,7 +112,8 @@ def subharmonic_ball_speed() -> Expr:
 
 @cache
 def subharmonic_table_speed() -> Expr:
-    """The table's speed that keeps flights of K periods going: (1 - alpha) / (1 + alpha) K r (equation 17).
+    """The table's speed that keeps flights of K periods going: (1 - alpha) / (1 + alpha) K r
+    (equation 17).
 
     >>> subharmonic_table_speed()
     (-K*alpha*r + K*r)/(alpha + 1)
@@ -117,7 +124,8 @@ def subharmonic_table_speed() -> Expr:
 
 @cache
 def table_speed_at_fixed_point() -> Expr:
-    """The table's speed at the impact of e_K, from the fixed point itself: the same as `subharmonic_table_speed`.
+    """The table's speed at the impact of e_K, from the fixed point itself: the same as
+    `subharmonic_table_speed`.
 
     >>> lowest_terms(table_speed_at_fixed_point() - subharmonic_table_speed())
     0
@@ -127,7 +135,8 @@ def table_speed_at_fixed_point() -> Expr:
 
 @cache
 def subharmonic_bound() -> Expr:
-    """The real K at which the table's speed must be the greatest it has, r: (1 + alpha) / (1 - alpha) (equation 18).
+    """The real K at which the table's speed must be the greatest it has, r: (1 + alpha) / (1 -
+    alpha) (equation 18).
 
     >>> subharmonic_bound()
     (-alpha - 1)/(alpha - 1)

@@ -22,7 +22,8 @@ def acceleration() -> Expr:
 
 @cache
 def flight_map() -> State:
-    """The flight map F^t: two integrations of the acceleration from the state (beta, v) (equation 1).
+    """The flight map F^t: two integrations of the acceleration from the state (beta, v) (equation
+    1).
 
     >>> flight_map().T
     Matrix([[beta - g*t**2/2 + t*v, -g*t + v]])
@@ -64,7 +65,8 @@ def flight_offset(duration: Expr = t) -> State:
 
 @cache
 def hang_time() -> Expr:
-    """How long a body launched upwards at speed v takes to return to its height: t_f = 2 v / g (section 3.5.1).
+    """How long a body launched upwards at speed v takes to return to its height: t_f = 2 v / g
+    (section 3.5.1).
 
     >>> hang_time()
     2*v/g

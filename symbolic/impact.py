@@ -1,4 +1,5 @@
-"""Impact of a light body on a heavy one: momentum balance and restitution, solved (section 2.2.2)."""
+"""Impact of a light body on a heavy one: momentum balance and restitution, solved (section
+2.2.2)."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ mass_ratio = Symbol("m")  # mass of the ball over mass of the table
 def speeds_after_impact() -> tuple[Expr, Expr]:
     """Speeds of ball and table after an impact of a ball of mass m on a table of mass 1.
 
-    The momentum m v + u is kept, and the bodies part at alpha times the speed at which they met (equation 2).
+    The momentum m v + u is kept, and the bodies part at alpha times the speed at which they met
+    (equation 2).
 
     >>> [speed.xreplace({mass_ratio: 1, alpha: 1}) for speed in speeds_after_impact()]  # equal masses swap speeds
     [u, v]
@@ -30,7 +32,8 @@ def speeds_after_impact() -> tuple[Expr, Expr]:
 
 @cache
 def impact_map() -> State:
-    """The ball's state (beta, v) after it meets a much heavier table of state (rho, u): C_y(x) (equation 3).
+    """The ball's state (beta, v) after it meets a much heavier table of state (rho, u): C_y(x)
+    (equation 3).
 
     Position is continuous; the speed is that of `speeds_after_impact` at mass ratio 0.
 
@@ -42,7 +45,8 @@ def impact_map() -> State:
 
 @cache
 def table_after_impact() -> State:
-    """The table's state after the impact, at mass ratio 0: unchanged (section 2.2.2, before equation 3).
+    """The table's state after the impact, at mass ratio 0: unchanged (section 2.2.2, before
+    equation 3).
 
     >>> table_after_impact().T
     Matrix([[rho, u]])
@@ -61,7 +65,8 @@ def collide(ball: State, table: State) -> State:
 
 @cache
 def restitution_matrix() -> State:
-    """The matrix R_alpha of C_y(x) = R_alpha x + (1 - R_alpha) y, the part that acts on the ball (equation 3).
+    """The matrix R_alpha of C_y(x) = R_alpha x + (1 - R_alpha) y, the part that acts on the ball
+    (equation 3).
 
     >>> restitution_matrix()
     Matrix([

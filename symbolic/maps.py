@@ -25,7 +25,8 @@ from symbolic.table import launch_state, period, table_at
 
 
 def controlled_step(table_speed: Expr, flight_time: Expr) -> State:
-    """The ball from one impact to the next: F^u1 o C_u2, u2 the table's speed and u1 the time of flight (equation 4).
+    """The ball from one impact to the next: F^u1 o C_u2, u2 the table's speed and u1 the time of
+    flight (equation 4).
 
     >>> from symbolic.symbols import t, u
     >>> controlled_step(u, t)[1]
@@ -37,7 +38,8 @@ def controlled_step(table_speed: Expr, flight_time: Expr) -> State:
 
 @cache
 def ball_after_collision() -> State:
-    """The ball just after it has met the table: flight to tau_c, then impact (section 3.2, before equation 8).
+    """The ball just after it has met the table: flight to tau_c, then impact (section 3.2, before
+    equation 8).
 
     >>> from symbolic.symbols import g, r
     >>> ball_after_collision().xreplace({beta: 3, v: 0, r: 2, g: 1}).T
@@ -49,7 +51,8 @@ def ball_after_collision() -> State:
 
 @cache
 def folded_impact() -> State:
-    """Impact carried back to the start of the period: F^-tau o C o F^tau, which is -alpha (b - r_0) + r_0 (8, 9).
+    """Impact carried back to the start of the period: F^-tau o C o F^tau, which is -alpha (b - r_0)
+    + r_0 (8, 9).
 
     >>> folded_impact().T
     Matrix([[-alpha*beta, alpha*r - alpha*v + r]])
@@ -116,7 +119,8 @@ def time_shift(column: State, scale: Expr) -> Expr:
 
 @cache
 def xi_1() -> Expr:
-    """The time xi_1 for which the offset of f1 is (alpha - 1) A_-xi r_0: alpha T / (1 - alpha) (equation 10).
+    """The time xi_1 for which the offset of f1 is (alpha - 1) A_-xi r_0: alpha T / (1 - alpha)
+    (equation 10).
 
     >>> xi_1()
     -2*alpha*r/(alpha*g - g)
@@ -125,7 +129,8 @@ def xi_1() -> Expr:
 
 
 def flight_power(periods: Expr = K) -> State:
-    """A symbolic number of periods without impact: the power f2^K, by its recurrence (section 3.5.1).
+    """A symbolic number of periods without impact: the power f2^K, by its recurrence (section
+    3.5.1).
 
     >>> flight_power().T
     Matrix([[(-2*K**2*r**2 + 2*K*r*v + beta*g)/g, -2*K*r + v]])
@@ -159,7 +164,8 @@ def return_map() -> State:
 
 @cache
 def return_jacobian() -> State:
-    """The Jacobian of the map over K periods of which the last has an impact: -alpha A_T^K, with upper right entry -alpha K T (section 3.5.3).
+    """The Jacobian of the map over K periods of which the last has an impact: -alpha A_T^K, with
+    upper right entry -alpha K T (section 3.5.3).
 
     >>> return_jacobian()
     Matrix([

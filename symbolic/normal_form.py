@@ -79,7 +79,8 @@ def normal_f2() -> State:
 
 
 def normal_flight_power(periods: Expr = K) -> State:
-    """A number K of periods without impact, in normal form: (x, w) -> (x - K w - K (K - 1), w + 2 K).
+    """A number K of periods without impact, in normal form: (x, w) -> (x - K w - K (K - 1), w + 2
+    K).
 
     >>> normal_flight_power().T
     Matrix([[-K**2 - K*w + K + x, 2*K + w]])
@@ -109,7 +110,8 @@ def normal_e_1() -> State:
 
 @cache
 def normal_e_2() -> State:
-    """The orbit of e_2 where its impact comes, in normal form: (2 (3 alpha - 1) / (1 + alpha)^2, 4 / (1 + alpha)).
+    """The orbit of e_2 where its impact comes, in normal form: (2 (3 alpha - 1) / (1 + alpha)^2, 4
+    / (1 + alpha)).
 
     >>> normal_e_2()[1]
     4/(alpha + 1)
@@ -129,7 +131,8 @@ def normal_energy() -> Expr:
 
 @cache
 def normal_energy_change() -> Expr:
-    """The energy change of a period with an impact in units of r^2: (1 + alpha) (w - 2 x - (1 - alpha) w^2 / 2).
+    """The energy change of a period with an impact in units of r^2: (1 + alpha) (w - 2 x - (1 -
+    alpha) w^2 / 2).
 
     >>> normal_energy_change().xreplace({x: 0})
     alpha**2*w**2/2 + alpha*w - w**2/2 + w

@@ -1,4 +1,5 @@
-"""The region R, its corner, the point p, and how long an orbit takes to enter R (sections 4.1 to 4.3, appendix A)."""
+"""The region R, its corner, the point p, and how long an orbit takes to enter R (sections 4.1 to
+4.3, appendix A)."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ from symbolic.symbols import E0, beta, r, v, w, x
 
 @cache
 def region_margin() -> Expr:
-    """The function whose sign tells R: R(b) = E_max + Delta E_max - E(b) (equations 23 and 24, appendix B.6).
+    """The function whose sign tells R: R(b) = E_max + Delta E_max - E(b) (equations 23 and 24,
+    appendix B.6).
 
     >>> region_margin().xreplace({beta: 0, v: 0})
     r**2*(alpha + 1)/(alpha - 1)**2
@@ -39,7 +41,8 @@ def region_gradient() -> State:
 
 @cache
 def lagrange_multiplier() -> Expr:
-    """The multiplier lambda in grad Delta_1 E = lambda grad R, from its first component: alpha + 1 (after equation 38).
+    """The multiplier lambda in grad Delta_1 E = lambda grad R, from its first component: alpha + 1
+    (after equation 38).
 
     >>> lagrange_multiplier()
     alpha + 1
@@ -49,7 +52,8 @@ def lagrange_multiplier() -> Expr:
 
 @cache
 def stationary_speed_on_region_boundary() -> Expr:
-    """The speed at which Delta_1 E is stationary on R(b) = 0: r, where ball and table do not approach (A.3.1).
+    """The speed at which Delta_1 E is stationary on R(b) = 0: r, where ball and table do not
+    approach (A.3.1).
 
     >>> stationary_speed_on_region_boundary()
     r
@@ -59,13 +63,18 @@ def stationary_speed_on_region_boundary() -> Expr:
 
 @cache
 def region_corner() -> State:
-    """The state where R(b) = 0 meets beta = 0 in B1: (0, -sqrt(2 (1 + alpha)) r / (1 - alpha)) (equation 39).
+    """The state where R(b) = 0 meets beta = 0 in B1: (0, -sqrt(2 (1 + alpha)) r / (1 - alpha))
+    (equation 39).
 
     >>> region_corner().T
     Matrix([[0, r*sqrt(2*alpha + 2)/(alpha - 1)]])
     """
     margin = scaled(region_margin(), r**2)
-    speeds = [root for root in simplest_roots(Poly(margin.xreplace({x: 0}), w)) if sign_for_lossy_impacts(root) > 0]
+    speeds = [
+        root
+        for root in simplest_roots(Poly(margin.xreplace({x: 0}), w))
+        if sign_for_lossy_impacts(root) > 0
+    ]
     if len(speeds) != 1:
         raise DerivationError(f"not one corner: {speeds}")
     return physical_state(0, speeds[0])
@@ -73,7 +82,8 @@ def region_corner() -> State:
 
 @cache
 def point_p() -> State:
-    """Where the line tau_c = T has the speed of e_1: p = (2 T r / (1 + alpha), -(1 - alpha) r / (1 + alpha)) (30).
+    """Where the line tau_c = T has the speed of e_1: p = (2 T r / (1 + alpha), -(1 - alpha) r / (1
+    + alpha)) (30).
 
     >>> point_p().T
     Matrix([[4*r**2/(alpha*g + g), (alpha*r - r)/(alpha + 1)]])
@@ -94,7 +104,8 @@ def energy_of_p() -> Expr:
 
 @cache
 def worst_flight_time() -> Expr:
-    """The longest flight with energy E0: up from height 0 and back, tau_w = 2 sqrt(2 E0) / g (equation 25).
+    """The longest flight with energy E0: up from height 0 and back, tau_w = 2 sqrt(2 E0) / g
+    (equation 25).
 
     >>> worst_flight_time()
     2*sqrt(2)*sqrt(E0)/g
@@ -107,7 +118,8 @@ def worst_flight_time() -> Expr:
 
 @cache
 def impacts_to_enter_region() -> Expr:
-    """How many impacts, as a real number, bring the energy E0 down to that of R: (E0 - E_R) / -Delta E_sup (A.4).
+    """How many impacts, as a real number, bring the energy E0 down to that of R: (E0 - E_R) /
+    -Delta E_sup (A.4).
 
     >>> from sympy import Rational
     >>> impacts_to_enter_region().subs("alpha", Rational(1, 8)).xreplace({E0: 10, r: 1})

@@ -1,4 +1,5 @@
-"""Exact signs of algebraic functions of alpha on the open interval 0 < alpha < 1, by Sturm's count."""
+"""Exact signs of algebraic functions of alpha on the open interval 0 < alpha < 1, by Sturm's
+count."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ _ROOT = Symbol("root")
 
 @cache
 def sign_for_lossy_impacts(expression: Expr) -> int:
-    """The sign (-1, 0 or 1) that an expression in alpha, with at most one square root, has for all 0 < alpha < 1.
+    """The sign (-1, 0 or 1) that an expression in alpha, with at most one square root, has for all
+    0 < alpha < 1.
 
     DerivationError if it has no constant sign there.
 
@@ -30,13 +32,17 @@ def sign_for_lossy_impacts(expression: Expr) -> int:
 
 
 def reduced(expression: Expr) -> Expr:
-    """The normal form p + q sqrt(m) with reduced fractions p and q, for an expression in alpha with one root.
+    """The normal form p + q sqrt(m) with reduced fractions p and q, for an expression in alpha with
+    one root.
 
     >>> reduced((1 + sqrt(2 * alpha + 2)) ** 2)
     2*alpha + 2*sqrt(2*alpha + 2) + 3
     """
     rational, radicand = _name_root(expression)
-    over, under = (Poly(part, _ROOT).rem(Poly(_ROOT**2 - radicand, _ROOT)) for part in rational.as_numer_denom())
+    over, under = (
+        Poly(part, _ROOT).rem(Poly(_ROOT**2 - radicand, _ROOT))
+        for part in rational.as_numer_denom()
+    )
     conjugate = under.compose(Poly(-_ROOT, _ROOT))
     value = (over * conjugate).rem(Poly(_ROOT**2 - radicand, _ROOT))
     norm = (under * conjugate).rem(Poly(_ROOT**2 - radicand, _ROOT)).nth(0)
@@ -44,10 +50,13 @@ def reduced(expression: Expr) -> Expr:
 
 
 def _name_root(expression: Expr) -> tuple[Expr, Expr]:
-    """The expression as a fraction in alpha and the symbol of its only root, and what stands below that root."""
+    """The expression as a fraction in alpha and the symbol of its only root, and what stands below
+    that root."""
     if S(expression).free_symbols - {alpha}:
         raise DerivationError(f"not a function of alpha alone: {expression}")
-    powers = [power for power in S(expression).atoms(Pow) if power.exp.is_Rational and power.exp.q == 2]
+    powers = [
+        power for power in S(expression).atoms(Pow) if power.exp.is_Rational and power.exp.q == 2
+    ]
     bases = {power.base for power in powers}
     if len(bases) > 1:
         raise DerivationError(f"more than one root: {expression}")
@@ -73,14 +82,16 @@ def _sign(expression: Expr, radicand: Expr) -> int:
 
 
 def _vanishes(polynomial: Poly) -> bool:
-    """Whether a polynomial in alpha has a zero in the open interval (the ends are divided out before counting)."""
+    """Whether a polynomial in alpha has a zero in the open interval (the ends are divided out
+    before counting)."""
     ends = (Poly(alpha, alpha), Poly(alpha - 1, alpha))
     inner = (part for part, _ in polynomial.factor_list()[1] if part not in ends)
     return any(part.count_roots(0, 1) for part in inner)
 
 
 def simplest_roots(polynomial: Poly) -> tuple[Expr, ...]:
-    """The zeros of a polynomial of degree at most 2 over Q(alpha); none where they are complex for 0 < alpha < 1.
+    """The zeros of a polynomial of degree at most 2 over Q(alpha); none where they are complex for
+    0 < alpha < 1.
 
     Squares are taken out of the root.
 

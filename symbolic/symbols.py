@@ -1,4 +1,5 @@
-"""The symbols of the paper, without assumptions: what a step needs of them is stated where it is needed."""
+"""The symbols of the paper, without assumptions: what a step needs of them is stated where it is
+needed."""
 
 from __future__ import annotations
 

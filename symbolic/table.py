@@ -53,7 +53,8 @@ def landing_state() -> State:
 
 @cache
 def state_after_ground() -> State:
-    """The landed table after a lossless bounce (restitution 1) off the ground at rest: r_0 again (section 3.1).
+    """The landed table after a lossless bounce (restitution 1) off the ground at rest: r_0 again
+    (section 3.1).
 
     >>> state_after_ground() == launch_state()
     True

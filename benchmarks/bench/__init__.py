@@ -1,1 +1,2 @@
-"""`juggleproof bench`: the paper's bounds and orbits by every method in one run, error against seconds."""
+"""`juggleproof bench`: the paper's bounds and orbits by every method in one run, error against
+seconds."""

@@ -13,7 +13,8 @@ class GaveUp(Exception):
 
 @dataclass(frozen=True)
 class Answer:
-    """low <= supremum <= high as the method says; without `high` it is a value and no bound.  `note` tells what else there is to say."""
+    """low <= supremum <= high as the method says; without `high` it is a value and no bound.
+    `note` tells what else there is to say."""
 
     low: Fraction
     high: Fraction | None = None
@@ -21,7 +22,11 @@ class Answer:
 
     def as_json(self) -> dict[str, Any]:
         """For another process."""
-        return {"low": str(self.low), "high": None if self.high is None else str(self.high), "note": self.note}
+        return {
+            "low": str(self.low),
+            "high": None if self.high is None else str(self.high),
+            "note": self.note,
+        }
 
     def error(self, truth: Fraction) -> Fraction:
         """The width of the enclosure; the distance to the truth where there is none."""
@@ -34,7 +39,8 @@ class Answer:
 
 @dataclass(frozen=True)
 class Strayed:
-    """How far a state is from the exact one, and what the method says of that: a bound, or None where it says nothing."""
+    """How far a state is from the exact one, and what the method says of that: a bound, or None
+    where it says nothing."""
 
     distance: Fraction
     bound: Fraction | None
@@ -44,7 +50,12 @@ class Strayed:
     def as_json(self) -> dict[str, Any]:
         """For another process."""
         bound = None if self.bound is None else str(self.bound)
-        return {"distance": str(self.distance), "bound": bound, "note": self.note, "beyond": self.beyond}
+        return {
+            "distance": str(self.distance),
+            "bound": bound,
+            "note": self.note,
+            "beyond": self.beyond,
+        }
 
     def error(self, truth: Fraction) -> Fraction:
         """The bound where there is one."""
@@ -57,6 +68,7 @@ class Strayed:
 
 def read_answer(data: dict[str, Any]) -> Answer | Strayed:
     """What `as_json` wrote."""
+
     def number(key: str) -> Fraction | None:
         return None if data[key] is None else Fraction(data[key])
 

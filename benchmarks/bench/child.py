@@ -1,6 +1,8 @@
-"""One method on one piece of work, in a process of its own: `python -m benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
+"""One method on one piece of work, in a process of its own:
+`python -m benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
 
-Prints one JSON object.  `cold` is the first answer, with everything that the method has to load; `warm` the least of what follows, if time is left.
+Prints one JSON object.  `cold` is the first answer, with everything that the method has to load;
+`warm` the least of what follows, if time is left.
 """
 
 from __future__ import annotations
@@ -12,11 +14,18 @@ import sys
 import time
 from fractions import Fraction
 
-REPEATS, LONG = 3, 0.3  # more than so many repeats only while they take less than so many seconds: answers of a millisecond vary most
+REPEATS, LONG = (
+    3,
+    0.3,
+    # more than so many repeats only while they take less than so many seconds: answers of a
+    # millisecond
+    # vary most
+)
 
 
 class Over(BaseException):
-    """The seconds are over, or the parent wants an end: raised wherever the method is, so that it ends its own programs."""
+    """The seconds are over, or the parent wants an end: raised wherever the method is, so that it
+    ends its own programs."""
 
 
 def _over(*_: object) -> None:
@@ -36,7 +45,11 @@ def main() -> int:
     began = time.perf_counter()
     took: list[float] = []
     try:
-        while not took or (len(took) <= REPEATS or sum(took[1:]) < LONG) and time.perf_counter() - began + min(took) < seconds:
+        while (
+            not took
+            or (len(took) <= REPEATS or sum(took[1:]) < LONG)
+            and time.perf_counter() - began + min(took) < seconds
+        ):
             start = time.perf_counter()
             answer = method.solve(work, size)
             took.append(time.perf_counter() - start)
@@ -47,13 +60,20 @@ def main() -> int:
         if not took:
             print(json.dumps({"gave_up": f"{seconds:g} s"}))
             return 0
-    signal.setitimer(signal.ITIMER_REAL, seconds)  # as much again to compare an orbit with the exact one
+    signal.setitimer(
+        signal.ITIMER_REAL, seconds
+    )  # as much again to compare an orbit with the exact one
     try:
         told = (answer() if callable(answer) else answer).as_json()
     except (Over, GaveUp):
         told = None
-    print(json.dumps({"gave_up": "no exact orbit to compare with"} if told is None else
-                     {"cold": took[0], "warm": min(took[1:], default=None), "answer": told}))
+    print(
+        json.dumps(
+            {"gave_up": "no exact orbit to compare with"}
+            if told is None
+            else {"cold": took[0], "warm": min(took[1:], default=None), "answer": told}
+        )
+    )
     return 0
 
 

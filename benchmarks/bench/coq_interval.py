@@ -23,13 +23,19 @@ def has_coq_interval() -> bool:
     coqc = shutil.which("coqc")
     if coqc is None:
         return False
-    where = subprocess.run([coqc, "-where"], capture_output=True, text=True, check=False).stdout.strip()
-    folders = [Path(where) / "user-contrib", *map(Path, filter(None, os.environ.get("COQPATH", "").split(":")))]
+    where = subprocess.run(
+        [coqc, "-where"], capture_output=True, text=True, check=False
+    ).stdout.strip()
+    folders = [
+        Path(where) / "user-contrib",
+        *map(Path, filter(None, os.environ.get("COQPATH", "").split(":"))),
+    ]
     return any((folder / "Interval" / "Tactic.vo").exists() for folder in folders)
 
 
 def goal(problem: Problem, bound: Fraction) -> str:
-    """That the excess is >= 0 on the box, by bisection of all variables, with slopes along the last.
+    """That the excess is >= 0 on the box, by bisection of all variables, with slopes along the
+    last.
 
     >>> from fractions import Fraction as F
     >>> one = Problem("half", ("p",), ((F(0), F(1)),), {(1,): F(1)}, {(0,): F(2)}, 1, "", "")
@@ -37,11 +43,16 @@ def goal(problem: Problem, bound: Fraction) -> str:
     Goal forall v0 : R, 0/1 <= v0 <= 1/1 -> 0 <= 2/1 + v0*(-1/1).
     """
     short = [f"v{i}" for i in range(len(problem.names))]
-    sides = "".join(f"{_number(low)} <= {v} <= {_number(high)} -> " for v, (low, high) in zip(short, problem.box))
+    sides = "".join(
+        f"{_number(low)} <= {v} <= {_number(high)} -> "
+        for v, (low, high) in zip(short, problem.box)
+    )
     excess = horner(problem.excess(bound), short, _number)
     halved = ", ".join(f"i_bisect {v}" for v in short)
-    return (f"{HEAD}Goal forall {' '.join(short)} : R, {sides}0 <= {excess}.\n"
-            f"Proof. intros; interval with ({halved}, i_autodiff {short[-1]}, i_prec {BITS}, i_depth {DEPTH}). Qed.\n")
+    return (
+        f"{HEAD}Goal forall {' '.join(short)} : R, {sides}0 <= {excess}.\nProof. intros; interval"
+        f" with ({halved}, i_autodiff {short[-1]}, i_prec {BITS}, i_depth {DEPTH}). Qed.\n"
+    )
 
 
 def _number(value: Fraction) -> str:
@@ -53,4 +64,7 @@ def proves(text: str, seconds: float) -> bool:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "goal.v"
         path.write_text(text, encoding="utf-8")
-        return Clock(seconds).output_of(["coqc", "-q", str(path)], "") is not None and path.with_suffix(".vo").exists()
+        return (
+            Clock(seconds).output_of(["coqc", "-q", str(path)], "") is not None
+            and path.with_suffix(".vo").exists()
+        )

@@ -1,4 +1,5 @@
-"""A rational point where the fraction of a problem is nearly greatest: floating point finds it, its value is computed exactly.
+"""A rational point where the fraction of a problem is nearly greatest: floating point finds it, its
+value is computed exactly.
 
 In plain floats, since the problems are small: to load NumPy takes longer than all the rest.
 """
@@ -46,30 +47,48 @@ class _Quotient:
 
     def __init__(self, problem: Problem) -> None:
         self.low, self.high = ([float(pair[k]) for pair in problem.box] for k in (0, 1))
-        self.monomials = [(e, float(problem.over.get(e, 0)), float(problem.under.get(e, 0))) for e in dict.fromkeys([*problem.over, *problem.under])]
+        self.monomials = [
+            (e, float(problem.over.get(e, 0)), float(problem.under.get(e, 0)))
+            for e in dict.fromkeys([*problem.over, *problem.under])
+        ]
         self.most = max(max(e) for e, _, _ in self.monomials)
 
     def greatest_near(self, slack: float) -> tuple[float, Floats]:
-        """(value, place) where the value no longer rises by much of the slack, from a start among the box's corners and middles.
+        """(value, place) where the value no longer rises by much of the slack, from a start among
+        the box's corners and middles.
 
-        At a place where over/under = m, a damped Newton step for m under - over, kept in the box, leads to a greater value: Dinkelbach's iteration,
-        a step at a time.  Source: Dinkelbach, On nonlinear fractional programming, Management Science 13 (1967).
+        At a place where over/under = m, a damped Newton step for m under - over, kept in the box,
+        leads to a greater value: Dinkelbach's iteration, a step at a time.  Source: Dinkelbach, On
+        nonlinear fractional programming, Management Science 13 (1967).
         """
         value, x = self.start()
         damping, before = DAMPING, 0.0
         for _ in range(STEPS):
             slope, bend, noise = self.excess(x, value)
-            free = [i for i, s in enumerate(slope) if s < 0 and x[i] < self.high[i] or s > 0 and x[i] > self.low[i]]
+            free = [
+                i
+                for i, s in enumerate(slope)
+                if s < 0 and x[i] < self.high[i] or s > 0 and x[i] > self.low[i]
+            ]
             scale, gained = max(max(map(abs, row)) for row in bend) or 1.0, 0.0
             while free and damping < MOST and not gained > 0:
-                step = solved([[bend[i][j] + (damping * scale if i == j else 0.0) for j in free] for i in free], [slope[i] for i in free])
+                step = solved(
+                    [
+                        [bend[i][j] + (damping * scale if i == j else 0.0) for j in free]
+                        for i in free
+                    ],
+                    [slope[i] for i in free],
+                )
                 if step is not None:
                     moved = x[:]
                     for i, change in zip(free, step):
                         moved[i] = min(max(x[i] - change, self.low[i]), self.high[i])
                     after = self.at(moved)
                     gained = after - value
-                    if not gained > 0 and sum(slope[i] * change for i, change in zip(free, step)) <= noise:
+                    if (
+                        not gained > 0
+                        and sum(slope[i] * change for i, change in zip(free, step)) <= noise
+                    ):
                         break  # a shorter step would gain even less
                 damping = max(damping / FACTOR, LEAST) if gained > 0 else damping * FACTOR
             if not gained > 0:
@@ -81,14 +100,22 @@ class _Quotient:
         return value, x
 
     def start(self) -> tuple[float, Floats]:
-        """(value, place), the best of all ends and middles of few axes at a time, from the middle of the box until nothing is gained."""
-        ends = list(zip(self.low, [(low + high) / 2 for low, high in zip(self.low, self.high)], self.high))
+        """(value, place), the best of all ends and middles of few axes at a time, from the middle
+        of the box until nothing is gained."""
+        ends = list(
+            zip(self.low, [(low + high) / 2 for low, high in zip(self.low, self.high)], self.high)
+        )
         best, place, gained = -inf, [middle for _, middle, _ in ends], True
         while gained:
             gained = False
             for k in range(0, len(ends), AXES):
-                few = ends[k:k + AXES]
-                value, moved = max((self.at(moved), moved) for moved in ([*place[:k], *chosen, *place[k + len(few):]] for chosen in product(*few)))
+                few = ends[k : k + AXES]
+                value, moved = max(
+                    (self.at(moved), moved)
+                    for moved in (
+                        [*place[:k], *chosen, *place[k + len(few) :]] for chosen in product(*few)
+                    )
+                )
                 if value > best:
                     best, place, gained = value, moved, len(ends) > AXES
         return best, place
@@ -106,7 +133,8 @@ class _Quotient:
         return over / under if under > 0 else -inf
 
     def excess(self, x: Floats, value: float) -> tuple[Floats, list[Floats], float]:
-        """Gradient and Hessian of value * under - over at a place, and what rounding may change in it."""
+        """Gradient and Hessian of value * under - over at a place, and what rounding may change in
+        it."""
         axes = range(len(x))
         powers = [[v**e for e in range(self.most + 1)] for v in x]
         slope, bend, noise = [0.0 for _ in axes], [[0.0 for _ in axes] for _ in axes], 0.0
@@ -142,7 +170,8 @@ def _product(factors: Floats, total: float) -> float:
 
 
 def solved(matrix: list[Floats], right: Floats) -> Floats | None:
-    """The solution of a symmetric system by Cholesky's method without roots; None where the matrix is not positive definite.
+    """The solution of a symmetric system by Cholesky's method without roots; None where the matrix
+    is not positive definite.
 
     >>> solved([[4.0, 2.0], [2.0, 3.0]], [8.0, 8.0])
     [1.0, 2.0]

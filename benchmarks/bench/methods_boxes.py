@@ -1,7 +1,10 @@
-"""Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps; rigorous, but nothing is left that one could check.
+"""Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps; rigorous,
+but nothing is left that one could check.
 
-A box is done where the excess is certainly >= 0, by its natural extension or by its mean-value form; a variable in which it is monotone is put to
-its end; else the axis is halved along which slope times side is largest.  Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis (2009).
+A box is done where the excess is certainly >= 0, by its natural extension or by its mean-value
+form; a variable in which it is monotone is put to its end; else the axis is halved along which
+slope times side is largest.  Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis
+(2009).
 """
 
 from __future__ import annotations
@@ -21,7 +24,8 @@ Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put
 
 
 class Intervals(Protocol):
-    """Numbers that enclose: made from rationals, and asked for their least and their greatest value."""
+    """Numbers that enclose: made from rationals, and asked for their least and their greatest
+    value."""
 
     def over(self, low: Fraction, high: Fraction) -> Any: ...
 
@@ -77,13 +81,20 @@ class Enclosed:
 
     def __init__(self, terms: Terms, size: int, numbers: Intervals) -> None:
         self.numbers = numbers
-        slopes = [{(*e[:i], e[i] - 1, *e[i + 1:]): c * e[i] for e, c in terms.items() if e[i]} for i in range(size)]
-        self.parts = [[(numbers.over(c, c), [(i, k) for i, k in enumerate(e) if k]) for e, c in part.items()] for part in (terms, *slopes)]
+        slopes = [
+            {(*e[:i], e[i] - 1, *e[i + 1 :]): c * e[i] for e, c in terms.items() if e[i]}
+            for i in range(size)
+        ]
+        self.parts = [
+            [(numbers.over(c, c), [(i, k) for i, k in enumerate(e) if k]) for e, c in part.items()]
+            for part in (terms, *slopes)
+        ]
         self.most = [max((e[i] for e in terms), default=0) for i in range(size)]
         self.zero = numbers.over(Fraction(0), Fraction(0))
 
     def powers(self, sides: Sequence[Side]) -> list[list[Any]]:
-        """The powers of each variable, as products: quicker here than powers of rational ends, and no box has a variable of both signs."""
+        """The powers of each variable, as products: quicker here than powers of rational ends, and
+        no box has a variable of both signs."""
         table = []
         for side, most in zip(sides, self.most):
             row = [None, self.numbers.over(*side)]
@@ -103,7 +114,8 @@ class Enclosed:
 
 
 def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> int | None:
-    """How many boxes show that the polynomial is >= 0 on the box; None where it is not, or where a point was met that is undecided."""
+    """How many boxes show that the polynomial is >= 0 on the box; None where it is not, or where a
+    point was met that is undecided."""
     excess, boxes, stack = Enclosed(terms, len(box), numbers), 0, [box]
     while stack:
         sides, boxes = stack.pop(), boxes + 1
@@ -117,19 +129,35 @@ def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> i
         if not free:
             return None
         slopes = {i: excess.value(1 + i, powers) for i in free}
-        faces = {i: sides[i][0] if numbers.least(slope) >= 0 else sides[i][1] for i, slope in slopes.items()
-                 if numbers.least(slope) >= 0 or numbers.most(slope) <= 0}
+        faces = {
+            i: sides[i][0] if numbers.least(slope) >= 0 else sides[i][1]
+            for i, slope in slopes.items()
+            if numbers.least(slope) >= 0 or numbers.most(slope) <= 0
+        }
         if faces:
-            stack.append(tuple((faces[i], faces[i]) if i in faces else side for i, side in enumerate(sides)))
+            stack.append(
+                tuple((faces[i], faces[i]) if i in faces else side for i, side in enumerate(sides))
+            )
         elif not _by_mean_value(excess, sides, slopes, numbers):
-            axis = max(free, key=lambda i: (abs(numbers.most(slopes[i])) + abs(numbers.least(slopes[i]))) * float(sides[i][1] - sides[i][0]))
+            axis = max(
+                free,
+                key=lambda i: (
+                    (abs(numbers.most(slopes[i])) + abs(numbers.least(slopes[i])))
+                    * float(sides[i][1] - sides[i][0])
+                ),
+            )
             low, high = sides[axis]
             middle = (low + high) / 2
-            stack += [sides[:axis] + (half,) + sides[axis + 1:] for half in ((low, middle), (middle, high))]
+            stack += [
+                sides[:axis] + (half,) + sides[axis + 1 :]
+                for half in ((low, middle), (middle, high))
+            ]
     return boxes
 
 
-def _by_mean_value(excess: Enclosed, sides: Sequence[Side], slopes: Mapping[int, Any], numbers: Intervals) -> bool:
+def _by_mean_value(
+    excess: Enclosed, sides: Sequence[Side], slopes: Mapping[int, Any], numbers: Intervals
+) -> bool:
     middles = [(low + high) / 2 for low, high in sides]
     value = excess.value(0, excess.powers([(middle, middle) for middle in middles]))
     for i, slope in slopes.items():

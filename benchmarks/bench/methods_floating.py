@@ -1,4 +1,5 @@
-"""Floating point without proof: random samples, and an optimiser of SciPy; what they miss by is measured, not known to them."""
+"""Floating point without proof: random samples, and an optimiser of SciPy; what they miss by is
+measured, not known to them."""
 
 from __future__ import annotations
 
@@ -24,7 +25,10 @@ def sampling(problem: Problem, width: Fraction) -> Answer:
     count = left
     while left > 0:
         points = low + (high - low) * random.random((min(left, AT_ONCE), len(low)))
-        best, left = max(best, float((values(problem.over, points) / values(problem.under, points)).max())), left - len(points)
+        best, left = (
+            max(best, float((values(problem.over, points) / values(problem.under, points)).max())),
+            left - len(points),
+        )
     return Answer(Fraction(best), None, f"{count} samples")
 
 
@@ -32,13 +36,21 @@ def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
     """SciPy's differential evolution to this tolerance, from a fixed seed, polished."""
     from scipy.optimize import differential_evolution
 
-    over, under = (FloatPolynomial(terms, len(problem.box)) for terms in (problem.over, problem.under))
+    over, under = (
+        FloatPolynomial(terms, len(problem.box)) for terms in (problem.over, problem.under)
+    )
 
     def loss(x: Array) -> float:
         below = under(x)
         return -over(x) / below if below > 0 else np.inf
 
-    found = differential_evolution(loss, [(float(low), float(high)) for low, high in problem.box], tol=float(width), atol=float(width), seed=1)
+    found = differential_evolution(
+        loss,
+        [(float(low), float(high)) for low, high in problem.box],
+        tol=float(width),
+        atol=float(width),
+        seed=1,
+    )
     return Answer(Fraction(-float(found.fun)), None, f"{found.nfev} values")
 
 

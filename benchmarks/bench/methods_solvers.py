@@ -1,6 +1,8 @@
-"""Solvers that answer whether something exceeds a bound: by bisection, and by one question just above the value at a point found for them.
+"""Solvers that answer whether something exceeds a bound: by bisection, and by one question just
+above the value at a point found for them.
 
-An enclosure made of such answers is worth what the solver's word is worth; none leaves a proof behind that is checked here.
+An enclosure made of such answers is worth what the solver's word is worth; none leaves a proof
+behind that is checked here.
 """
 
 from __future__ import annotations
@@ -30,7 +32,8 @@ def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
 
 
 def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
-    """One question, a little above the value at a point, which floating point finds and exact arithmetic evaluates."""
+    """One question, a little above the value at a point, which floating point finds and exact
+    arithmetic evaluates."""
     from benchmarks.bench.finding import best_point  # NumPy, which bisection has no need of
 
     low = best_point(problem, width / SHARE)[1]
@@ -62,7 +65,11 @@ def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
     solver = cvc5.Solver()
     solver.setOption("produce-proofs", "true" if proof else "false")
     parser: Any = cvc5.InputParser(solver)
-    parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, f"(set-logic QF_NRA)\n{problem.asked(bound)}(check-sat)\n", "question")
+    parser.setStringInput(
+        cvc5.InputLanguage.SMT_LIB_2_6,
+        f"(set-logic QF_NRA)\n{problem.asked(bound)}(check-sat)\n",
+        "question",
+    )
     said = ""
     while not (command := parser.nextCommand()).isNull():
         said += str(command.invoke(solver, parser.getSymbolManager()))
@@ -82,11 +89,16 @@ def by_qepcad(problem: Problem, bound: Fraction) -> bool:
     from benchmarks.peer_qepcad import qepcad
     from certificates.routes.questions import read_statement
 
-    return _decided({"holds": "unsat", "fails": "sat"}.get(qepcad(read_statement(problem.of_set(bound)), ENOUGH), ""))
+    return _decided(
+        {"holds": "unsat", "fails": "sat"}.get(
+            qepcad(read_statement(problem.of_set(bound)), ENOUGH), ""
+        )
+    )
 
 
 def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
-    """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.  Its proof is checked by Coq's kernel."""
+    """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
+    Its proof is checked by Coq's kernel."""
     from benchmarks.bench.coq_interval import goal, proves
 
     if not proves(goal(problem, bound), ENOUGH):

@@ -1,4 +1,5 @@
-"""The state after so many periods in each arithmetic of the scene, and in float64 alone; how far it is from the exact one is computed untimed."""
+"""The state after so many periods in each arithmetic of the scene, and in float64 alone; how far it
+is from the exact one is computed untimed."""
 
 from __future__ import annotations
 
@@ -24,11 +25,25 @@ class Start:
     w: Fraction
 
 
-STARTS = {one.name: one for one in (
-    Start("orbit", "the orbit of x = 1000, w = -41 for alpha = 3/10, which ends in the trap", Fraction(3, 10), Fraction(1000), Fraction(-41)),
-    Start("orbit-edge", "the orbit of x = 4/3, w = 3 for alpha = 3/7, which meets x = w exactly, where f jumps",
-          Fraction(3, 7), Fraction(4, 3), Fraction(3)),
-)}
+STARTS = {
+    one.name: one
+    for one in (
+        Start(
+            "orbit",
+            "the orbit of x = 1000, w = -41 for alpha = 3/10, which ends in the trap",
+            Fraction(3, 10),
+            Fraction(1000),
+            Fraction(-41),
+        ),
+        Start(
+            "orbit-edge",
+            "the orbit of x = 4/3, w = 3 for alpha = 3/7, which meets x = w exactly, where f jumps",
+            Fraction(3, 7),
+            Fraction(4, 3),
+            Fraction(3),
+        ),
+    )
+}
 Later = Callable[[], Strayed]
 
 
@@ -50,14 +65,20 @@ def _away(start: Start, steps: int, x: Any, w: Any, bound: Any, note: str = "") 
     kept, ctx.prec = ctx.prec, BITS
     above = arb(distance).upper().fmpq() if distance else fmpq(0)
     ctx.prec = kept
-    return Strayed(Fraction(int(above.p), int(above.q)), None if bound is None else Fraction(int(bound.p), int(bound.q)),
-                   note, bound is not None and distance > bound)
+    return Strayed(
+        Fraction(int(above.p), int(above.q)),
+        None if bound is None else Fraction(int(bound.p), int(bound.q)),
+        note,
+        bound is not None and distance > bound,
+    )
 
 
 def exact(start: Start, size: Fraction) -> Later:
     """Exact rationals: what the others are measured against."""
     found = _followed(start, "exact", int(size)).tracks[0].here
-    return lambda: Strayed(Fraction(0), Fraction(0), f"{max(found.x.height_bits(), found.w.height_bits())} bits")
+    return lambda: Strayed(
+        Fraction(0), Fraction(0), f"{max(found.x.height_bits(), found.w.height_bits())} bits"
+    )
 
 
 def enclosed(start: Start, size: Fraction) -> Later:
@@ -77,7 +98,9 @@ def enclosed(start: Start, size: Fraction) -> Later:
 def fast(start: Start, size: Fraction) -> Later:
     """float64 with its running bound."""
     row = _followed(start, "fast", int(size)).row(0)
-    return lambda: _away(start, int(size), _of_float(row.x), _of_float(row.w), max(map(_of_float, row.error)))
+    return lambda: _away(
+        start, int(size), _of_float(row.x), _of_float(row.w), max(map(_of_float, row.error))
+    )
 
 
 def mp(start: Start, size: Fraction) -> Later:
@@ -95,7 +118,8 @@ def mp(start: Start, size: Fraction) -> Later:
 
 
 def floats(start: Start, size: Fraction) -> Later:
-    """float64 period by period, as one writes it down: every branch is what rounding makes of it."""
+    """float64 period by period, as one writes it down: every branch is what rounding makes of
+    it."""
     from scenes.juggler.formulas import formulas
 
     map_of, alpha, x, w = formulas(), float(start.alpha), float(start.x), float(start.w)

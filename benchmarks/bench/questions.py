@@ -1,9 +1,12 @@
-"""The five questions about energy, from the derived expressions: what is sought, on which set, and the closed form that is its truth.
+"""The five questions about energy, from the derived expressions: what is sought, on which set, and
+the closed form that is its truth.
 
-Everything is in the normal form (x height in units of r T, w closing speed in units of r, energies in units of r^2), for all alpha of ALPHAS at once.
-A set is met in two forms.  As the paper has it, by polynomial inequalities in alpha, x and w: that is what solvers are asked.  And as the image of a
-box under a rational map (`Question.how` says which; tests/benchmarks/test_bench.py proves it): that is what box methods take, so that constraints
-need no search.  The supremum over a set is the maximum over its closure.
+Everything is in the normal form (x height in units of r T, w closing speed in units of r, energies
+in units of r^2), for all alpha of ALPHAS at once. A set is met in two forms.  As the paper has it,
+by polynomial inequalities in alpha, x and w: that is what solvers are asked.  And as the image of a
+box under a rational map (`Question.how` says which; tests/benchmarks/test_bench.py proves it): that
+is what box methods take, so that constraints need no search.  The supremum over a set is the
+maximum over its closure.
 """
 
 from __future__ import annotations
@@ -28,14 +31,20 @@ from symbolic.normal_form import scaled
 from symbolic.signs import sign_for_lossy_impacts
 from symbolic.symbols import alpha, r, w, x
 
-ALPHAS = (Fraction(1, 8), Fraction(7, 25))  # 2 (1 + alpha) is the square of 3/2 and of 8/5, so that the corner of R is rational at both ends
+ALPHAS = (
+    Fraction(1, 8),
+    Fraction(7, 25),
+)  # 2 (1 + alpha) is the square of 3/2 and of 8/5, so that the corner of R is rational at both ends
 BOUND = "bound"
-p, q, s = sympy.symbols("p q s")  # the box: p and q from 0 to 1; s = sqrt(2 (1 + alpha)) in place of alpha where that root occurs
+p, q, s = sympy.symbols(
+    "p q s"
+)  # the box: p and q from 0 to 1; s = sqrt(2 (1 + alpha)) in place of alpha where that root occurs
 
 
 @dataclass(frozen=True)
 class Question:
-    """What is sought, the fraction and the variables of its box, the statement of its set, the closed form, and how the set became a box."""
+    """What is sought, the fraction and the variables of its box, the statement of its set, the
+    closed form, and how the set became a box."""
 
     name: str
     title: str
@@ -48,40 +57,77 @@ class Question:
     sought: tuple[Term, Term]
 
     def truth(self) -> Fraction:
-        """The closed form at the end of ALPHAS where it is greatest (least, where the infimum is sought)."""
+        """The closed form at the end of ALPHAS where it is greatest (least, where the infimum is
+        sought)."""
         return truth_at_ends(self.closed_form, self.sign)
 
     def problem(self) -> Problem:
         """The question as plain data."""
-        over, under = (sympy.Poly(part, *self.variables) for part in lowest_terms(self.fraction * self.sign).as_numer_denom())
-        middle = {p: sympy.Rational(1, 2), q: sympy.Rational(1, 2), s: rational(_root(ALPHAS[0])), alpha: rational(ALPHAS[0])}
+        over, under = (
+            sympy.Poly(part, *self.variables)
+            for part in lowest_terms(self.fraction * self.sign).as_numer_denom()
+        )
+        middle = {
+            p: sympy.Rational(1, 2),
+            q: sympy.Rational(1, 2),
+            s: rational(_root(ALPHAS[0])),
+            alpha: rational(ALPHAS[0]),
+        }
         flip = -1 if under.as_expr().xreplace(middle) < 0 else 1
         statement = self._statement()
-        return Problem(self.name, tuple(map(str, self.variables)), tuple(_ends(v) for v in self.variables),
-                       as_terms(over * flip), as_terms(under * flip), self.sign, statement, denial(statement))
+        return Problem(
+            self.name,
+            tuple(map(str, self.variables)),
+            tuple(_ends(v) for v in self.variables),
+            as_terms(over * flip),
+            as_terms(under * flip),
+            self.sign,
+            statement,
+            denial(statement),
+        )
 
     def _statement(self) -> str:
         low, high = ALPHAS
         givens = (f"{low} <= alpha", f"alpha <= {high}", *map(str, self.given))
         over, under = self.sought
-        return bounding(self.name, "alpha x w" if self.given else "alpha", givens, str(over), str(under), self.sign)
+        return bounding(
+            self.name,
+            "alpha x w" if self.given else "alpha",
+            givens,
+            str(over),
+            str(under),
+            self.sign,
+        )
 
 
 def bounding(name: str, names: str, givens: Iterable[str], over: str, under: str, sign: int) -> str:
-    """The statement that over/under, whose denominator is positive, is at most (at least, where sign is -1) {bound}, which is still to be put in."""
+    """The statement that over/under, whose denominator is positive, is at most (at least, where
+    sign is -1) {bound}, which is still to be put in."""
     shown = f"show {over} {'<=' if sign > 0 else '>='} {{bound}}*({under})"
-    return "\n".join([f"statement bench/{name}", f"forall {names}", *(f"given {one}" for one in givens), shown, ""])
+    return "\n".join(
+        [
+            f"statement bench/{name}",
+            f"forall {names}",
+            *(f"given {one}" for one in givens),
+            shown,
+            "",
+        ]
+    )
 
 
 def denial(statement: str) -> str:
-    """The denial of a statement of `bounding` in SMT-LIB, likewise with {bound} still to be put in."""
+    """The denial of a statement of `bounding` in SMT-LIB, likewise with {bound} still to be put
+    in."""
     text = statement.format(bound=BOUND).replace("forall ", f"forall {BOUND} ")
     (asked,) = solver_questions(read_statement(text))
-    return question_text(asked).replace(f"(declare-const {BOUND} Real)", f"(define-fun {BOUND} () Real {{bound}})")
+    return question_text(asked).replace(
+        f"(declare-const {BOUND} Real)", f"(define-fun {BOUND} () Real {{bound}})"
+    )
 
 
 def truth_at_ends(closed_form: Any, sign: int) -> Fraction:
-    """The greatest value (least, where sign is -1) on ALPHAS of a function that is monotone there; DerivationError where it may not be."""
+    """The greatest value (least, where sign is -1) on ALPHAS of a function that is monotone there;
+    DerivationError where it may not be."""
     rises = sign_for_lossy_impacts(closed_form.diff(alpha)) * sign > 0
     return fraction(closed_form.subs(alpha, rational(ALPHAS[1 if rises else 0])))
 
@@ -111,7 +157,9 @@ def _ends(variable: Any) -> tuple[Fraction, Fraction]:
 
 def as_terms(poly: Any) -> dict[tuple[int, ...], Fraction]:
     """A polynomial of SymPy as plain data."""
-    return {tuple(map(int, exponents)): Fraction(int(c.p), int(c.q)) for exponents, c in poly.terms()}
+    return {
+        tuple(map(int, exponents)): Fraction(int(c.p), int(c.q)) for exponents, c in poly.terms()
+    }
 
 
 def put(expression: Any, height: Any, speed: Any) -> Any:
@@ -121,7 +169,8 @@ def put(expression: Any, height: Any, speed: Any) -> Any:
 
 @cache
 def kept_curve() -> tuple[Any, Any]:
-    """(x, w): the curve B1^0, where the energy change is 0, from the origin (p = 0) to its other zero on x = 0 (p = 1)."""
+    """(x, w): the curve B1^0, where the energy change is 0, from the origin (p = 0) to its other
+    zero on x = 0 (p = 1)."""
     height = root_of(symbolic.normal_energy_change(), x)
     speed = p * root_of(lowest_terms(height / w), w)
     return lowest_terms(height.subs(w, speed)), speed
@@ -129,9 +178,14 @@ def kept_curve() -> tuple[Any, Any]:
 
 @cache
 def outside_region() -> tuple[Any, Any]:
-    """(x, w): B1 beyond the edge of R. U = sqrt(2 E) is its value on that edge divided by p; w = U - 1 + 2 q, from x = w (q = 0) to x = 0 (q = 1)."""
+    """(x, w): B1 beyond the edge of R. U = sqrt(2 E) is its value on that edge divided by p; w = U
+    - 1 + 2 q, from x = w (q = 0) to x = 0 (q = 1)."""
     U = sympy.Symbol("U")
-    edge = (-symbolic.region_corner()[1] / r).subs(sympy.sqrt(2 * alpha + 2), s).subs(alpha, s**2 / 2 - 1)  # where x = 0, U is the speed
+    edge = (
+        (-symbolic.region_corner()[1] / r)
+        .subs(sympy.sqrt(2 * alpha + 2), s)
+        .subs(alpha, s**2 / 2 - 1)
+    )  # where x = 0, U is the speed
     speed = U - 1 + 2 * q
     height = root_of(symbolic.normal_energy() - U**2 / 2, x).subs(w, speed)
     return tuple(lowest_terms(one.subs(U, edge / p)) for one in (height, speed))
@@ -159,15 +213,61 @@ def questions() -> dict[str, Question]:
     curve, far = kept_curve(), p / (1 - p)
     gap = scaled(symbolic.energy_of_p() - symbolic.E_max() - symbolic.delta_E_max(), r**2)
     found = [
-        Question("E-B1plus", "sup of E on B1+", "x is a part q of its height on B1^0, and w runs along that curve as p goes from 0 to 1",
-                 put(energy, q * curve[0], curve[1]), (alpha, p, q), 1, _in_units(symbolic.E_max()), (*struck, gains), cleared(energy)),
-        Question("E-B1zero", "sup of E on B1^0", "the curve is solved for x, and w runs along it as p goes from 0 to 1",
-                 put(energy, *curve), (alpha, p), 1, _in_units(symbolic.E_max()), (*struck, keeps), cleared(energy)),
-        Question("DE-H", "sup of Delta E on H", "x = q w and w = p/(1 - p), infinite at p = 1; on B2 the change is 0, which is less",
-                 put(change, q * far, far), (alpha, p, q), 1, _in_units(symbolic.delta_E_max()), struck, cleared(change)),
-        Question("DE-outside-R", "sup of Delta E on B1 - R", "by U = sqrt(2 E), its value on the edge of R over p, and w = U - 1 + 2 q",
-                 put(change.subs(alpha, s**2 / 2 - 1), *outside_region()), (s, p, q), 1, _in_units(symbolic.delta_E_sup()),
-                 (*struck, beyond), cleared(change)),
-        Question("p-outside-R", "min of E(p) - E_max - Delta E_max", "alpha alone, without a constraint", gap, (alpha,), -1, gap, (), cleared(gap)),
+        Question(
+            "E-B1plus",
+            "sup of E on B1+",
+            "x is a part q of its height on B1^0, and w runs along that curve as p goes from 0"
+            " to 1",
+            put(energy, q * curve[0], curve[1]),
+            (alpha, p, q),
+            1,
+            _in_units(symbolic.E_max()),
+            (*struck, gains),
+            cleared(energy),
+        ),
+        Question(
+            "E-B1zero",
+            "sup of E on B1^0",
+            "the curve is solved for x, and w runs along it as p goes from 0 to 1",
+            put(energy, *curve),
+            (alpha, p),
+            1,
+            _in_units(symbolic.E_max()),
+            (*struck, keeps),
+            cleared(energy),
+        ),
+        Question(
+            "DE-H",
+            "sup of Delta E on H",
+            "x = q w and w = p/(1 - p), infinite at p = 1; on B2 the change is 0, which is less",
+            put(change, q * far, far),
+            (alpha, p, q),
+            1,
+            _in_units(symbolic.delta_E_max()),
+            struck,
+            cleared(change),
+        ),
+        Question(
+            "DE-outside-R",
+            "sup of Delta E on B1 - R",
+            "by U = sqrt(2 E), its value on the edge of R over p, and w = U - 1 + 2 q",
+            put(change.subs(alpha, s**2 / 2 - 1), *outside_region()),
+            (s, p, q),
+            1,
+            _in_units(symbolic.delta_E_sup()),
+            (*struck, beyond),
+            cleared(change),
+        ),
+        Question(
+            "p-outside-R",
+            "min of E(p) - E_max - Delta E_max",
+            "alpha alone, without a constraint",
+            gap,
+            (alpha,),
+            -1,
+            gap,
+            (),
+            cleared(gap),
+        ),
     ]
     return {one.name: one for one in found}

@@ -1,4 +1,5 @@
-"""The whole benchmark: questions in turn, each measured, judged against its closed form, printed and drawn."""
+"""The whole benchmark: questions in turn, each measured, judged against its closed form, printed
+and drawn."""
 
 from __future__ import annotations
 
@@ -24,7 +25,9 @@ QUICK_WIDTHS, QUICK_SIZES, QUICK_SECONDS = (Fraction(1, 10), Fraction(1, 10**6))
 SECONDS = 10.0
 ENERGY = ("E-B1plus", "E-B1zero", "DE-H", "DE-outside-R", "p-outside-R")
 NAMES = (*ENERGY, *orbits.STARTS, "variables", "states")
-_WIDTH = re.compile(r"\d{0,4}\.?\d{1,40}(?:e-?\d{1,2})?|\d{1,10}/\d{1,40}", re.ASCII | re.IGNORECASE)
+_WIDTH = re.compile(
+    r"\d{0,4}\.?\d{1,40}(?:e-?\d{1,2})?|\d{1,10}/\d{1,40}", re.ASCII | re.IGNORECASE
+)
 
 
 @dataclass(frozen=True)
@@ -45,10 +48,17 @@ def wish(asked: Sequence[str] | None, widths: str | None, seconds: str | None, q
     """
     for name in asked or ():
         if name not in NAMES:
-            raise ClaimError(f"--question {name[:40]}: no such question; there are {', '.join(NAMES)}")
+            raise ClaimError(
+                f"--question {name[:40]}: no such question; there are {', '.join(NAMES)}"
+            )
     names = tuple(asked or (ENERGY[:1] if quick else NAMES))
     some, limit = (QUICK_WIDTHS, QUICK_SECONDS) if quick else (WIDTHS, SECONDS)
-    return Wish(names, some if widths is None else _widths(widths), limit if seconds is None else _seconds(seconds), quick)
+    return Wish(
+        names,
+        some if widths is None else _widths(widths),
+        limit if seconds is None else _seconds(seconds),
+        quick,
+    )
 
 
 def _widths(text: str) -> tuple[Fraction, ...]:
@@ -59,14 +69,19 @@ def _widths(text: str) -> tuple[Fraction, ...]:
         except ZeroDivisionError:
             width = Fraction(0)
         if not Fraction(1, 10**40) <= width <= 1:
-            raise ClaimError(f"--widths {part.strip()[:40]!r}: a width is a number from 1e-40 to 1; write 1e-1,1e-6")
+            raise ClaimError(
+                f"--widths {part.strip()[:40]!r}: a width is a number from 1e-40 to 1; write"
+                " 1e-1,1e-6"
+            )
         found.append(width)
     return tuple(sorted(set(found), reverse=True))
 
 
 def _seconds(text: str) -> float:
     if not re.fullmatch(r"\d{1,4}(\.\d{1,3})?", text, re.ASCII) or not 0.1 <= float(text) <= 3600:
-        raise ClaimError(f"--seconds {text[:40]!r}: a limit is a number of seconds from 0.1 to 3600")
+        raise ClaimError(
+            f"--seconds {text[:40]!r}: a limit is a number of seconds from 0.1 to 3600"
+        )
     return float(text)
 
 
@@ -89,7 +104,10 @@ class Run:
             else:
                 {"variables": self.variables, "states": self.states}[name]()
         if sum(name in ENERGY for name in self.wanted.names) > 1:
-            print("\n== the aim, over all questions and widths of this run\n" + "\n".join(one.line() for one in table.together(self.judged)))
+            print(
+                "\n== the aim, over all questions and widths of this run\n"
+                + "\n".join(one.line() for one in table.together(self.judged))
+            )
         if not plot.can_plot():
             print(plot.ABSENT)
         return 1 if self.wrong else 0
@@ -98,8 +116,14 @@ class Run:
         """One of the questions about energy."""
         question = questions()[name]
         problem, truth, present = question.problem(), question.truth(), self.present(METHODS, QUICK)
-        print(f"{question.title}, for alpha in [{ALPHAS[0]}, {ALPHAS[1]}]; box methods: {question.how}")
-        print(f"closed form: {question.closed_form}; over these alphas {truth} = {float(truth):.15g}\n")
+        print(
+            f"{question.title}, for alpha in [{ALPHAS[0]}, {ALPHAS[1]}]; box methods:"
+            f" {question.how}"
+        )
+        print(
+            f"closed form: {question.closed_form}; over these alphas {truth} ="
+            f" {float(truth):.15g}\n"
+        )
         truth *= problem.sign
         results = self.measure(present, problem, self.wanted.widths)
         self.told(name, question.title, present, self.wanted.widths, results, truth)
@@ -114,16 +138,25 @@ class Run:
     def orbit(self, start: orbits.Start) -> None:
         """One orbit, by number of periods."""
         present, sizes = self.present(ORBITS, tuple(ORBITS)), self.some(STEPS)
-        print(f"{start.title}: the state after so many periods; error: what is proved of it, or else the distance to the exact orbit\n")
+        print(
+            f"{start.title}: the state after so many periods; error: what is proved of it, or else"
+            " the distance to the exact orbit\n"
+        )
         results = self.measure(present, start, sizes)
         self.told(start.name, start.title, present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "periods", False))
 
     def variables(self) -> None:
         """The sum of the energy that balls gain, by their number."""
-        present, sizes = self.present({name: METHODS[name] for name in GROWTH}, GROWTH), self.some(BALLS)
+        present, sizes = (
+            self.present({name: METHODS[name] for name in GROWTH}, GROWTH),
+            self.some(BALLS),
+        )
         problems = {size: growth.balls(int(size)) for size in sizes}
-        print(f"sup of the sum of Delta E over so many balls on the table, and alpha besides; to a width of {table.power(growth.VARIABLE_WIDTH)}\n")
+        print(
+            "sup of the sum of Delta E over so many balls on the table, and alpha besides; to a"
+            f" width of {table.power(growth.VARIABLE_WIDTH)}\n"
+        )
         found = []
         for size, (problem, truth) in problems.items():
             for one in self.measure(present, problem, [growth.VARIABLE_WIDTH]).values():
@@ -135,7 +168,10 @@ class Run:
     def states(self) -> None:
         """Random states, by their number."""
         present, sizes = self.present(ENSEMBLE, tuple(ENSEMBLE)), self.some(STATES)
-        print(f"so many random states, each followed for {growth.STATE_STEPS} periods; error: the largest bound of a state that is decided\n")
+        print(
+            f"so many random states, each followed for {growth.STATE_STEPS} periods; error: the"
+            " largest bound of a state that is decided\n"
+        )
         results = self.measure(present, growth.Ensemble(), sizes)
         self.told("states", "states", present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "states", False))
@@ -149,13 +185,29 @@ class Run:
         absent = [method for method in methods.values() if not method.present()]
         if absent:
             print("absent: " + ", ".join(dict.fromkeys(method.package for method in absent)))
-        return [method for name, method in methods.items() if method not in absent and (not self.wanted.quick or name in quick)]
+        return [
+            method
+            for name, method in methods.items()
+            if method not in absent and (not self.wanted.quick or name in quick)
+        ]
 
-    def measure(self, present: Sequence[Method], work: Any, sizes: Sequence[Fraction]) -> table.Results:
+    def measure(
+        self, present: Sequence[Method], work: Any, sizes: Sequence[Fraction]
+    ) -> table.Results:
         """All methods at all sizes."""
-        return table.by_method(list(measure_all(present, work, sizes, self.wanted.seconds, self.tell)))
+        return table.by_method(
+            list(measure_all(present, work, sizes, self.wanted.seconds, self.tell))
+        )
 
-    def told(self, name: str, title: str, present: Sequence[Method], sizes: Sequence[Fraction], results: table.Results, truth: Fraction) -> None:
+    def told(
+        self,
+        name: str,
+        title: str,
+        present: Sequence[Method],
+        sizes: Sequence[Fraction],
+        results: table.Results,
+        truth: Fraction,
+    ) -> None:
         """Prints the table and what is wrong, and writes the plot."""
         self.tell("")
         print(table.measured(present, sizes, results, truth))
@@ -172,5 +224,9 @@ class Run:
 
 def head(wanted: Wish) -> str:
     """What the numbers mean."""
-    return ("warm: the least of 3 answers after the first in one process, of more where they are quick; cold: the first, with all that the method\n"
-            f"loads, not the start of Python. Each answer has {wanted.seconds:g} s; a method that gave up is not asked for what is harder.\n{NOTES}")
+    return (
+        "warm: the least of 3 answers after the first in one process, of more where they are"
+        " quick; cold: the first, with all that the method\nloads, not the start of Python. Each"
+        f" answer has {wanted.seconds:g} s; a method that gave up is not asked for what is"
+        f" harder.\n{NOTES}"
+    )

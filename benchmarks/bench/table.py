@@ -1,4 +1,5 @@
-"""What was measured, as plain text: seconds and errors by method and size, what the aim asks for as ratios of this run, and slopes."""
+"""What was measured, as plain text: seconds and errors by method and size, what the aim asks for as
+ratios of this run, and slopes."""
 
 from __future__ import annotations
 
@@ -27,10 +28,13 @@ def by_method(found: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
 
 
 def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
-    """The same measurement of work of this size, the answer being told as its distance from the truth, which is then 0."""
+    """The same measurement of work of this size, the answer being told as its distance from the
+    truth, which is then 0."""
     answer = one.answer
     if isinstance(answer, Answer):
-        answer = Answer(answer.low - truth, None if answer.high is None else answer.high - truth, answer.note)
+        answer = Answer(
+            answer.low - truth, None if answer.high is None else answer.high - truth, answer.note
+        )
     return replace(one, size=size, answer=answer)
 
 
@@ -40,7 +44,9 @@ def power(value: Fraction) -> str:
     >>> power(Fraction(1, 10**9)), power(Fraction(10**6)), power(Fraction(3, 100)), power(Fraction(7))
     ('1e-9', '1e6', '3e-2', '7')
     """
-    text = f"{float(value):.3e}" if value < Fraction(1, 2) or value >= 1000 else f"{float(value):.3g}"
+    text = (
+        f"{float(value):.3e}" if value < Fraction(1, 2) or value >= 1000 else f"{float(value):.3g}"
+    )
     mantissa, _, exponent = text.partition("e")
     return mantissa if not exponent else f"{float(mantissa):g}e{int(exponent)}"
 
@@ -51,10 +57,22 @@ def number(value: float | None) -> str:
     >>> number(0.00123), number(12.3), number(None)
     ('0.0012', '12', '-')
     """
-    return "-" if value is None else f"{value:.0f}" if value >= 10 else f"{value:.1e}".replace("e-0", "e-") if 0 < value < 1e-4 else f"{value:.2g}"
+    return (
+        "-"
+        if value is None
+        else (
+            f"{value:.0f}"
+            if value >= 10
+            else f"{value:.1e}".replace("e-0", "e-")
+            if 0 < value < 1e-4
+            else f"{value:.2g}"
+        )
+    )
 
 
-def measured(methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, truth: Fraction) -> str:
+def measured(
+    methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, truth: Fraction
+) -> str:
     """Three lines a method: seconds warm and cold, and its error."""
     rows = [("method", "worth", "", *(power(size) for size in sizes))]
     for method in methods:
@@ -62,7 +80,9 @@ def measured(methods: Sequence[Method], sizes: Sequence[Fraction], results: Resu
         for word in ("warm s", "cold s", "error"):
             cells = [_cell(own.get(size), word, truth) for size in sizes]
             first = word == "warm s"
-            rows.append((method.title if first else "", method.worth if first else "", word, *cells))
+            rows.append(
+                (method.title if first else "", method.worth if first else "", word, *cells)
+            )
     return plain(rows)
 
 
@@ -78,25 +98,47 @@ def _cell(one: Measured | None, word: str, truth: Fraction) -> str:
 
 
 def wrong(methods: Sequence[Method], results: Results, truth: Fraction) -> list[str]:
-    """One line for each enclosure that does not hold the closed form (for orbits: whose bound the exact state is beyond)."""
+    """One line for each enclosure that does not hold the closed form (for orbits: whose bound the
+    exact state is beyond)."""
     titles = {method.name: method.title for method in methods}
-    return [f"WRONG: {titles[name]} at {power(size)} does not enclose the truth {float(truth):.12g}"
-            for name, own in results.items() for size, one in own.items() if one.answer is not None and one.answer.wrong(truth)]
+    return [
+        f"WRONG: {titles[name]} at {power(size)} does not enclose the truth {float(truth):.12g}"
+        for name, own in results.items()
+        for size, one in own.items()
+        if one.answer is not None and one.answer.wrong(truth)
+    ]
 
 
 def faults(methods: Sequence[Method], results: Results) -> list[str]:
     """One line for each method that gave up or failed: at which size, and why."""
     titles = {method.name: method.title for method in methods}
-    return [f"{titles[name]} at {power(size)}: {one.reason}" for name, own in results.items() for size, one in own.items() if one.answer is None]
+    return [
+        f"{titles[name]} at {power(size)}: {one.reason}"
+        for name, own in results.items()
+        for size, one in own.items()
+        if one.answer is None
+    ]
 
 
-def ratios(methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, seconds: float) -> str:
-    """How many times the seconds of our best certificate each other method takes; where it gave up, more than its limit."""
+def ratios(
+    methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, seconds: float
+) -> str:
+    """How many times the seconds of our best certificate each other method takes; where it gave up,
+    more than its limit."""
     parts = []
     for time in WORDS:
         rows = [(f"{WORDS[time]}: times ours", "worth", *(power(size) for size in sizes))]
         for method in (one for one in methods if one.worth in ("rigorous", "unchecked")):
-            rows.append((method.title, method.worth, *(_shown(ratio(methods, method, size, results, seconds, time)) for size in sizes)))
+            rows.append(
+                (
+                    method.title,
+                    method.worth,
+                    *(
+                        _shown(ratio(methods, method, size, results, seconds, time))
+                        for size in sizes
+                    ),
+                )
+            )
         parts.append(plain(rows))
     return "\n\n".join(parts)
 
@@ -107,13 +149,25 @@ def _shown(found: tuple[float, bool] | None) -> str:
 
 def ours(methods: Sequence[Method], size: Fraction, results: Results, time: Time) -> float | None:
     """The seconds of our best method whose certificate was checked; None where none was."""
-    times = [getattr(one, time) for method in methods if method.worth == "certificate"
-             if (one := results.get(method.name, {}).get(size)) is not None and one.answer is not None]
+    times = [
+        getattr(one, time)
+        for method in methods
+        if method.worth == "certificate"
+        if (one := results.get(method.name, {}).get(size)) is not None and one.answer is not None
+    ]
     return min(times, default=None)
 
 
-def ratio(methods: Sequence[Method], method: Method, size: Fraction, results: Results, seconds: float, time: Time) -> tuple[float, bool] | None:
-    """(times ours, whether it is more than that because the method gave up at this size or before); None where we have nothing ourselves."""
+def ratio(
+    methods: Sequence[Method],
+    method: Method,
+    size: Fraction,
+    results: Results,
+    seconds: float,
+    time: Time,
+) -> tuple[float, bool] | None:
+    """(times ours, whether it is more than that because the method gave up at this size or before);
+    None where we have nothing ourselves."""
     base, own = ours(methods, size, results, time), results.get(method.name)
     if base is None or not own:
         return None
@@ -138,26 +192,70 @@ class Judged:
     def line(self) -> str:
         """In words."""
         held = "met" if self.met == self.of else "NOT met"
-        aim = f"{self.aim} times faster than {self.against}" if self.aim > 1 else f"faster than {self.against}"
-        return f"{WORDS[self.time]}: {aim}: {held}, at {self.met} of {self.of} widths; least {number(self.least)} times, {self.where}"
+        aim = (
+            f"{self.aim} times faster than {self.against}"
+            if self.aim > 1
+            else f"faster than {self.against}"
+        )
+        return (
+            f"{WORDS[self.time]}: {aim}: {held}, at {self.met} of {self.of} widths; least"
+            f" {number(self.least)} times, {self.where}"
+        )
 
 
-def judged(title: str, methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, seconds: float) -> list[Judged]:
-    """The aim, by what this run measured: against all certified peers together, and against Z3 in each way of asking it, warm and cold."""
+def judged(
+    title: str,
+    methods: Sequence[Method],
+    sizes: Sequence[Fraction],
+    results: Results,
+    seconds: float,
+) -> list[Judged]:
+    """The aim, by what this run measured: against all certified peers together, and against Z3 in
+    each way of asking it, warm and cold."""
     found = []
     for time in WORDS:
         certified = [method for method in methods if method.peer and method.name in results]
-        z3 = [method for method in methods if method.name.startswith("z3") and method.name in results]
+        z3 = [
+            method for method in methods if method.name.startswith("z3") and method.name in results
+        ]
         every = f"every certified peer ({'; '.join(method.title for method in certified)})"
-        for against, aim, peers in ((every, AIM, certified), *((one.title, 1, [one]) for one in z3)):
-            least = [min((_times(methods, peer, size, results, seconds, time), f"{title} at {power(size)}, by {peer.title}") for peer in peers)
-                     for size in sizes if peers]
+        for against, aim, peers in (
+            (every, AIM, certified),
+            *((one.title, 1, [one]) for one in z3),
+        ):
+            least = [
+                min(
+                    (
+                        _times(methods, peer, size, results, seconds, time),
+                        f"{title} at {power(size)}, by {peer.title}",
+                    )
+                    for peer in peers
+                )
+                for size in sizes
+                if peers
+            ]
             if least:
-                found.append(Judged(time, against, aim, sum(times >= aim for times, _ in least), len(least), *min(least)))
+                found.append(
+                    Judged(
+                        time,
+                        against,
+                        aim,
+                        sum(times >= aim for times, _ in least),
+                        len(least),
+                        *min(least),
+                    )
+                )
     return found
 
 
-def _times(methods: Sequence[Method], peer: Method, size: Fraction, results: Results, seconds: float, time: Time) -> float:
+def _times(
+    methods: Sequence[Method],
+    peer: Method,
+    size: Fraction,
+    results: Results,
+    seconds: float,
+    time: Time,
+) -> float:
     found = ratio(methods, peer, size, results, seconds, time)
     return found[0] if found else 0.0  # nothing of ours was certified
 
@@ -166,17 +264,31 @@ def together(found: Sequence[Judged]) -> list[Judged]:
     """What was judged of several questions, taken together."""
     kinds = dict.fromkeys((one.time, one.against, one.aim) for one in found)
     groups = [[one for one in found if (one.time, one.against, one.aim) == kind] for kind in kinds]
-    return [Judged(*kind, sum(one.met for one in group), sum(one.of for one in group), *min((one.least, one.where) for one in group))
-            for kind, group in zip(kinds, groups)]
+    return [
+        Judged(
+            *kind,
+            sum(one.met for one in group),
+            sum(one.of for one in group),
+            *min((one.least, one.where) for one in group),
+        )
+        for kind, group in zip(kinds, groups)
+    ]
 
 
 def slopes(methods: Sequence[Method], results: Results, of: str, inverse: bool) -> str:
-    """The slope of log warm seconds against log size for each method, over the sizes that it answered."""
+    """The slope of log warm seconds against log size for each method, over the sizes that it
+    answered."""
     rows = [("method", f"slope of seconds against {of}", "over")]
     for method in methods:
-        own = [one for one in results.get(method.name, {}).values() if one.answer is not None and one.seconds]
+        own = [
+            one
+            for one in results.get(method.name, {}).values()
+            if one.answer is not None and one.seconds
+        ]
         sizes = [float(1 / one.size if inverse else one.size) for one in own]
         found = slope(sizes, [one.seconds for one in own if one.seconds])
         if found is not None:
-            rows.append((method.title, f"{found:.2f}", f"{power(own[0].size)} .. {power(own[-1].size)}"))
+            rows.append(
+                (method.title, f"{found:.2f}", f"{power(own[0].size)} .. {power(own[-1].size)}")
+            )
     return plain(rows)

@@ -1,1 +1,2 @@
-"""Voting routes: other ways to decide a statement.  None of them is believed; each vote is recorded beside the certificate."""
+"""Voting routes: other ways to decide a statement.  None of them is believed; each vote is recorded
+beside the certificate."""

@@ -1,4 +1,5 @@
-"""Real algebraic numbers by polynomial and isolating interval, and exact signs of polynomials at them: for models that solvers return."""
+"""Real algebraic numbers by polynomial and isolating interval, and exact signs of polynomials at
+them: for models that solvers return."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ MOST_BITS = 1 << 14
 
 @dataclass(frozen=True)
 class Root:
-    """The only root of the squarefree polynomial sum c_k x^k (integers, constant first) with low < root < high; no end is a root.
+    """The only root of the squarefree polynomial sum c_k x^k (integers, constant first) with low <
+    root < high; no end is a root.
 
     >>> root_number([-2, 0, 1], 2)
     Root(coefficients=(-2, 0, 1), low=Fraction(0, 1), high=Fraction(4, 1))
@@ -38,7 +40,10 @@ class Root:
         return low, high
 
     def __str__(self) -> str:
-        poly = Polynomial(("z",), tuple(((k,), c) for k, c in sorted(enumerate(self.coefficients), reverse=True) if c))
+        poly = Polynomial(
+            ("z",),
+            tuple(((k,), c) for k, c in sorted(enumerate(self.coefficients), reverse=True) if c),
+        )
         low, high = self.to(12)
         return f"the root of {poly} in [{low}, {high}]"
 
@@ -47,9 +52,11 @@ Exact = Union[Fraction, Root]
 
 
 def root_number(coefficients: Sequence[int], number: int) -> Exact:
-    """The number-th real root, from the smallest up and counted from 1; a Fraction where bisection meets it.
+    """The number-th real root, from the smallest up and counted from 1; a Fraction where bisection
+    meets it.
 
-    Source: Sturm's theorem.  Raises ValueError where the polynomial has a multiple root or too few real roots.
+    Source: Sturm's theorem.  Raises ValueError where the polynomial has a multiple root or too few
+    real roots.
     """
     chain = _sturm([Fraction(c) for c in coefficients])
     if len(chain[-1]) != 1:
@@ -76,10 +83,15 @@ def root_number(coefficients: Sequence[int], number: int) -> Exact:
         low, high = (low, middle) if below >= number else (middle, high)
 
 
-def _beside(chain: list[list[Fraction]], coefficients: Sequence[int], root: Fraction, end: Fraction) -> Fraction:
+def _beside(
+    chain: list[list[Fraction]], coefficients: Sequence[int], root: Fraction, end: Fraction
+) -> Fraction:
     """A point between a rational root and the end with no other root in between."""
     step = (end - root) / 2
-    while abs(_changes(chain, root) - _changes(chain, root + step)) > int(step < 0) or _value(coefficients, root + step) == 0:
+    while (
+        abs(_changes(chain, root) - _changes(chain, root + step)) > int(step < 0)
+        or _value(coefficients, root + step) == 0
+    ):
         step /= 2
     return root + step
 
@@ -120,10 +132,13 @@ def _changes(chain: list[list[Fraction]], at: Fraction) -> int:
 
 
 def sign_at(poly: Polynomial, point: Sequence[Exact]) -> int | None:
-    """The sign (-1, 0 or 1) of the polynomial at a point of rational and algebraic numbers; None where that takes too many bits.
+    """The sign (-1, 0 or 1) of the polynomial at a point of rational and algebraic numbers; None
+    where that takes too many bits.
 
-    Formula: with integer coefficients, L = prod lead_i^deg_i and M >= |P| at all conjugates, D the product of the degrees:
-    P(a) = 0 or |P(a)| >= (L M)^(1 - D) / L, because L P(a) is an algebraic integer of degree at most D.
+    Formula: with integer coefficients, L = prod lead_i^deg_i and M >= |P| at all conjugates, D the
+    product of the degrees:
+    P(a) = 0 or |P(a)| >= (L M)^(1 - D) / L, because L P(a) is an algebraic integer of degree at
+    most D.
     """
     for i, value in enumerate(point):
         if isinstance(value, Fraction) and i in poly.used:
@@ -134,7 +149,10 @@ def sign_at(poly: Polynomial, point: Sequence[Exact]) -> int | None:
         return (total > 0) - (total < 0)
     if not poly.terms:
         return 0
-    cauchy = {i: 1 + max(-(-abs(c) // abs(r.coefficients[-1])) for c in r.coefficients[:-1]) for i, r in roots.items()}
+    cauchy = {
+        i: 1 + max(-(-abs(c) // abs(r.coefficients[-1])) for c in r.coefficients[:-1])
+        for i, r in roots.items()
+    }
     size = sum(abs(c) * prod(cauchy[i] ** e[i] for i in roots) for e, c in poly.terms)
     lead = prod(abs(r.coefficients[-1]) ** poly.degrees[i] for i, r in roots.items())
     degree = prod(len(r.coefficients) - 1 for r in roots.values())
@@ -149,7 +167,9 @@ def sign_at(poly: Polynomial, point: Sequence[Exact]) -> int | None:
     return None
 
 
-def _range(poly: Polynomial, ends: dict[int, tuple[Fraction, Fraction]]) -> tuple[Fraction, Fraction]:
+def _range(
+    poly: Polynomial, ends: dict[int, tuple[Fraction, Fraction]]
+) -> tuple[Fraction, Fraction]:
     low = high = Fraction(0)
     for exponents, c in poly.terms:
         a = b = Fraction(c)

@@ -1,7 +1,8 @@
-"""Enclosures of a polynomial on a box, in either of two interval arithmetics: natural and mean value form, intersected.
+"""Enclosures of a polynomial on a box, in either of two interval arithmetics: natural and mean
+value form, intersected.
 
-A box is a tuple of dyadic sides (m, r, e): the interval [(m - r) 2^e, (m + r) 2^e].  No comparison of intervals is used here but by
-`surely`, whose answer False means "undecided" and nothing else.
+A box is a tuple of dyadic sides (m, r, e): the interval [(m - r) 2^e, (m + r) 2^e].  No comparison
+of intervals is used here but by `surely`, whose answer False means "undecided" and nothing else.
 """
 
 from __future__ import annotations
@@ -37,13 +38,15 @@ def middle(box: Box) -> list[Fraction]:
 
 
 def working_precision() -> AbstractContextManager[Any]:
-    """A context in which balls carry 64 bits, whatever is set outside: so votes do not depend on what ran before."""
+    """A context in which balls carry 64 bits, whatever is set outside: so votes do not depend on
+    what ran before."""
     context: AbstractContextManager[Any] = import_module("flint").ctx.workprec(PRECISION)
     return context
 
 
 class Balls:
-    """python-flint's `arb`: midpoint and radius.  An undecided comparison is False there, whichever way it is asked."""
+    """python-flint's `arb`: midpoint and radius.  An undecided comparison is False there, whichever
+    way it is asked."""
 
     name = "arb"
 
@@ -128,25 +131,31 @@ Kernel = Balls | Ends
 
 
 class Placed:
-    """One box in one arithmetic: the powers of its sides and of its middle, computed when they are asked for."""
+    """One box in one arithmetic: the powers of its sides and of its middle, computed when they are
+    asked for."""
 
     def __init__(self, kernel: Kernel, box: Box) -> None:
         self.kernel, self.box = kernel, box
         self.tables: tuple[dict[int, list[Any]], dict[int, list[Any]]] = ({}, {})
 
     def powers(self, needed: Sequence[tuple[int, int]], at_middle: bool) -> dict[int, list[Any]]:
-        """Lists of 1, x_i, x_i^2, ... up to the degrees needed; powers are products, because arb(0, 1)**2 is nan."""
+        """Lists of 1, x_i, x_i^2, ... up to the degrees needed; powers are products, because arb(0,
+        1)**2 is nan."""
         table = self.tables[at_middle]
         for i, degree in needed:
             if i not in table:
-                table[i] = [self.kernel.integer(1), self.kernel.point(self.box[i]) if at_middle else self.kernel.side(self.box[i])]
+                table[i] = [
+                    self.kernel.integer(1),
+                    self.kernel.point(self.box[i]) if at_middle else self.kernel.side(self.box[i]),
+                ]
             row = table[i]
             while len(row) <= degree:
                 row.append(row[-1] * row[1])
         return table
 
     def around(self, value: Any, slopes: dict[int, Any], ends: dict[int, int] | None = None) -> Any:
-        """value + sum slope_i (x_i - c_i) over the box, where c_i is the middle, or the low (-1) or high (1) end of the side."""
+        """value + sum slope_i (x_i - c_i) over the box, where c_i is the middle, or the low (-1) or
+        high (1) end of the side."""
         for i, slope in slopes.items():
             _, r, e = self.box[i]
             value = value + slope * self.kernel.side((-r * ends.get(i, 0) if ends else 0, r, e))
@@ -154,7 +163,10 @@ class Placed:
 
     def point(self, ends: dict[int, int]) -> Placed:
         """The point with these ends of the sides, or their middles, as a box whose middle it is."""
-        return Placed(self.kernel, tuple((m + r * ends.get(i, 0), 0, e) for i, (m, r, e) in enumerate(self.box)))
+        return Placed(
+            self.kernel,
+            tuple((m + r * ends.get(i, 0), 0, e) for i, (m, r, e) in enumerate(self.box)),
+        )
 
     def half(self, i: int) -> float:
         """Half the i-th side, for choices only."""
@@ -166,8 +178,12 @@ Prepared = tuple[list[tuple[int, int]], list[tuple[Any, list[tuple[int, int]]]]]
 
 
 def _prepare(kernel: Kernel, poly: Polynomial) -> Prepared:
-    """The degree in each variable that occurs, and the terms as (coefficient, [(variable, exponent)])."""
-    terms = [(kernel.integer(c), [(i, e) for i, e in enumerate(exponents) if e]) for exponents, c in poly.terms]
+    """The degree in each variable that occurs, and the terms as (coefficient, [(variable,
+    exponent)])."""
+    terms = [
+        (kernel.integer(c), [(i, e) for i, e in enumerate(exponents) if e])
+        for exponents, c in poly.terms
+    ]
     return [(i, poly.degrees[i]) for i in poly.used], terms
 
 
@@ -177,7 +193,9 @@ class Fact:
     def __init__(self, kernel: Kernel, fact: Atom) -> None:
         self.kernel, self.atom = kernel, fact
         self.terms = _prepare(kernel, fact.poly)
-        self.bound = sum(fact.poly.degrees) == 1  # x > c: the box itself says it but for its edge, so no cut is made for its sake
+        self.bound = (
+            sum(fact.poly.degrees) == 1
+        )  # x > c: the box itself says it but for its edge, so no cut is made for its sake
 
     @cached_property
     def slopes(self) -> list[tuple[int, Prepared]]:
@@ -194,18 +212,27 @@ class Fact:
         return _evaluate(self.kernel, self.terms, placed, True)
 
     def centred(self, placed: Placed) -> tuple[Any, dict[int, Any], Any]:
-        """The mean value form p(m) + sum p_i(box) (x_i - m_i), the enclosures p_i(box) for the sides that are no points, and p(m)."""
+        """The mean value form p(m) + sum p_i(box) (x_i - m_i), the enclosures p_i(box) for the
+        sides that are no points, and p(m)."""
         at_middle = _evaluate(self.kernel, self.terms, placed, True)
-        slopes = {i: _evaluate(self.kernel, slope, placed, False) for i, slope in self.slopes if placed.box[i][1]}
+        slopes = {
+            i: _evaluate(self.kernel, slope, placed, False)
+            for i, slope in self.slopes
+            if placed.box[i][1]
+        }
         return placed.around(at_middle, slopes), slopes, at_middle
 
     @cached_property
     def curvatures(self) -> dict[int, Fact]:
         """The partial derivatives as facts of their own, for enclosures of second order."""
-        return {i: Fact(self.kernel, Atom(self.atom.poly.derivative(i), ">=")) for i in self.atom.poly.used}
+        return {
+            i: Fact(self.kernel, Atom(self.atom.poly.derivative(i), ">="))
+            for i in self.atom.poly.used
+        }
 
     def sharp_slopes(self, placed: Placed) -> dict[int, Any]:
-        """Enclosures of the partial derivatives on the box by their own mean value forms, where these are narrower."""
+        """Enclosures of the partial derivatives on the box by their own mean value forms, where
+        these are narrower."""
         found = {}
         for i, slope in self.curvatures.items():
             if placed.box[i][1]:
@@ -249,7 +276,7 @@ def split(box: Box, i: int) -> tuple[Box, Box]:
     if r % 2:
         m, r, e = 2 * m, 2 * r, e - 1
     first, second = (m - r // 2, r // 2, e), (m + r // 2, r // 2, e)
-    return (*box[:i], first, *box[i + 1:]), (*box[:i], second, *box[i + 1:])
+    return (*box[:i], first, *box[i + 1 :]), (*box[:i], second, *box[i + 1 :])
 
 
 def widest(box: Box, among: Sequence[int]) -> int:

@@ -1,4 +1,5 @@
-"""Boxes that hold every solution of some facts: exact propagation of bounds that may be infinite at first, rounded outwards."""
+"""Boxes that hold every solution of some facts: exact propagation of bounds that may be infinite at
+first, rounded outwards."""
 
 from __future__ import annotations
 
@@ -6,26 +7,44 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from certificates.routes.polynomials import Atom, Polynomial
-from certificates.routes.spans import Interval, Rational, fraction, rational, shifted, span, upper_end, zero_end
+from certificates.routes.spans import (
+    Interval,
+    Rational,
+    fraction,
+    rational,
+    shifted,
+    span,
+    upper_end,
+    zero_end,
+)
 
 Bounds = tuple[tuple[int, Fraction], tuple[int, Fraction]]  # as Interval, in Python's rationals
 ROUNDS, SHIFTS, SLICES, GRID, SHORT = 4, 6, 12, 16, 48
 
 
 def bounding_box(facts: Sequence[Atom], width: int) -> list[Bounds] | None:
-    """Bounds for all variables, outside which some fact fails; None where the facts contradict each other on the way.
+    """Bounds for all variables, outside which some fact fails; None where the facts contradict each
+    other on the way.
 
-    Formula: p = sum c_k x^k with c_k <= u_k on the box so far; where x >= 0 and the shifted u(x + t) has no positive coefficient, p <= 0
-    beyond t.  Source: interval constraint propagation; Descartes' rule of signs for the shift.
+    Formula: p = sum c_k x^k with c_k <= u_k on the box so far; where x >= 0 and the shifted u(x +
+    t) has no positive coefficient, p <= 0 beyond t.  Source: interval constraint propagation;
+    Descartes' rule of signs for the shift.
     """
     box: list[Interval] = [((-1, rational(0)), (1, rational(0)))] * width
     sides = [(fact, p) for fact in facts if fact.relation != "!=" for p in _signs(fact)]
     found = _propagate(sides, box)
     used = sorted({i for fact in facts for i in fact.poly.used})
     if found and any(_infinite(box[i]) for i in used):
-        # the bounds of one variable often need a better lower end of another, such as s >= 1.4 from s^2 > 2
-        found = all(_infinite(box[i]) or _shave(sides, box, i) for i in used) and _propagate(sides, box)
-    return [((low[0], fraction(low[1])), (high[0], fraction(high[1]))) for low, high in box] if found else None
+        # the bounds of one variable often need a better lower end of another, such as s >= 1.4 from
+        # s^2 > 2
+        found = all(_infinite(box[i]) or _shave(sides, box, i) for i in used) and _propagate(
+            sides, box
+        )
+    return (
+        [((low[0], fraction(low[1])), (high[0], fraction(high[1]))) for low, high in box]
+        if found
+        else None
+    )
 
 
 def intervals(bounds: Sequence[Bounds]) -> list[Interval]:
@@ -43,7 +62,8 @@ def _signs(fact: Atom) -> list[Polynomial]:
 
 
 def _shave(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval], i: int) -> bool:
-    """Cuts slices from both ends of a bounded side on which some fact fails; False where nothing is left."""
+    """Cuts slices from both ends of a bounded side on which some fact fails; False where nothing is
+    left."""
     mine = [(fact, p) for fact, p in sides if i in p.used]
     for at_low in (True, False):
         pieces = 2
@@ -53,7 +73,11 @@ def _shave(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval], i: int
             cut = rounded(low + step, up=False) if at_low else rounded(high - step, up=True)
             if not low < cut < high:
                 break
-            trial = [*box[:i], ((0, low), (0, cut)) if at_low else ((0, cut), (0, high)), *box[i + 1:]]
+            trial = [
+                *box[:i],
+                ((0, low), (0, cut)) if at_low else ((0, cut), (0, high)),
+                *box[i + 1 :],
+            ]
             if any(_fails(fact, p, trial) for fact, p in mine):
                 box[i] = ((0, cut), (0, high)) if at_low else ((0, low), (0, cut))
             elif pieces == 8:
@@ -70,8 +94,11 @@ def _fails(fact: Atom, p: Polynomial, box: Sequence[Interval]) -> bool:
 
 
 def _propagate(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval]) -> bool:
-    """Moves ends inwards, in a few rounds, and to finite values where it can; False where an interval becomes empty."""
-    known: dict[tuple[int, int], tuple[tuple[Interval, ...], tuple[Rational | None, Rational | None]]] = {}
+    """Moves ends inwards, in a few rounds, and to finite values where it can; False where an
+    interval becomes empty."""
+    known: dict[
+        tuple[int, int], tuple[tuple[Interval, ...], tuple[Rational | None, Rational | None]]
+    ] = {}
     for _ in range(ROUNDS):
         changed = False
         for number, (_, p) in enumerate(sides):
@@ -84,7 +111,9 @@ def _propagate(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval]) ->
                         continue
                     low, high = box[i]
                     end = rounded(end, up=direction > 0)
-                    new = (low, min(high, (0, end))) if direction > 0 else (max(low, (0, end)), high)
+                    new = (
+                        (low, min(high, (0, end))) if direction > 0 else (max(low, (0, end)), high)
+                    )
                     if new[0] > new[1]:
                         return False
                     if new != box[i] and _worth(box[i], new):
@@ -101,17 +130,25 @@ def _worth(old: Interval, new: Interval) -> bool:
     return not _infinite(old) and bool(16 * (new[1][1] - new[0][1]) < 15 * (old[1][1] - old[0][1]))
 
 
-def _ends_along(p: Polynomial, i: int, box: list[Interval]) -> tuple[Rational | None, Rational | None]:
+def _ends_along(
+    p: Polynomial, i: int, box: list[Interval]
+) -> tuple[Rational | None, Rational | None]:
     """(t, s) such that p >= 0 fails for x_i > t and for x_i < s; None where none is found."""
-    spans = [(k, span(coefficient, box), bool(coefficient.used)) for k, coefficient in reversed(p.collected(i))]
+    spans = [
+        (k, span(coefficient, box), bool(coefficient.used))
+        for k, coefficient in reversed(p.collected(i))
+    ]
     constant = p.degrees[i] == 1 and not any(k == 1 and varies for k, _, varies in spans)
     up = _end(spans, p.degrees[i], 1, constant)
     down = _end(spans, p.degrees[i], -1, constant)
     return up, None if down is None else -down
 
 
-def _end(spans: Sequence[tuple[int, Interval, bool]], degree: int, direction: int, constant: bool) -> Rational | None:
-    """t such that p >= 0 fails for direction * x > t, from what the coefficients of the powers of x lie between."""
+def _end(
+    spans: Sequence[tuple[int, Interval, bool]], degree: int, direction: int, constant: bool
+) -> Rational | None:
+    """t such that p >= 0 fails for direction * x > t, from what the coefficients of the powers of x
+    lie between."""
     none = rational(0)
     tops = [none] * (degree + 1)
     for k, (least, most), _ in spans:
@@ -124,12 +161,15 @@ def _end(spans: Sequence[tuple[int, Interval, bool]], degree: int, direction: in
     if len(tops) < 2 or tops[-1] > 0:
         return None
     if len(tops) == 2:
-        # a line falls everywhere, so its zero bounds x on either side of 0 only where p is one line: c_1 a constant
+        # a line falls everywhere, so its zero bounds x on either side of 0 only where p is one
+        # line: c_1 a constant
         zero = -tops[0] / tops[1]
         return zero if constant else max(zero, none)
     end = 1 + max(max(c, none) for c in tops[:-1]) / -tops[-1]
     low = none
-    for _ in range(SHIFTS):  # Cauchy's bound, then the least shift that is seen to be beyond all roots
+    for _ in range(
+        SHIFTS
+    ):  # Cauchy's bound, then the least shift that is seen to be beyond all roots
         middle = rounded((low + end) / 2, up=True)
         if low < middle < end and all(c <= 0 for c in shifted(tops, middle)):
             end = middle
@@ -139,7 +179,8 @@ def _end(spans: Sequence[tuple[int, Interval, bool]], degree: int, direction: in
 
 
 def rounded(value: Rational, up: bool) -> Rational:
-    """The value itself where it is short, else a number with few digits beyond it: propagation would make the digits grow without end.
+    """The value itself where it is short, else a number with few digits beyond it: propagation
+    would make the digits grow without end.
 
     >>> fraction(rounded(rational(Fraction(1, 3)), True)), fraction(rounded(rational(Fraction(10**30 + 1, 3 * 10**30)), True))
     (Fraction(1, 3), Fraction(11184811, 33554432))
@@ -149,7 +190,14 @@ def rounded(value: Rational, up: bool) -> Rational:
         return value
     unit = Fraction(2) ** (p.bit_length() - q.bit_length() - SHORT // 2)
     scaled = Fraction(p, q) / unit
-    return rational(unit * (-(-scaled.numerator // scaled.denominator) if up else scaled.numerator // scaled.denominator))
+    return rational(
+        unit
+        * (
+            -(-scaled.numerator // scaled.denominator)
+            if up
+            else scaled.numerator // scaled.denominator
+        )
+    )
 
 
 def dyadic(low: Fraction, high: Fraction) -> tuple[int, int, int]:

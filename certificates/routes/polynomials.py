@@ -1,4 +1,5 @@
-"""Polynomials with integer coefficients over one positive denominator, and formulas over their signs: what the routes compute with."""
+"""Polynomials with integer coefficients over one positive denominator, and formulas over their
+signs: what the routes compute with."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ OPPOSITE = {">": "<=", ">=": "<", "=": "!=", "!=": "=", "<": ">=", "<=": ">"}
 
 @dataclass(frozen=True)
 class Polynomial:
-    """sum c * x^e / den over the variables `names`; `terms` holds (exponents, c) from the largest exponents down.
+    """sum c * x^e / den over the variables `names`; `terms` holds (exponents, c) from the largest
+    exponents down.
 
     >>> p = Polynomial(("x", "y"), (((2, 0), 1), ((0, 1), -3)), 2)
     >>> str(p), p.at([Fraction(1, 2), Fraction(0)])
@@ -28,8 +30,11 @@ class Polynomial:
 
     @staticmethod
     def of(names: tuple[str, ...], terms: Mapping[Exponents, int], den: int = 1) -> Polynomial:
-        """The polynomial with these terms, zeros left out, in the one order that makes equal polynomials equal."""
-        return Polynomial(names, tuple(sorted(((e, c) for e, c in terms.items() if c), reverse=True)), den)
+        """The polynomial with these terms, zeros left out, in the one order that makes equal
+        polynomials equal."""
+        return Polynomial(
+            names, tuple(sorted(((e, c) for e, c in terms.items() if c), reverse=True)), den
+        )
 
     @cached_property
     def used(self) -> tuple[int, ...]:
@@ -46,12 +51,15 @@ class Polynomial:
         return {}
 
     def collected(self, i: int) -> tuple[tuple[int, Polynomial], ...]:
-        """The pairs (k, c_k) with the polynomial = sum c_k x_i^k / den, each c_k not 0 and without x_i, from k = 0 up."""
+        """The pairs (k, c_k) with the polynomial = sum c_k x_i^k / den, each c_k not 0 and without
+        x_i, from k = 0 up."""
         if i not in self._collections:
             parts: dict[int, dict[Exponents, int]] = {}
             for e, c in self.terms:
-                parts.setdefault(e[i], {})[(*e[:i], 0, *e[i + 1:])] = c
-            self._collections[i] = tuple((k, Polynomial.of(self.names, terms)) for k, terms in sorted(parts.items()))
+                parts.setdefault(e[i], {})[(*e[:i], 0, *e[i + 1 :])] = c
+            self._collections[i] = tuple(
+                (k, Polynomial.of(self.names, terms)) for k, terms in sorted(parts.items())
+            )
         return self._collections[i]
 
     @cached_property
@@ -79,14 +87,21 @@ class Polynomial:
 
     def derivative(self, i: int) -> Polynomial:
         """The partial derivative by the i-th variable."""
-        return Polynomial.of(self.names, {(*e[:i], e[i] - 1, *e[i + 1:]): c * e[i] for e, c in self.terms if e[i]}, self.den)
+        return Polynomial.of(
+            self.names,
+            {(*e[:i], e[i] - 1, *e[i + 1 :]): c * e[i] for e, c in self.terms if e[i]},
+            self.den,
+        )
 
     def with_value(self, i: int, value: Fraction) -> Polynomial:
-        """The polynomial with a rational in place of the i-th variable; it stays a polynomial in the same names."""
+        """The polynomial with a rational in place of the i-th variable; it stays a polynomial in
+        the same names."""
         degree, terms = self.degrees[i], dict[Exponents, int]()
         for e, c in self.terms:
-            key = (*e[:i], 0, *e[i + 1:])
-            terms[key] = terms.get(key, 0) + c * value.numerator ** e[i] * value.denominator ** (degree - e[i])
+            key = (*e[:i], 0, *e[i + 1 :])
+            terms[key] = terms.get(key, 0) + c * value.numerator ** e[i] * value.denominator ** (
+                degree - e[i]
+            )
         return Polynomial.of(self.names, terms, self.den * value.denominator**degree)
 
     def __str__(self) -> str:
@@ -107,7 +122,8 @@ class Atom:
     relation: str
 
     def holds(self, value: Fraction | int) -> bool:
-        """Whether the relation holds where the polynomial has this value (or a number of the same sign)."""
+        """Whether the relation holds where the polynomial has this value (or a number of the same
+        sign)."""
         return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[self.relation]
 
     def __str__(self) -> str:
@@ -151,7 +167,8 @@ def map_atoms(formula: Formula, change: Callable[[Atom], Formula]) -> Formula:
 
 
 def join(op: str, formulas: Sequence[Formula]) -> Formula:
-    """The conjunction or disjunction, without constants, repetitions and joins of the same kind inside."""
+    """The conjunction or disjunction, without constants, repetitions and joins of the same kind
+    inside."""
     flat: list[Formula] = []
     for formula in formulas:
         if isinstance(formula, bool):
@@ -165,7 +182,8 @@ def join(op: str, formulas: Sequence[Formula]) -> Formula:
 
 
 def atom(poly: Polynomial, relation: str) -> Formula:
-    """The atom over coprime integer coefficients, or its truth value where the polynomial is constant."""
+    """The atom over coprime integer coefficients, or its truth value where the polynomial is
+    constant."""
     if not poly.used:
         return Atom(poly, relation).holds(poly.terms[0][1] if poly.terms else 0)
     content = gcd(*(c for _, c in poly.terms))
@@ -190,7 +208,8 @@ def truth(formula: Formula, decide: Callable[[Atom], bool | None]) -> bool | Non
 
 
 def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
-    """The disjunctive normal form: each branch a conjunction of atoms; None where it has more than `limit` branches.
+    """The disjunctive normal form: each branch a conjunction of atoms; None where it has more than
+    `limit` branches.
 
     >>> x = Polynomial(("x",), (((1,), 1),))
     >>> [[str(fact) for fact in b] for b in branches(Join("or", (Atom(x, ">"), Atom(x, "="))), 4) or []]
@@ -220,6 +239,8 @@ def _merge(first: tuple[Atom, ...], second: tuple[Atom, ...]) -> tuple[Atom, ...
     if any(f.relation == "=" and Atom(f.poly, r) in facts for f in facts for r in (">", "!=")):
         return None
     for fact in facts:
-        if fact.relation == ">" and any(Atom(fact.poly.minus, r) in facts for r in (">", ">=", "=")):
+        if fact.relation == ">" and any(
+            Atom(fact.poly.minus, r) in facts for r in (">", ">=", "=")
+        ):
             return None
     return tuple(facts)

@@ -1,6 +1,8 @@
-"""A statement as the questions that decide it: polynomials only, with the denominators cleared by the checker's own unfolding.
+"""A statement as the questions that decide it: polynomials only, with the denominators cleared by
+the checker's own unfolding.
 
-A question is a formula "assumed, and for all bound variables denied"; the statement holds if and only if no question has a solution.
+A question is a formula "assumed, and for all bound variables denied"; the statement holds if and
+only if no question has a solution.
 """
 
 from __future__ import annotations
@@ -18,9 +20,11 @@ TRUSTED: Any = checker  # the trusted file carries no annotations
 
 @dataclass(frozen=True)
 class Denial:
-    """For all values of the bound variables (none for a universal statement) there are values of the `chosen` ones with the formula.
+    """For all values of the bound variables (none for a universal statement) there are values of
+    the `chosen` ones with the formula.
 
-    Only the outside of a sharp range chooses: a named statement with `exists` is assumed there, not denied.
+    Only the outside of a sharp range chooses: a named statement with `exists` is assumed there, not
+    denied.
     """
 
     bound: tuple[str, ...]
@@ -30,9 +34,11 @@ class Denial:
 
 @dataclass(frozen=True)
 class Question:
-    """Is there a point that meets all of `assumed` and every denial?  `part` says of which line of the statement this is the denial.
+    """Is there a point that meets all of `assumed` and every denial?  `part` says of which line of
+    the statement this is the denial.
 
-    A point refutes the statement where `refutes`; else (a `have` line, or the term under a root) it shows that a line does not follow.
+    A point refutes the statement where `refutes`; else (a `have` line, or the term under a root) it
+    shows that a line does not follow.
     """
 
     statement: str
@@ -46,7 +52,9 @@ class Question:
     @property
     def bound(self) -> frozenset[str]:
         """The names that a denial binds."""
-        return frozenset(name for denial in self.denials for name in (*denial.bound, *denial.chosen))
+        return frozenset(
+            name for denial in self.denials for name in (*denial.bound, *denial.chosen)
+        )
 
     @property
     def quantified(self) -> bool:
@@ -55,8 +63,13 @@ class Question:
 
     @property
     def beyond_routes(self) -> bool:
-        """Whether it has one alternation of quantifiers more, or integers under a quantifier outside a range: only exported, no route asks."""
-        return any(denial.chosen for denial in self.denials) or self.part == "outside" and bool(self.integers)
+        """Whether it has one alternation of quantifiers more, or integers under a quantifier
+        outside a range: only exported, no route asks."""
+        return (
+            any(denial.chosen for denial in self.denials)
+            or self.part == "outside"
+            and bool(self.integers)
+        )
 
     def occurring(self) -> tuple[str, ...]:
         """The names of the variables that occur, in order."""
@@ -78,8 +91,8 @@ def read_statement(text: str) -> Any:
 def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[Question]:
     """The questions of a statement, in the order: `have` and `root` lines, then what is shown.
 
-    A sharp range asks one question more than the statements it names ask inside it: outside, is there a parameter at which all of them
-    hold?  Recurrences ask whether an identity fails.
+    A sharp range asks one question more than the statements it names ask inside it: outside, is
+    there a parameter at which all of them hold?  Recurrences ask whether an identity fails.
     """
     TRUSTED.work_left[0] = TRUSTED.MAX_WORK
     if statement.kind == "sharp":
@@ -89,47 +102,91 @@ def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[
     return _universal_questions(statement, statement.name, None, "")
 
 
-def _universal_questions(statement: Any, name: str, sharp: Sequence[Any] | None, where: str) -> list[Question]:
+def _universal_questions(
+    statement: Any, name: str, sharp: Sequence[Any] | None, where: str
+) -> list[Question]:
     story: Any = unfolded(statement, sharp if sharp is None else list(sharp))
     own, universal = tuple(story.context.index), set(story.universal)
     free, integers = tuple(n for n in own if n in universal), frozenset(story.integers)
     asked = []
     for number, (count, negation) in enumerate(story.obligations, 1):
-        asked.append(Question(name, f"{where}obligation {number}", free, integers & universal, _premises(story, own, free, count),
-                              (Denial((), formula_of(negation, own, free)),), refutes=False))
-    denial = Denial(tuple(n for n in own if n not in universal), formula_of(story.goal(False), own, own))
-    return [*asked, Question(name, f"{where}goal", own, integers, _premises(story, own, own), (denial,))]
+        asked.append(
+            Question(
+                name,
+                f"{where}obligation {number}",
+                free,
+                integers & universal,
+                _premises(story, own, free, count),
+                (Denial((), formula_of(negation, own, free)),),
+                refutes=False,
+            )
+        )
+    denial = Denial(
+        tuple(n for n in own if n not in universal), formula_of(story.goal(False), own, own)
+    )
+    return [
+        *asked,
+        Question(name, f"{where}goal", own, integers, _premises(story, own, own), (denial,)),
+    ]
 
 
 def _sharp_questions(statement: Any, earlier: Mapping[str, Any]) -> list[Question]:
-    (named,), (over,), (domain,), (condition,) = (statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds"))
+    (named,), (over,), (domain,), (condition,) = (
+        statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
+    )
     asked: list[Question] = []
     for name in named:
-        asked += _universal_questions(earlier[name], statement.name, [domain, condition], f"inside, {name}: ")
-    return [*asked, _outside(statement.name, over, domain, condition, [earlier[name] for name in named])]
+        asked += _universal_questions(
+            earlier[name], statement.name, [domain, condition], f"inside, {name}: "
+        )
+    return [
+        *asked,
+        _outside(statement.name, over, domain, condition, [earlier[name] for name in named]),
+    ]
 
 
-def _outside(name: str, over: Sequence[str], domain: Any, condition: Any, named: Sequence[Any]) -> Question:
-    """Is there a parameter in the domain, but outside the range, at which all the named statements hold?"""
+def _outside(
+    name: str, over: Sequence[str], domain: Any, condition: Any, named: Sequence[Any]
+) -> Question:
+    """Is there a parameter in the domain, but outside the range, at which all the named statements
+    hold?"""
     stories = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
     names, integers = list[str](over), {p for p in over if p in stories[0].integers}
     renamed = list[tuple[str, ...]]()
-    for story in stories:  # every denial binds its own variables; a name is shared unless it is an integer in one statement only
-        own = [n if n in over or n not in names or (n in integers) == (n in story.integers) else _fresh(n, {*names, *story.context.index})
-               for n in story.context.index]
+    # every denial binds its own variables; a name is shared unless it is an integer in one
+    # statement only
+    for story in stories:
+        own = [
+            (
+                n
+                if n in over or n not in names or (n in integers) == (n in story.integers)
+                else _fresh(n, {*names, *story.context.index})
+            )
+            for n in story.context.index
+        ]
         names += [n for n in own if n not in names]
         integers |= {n for n, key in zip(own, story.context.index) if key in story.integers}
         renamed.append(tuple(own))
     context, order = TRUSTED.Context(), tuple(names)
     for parameter in over:
         context.declare(parameter)
-    outside = [formula_of(f, tuple(over), order) for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))]
+    outside = [
+        formula_of(f, tuple(over), order)
+        for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))
+    ]
     denials = []
     for story, bound in zip(stories, renamed):
-        held = TRUSTED.join("or", [TRUSTED.negate(TRUSTED.join("and", story.premises)), story.goal(True)])
+        held = TRUSTED.join(
+            "or", [TRUSTED.negate(TRUSTED.join("and", story.premises)), story.goal(True)]
+        )
         of_all = {n for n, key in zip(bound, story.context.index) if key in story.universal}
-        denials.append(Denial(tuple(n for n in bound if n in of_all and n not in over), formula_of(held, bound, order),
-                              tuple(n for n in bound if n not in of_all)))
+        denials.append(
+            Denial(
+                tuple(n for n in bound if n in of_all and n not in over),
+                formula_of(held, bound, order),
+                tuple(n for n in bound if n not in of_all),
+            )
+        )
     return Question(name, "outside", order, frozenset(integers), flat(outside), tuple(denials))
 
 
@@ -141,7 +198,9 @@ def _fresh(name: str, taken: set[str]) -> str:
 
 
 def _iterate_questions(statement: Any) -> list[Question]:
-    (variables,), ((arguments, images),), ((count, powers),) = (statement.get(keyword) for keyword in ("forall", "iterates", "after"))
+    (variables,), ((arguments, images),), ((count, powers),) = (
+        statement.get(keyword) for keyword in ("forall", "iterates", "after")
+    )
     images, powers = ([TRUSTED.parse(text) for text in terms] for terms in (images, powers))
     context = TRUSTED.Context()
     for name in variables:
@@ -154,14 +213,24 @@ def _iterate_questions(statement: Any) -> list[Question]:
             inner.define(name, inner.value(tree))
         return [inner.value(tree) for tree in trees]
 
-    pairs = [*zip(image(powers, {k: TRUSTED.ZERO}), (plain[name] for name in arguments)),
-             *zip(image(images, dict(zip(arguments, image(powers, {})))), image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}))]
-    fails = join("or", [formula_of(context.atom(left, "!=", right), names, names) for left, right in pairs])
-    # the identities hold for all real K where they hold for all integers, so no variable need be an integer here
+    pairs = [
+        *zip(image(powers, {k: TRUSTED.ZERO}), (plain[name] for name in arguments)),
+        *zip(
+            image(images, dict(zip(arguments, image(powers, {})))),
+            image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}),
+        ),
+    ]
+    fails = join(
+        "or", [formula_of(context.atom(left, "!=", right), names, names) for left, right in pairs]
+    )
+    # the identities hold for all real K where they hold for all integers, so no variable need be an
+    # integer here
     return [Question(statement.name, "recurrence", names, frozenset(), (), (Denial((), fails),))]
 
 
-def _premises(story: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None) -> tuple[Formula, ...]:
+def _premises(
+    story: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None
+) -> tuple[Formula, ...]:
     return flat([formula_of(premise, own, names) for premise in story.premises[:count]])
 
 

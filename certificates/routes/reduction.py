@@ -1,4 +1,5 @@
-"""Facts made simpler before boxes are cut: equations solved for a variable, factors of known sign divided out, contradictions seen."""
+"""Facts made simpler before boxes are cut: equations solved for a variable, factors of known sign
+divided out, contradictions seen."""
 
 from __future__ import annotations
 
@@ -21,13 +22,17 @@ class Solved:
 
 
 def solve_equations(facts: Sequence[Atom]) -> tuple[list[Atom], list[Solved]] | None:
-    """The facts with variables eliminated that an equation gives as a polynomial in the others; None where a fact becomes false.
+    """The facts with variables eliminated that an equation gives as a polynomial in the others;
+    None where a fact becomes false.
 
     An equation serves where a variable stands in it once, alone, with a rational coefficient.
     """
     left, solved = list(facts), list[Solved]()
     while True:
-        found = next((s for fact in left if fact.relation == "=" if (s := _solution(fact.poly)) is not None), None)
+        found = next(
+            (s for fact in left if fact.relation == "=" if (s := _solution(fact.poly)) is not None),
+            None,
+        )
         if found is None:
             return left, solved
         solved.append(found)
@@ -52,7 +57,8 @@ def _solution(poly: Polynomial) -> Solved | None:
 
 
 def insert(poly: Polynomial, solved: Solved) -> Polynomial:
-    """The polynomial with the solved variable replaced by its value, times a positive number where that clears denominators."""
+    """The polynomial with the solved variable replaced by its value, times a positive number where
+    that clears denominators."""
     degree = poly.degrees[solved.i]
     if not degree:
         return poly
@@ -63,7 +69,7 @@ def insert(poly: Polynomial, solved: Solved) -> Polynomial:
     total: dict[Exponents, int] = {}
     for e, c in poly.terms:
         scale = c * solved.value.den ** (degree - e[solved.i])
-        rest = (*e[:solved.i], 0, *e[solved.i + 1:])
+        rest = (*e[: solved.i], 0, *e[solved.i + 1 :])
         for f, d in powers[e[solved.i]].items():
             key = tuple(a + b for a, b in zip(rest, f))
             total[key] = total.get(key, 0) + scale * d
@@ -79,11 +85,14 @@ def _multiply(a: dict[Exponents, int], b: dict[Exponents, int]) -> dict[Exponent
     return product
 
 
-def reduce_factors(facts: Sequence[Atom], bounds: Sequence[Bounds] | None = None) -> list[Atom] | None:
+def reduce_factors(
+    facts: Sequence[Atom], bounds: Sequence[Bounds] | None = None
+) -> list[Atom] | None:
     """Facts that follow from the given ones and are simpler; None where they contradict each other.
 
-    Formula: p = f q > 0 with f > 0 or f >= 0 among the facts (or on the box) gives q > 0; p = f q >= 0 with f > 0 gives q >= 0;
-    p = f^2 q > 0 gives q > 0.  Source: flint's factorization over the integers.
+    Formula: p = f q > 0 with f > 0 or f >= 0 among the facts (or on the box) gives q > 0; p = f q
+    >= 0 with f > 0 gives q >= 0; p = f^2 q > 0 gives q > 0.  Source: flint's factorization over the
+    integers.
     """
     current, box = list(dict.fromkeys(facts)), intervals(bounds) if bounds is not None else None
     for _ in range(4):
@@ -103,7 +112,9 @@ def reduce_factors(facts: Sequence[Atom], bounds: Sequence[Bounds] | None = None
     return current
 
 
-def _simplified(fact: Atom, signs: dict[Polynomial, str], box: Sequence[Interval] | None) -> Atom | bool:
+def _simplified(
+    fact: Atom, signs: dict[Polynomial, str], box: Sequence[Interval] | None
+) -> Atom | bool:
     if fact.relation not in (">", ">="):
         return fact
     names = fact.poly.names
@@ -128,11 +139,16 @@ def _simplified(fact: Atom, signs: dict[Polynomial, str], box: Sequence[Interval
         for _ in range(exponent):
             product = _multiply(product, dict(factor.terms))
     new = atom(Polynomial.of(names, product), relation)
-    return fact if new is not False and new == fact else new if isinstance(new, (bool, Atom)) else fact
+    return (
+        fact if new is not False and new == fact else new if isinstance(new, (bool, Atom)) else fact
+    )
 
 
-def _known_sign(factor: Polynomial, signs: dict[Polynomial, str], box: Sequence[Interval] | None, relation: str) -> int:
-    """1 or -1 where the factor is known to be > 0 or < 0; for a strict product >= 0 or <= 0 suffice."""
+def _known_sign(
+    factor: Polynomial, signs: dict[Polynomial, str], box: Sequence[Interval] | None, relation: str
+) -> int:
+    """1 or -1 where the factor is known to be > 0 or < 0; for a strict product >= 0 or <= 0
+    suffice."""
     enough = (">", ">=") if relation == ">" else (">",)
     minus = factor.minus
     if signs.get(factor) in enough:
@@ -163,5 +179,11 @@ def factorization(poly: Polynomial) -> tuple[int, list[tuple[Polynomial, int]]]:
     flint: Any = import_module("flint")
     context = flint.fmpz_mpoly_ctx.get(poly.names, flint.Ordering.lex)
     constant, factors = context.from_dict(dict(poly.terms)).factor()
-    found = [(Polynomial.of(poly.names, {tuple(map(int, e)): int(c) for e, c in f.to_dict().items()}), int(k)) for f, k in factors]
+    found = [
+        (
+            Polynomial.of(poly.names, {tuple(map(int, e)): int(c) for e, c in f.to_dict().items()}),
+            int(k),
+        )
+        for f, k in factors
+    ]
     return int(constant), sorted(found, key=lambda pair: (pair[0].terms, pair[1]))

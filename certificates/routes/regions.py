@@ -1,4 +1,5 @@
-"""The region of a question, branch by branch: facts made simple, a box that holds it, and exact points of it."""
+"""The region of a question, branch by branch: facts made simple, a box that holds it, and exact
+points of it."""
 
 from __future__ import annotations
 
@@ -14,12 +15,29 @@ from certificates.routes.reduction import Solved, reduce_factors, solve_equation
 
 MOST_BRANCHES, MOST_SAMPLES, ENOUGH_SAMPLES = 64, 128, 8
 TRIAL_SIDE = Fraction(8)
-SAMPLES = [Fraction(n, d) for n, d in ((1, 4), (1, 1), (1, 8), (0, 1), (2, 1), (1, 2), (3, 2), (-1, 1), (3, 1), (7, 1), (5, 4), (-3, 1))]
+SAMPLES = [
+    Fraction(n, d)
+    for n, d in (
+        (1, 4),
+        (1, 1),
+        (1, 8),
+        (0, 1),
+        (2, 1),
+        (1, 2),
+        (3, 2),
+        (-1, 1),
+        (3, 1),
+        (7, 1),
+        (5, 4),
+        (-3, 1),
+    )
+]
 
 
 @dataclass(frozen=True)
 class Region:
-    """One branch, ready for boxes; variables that an equation gives are `solved` and no longer occur in the facts."""
+    """One branch, ready for boxes; variables that an equation gives are `solved` and no longer
+    occur in the facts."""
 
     names: tuple[str, ...]
     facts: tuple[Atom, ...]
@@ -35,10 +53,17 @@ class Region:
         return [self.names[i] for i in self.used() if self.bounds[i][0][0] or self.bounds[i][1][0]]
 
     def box(self) -> Box:
-        """Dyadic sides around the intervals; infinite ones are cut, and variables that no longer occur stay at one value."""
+        """Dyadic sides around the intervals; infinite ones are cut, and variables that no longer
+        occur stay at one value."""
         used, sides = self.used(), []
         for i, (low, high) in enumerate(self.bounds):
-            a = low[1] if not low[0] else min(-TRIAL_SIDE, high[1] - 2 * TRIAL_SIDE) if not high[0] else -TRIAL_SIDE
+            a = (
+                low[1]
+                if not low[0]
+                else min(-TRIAL_SIDE, high[1] - 2 * TRIAL_SIDE)
+                if not high[0]
+                else -TRIAL_SIDE
+            )
             b = high[1] if not high[0] else max(TRIAL_SIDE, a + 2 * TRIAL_SIDE)
             sides.append(dyadic(a, b) if i in used else dyadic((a + b) / 2, (a + b) / 2))
         return tuple(sides)
@@ -58,7 +83,10 @@ class Region:
         """A few exact points of the region that meet the formula, from small numbers."""
         used, found = self.used(), 0
         sides = [self.bounds[i] for i in used]
-        choices = [[v for v in SAMPLES if side[0] <= (0, v) <= side[1]] or [_inside(side)] for side in sides]
+        choices = [
+            [v for v in SAMPLES if side[0] <= (0, v) <= side[1]] or [_inside(side)]
+            for side in sides
+        ]
         for values in islice(product(*choices), MOST_SAMPLES):
             point = [Fraction(0)] * len(self.names)
             for i, value in zip(used, values):
@@ -77,7 +105,8 @@ def holds_at(formula: Formula, point: Sequence[Fraction]) -> bool:
 
 
 def regions(names: tuple[str, ...], formula: Formula) -> list[Region] | None:
-    """The branches of the formula that are not seen to be empty at once; None where there are too many."""
+    """The branches of the formula that are not seen to be empty at once; None where there are too
+    many."""
     parts = branches(formula, MOST_BRANCHES)
     if parts is None:
         return None
@@ -88,7 +117,8 @@ def regions(names: tuple[str, ...], formula: Formula) -> list[Region] | None:
 def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:
     """The branch as a region; None where its facts contradict each other on the way.
 
-    Factors may turn into equations and bounds may give factors a sign, so both are gone through twice.
+    Factors may turn into equations and bounds may give factors a sign, so both are gone through
+    twice.
     """
     current, solved = list(facts), list[Solved]()
     bounds: list[Bounds] | None = None
@@ -108,4 +138,10 @@ def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:
 
 def _inside(bounds: Bounds) -> Fraction:
     (low_kind, low), (high_kind, high) = bounds
-    return (low + high) / 2 if not low_kind and not high_kind else low + 1 if not low_kind else high - 1
+    return (
+        (low + high) / 2
+        if not low_kind and not high_kind
+        else low + 1
+        if not low_kind
+        else high - 1
+    )

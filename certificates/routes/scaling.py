@@ -1,4 +1,5 @@
-"""Units: which positive variables may be set to 1, because every fact is homogeneous in some grading of the variables."""
+"""Units: which positive variables may be set to 1, because every fact is homogeneous in some
+grading of the variables."""
 
 from __future__ import annotations
 
@@ -12,12 +13,21 @@ from certificates.routes.questions import Denial, Question, flat
 def fixed_by_units(question: Question) -> tuple[str, ...]:
     """The variables that may be set to 1 without loss.
 
-    Formula: if every fact is homogeneous for the weights W_i of a grading, then x_i -> t^(W_i) x_i keeps all signs for every t > 0.
-    Positive variables whose columns of W are independent can so be brought to 1 together, whatever the others are.
-    Source: the quotient of the positive torus by its action on the solutions (dimensional analysis).
+    Formula: if every fact is homogeneous for the weights W_i of a grading, then x_i -> t^(W_i) x_i
+    keeps all signs for every t > 0. Positive variables whose columns of W are independent can so be
+    brought to 1 together, whatever the others are. Source: the quotient of the positive torus by
+    its action on the solutions (dimensional analysis).
     """
-    positive = [next(iter(f.poly.used)) for f in question.assumed if isinstance(f, Atom) and f.relation == ">" and _is_variable(f)]
-    free = [i for i in dict.fromkeys(positive) if question.names[i] not in question.bound | question.integers]
+    positive = [
+        next(iter(f.poly.used))
+        for f in question.assumed
+        if isinstance(f, Atom) and f.relation == ">" and _is_variable(f)
+    ]
+    free = [
+        i
+        for i in dict.fromkeys(positive)
+        if question.names[i] not in question.bound | question.integers
+    ]
     if not free:
         return ()
     chosen: list[int] = []
@@ -39,7 +49,11 @@ def at_unit_values(question: Question, names: tuple[str, ...]) -> Question:
         return atom(poly, fact.relation)
 
     assumed = flat([map_atoms(formula, change) for formula in question.assumed])
-    return replace(question, assumed=assumed, denials=tuple(Denial(d.bound, map_atoms(d.formula, change)) for d in question.denials))
+    return replace(
+        question,
+        assumed=assumed,
+        denials=tuple(Denial(d.bound, map_atoms(d.formula, change)) for d in question.denials),
+    )
 
 
 def _is_variable(fact: Atom) -> bool:
@@ -48,7 +62,8 @@ def _is_variable(fact: Atom) -> bool:
 
 
 def _gradings(question: Question) -> list[list[Fraction]]:
-    """A basis of the weights for which every polynomial of the question is homogeneous: the null space of all differences of exponents.
+    """A basis of the weights for which every polynomial of the question is homogeneous: the null
+    space of all differences of exponents.
 
     Integers have weight 0: they keep their values.
     """
@@ -56,9 +71,17 @@ def _gradings(question: Question) -> list[list[Fraction]]:
     for formula in (*question.assumed, *(denial.formula for denial in question.denials)):
         for fact in atoms(formula):
             first = fact.poly.terms[0][0]
-            differences.update(dict.fromkeys(tuple(a - b for a, b in zip(e, first)) for e, _ in fact.poly.terms[1:]))
+            differences.update(
+                dict.fromkeys(
+                    tuple(a - b for a, b in zip(e, first)) for e, _ in fact.poly.terms[1:]
+                )
+            )
     loose, width = [], len(question.names)
-    whole = [[Fraction(int(i == j)) for j in range(width)] for i, name in enumerate(question.names) if name in question.integers]
+    whole = [
+        [Fraction(int(i == j)) for j in range(width)]
+        for i, name in enumerate(question.names)
+        if name in question.integers
+    ]
     rows, pivots = _reduced([*whole, *([Fraction(x) for x in row] for row in differences)])
     for free in (i for i in range(width) if i not in pivots):
         vector = [Fraction(int(i == free)) for i in range(width)]

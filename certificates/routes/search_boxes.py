@@ -1,4 +1,5 @@
-"""Branch and bound on boxes: every box is discarded because some fact surely fails on it, or cut in two; counted boxes only."""
+"""Branch and bound on boxes: every box is discarded because some fact surely fails on it, or cut in
+two; counted boxes only."""
 
 from __future__ import annotations
 
@@ -9,7 +10,17 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from certificates.routes.arithmetic import Balls, Box, Ends, Fact, Kernel, Placed, middle, split, widest
+from certificates.routes.arithmetic import (
+    Balls,
+    Box,
+    Ends,
+    Fact,
+    Kernel,
+    Placed,
+    middle,
+    split,
+    widest,
+)
 from certificates.routes.polynomials import Atom, Polynomial
 
 SECOND_OPINIONS = 48
@@ -18,7 +29,8 @@ Accept = Callable[[list[Fraction]], bool]
 
 @dataclass(frozen=True)
 class Leaf:
-    """A discarded box: the number of the fact that fails on it, and whether the mean value form was needed to see it."""
+    """A discarded box: the number of the fact that fails on it, and whether the mean value form was
+    needed to see it."""
 
     box: Box
     fact: int
@@ -27,7 +39,8 @@ class Leaf:
 
 @dataclass
 class Emptiness:
-    """What became of the search for a solution of all facts: `empty`, `point` (exact) or, with neither, undecided."""
+    """What became of the search for a solution of all facts: `empty`, `point` (exact) or, with
+    neither, undecided."""
 
     boxes: int
     leaves: list[Leaf] = field(default_factory=list)
@@ -36,10 +49,12 @@ class Emptiness:
 
 
 def refute(facts: Sequence[Atom], box: Box, allowance: int, accept: Accept) -> Emptiness:
-    """Looks for a solution of all facts in the box, and proves that there is none where every box is discarded.
+    """Looks for a solution of all facts in the box, and proves that there is none where every box
+    is discarded.
 
-    Source: interval branch and bound, breadth first; the cut is along the side to which the undecided facts are most sensitive.
-    A point counts only where `accept`, which evaluates exactly, says so; an undecided comparison of intervals never decides anything.
+    Source: interval branch and bound, breadth first; the cut is along the side to which the
+    undecided facts are most sensitive. A point counts only where `accept`, which evaluates exactly,
+    says so; an undecided comparison of intervals never decides anything.
     """
     kernel = Balls()
     ready = [Fact(kernel, fact) for fact in facts]
@@ -60,15 +75,23 @@ def refute(facts: Sequence[Atom], box: Box, allowance: int, accept: Accept) -> E
                 return found
         sides = [i for i, side in enumerate(current) if side[1]]
         if not sides:
-            return found  # a single point at which nothing is decided: equality, which no cut will decide
-        best = max(sides, key=lambda i: (weights.get(i, 0.0), -i)) if weights else widest(current, sides)
+            # a single point at which nothing is decided: equality, which no cut will decide
+            return found
+        best = (
+            max(sides, key=lambda i: (weights.get(i, 0.0), -i))
+            if weights
+            else widest(current, sides)
+        )
         queue.extend((half, alive) for half in split(current, best))
     found.empty = not queue and found.point is None
     return found
 
 
-def _look(ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed) -> tuple[Leaf | None, tuple[int, ...], dict[int, float], bool]:
-    """A leaf, or the facts still undecided, how much each side matters to them, and whether the middle may be a solution."""
+def _look(
+    ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed
+) -> tuple[Leaf | None, tuple[int, ...], dict[int, float], bool]:
+    """A leaf, or the facts still undecided, how much each side matters to them, and whether the
+    middle may be a solution."""
     left = []
     for k in alive:
         value = ready[k].natural(placed)
@@ -91,7 +114,8 @@ def _look(ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed) -> tupl
 
 
 def second_opinion(facts: Sequence[Atom], leaves: Sequence[Leaf]) -> tuple[int, int, str]:
-    """(leaves asked, leaves confirmed, a leaf that is contradicted or "") by `mpmath.iv` on evenly chosen leaves.
+    """(leaves asked, leaves confirmed, a leaf that is contradicted or "") by `mpmath.iv` on evenly
+    chosen leaves.
 
     Contradicted: the two enclosures of one polynomial on one box have no number in common.
     """
@@ -101,8 +125,10 @@ def second_opinion(facts: Sequence[Atom], leaves: Sequence[Leaf]) -> tuple[int, 
     chosen = leaves[::step]
     confirmed = 0
     for leaf in chosen:
-        values = [_enclose(fact[leaf.fact], Placed(arithmetic, leaf.box), leaf.centred)
-                  for fact, arithmetic in ((ready, kernel), (first, balls))]
+        values = [
+            _enclose(fact[leaf.fact], Placed(arithmetic, leaf.box), leaf.centred)
+            for fact, arithmetic in ((ready, kernel), (first, balls))
+        ]
         confirmed += ready[leaf.fact].fails(values[0])
         spans = kernel.ends(values[0]), balls.ends(values[1])
         if spans[0] and spans[1] and (spans[0][1] < spans[1][0] or spans[1][1] < spans[0][0]):
@@ -116,7 +142,8 @@ def _enclose(fact: Fact, placed: Placed, centred: bool) -> Any:
 
 @dataclass
 class Infimum:
-    """low <= inf of the polynomial over the region; where a better point than the known one was met, high is its value."""
+    """low <= inf of the polynomial over the region; where a better point than the known one was
+    met, high is its value."""
 
     low: Fraction
     high: Fraction
@@ -126,12 +153,20 @@ class Infimum:
 
 
 def enclose_infimum(
-    poly: Polynomial, facts: Sequence[Atom], box: Box, known: Fraction, width: Fraction, allowance: int, accept: Accept,
+    poly: Polynomial,
+    facts: Sequence[Atom],
+    box: Box,
+    known: Fraction,
+    width: Fraction,
+    allowance: int,
+    accept: Accept,
 ) -> Infimum | None:
-    """Encloses the infimum of the polynomial over the points of the box that meet all facts, best box first.
+    """Encloses the infimum of the polynomial over the points of the box that meet all facts, best
+    box first.
 
-    `known` is a value already attained; parts of the region where the polynomial is larger do not matter.  The low end is the least
-    lower end over the boxes that are left; it is the high end where none is left.  None where a box has no finite enclosure.
+    `known` is a value already attained; parts of the region where the polynomial is larger do not
+    matter.  The low end is the least lower end over the boxes that are left; it is the high end
+    where none is left.  None where a box has no finite enclosure.
     """
     kernel: Kernel = Balls()
     ready, aim = [Fact(kernel, fact) for fact in facts], Fact(kernel, Atom(poly, ">="))
@@ -172,7 +207,9 @@ def enclose_infimum(
         for half in split(current, _cut(aim, ready, alive, Placed(kernel, current), sides)):
             place(half, alive, [low])
     if heap or floor is not None:
-        found.low = min([found.high, *([heap[0][0]] if heap else []), *([floor] if floor is not None else [])])
+        found.low = min(
+            [found.high, *([heap[0][0]] if heap else []), *([floor] if floor is not None else [])]
+        )
         found.confirmed = _confirm(poly, found, heap[0][2] if heap else box)
     else:
         found.low = found.high
@@ -180,11 +217,13 @@ def enclose_infimum(
 
 
 def _lowered(aim: Fact, facts: Sequence[Fact], placed: Placed) -> list[Any]:
-    """Enclosures whose low ends hold for the polynomial where all facts hold, of p alone and of p less multiples of the facts.
+    """Enclosures whose low ends hold for the polynomial where all facts hold, of p alone and of p
+    less multiples of the facts.
 
-    Formula: p >= q = p - sum m_k f_k for m_k >= 0 where f_k >= 0 (weak duality), and q >= q(c) + sum q_i(box) (x_i - c_i), where c is the
-    low or high end of a side along which q surely rises or falls.  Each m_k makes the gradient at the middle small; any m_k >= 0 is
-    sound, so it is chosen in floats.
+    Formula: p >= q = p - sum m_k f_k for m_k >= 0 where f_k >= 0 (weak duality), and q >= q(c) +
+    sum q_i(box) (x_i - c_i), where c is the low or high end of a side along which q surely rises or
+    falls.  Each m_k makes the gradient at the middle small; any m_k >= 0 is sound, so it is chosen
+    in floats.
     """
     slopes = aim.sharp_slopes(placed)
     found, used = [_from_corner(aim, [], slopes, placed)], list[tuple[Any, Fact]]()
@@ -193,7 +232,9 @@ def _lowered(aim: Fact, facts: Sequence[Fact], placed: Placed) -> list[Any]:
             continue
         other = fact.sharp_slopes(placed)
         theirs = {i: float(slope.mid()) * placed.half(i) for i, slope in other.items()}
-        inner = sum(float(slopes[i].mid()) * placed.half(i) * h for i, h in theirs.items() if i in slopes)
+        inner = sum(
+            float(slopes[i].mid()) * placed.half(i) * h for i, h in theirs.items() if i in slopes
+        )
         norm = sum(h * h for h in theirs.values())
         rounded = round(64 * inner / norm) if norm > 0 and 0 < inner < 1e9 * norm else 0
         if rounded:
@@ -203,8 +244,19 @@ def _lowered(aim: Fact, facts: Sequence[Fact], placed: Placed) -> list[Any]:
     return [*found, _from_corner(aim, used, slopes, placed)] if used else found
 
 
-def _from_corner(aim: Fact, used: Sequence[tuple[Any, Fact]], slopes: dict[int, Any], placed: Placed) -> Any:
-    ends = {i: -1 if placed.kernel.at_most_zero(-slope) else 1 if placed.kernel.at_most_zero(slope) else 0 for i, slope in slopes.items()}
+def _from_corner(
+    aim: Fact, used: Sequence[tuple[Any, Fact]], slopes: dict[int, Any], placed: Placed
+) -> Any:
+    ends = {
+        i: (
+            -1
+            if placed.kernel.at_most_zero(-slope)
+            else 1
+            if placed.kernel.at_most_zero(slope)
+            else 0
+        )
+        for i, slope in slopes.items()
+    }
     point = placed.point(ends)
     value = aim.at(point)
     for multiple, fact in used:
@@ -213,14 +265,17 @@ def _from_corner(aim: Fact, used: Sequence[tuple[Any, Fact]], slopes: dict[int, 
 
 
 def _weigh(weights: dict[int, float], slopes: dict[int, Any], placed: Placed) -> None:
-    """Adds how much each side matters to one polynomial.  Floats choose where to cut; they decide nothing."""
+    """Adds how much each side matters to one polynomial.  Floats choose where to cut; they decide
+    nothing."""
     sizes = {i: float(slope.abs_upper()) * placed.half(i) for i, slope in slopes.items()}
     total = sum(sizes.values()) or 1.0
     for i, size in sizes.items():
         weights[i] = weights.get(i, 0.0) + size / total
 
 
-def _cut(aim: Fact, ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed, sides: list[int]) -> int:
+def _cut(
+    aim: Fact, ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed, sides: list[int]
+) -> int:
     weights, active = dict.fromkeys(sides, 0.0), [ready[k] for k in alive if not ready[k].bound]
     for fact in (*[aim] * max(1, len(active)), *active):
         _weigh(weights, fact.centred(placed)[1], placed)
@@ -229,7 +284,8 @@ def _cut(aim: Fact, ready: Sequence[Fact], alive: tuple[int, ...], placed: Place
 
 
 def _confirm(poly: Polynomial, found: Infimum, box: Box) -> bool:
-    """Whether `mpmath.iv` agrees on the box with the least lower end: its enclosure there does not lie below what is claimed."""
+    """Whether `mpmath.iv` agrees on the box with the least lower end: its enclosure there does not
+    lie below what is claimed."""
     kernel = Ends()
     aim = Fact(kernel, Atom(poly, ">="))
     placed = Placed(kernel, box)

@@ -1,6 +1,7 @@
 """Exact intervals whose ends may be infinite, and the values of polynomials on boxes of them.
 
-The numbers are flint's rationals, which are exact too and far quicker than Fraction: regions are bounded with many of them.
+The numbers are flint's rationals, which are exact too and far quicker than Fraction: regions are
+bounded with many of them.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from typing import Any
 from certificates.routes.polynomials import Polynomial
 
 Rational = Any  # flint.fmpq
-End = tuple[int, Rational]  # (-1, 0) and (1, 0) are the infinite ends, (0, q) is q: tuples compare as the ends do
+End = tuple[
+    int, Rational
+]  # (-1, 0) and (1, 0) are the infinite ends, (0, q) is q: tuples compare as the ends do
 Interval = tuple[End, End]
 
 
@@ -47,8 +50,8 @@ def upper_end(p: Polynomial, box: Sequence[Interval]) -> End:
 def span(p: Polynomial, box: Sequence[Interval]) -> Interval:
     """An interval that holds all values of the polynomial on the box.
 
-    Formula: sum c_k x^k for the first unbounded variable x, each c_k bounded first: so 8*a*x - 4*x - 4*a^2*x is seen to be -4*(1 - a)^2*x.
-    In one bounded variable, by Bernstein coefficients.
+    Formula: sum c_k x^k for the first unbounded variable x, each c_k bounded first: so 8*a*x - 4*x
+    - 4*a^2*x is seen to be -4*(1 - a)^2*x. In one bounded variable, by Bernstein coefficients.
     """
     unbounded = next((i for i in p.used if box[i][0][0] or box[i][1][0]), None)
     if unbounded is not None and len(p.used) > 1:
@@ -60,17 +63,30 @@ def span(p: Polynomial, box: Sequence[Interval]) -> Interval:
     if len(p.used) == 1 and len(p.terms) > 1 and unbounded is None:
         (i,) = p.used
         coefficients = {e[i]: c for e, c in p.terms}
-        low, high = _bernstein_range(tuple(coefficients.get(k, 0) for k in range(p.degrees[i] + 1)), box[i][0][1], box[i][1][1])
+        low, high = _bernstein_range(
+            tuple(coefficients.get(k, 0) for k in range(p.degrees[i] + 1)),
+            box[i][0][1],
+            box[i][1][1],
+        )
         return (0, low / p.den), (0, high / p.den)
     return _termwise(p, box)
 
 
 @lru_cache(maxsize=4096)
-def _bernstein_range(coefficients: tuple[int, ...], low: Rational, high: Rational) -> tuple[Rational, Rational]:
-    """The least and the largest Bernstein coefficient of a polynomial in one variable on [low, high]: they enclose its values there."""
+def _bernstein_range(
+    coefficients: tuple[int, ...], low: Rational, high: Rational
+) -> tuple[Rational, Rational]:
+    """The least and the largest Bernstein coefficient of a polynomial in one variable on [low,
+    high]: they enclose its values there."""
     moved = shifted([rational(c) for c in coefficients], low)
     n, scaled = len(moved) - 1, [c * (high - low) ** k for k, c in enumerate(moved)]
-    bernstein = [sum((scaled[i] * rational(Fraction(comb(j, i), comb(n, i))) for i in range(j + 1)), rational(0)) for j in range(n + 1)]
+    bernstein = [
+        sum(
+            (scaled[i] * rational(Fraction(comb(j, i), comb(n, i))) for i in range(j + 1)),
+            rational(0),
+        )
+        for j in range(n + 1)
+    ]
     return min(bernstein), max(bernstein)
 
 
@@ -114,7 +130,9 @@ def _times(a: Interval, b: Interval) -> Interval:
 def _product(a: End, b: End) -> End:
     if not a[0] and not b[0]:
         return (0, a[1] * b[1])
-    sign = (a[0] or _sign(a[1])) * (b[0] or _sign(b[1]))  # 0 times an infinite end is 0: the ends are limits of finite ones
+    sign = (a[0] or _sign(a[1])) * (
+        b[0] or _sign(b[1])
+    )  # 0 times an infinite end is 0: the ends are limits of finite ones
     return (sign, rational(0))
 
 

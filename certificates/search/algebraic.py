@@ -1,4 +1,5 @@
-"""Real algebraic numbers: an irreducible polynomial with an isolating interval, compared and rounded exactly."""
+"""Real algebraic numbers: an irreducible polynomial with an isolating interval, compared and
+rounded exactly."""
 
 from __future__ import annotations
 
@@ -27,13 +28,16 @@ def sign(value: fmpq) -> int:
 
 @total_ordering
 class AlgebraicNumber:
-    """The one root of an irreducible integer polynomial (constant first) between two rationals; rational where they agree.
+    """The one root of an irreducible integer polynomial (constant first) between two rationals;
+    rational where they agree.
 
     >>> AlgebraicNumber([-2, 0, 1], Fraction(1), Fraction(2)).decimal(12)
     '1.414213562373'
     """
 
-    def __init__(self, poly: Sequence[int] | fmpz_poly, low: Fraction | fmpq, high: Fraction | fmpq) -> None:
+    def __init__(
+        self, poly: Sequence[int] | fmpz_poly, low: Fraction | fmpq, high: Fraction | fmpq
+    ) -> None:
         self.poly = fmpz_poly(list(poly))
         self._low = low if isinstance(low, fmpq) else exact(low)
         self._high = high if isinstance(high, fmpq) else exact(high)
@@ -167,8 +171,12 @@ def polynomial_text(coefficients: Sequence[int], name: str) -> str:
     for power, c in reversed(list(enumerate(coefficients))):
         if c:
             variable = "" if power == 0 else name if power == 1 else f"{name}^{power}"
-            size = "*".join(part for part in ("" if abs(c) == 1 and power else str(abs(c)), variable) if part)
-            text += ("-" if c < 0 else "") + size if not text else (" - " if c < 0 else " + ") + size
+            size = "*".join(
+                part for part in ("" if abs(c) == 1 and power else str(abs(c)), variable) if part
+            )
+            text += (
+                ("-" if c < 0 else "") + size if not text else (" - " if c < 0 else " + ") + size
+            )
     return text or "0"
 
 
@@ -182,7 +190,8 @@ def enclose(poly: fmpq_poly, low: fmpq, high: fmpq) -> tuple[fmpq, fmpq]:
 
 
 def integer_polynomial(poly: fmpq_poly) -> fmpz_poly:
-    """The primitive integer polynomial with positive leading coefficient that has the same roots."""
+    """The primitive integer polynomial with positive leading coefficient that has the same
+    roots."""
     numerator = poly.numer()
     content = numerator.content()
     numerator = fmpz_poly([c // content for c in numerator.coeffs()])
@@ -211,7 +220,8 @@ def _roots_of_irreducible(poly: fmpz_poly) -> list[AlgebraicNumber]:
     for root, _ in poly.complex_roots():
         if root.imag == 0:
             middle, radius = _dyadic(root.real.mid()), _dyadic(root.real.rad())
-            # The ball isolates its root; a little more than its radius moves both ends off the root.
+            # The ball isolates its root; a little more than its radius moves both ends off the
+            # root.
             found.append(AlgebraicNumber(poly, middle - radius * 2, middle + radius * 2))
     return found
 

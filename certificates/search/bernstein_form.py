@@ -1,4 +1,5 @@
-"""Polynomials on a box as tensors of Bernstein coefficients, in floating point or in exact integers, by the same steps."""
+"""Polynomials on a box as tensors of Bernstein coefficients, in floating point or in exact
+integers, by the same steps."""
 
 from __future__ import annotations
 
@@ -16,9 +17,11 @@ BEFORE: Any = [(slice(None),) * axis for axis in range(26)]  # the axes before o
 
 
 def bernstein_tensor(terms: Terms, box: Box) -> tuple[Array, int]:
-    """(integers, unit): the Bernstein coefficients on the box are integers / unit, one axis a variable, as an array of Python ints.
+    """(integers, unit): the Bernstein coefficients on the box are integers / unit, one axis a
+    variable, as an array of Python ints.
 
-    x^e on [a, b], in degree n, has as its j-th coefficient sum_k C(n - j, e - k) C(j, k) a^(e - k) b^k / C(n, e).
+    x^e on [a, b], in degree n, has as its j-th coefficient sum_k C(n - j, e - k) C(j, k) a^(e - k)
+    b^k / C(n, e).
     """
     size = len(box)
     degrees = [max(e[i] for e in terms) for i in range(size)]
@@ -26,7 +29,9 @@ def bernstein_tensor(terms: Terms, box: Box) -> tuple[Array, int]:
     tensor: Array = np.zeros([n + 1 for n in degrees], dtype=object)
     for exponents, c in terms.items():
         tensor[exponents] = int(c * unit)
-    for axis in range(size - 1, -1, -1):  # what is not yet spread out is mostly 0, and one slice an exponent
+    for axis in range(
+        size - 1, -1, -1
+    ):  # what is not yet spread out is mostly 0, and one slice an exponent
         matrix, scale = _axis_matrix(degrees[axis], *box[axis])
         unit *= scale
         tensor = _along(matrix, tensor, axis)
@@ -52,15 +57,27 @@ def part_of(tensor: Array, axis: int, index: int) -> Array:
 def _axis_matrix(n: int, low: Fraction, high: Fraction) -> tuple[list[list[int]], int]:
     d, whole = lcm(low.denominator, high.denominator), lcm(*(comb(n, e) for e in range(n + 1)))
     a, b = int(low * d), int(high * d)
-    rows = [[whole // comb(n, e) * d ** (n - e) * sum(comb(n - j, e - k) * comb(j, k) * a ** (e - k) * b**k for k in range(e + 1))
-             for e in range(n + 1)] for j in range(n + 1)]
+    rows = [
+        [
+            whole
+            // comb(n, e)
+            * d ** (n - e)
+            * sum(comb(n - j, e - k) * comb(j, k) * a ** (e - k) * b**k for k in range(e + 1))
+            for e in range(n + 1)
+        ]
+        for j in range(n + 1)
+    ]
     return rows, whole * d**n
 
 
 @lru_cache(256)
 def halving(n: int, exact: bool) -> tuple[Array, Array]:
-    """The matrices that take coefficients of degree n to those on the lower and on the upper half, times 2^n where exact."""
-    lower = np.array([[comb(j, k) * 2 ** (n - j) if k <= j else 0 for k in range(n + 1)] for j in range(n + 1)], dtype=object)
+    """The matrices that take coefficients of degree n to those on the lower and on the upper half,
+    times 2^n where exact."""
+    lower = np.array(
+        [[comb(j, k) * 2 ** (n - j) if k <= j else 0 for k in range(n + 1)] for j in range(n + 1)],
+        dtype=object,
+    )
     upper = lower[::-1, ::-1].copy()
     return (lower, upper) if exact else ((lower / 2**n).astype(float), (upper / 2**n).astype(float))
 

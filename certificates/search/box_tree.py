@@ -1,4 +1,5 @@
-"""Branch and bound with Bernstein coefficients, the box of least bound first: a box tree for the checker, and the bound that it shows."""
+"""Branch and bound with Bernstein coefficients, the box of least bound first: a box tree for the
+checker, and the bound that it shows."""
 
 from __future__ import annotations
 
@@ -14,7 +15,9 @@ import numpy as np
 from .bernstein_form import BEFORE, along_first, bernstein_tensor, halving, part_of
 from .plain_polynomials import LETTERS, Box, Terms
 
-ROUNDING = 2.0**-46  # of the largest coefficient: what floating point may lose on the way down a tree
+ROUNDING = (
+    2.0**-46
+)  # of the largest coefficient: what floating point may lose on the way down a tree
 MOST_BITS = 1500  # of the common denominator on a box
 WORK = 10**8  # products of Python's integers in one search
 Array = Any
@@ -24,7 +27,8 @@ Improve = Callable[[tuple[float, ...]], None]
 
 @dataclass
 class Node:
-    """A box of the tree: the faces taken on the way to it, its coefficients while it is open, and its place in the whole box."""
+    """A box of the tree: the faces taken on the way to it, its coefficients while it is open, and
+    its place in the whole box."""
 
     prefix: str
     tensor: Array
@@ -38,7 +42,8 @@ class Node:
 
 @dataclass
 class Tree:
-    """What a search has come to: the tree as text, a number below all its leaves, how many boxes it has, and whether it reached its target."""
+    """What a search has come to: the tree as text, a number below all its leaves, how many boxes it
+    has, and whether it reached its target."""
 
     text: str
     bound: Fraction
@@ -47,9 +52,11 @@ class Tree:
 
 
 class Arithmetic:
-    """The coefficients as integers: Python's, exact, or floats, exact as long as 53 bits hold them on their way down the tree.
+    """The coefficients as integers: Python's, exact, or floats, exact as long as 53 bits hold them
+    on their way down the tree.
 
-    A coefficient of a node is the number in its tensor, divided by the node's unit (where exact) and by `scale`.
+    A coefficient of a node is the number in its tensor, divided by the node's unit (where exact)
+    and by `scale`.
     """
 
     def __init__(self, terms: Terms, box: Box, exact: bool) -> None:
@@ -86,31 +93,55 @@ class Arithmetic:
             prefix += LETTERS[axis].upper()
             variable, low, high = places[axis]
             tensor = part_of(tensor, axis, 0 if rises else tensor.shape[axis] - 1)
-            places, fixed, axis = places[:axis] + places[axis + 1:], {**fixed, variable: low if rises else high}, 0
+            places, fixed, axis = (
+                places[:axis] + places[axis + 1 :],
+                {**fixed, variable: low if rises else high},
+                0,
+            )
         least = tensor.min()
-        return Node(prefix, tensor, unit, places, fixed, Fraction(int(least), unit) if self.exact else float(least))
+        return Node(
+            prefix,
+            tensor,
+            unit,
+            places,
+            fixed,
+            Fraction(int(least), unit) if self.exact else float(least),
+        )
 
     def halves(self, node: Node, axis: int) -> list[Node]:
         """The children of a node, which from here on keeps no coefficients."""
         degree = node.tensor.shape[axis] - 1
         variable, low, high = node.places[axis]
-        others, middle = node.places[:axis] + node.places[axis + 1:], (low + high) / 2
+        others, middle = node.places[:axis] + node.places[axis + 1 :], (low + high) / 2
         node.letter = LETTERS[axis]
-        node.children = [self.node(along_first(matrix, node.tensor, axis), node.unit << degree, [(variable, *ends), *others], node.fixed)
-                         for matrix, ends in zip(halving(degree, self.exact), ((low, middle), (middle, high)))]
+        node.children = [
+            self.node(
+                along_first(matrix, node.tensor, axis),
+                node.unit << degree,
+                [(variable, *ends), *others],
+                node.fixed,
+            )
+            for matrix, ends in zip(halving(degree, self.exact), ((low, middle), (middle, high)))
+        ]
         node.tensor = None
         return node.children
 
 
 class Branching:
-    """Halves boxes until all coefficients on all leaves are at least `target()`, which may fall while `improve` finds better points.
+    """Halves boxes until all coefficients on all leaves are at least `target()`, which may fall
+    while `improve` finds better points.
 
-    `improve` is told where in the unit box a coefficient is least.  Source: Garloff, The Bernstein algorithm, Interval Computations 2 (1993).
+    `improve` is told where in the unit box a coefficient is least.  Source: Garloff, The Bernstein
+    algorithm, Interval Computations 2 (1993).
     """
 
-    def __init__(self, terms: Terms, box: Box, target: Callable[[], Fraction], improve: Improve, exact: bool) -> None:
+    def __init__(
+        self, terms: Terms, box: Box, target: Callable[[], Fraction], improve: Improve, exact: bool
+    ) -> None:
         self.numbers, self.target, self.improve = Arithmetic(terms, box, exact), target, improve
-        self.root = self.numbers.node(self.numbers.root, 1, [(i, 0.0, 1.0) for i in range(len(box))], {})
+        self.root = self.numbers.node(
+            self.numbers.root, 1, [(i, 0.0, 1.0) for i in range(len(box))], {}
+        )
         self.boxes, self.heap, self.stuck = 1, [(self.root.bound, 0, self.root)], False
 
     def affordable(self) -> int:
@@ -119,19 +150,27 @@ class Branching:
         return max(1, (WORK if self.numbers.exact else 100 * WORK) // (prod(shape) * max(shape)))
 
     def run(self, budget: int) -> Tree:
-        """Goes on until the target is reached, there are `budget` boxes, or halving leads nowhere."""
+        """Goes on until the target is reached, there are `budget` boxes, or halving leads
+        nowhere."""
         goal = self.numbers.goal(self.target())
         while self.heap and self.heap[0][0] < goal and self.boxes < budget and not self.stuck:
             node = self.heap[0][2]
             self.improve(_least_at(node))
             goal = self.numbers.goal(self.target())
             axis = _axis_to_halve(node.tensor)
-            self.stuck = axis is None or node.unit.bit_length() > MOST_BITS  # None: every coefficient is a value at a corner
+            self.stuck = (
+                axis is None or node.unit.bit_length() > MOST_BITS
+            )  # None: every coefficient is a value at a corner
             if node.bound < goal and axis is not None and not self.stuck:
                 heapq.heappop(self.heap)
                 self._halve(node, axis, goal)
         reached = not self.heap or self.heap[0][0] >= goal
-        return Tree(_text(self.root), self.target() if reached else self.numbers.bound(self.heap[0][0]), self.boxes, reached)
+        return Tree(
+            _text(self.root),
+            self.target() if reached else self.numbers.bound(self.heap[0][0]),
+            self.boxes,
+            reached,
+        )
 
     def _halve(self, node: Node, axis: int, goal: Fraction | float) -> None:
         for child in self.numbers.halves(node, axis):
@@ -147,7 +186,9 @@ def _axis_to_halve(tensor: Array) -> int | None:
     best, choice = None, None
     for axis, size in enumerate(tensor.shape):
         if size > 2:
-            first, middle, last = (tensor[(*BEFORE[axis], slice(k, size - 2 + k))] for k in range(3))
+            first, middle, last = (
+                tensor[(*BEFORE[axis], slice(k, size - 2 + k))] for k in range(3)
+            )
             weight = (size - 1) * (size - 2) * abs(last - 2 * middle + first).max()
             if best is None or weight > best:
                 best, choice = weight, axis

@@ -1,4 +1,5 @@
-"""Counted work: every search spends from a budget, so that it ends after the same work on every machine."""
+"""Counted work: every search spends from a budget, so that it ends after the same work on every
+machine."""
 
 from __future__ import annotations
 
@@ -38,7 +39,16 @@ class Budget:
         return Budget(min(units, self.left), self)
 
 
-MALFORMED = (RecursionError, MemoryError, ValueError, TypeError, KeyError, AttributeError, IndexError, OverflowError)
+MALFORMED = (
+    RecursionError,
+    MemoryError,
+    ValueError,
+    TypeError,
+    KeyError,
+    AttributeError,
+    IndexError,
+    OverflowError,
+)
 
 
 def accepted(check: Callable[..., Any], *arguments: Any) -> bool:

@@ -1,4 +1,5 @@
-"""Simple values for one variable: the ones that a reader likes best, and the simplest in every interval where a condition holds."""
+"""Simple values for one variable: the ones that a reader likes best, and the simplest in every
+interval where a condition holds."""
 
 from __future__ import annotations
 
@@ -16,12 +17,67 @@ Value = Union[fmpq, AlgebraicNumber]
 
 PARAMETERS = frozenset({"alpha"})
 UNITS = frozenset({"r", "g"})
-FAVOURITES = tuple(fmpq(p, q) for p, q in (
-    (1, 1), (2, 1), (1, 2), (0, 1), (-1, 1), (3, 1), (4, 1), (-1, 2), (3, 2), (-2, 1), (1, 4), (5, 1), (3, 4), (-3, 1),
-    (1, 3), (6, 1), (10, 1), (5, 2), (-3, 2), (1, 10), (-4, 1), (8, 1), (-1, 4), (7, 2), (1, 8), (-1, 10), (20, 1), (1, 100), (100, 1)))
-FAVOURITE_PARAMETERS = tuple(fmpq(p, q) for p, q in (
-    (1, 2), (1, 4), (3, 4), (1, 5), (3, 10), (9, 10), (1, 10), (2, 5), (3, 5), (4, 5), (1, 3), (2, 3), (1, 8), (7, 25),
-    (19, 20), (1, 20), (99, 100), (1, 100), (17, 32), (7, 18), (31, 50), (161, 200)))  # 2*(1 + 1/8) is a square, and so on
+FAVOURITES = tuple(
+    fmpq(p, q)
+    for p, q in (
+        (1, 1),
+        (2, 1),
+        (1, 2),
+        (0, 1),
+        (-1, 1),
+        (3, 1),
+        (4, 1),
+        (-1, 2),
+        (3, 2),
+        (-2, 1),
+        (1, 4),
+        (5, 1),
+        (3, 4),
+        (-3, 1),
+        (1, 3),
+        (6, 1),
+        (10, 1),
+        (5, 2),
+        (-3, 2),
+        (1, 10),
+        (-4, 1),
+        (8, 1),
+        (-1, 4),
+        (7, 2),
+        (1, 8),
+        (-1, 10),
+        (20, 1),
+        (1, 100),
+        (100, 1),
+    )
+)
+FAVOURITE_PARAMETERS = tuple(
+    fmpq(p, q)
+    for p, q in (
+        (1, 2),
+        (1, 4),
+        (3, 4),
+        (1, 5),
+        (3, 10),
+        (9, 10),
+        (1, 10),
+        (2, 5),
+        (3, 5),
+        (4, 5),
+        (1, 3),
+        (2, 3),
+        (1, 8),
+        (7, 25),
+        (19, 20),
+        (1, 20),
+        (99, 100),
+        (1, 100),
+        (17, 32),
+        (7, 18),
+        (31, 50),
+        (161, 200),
+    )
+)  # 2*(1 + 1/8) is a square, and so on
 
 
 def favourites(name: str, integral: bool) -> tuple[fmpq, ...]:
@@ -50,7 +106,8 @@ class Cells:
         return roots
 
     def intervals(self) -> list[tuple[fmpq, fmpq]]:
-        """Rational ends strictly inside, or at, the ends of every open cell; the unbounded cells are cut two units beyond."""
+        """Rational ends strictly inside, or at, the ends of every open cell; the unbounded cells
+        are cut two units beyond."""
         if not self.roots:
             return [(fmpq(-2), fmpq(2))]
         outer = [(self.roots[0]._low - 2, self.roots[0]._low)]
@@ -72,7 +129,11 @@ class Signs(dict[int, int]):
 
     def __missing__(self, k: int) -> int:
         at = self.at
-        self[k] = found = at.sign_of(self.polys[k]) if isinstance(at, AlgebraicNumber) else sign(self.polys[k](at))
+        self[k] = found = (
+            at.sign_of(self.polys[k])
+            if isinstance(at, AlgebraicNumber)
+            else sign(self.polys[k](at))
+        )
         return found
 
 
@@ -89,12 +150,15 @@ def separate(roots: list[AlgebraicNumber]) -> None:
 
 def _gap(roots: list[AlgebraicNumber], root: AlgebraicNumber) -> Fraction:
     k = next(i for i, r in enumerate(roots) if r is root)
-    near = [abs(fraction(other._low - root._low)) for i, other in enumerate(roots) if abs(i - k) == 1]
+    near = [
+        abs(fraction(other._low - root._low)) for i, other in enumerate(roots) if abs(i - k) == 1
+    ]
     return min([Fraction(1, 16), *(distance / 64 for distance in near)])
 
 
 def spread(low: fmpq, high: fmpq) -> Iterator[fmpq]:
-    """Ever more rationals strictly between two, the simplest first: the interval is cut at each in turn."""
+    """Ever more rationals strictly between two, the simplest first: the interval is cut at each in
+    turn."""
     queue = [(low, high)]
     while queue:
         low, high = queue.pop(0)
@@ -111,8 +175,11 @@ def whole_between(low: fmpq, high: fmpq) -> Iterator[fmpq]:
             yield first + k
 
 
-def solutions(condition: Condition, name: str, integral: bool, count: int, irrational: bool) -> list[Value]:
-    """Values of the one variable left that meet the condition: favourites, the simplest of every open cell, then roots."""
+def solutions(
+    condition: Condition, name: str, integral: bool, count: int, irrational: bool
+) -> list[Value]:
+    """Values of the one variable left that meet the condition: favourites, the simplest of every
+    open cell, then roots."""
     cells = Cells(condition.in_one_variable(name))
     found: list[Value] = []
 
@@ -122,13 +189,15 @@ def solutions(condition: Condition, name: str, integral: bool, count: int, irrat
             return True
         return False
 
-    for value in favourites(name, integral)[:8 + count]:
+    for value in favourites(name, integral)[: 8 + count]:
         offer(value)
         if len(found) >= count:
             return found
     for low, high in cells.intervals():
         if low < high:
-            middle = next(whole_between(low, high), None) if integral else simplest_between(low, high)
+            middle = (
+                next(whole_between(low, high), None) if integral else simplest_between(low, high)
+            )
             if middle is not None:
                 offer(middle)
     for root in cells.roots:
@@ -138,22 +207,33 @@ def solutions(condition: Condition, name: str, integral: bool, count: int, irrat
                 offer(value)
         elif irrational and not integral and evaluate(condition.tree, cells.signs(root)):
             found.append(root)
-    return found[:max(count, 1)]
+    return found[: max(count, 1)]
 
 
 def trials(condition: Condition, name: str, integral: bool, count: int) -> list[fmpq]:
-    """Values to try for a variable that others still depend on, among those that meet the relations about it alone."""
+    """Values to try for a variable that others still depend on, among those that meet the relations
+    about it alone."""
     place = condition.ring.variable_to_index(name)
     own = [(p, relation) for p, relation in condition.facts() if _only(p, place)]
     if not own:
         return list(favourites(name, integral)[:count])
-    alone = Condition(condition.ring, [p for p, _ in own], ("and", [(k, relation) for k, (_, relation) in enumerate(own)]))
+    alone = Condition(
+        condition.ring,
+        [p for p, _ in own],
+        ("and", [(k, relation) for k, (_, relation) in enumerate(own)]),
+    )
     cells = Cells(alone.in_one_variable(name))
     meets = [v for v in favourites(name, integral) if evaluate(alone.tree, cells.signs(v))]
     found = meets[:count]
     if len(found) < count:
         for low, high in cells.intervals():
-            inner = next(whole_between(low, high), None) if integral else simplest_between(low, high) if low < high else None
+            inner = (
+                next(whole_between(low, high), None)
+                if integral
+                else simplest_between(low, high)
+                if low < high
+                else None
+            )
             if inner is None or not evaluate(alone.tree, cells.signs(inner)):
                 continue
             for value in whole_between(low, high) if integral else spread(low, high):
@@ -162,7 +242,11 @@ def trials(condition: Condition, name: str, integral: bool, count: int) -> list[
                 if len(found) >= count:
                     return found
         for root in cells.roots:
-            if root.is_rational and root._low not in found and evaluate(alone.tree, cells.signs(root)):
+            if (
+                root.is_rational
+                and root._low not in found
+                and evaluate(alone.tree, cells.signs(root))
+            ):
                 found.append(root._low)
     return found[:count]
 

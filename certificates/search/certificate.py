@@ -1,4 +1,5 @@
-"""The certificate of one statement: a proof with a point, a counterexample, or the reason why neither was found."""
+"""The certificate of one statement: a proof with a point, a counterexample, or the reason why
+neither was found."""
 
 from __future__ import annotations
 
@@ -14,49 +15,101 @@ from .stories import unfolded
 
 Certificate = dict[str, Any]
 MOST = 256
-_made: dict[tuple[tuple[str, str], ...], tuple[str, Certificate]] = {}  # an assertion made twice under two names is settled once
-# (whether a refutation is sought, effort, share of the budget left in percent), in order: cheap attempts of both kinds first
+_made: dict[
+    tuple[tuple[str, str], ...], tuple[str, Certificate]
+] = {}  # an assertion made twice under two names is settled once
+# (whether a refutation is sought, effort, share of the budget left in percent), in order: cheap
+# attempts of both kinds first
 Attempts = tuple[tuple[bool, int, int], ...]
-ATTEMPTS: Attempts = ((True, 0, 50), (False, 1, 20), (False, 2, 20), (True, 1, 40), (False, 2, 60), (False, 3, 50), (True, 2, 100))
-SQUARES_FIRST: Attempts = ((True, 0, 50), (False, 1, 10), (True, 1, 20), (False, 3, 40), (False, 2, 20), (True, 1, 40), (False, 3, 60),
-                           (False, 2, 60), (True, 2, 100))
+ATTEMPTS: Attempts = (
+    (True, 0, 50),
+    (False, 1, 20),
+    (False, 2, 20),
+    (True, 1, 40),
+    (False, 2, 60),
+    (False, 3, 50),
+    (True, 2, 100),
+)
+SQUARES_FIRST: Attempts = (
+    (True, 0, 50),
+    (False, 1, 10),
+    (True, 1, 20),
+    (False, 3, 40),
+    (False, 2, 20),
+    (True, 1, 40),
+    (False, 3, 60),
+    (False, 2, 60),
+    (True, 2, 100),
+)
 
 
-def search_certificate(statement: checker.Statement, known: dict[str, checker.Statement], budget: Budget,
-                       hints: Hints | None = None, confirm: bool = True, attempts: Attempts = ATTEMPTS) -> Certificate:
-    """{"certified": .., "point": ..}, {"refuted": ..} or {"unknown": reason}, each accepted by the checker.
+def search_certificate(
+    statement: checker.Statement,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    hints: Hints | None = None,
+    confirm: bool = True,
+    attempts: Attempts = ATTEMPTS,
+) -> Certificate:
+    """{"certified": .., "point": ..}, {"refuted": ..} or {"unknown": reason}, each accepted by the
+    checker.
 
-    `confirm=False` leaves it to the caller to have a proof checked, and to search again where the checker rejects it.
+    `confirm=False` leaves it to the caller to have a proof checked, and to search again where the
+    checker rejects it.
 
     >>> text = "statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2 > x"
     >>> search_certificate(checker.read_statements(text)["demo/square"], {}, Budget(10**6))["certified"]
     ['proof', [], ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]]
     """
     settings = (str(budget.left), str(hints), str(confirm), str(attempts), *sorted(known))
-    key = (*((keyword, written(said)) for keyword, said in statement.lines), *(("", setting) for setting in settings))
+    key = (
+        *((keyword, written(said)) for keyword, said in statement.lines),
+        *(("", setting) for setting in settings),
+    )
     if key not in _made:
         while len(_made) >= MOST:
             del _made[next(iter(_made))]
         _made[key] = statement.name, _search(statement, known, budget, hints, confirm, attempts)
     name, certificate = _made[key]
-    return {kind: renamed(part, name, statement.name) for kind, part in certificate.items()} if name != statement.name else certificate
+    return (
+        {kind: renamed(part, name, statement.name) for kind, part in certificate.items()}
+        if name != statement.name
+        else certificate
+    )
 
 
 def written(said: Any) -> str:
     """What a line says, as text."""
     if isinstance(said, ast.AST):
         return ast.unparse(said)
-    return "(" + ", ".join(map(written, said)) + ")" if isinstance(said, (list, tuple)) else str(said)
+    return (
+        "(" + ", ".join(map(written, said)) + ")" if isinstance(said, (list, tuple)) else str(said)
+    )
 
 
 def renamed(part: Any, old: str, new: str) -> Any:
-    """A part of a certificate with the statement's name replaced where points and counterexamples name it."""
-    return [renamed(one, old, new) for one in part] if isinstance(part, list) else new if part == old else part
+    """A part of a certificate with the statement's name replaced where points and counterexamples
+    name it."""
+    return (
+        [renamed(one, old, new) for one in part]
+        if isinstance(part, list)
+        else new
+        if part == old
+        else part
+    )
 
 
-def _search(statement: checker.Statement, known: dict[str, checker.Statement], budget: Budget, hints: Hints | None,
-            confirm: bool, attempts: Attempts) -> Certificate:
-    ended: set[tuple[bool, int]] = set()  # attempts that were not cut short: more work would not help them
+def _search(
+    statement: checker.Statement,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    hints: Hints | None,
+    confirm: bool,
+    attempts: Attempts,
+) -> Certificate:
+    ended: set[tuple[bool, int]] = (
+        set()
+    )  # attempts that were not cut short: more work would not help them
     try:
         for refutes, effort, share in attempts:
             if (refutes, effort) in ended or effort == SQUARED and statement.get("exists"):
@@ -69,7 +122,9 @@ def _search(statement: checker.Statement, known: dict[str, checker.Statement], b
                         return {"refuted": refuted}
                     ended.add((refutes, effort))
                     continue
-                proof = search_proof(statement, known, part, effort=effort, hints=hints, confirm=confirm)
+                proof = search_proof(
+                    statement, known, part, effort=effort, hints=hints, confirm=confirm
+                )
             except Exhausted:
                 continue
             ended.add((refutes, effort))
@@ -77,11 +132,20 @@ def _search(statement: checker.Statement, known: dict[str, checker.Statement], b
                 return with_point(statement, proof, known, budget)
     except Exhausted:
         pass
-    reason = "neither a proof nor a counterexample was found" if budget.left > 0 else "the budget of counted work ran out"
+    reason = (
+        "neither a proof nor a counterexample was found"
+        if budget.left > 0
+        else "the budget of counted work ran out"
+    )
     return {"unknown": reason}
 
 
-def with_point(statement: checker.Statement, proof: list[Any], known: dict[str, checker.Statement], budget: Budget) -> Certificate:
+def with_point(
+    statement: checker.Statement,
+    proof: list[Any],
+    known: dict[str, checker.Statement],
+    budget: Budget,
+) -> Certificate:
     """The certificate of a proved statement: its proof and a point that meets its hypotheses."""
     for depth in (0, 1, 2):
         point = found(statement, "point", known, budget, depth)
@@ -90,31 +154,62 @@ def with_point(statement: checker.Statement, proof: list[Any], known: dict[str, 
     return {"unknown": "proved, but no point was found that meets the hypotheses"}
 
 
-def found(statement: checker.Statement, purpose: str, known: dict[str, checker.Statement], budget: Budget, effort: int) -> list[Any] | None:
+def found(
+    statement: checker.Statement,
+    purpose: str,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    effort: int,
+) -> list[Any] | None:
     """A point or counterexample of the statement."""
     points = import_module("certificates.search.points")
-    result: list[Any] | None = points.search_found(statement, checker.State(checker.Context()), purpose, {}, known, budget, effort=effort)
+    result: list[Any] | None = points.search_found(
+        statement, checker.State(checker.Context()), purpose, {}, known, budget, effort=effort
+    )
     return result
 
 
-def search_proof(statement: checker.Statement, known: dict[str, checker.Statement], budget: Budget, sharp: list[Any] | None = None,
-                 effort: int = 2, hints: Hints | None = None, confirm: bool = True) -> list[Any] | None:
-    """["proof" | "witness", nodes of the side conditions, last] that the checker accepts, or None; `confirm=False` leaves that to the caller."""
+def search_proof(
+    statement: checker.Statement,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    sharp: list[Any] | None = None,
+    effort: int = 2,
+    hints: Hints | None = None,
+    confirm: bool = True,
+) -> list[Any] | None:
+    """["proof" | "witness", nodes of the side conditions, last] that the checker accepts, or None;
+    `confirm=False` leaves that to the caller."""
     story = unfolded(statement, sharp)
     steps = []
     for count, negation in story.obligations:
-        node = search_closing(story.state(count).assume(negation), known, budget, effort, None, confirm=False)
-        if node is None and hints is not None:  # as a rule a side condition needs no lemma, and cases of one only delay it
-            node = search_closing(story.state(count).assume(negation), known, budget, effort, hints, confirm=False)
+        node = search_closing(
+            story.state(count).assume(negation), known, budget, effort, None, confirm=False
+        )
+        if (
+            node is None and hints is not None
+        ):  # as a rule a side condition needs no lemma, and cases of one only delay it
+            node = search_closing(
+                story.state(count).assume(negation), known, budget, effort, hints, confirm=False
+            )
         if node is None:
             return None
         steps.append(node)
     if statement.get("exists"):
         points = import_module("certificates.search.points")
         base = {name: story.context.values[name] for name in story.universal}
-        last = points.search_found(statement, story.state(), "witness", base, known, budget, sharp=sharp, effort=effort)
+        last = points.search_found(
+            statement, story.state(), "witness", base, known, budget, sharp=sharp, effort=effort
+        )
         proof = ["witness", steps, last]
     else:
-        last = search_closing(story.state().assume(story.goal(False)), known, budget, effort, hints, confirm=False)
+        last = search_closing(
+            story.state().assume(story.goal(False)), known, budget, effort, hints, confirm=False
+        )
         proof = ["proof", steps, last]
-    return proof if last is not None and (not confirm or accepted(checker.prove, statement, proof, known, sharp)) else None
+    return (
+        proof
+        if last is not None
+        and (not confirm or accepted(checker.prove, statement, proof, known, sharp))
+        else None
+    )

@@ -1,4 +1,5 @@
-"""Closing a state: leaves by positive combinations, disjunctions by cases, integers by rounding, signs told apart."""
+"""Closing a state: leaves by positive combinations, disjunctions by cases, integers by rounding,
+signs told apart."""
 
 from __future__ import annotations
 
@@ -12,7 +13,17 @@ from certificates import checker
 from .budget import Budget, Exhausted, accepted
 from .interior import has_interior_point
 from .polynomials import Ring
-from .positivstellensatz import DEEP, FIRST, QUICK, SQUARES, TRIPLES, USUAL, Stage, close_by_equations, search
+from .positivstellensatz import (
+    DEEP,
+    FIRST,
+    QUICK,
+    SQUARES,
+    TRIPLES,
+    USUAL,
+    Stage,
+    close_by_equations,
+    search,
+)
 from .problem import Problem
 from .squares import Pool
 from .sums_of_squares import search_squares
@@ -28,14 +39,22 @@ BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
 @dataclass(frozen=True)
 class Hints:
-    """What a claim may tell the search: earlier statements to use, each with terms for its variables."""
+    """What a claim may tell the search: earlier statements to use, each with terms for its
+    variables."""
 
     uses: tuple[tuple[str, Mapping[str, str]], ...] = ()
 
 
-def search_closing(state: checker.State, known: dict[str, checker.Statement], budget: Budget, effort: int = 2,
-                   hints: Hints | None = None, confirm: bool = True) -> Node | None:
-    """A node by which the checker closes the state, or None where none was found; `confirm=False` leaves the confirmation to the caller.
+def search_closing(
+    state: checker.State,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    effort: int = 2,
+    hints: Hints | None = None,
+    confirm: bool = True,
+) -> Node | None:
+    """A node by which the checker closes the state, or None where none was found; `confirm=False`
+    leaves the confirmation to the caller.
 
     >>> context = checker.Context()
     >>> context.declare("x")
@@ -47,19 +66,32 @@ def search_closing(state: checker.State, known: dict[str, checker.Statement], bu
     node = Closing(known, budget, effort).close(inside)
     for name, terms in reversed(uses):
         node = None if node is None else ["use", name, terms, {}, node]
-    return node if node is None or not confirm or accepted(checker.close, state, node, known) else None
+    return (
+        node if node is None or not confirm or accepted(checker.close, state, node, known) else None
+    )
 
 
-def with_uses(state: checker.State, known: dict[str, checker.Statement],
-              wanted: Sequence[tuple[str, Mapping[str, str]]]) -> tuple[list[tuple[str, dict[str, str]]], checker.State]:
-    """The instances of earlier statements that a hint names, as far as they are known and exist, and the state that assumes them."""
+def with_uses(
+    state: checker.State,
+    known: dict[str, checker.Statement],
+    wanted: Sequence[tuple[str, Mapping[str, str]]],
+) -> tuple[list[tuple[str, dict[str, str]]], checker.State]:
+    """The instances of earlier statements that a hint names, as far as they are known and exist,
+    and the state that assumes them."""
     uses = []
     for name, terms in wanted:
         if name not in known or known[name].get("exists"):
             continue
-        values = {variable: state.context.value(checker.parse(text)) for variable, text in terms.items()}
+        values = {
+            variable: state.context.value(checker.parse(text)) for variable, text in terms.items()
+        }
         story = checker.Unfolding(known[name], checker.Context(state.context, values))
-        state = state.branch(checker.join("or", [checker.negate(checker.join("and", story.premises)), story.goal(True)]), story.context)
+        state = state.branch(
+            checker.join(
+                "or", [checker.negate(checker.join("and", story.premises)), story.goal(True)]
+            ),
+            story.context,
+        )
         uses.append((name, dict(terms)))
     return uses, state
 
@@ -91,9 +123,13 @@ class Closing:
         return node if node is not None else self.cases(state)
 
     def cases(self, state: checker.State) -> Node | None:
-        """Splits the last disjunction with the fewest alternatives that no fact contradicts at sight."""
+        """Splits the last disjunction with the fewest alternatives that no fact contradicts at
+        sight."""
         known = {mark(poly, relation) for poly, relation in state.facts}
-        sizes = [sum(not contradicted(one, known) for one in alternatives) for alternatives in state.choices]
+        sizes = [
+            sum(not contradicted(one, known) for one in alternatives)
+            for alternatives in state.choices
+        ]
         index = min(range(len(sizes)), key=lambda k: (sizes[k], len(state.choices[k]), -k))
         rest = state.branch()
         del rest.choices[index]
@@ -122,36 +158,51 @@ class Closing:
             ring_names = list(state.context.index)
             integers = {k for k, name in enumerate(ring_names) if name in state.context.integers}
             for index, (poly, relation) in enumerate(list(state.facts)):
-                used = {k for k in range(len(ring_names)) if any((m >> (checker.BITS * k)) % (1 << checker.BITS) for m in poly.terms)}
+                used = {
+                    k
+                    for k in range(len(ring_names))
+                    if any((m >> (checker.BITS * k)) % (1 << checker.BITS) for m in poly.terms)
+                }
                 if relation == ">" and poly.den == 1 and used <= integers:
                     less = checker.fold(poly - checker.ONE, ">=")
-                    if isinstance(less, bool) or not any(r == ">=" and q.terms == less[1].terms for q, r in state.facts):
+                    if isinstance(less, bool) or not any(
+                        r == ">=" and q.terms == less[1].terms for q, r in state.facts
+                    ):
                         numbers.append(index)
                         state = state.branch(less)
         return numbers, state
 
     def leaf(self, state: checker.State, depth: int) -> Node | None:
-        """A state without disjunctions: positive combinations, then signs told apart, then larger combinations."""
+        """A state without disjunctions: positive combinations, then signs told apart, then larger
+        combinations."""
         if state.closed:
             return ["close"]
         rounded, inside = self.rounded(state)
         problem = self.problem(inside)
-        node = close_by_equations(problem) or search(problem, FIRST if self.effort else QUICK, self.budget)
+        node = close_by_equations(problem) or search(
+            problem, FIRST if self.effort else QUICK, self.budget
+        )
         if node is None and self.effort == SQUARED:
             node = search_squares(self.problem(inside, True), self.budget)
-        elif node is None and self.effort and (state.context.integers or not has_interior_point(problem, self.budget)):
+        elif (
+            node is None
+            and self.effort
+            and (state.context.integers or not has_interior_point(problem, self.budget))
+        ):
             node = self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
         return wrapped(rounded, node)
 
     def usual(self, problem: Problem, again: bool) -> Node | None:
-        """Products of two facts, and single facts times squares; then the same with facts divided by their positive factors."""
+        """Products of two facts, and single facts times squares; then the same with facts divided
+        by their positive factors."""
         node = search(problem, (*FIRST, *USUAL) if again else USUAL, self.budget)
         if node is None and problem.divide():
             node = search(problem, (*FIRST, *USUAL), self.budget)
         return node
 
     def with_lemmas(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
-        """Signs that can be shown are added to the facts; where that is not enough, signs are told apart."""
+        """Signs that can be shown are added to the facts; where that is not enough, signs are told
+        apart."""
         lemmas: list[Lemma] = []
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
             before = len(lemmas)
@@ -182,8 +233,11 @@ class Closing:
             node = search(problem, DEEP, self.budget)
         return under(lemmas, node)
 
-    def lemma(self, state: checker.State, text: str, stages: Sequence[Stage]) -> tuple[Lemma | None, checker.State]:
-        """The sign of a polynomial where two of the three cases close quickly, and the state with it."""
+    def lemma(
+        self, state: checker.State, text: str, stages: Sequence[Stage]
+    ) -> tuple[Lemma | None, checker.State]:
+        """The sign of a polynomial where two of the three cases close quickly, and the state with
+        it."""
         cases = state.by_sign(text)
         nodes = [self.attempt(case, stages) for case in cases]
         open_cases = [k for k, node in enumerate(nodes) if node is None]
@@ -194,8 +248,13 @@ class Closing:
         return Lemma(text, nodes, place, rounded, nodes[place]), inside
 
     def split(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
-        """Tells the sign of a candidate apart: the one of whose cases most close quickly comes first."""
-        known = [text for fact in problem.facts for text in (problem.in_units(fact.poly), problem.in_units(-fact.poly))]
+        """Tells the sign of a candidate apart: the one of whose cases most close quickly comes
+        first."""
+        known = [
+            text
+            for fact in problem.facts
+            for text in (problem.in_units(fact.poly), problem.in_units(-fact.poly))
+        ]
         tried: list[tuple[int, str, list[Node | None]]] = []
         for kind in ("factors", "variables", "resultants"):
             for text in candidates(state, problem, kind):
@@ -220,7 +279,8 @@ class Closing:
 
 @dataclass
 class Lemma:
-    """A sign told apart where one case is left, in which integers are rounded; `node` closes that case too where it is known."""
+    """A sign told apart where one case is left, in which integers are rounded; `node` closes that
+    case too where it is known."""
 
     text: str
     nodes: list[Node | None]
@@ -233,20 +293,29 @@ def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
     """The node below the nodes of lemmas."""
     for lemma in reversed(lemmas if node is not None else []):
         own = lemma.node if lemma.node is not None else wrapped(lemma.rounded, node)
-        node = ["sign", lemma.text, *(own if k == lemma.place else case for k, case in enumerate(lemma.nodes))]
+        node = [
+            "sign",
+            lemma.text,
+            *(own if k == lemma.place else case for k, case in enumerate(lemma.nodes)),
+        ]
     return node
 
 
 def candidates(state: checker.State, problem: Problem, kind: str) -> list[str]:
-    """Polynomials whose sign is worth telling apart: integers and their differences, factors of facts, variables, factors of resultants."""
+    """Polynomials whose sign is worth telling apart: integers and their differences, factors of
+    facts, variables, factors of resultants."""
     pool = Pool()
     if kind == "integers":
-        integers = [gen for gen, name in zip(problem.ring.gens, state.context.index) if name in state.context.integers]
+        integers = [
+            gen
+            for gen, name in zip(problem.ring.gens, state.context.index)
+            if name in state.context.integers
+        ]
         found = [*integers, *(a - b for a, b in combinations(integers, 2))]
     elif kind == "factors":
         found = problem.unsigned_factors()[:CANDIDATES]
     elif kind == "variables":
-        found = problem.variables_and_differences()[:2 * CANDIDATES]
+        found = problem.variables_and_differences()[: 2 * CANDIDATES]
     else:
         found = problem.candidates("resultants", 3 * CANDIDATES)
     signs, equations = problem.signs(), [equation.poly for equation in problem.reduction.left]
@@ -255,26 +324,39 @@ def candidates(state: checker.State, problem: Problem, kind: str) -> list[str]:
         before = len(pool.polys)
         pool.add(problem.reduction.reduce(poly)[1])
         for rest in pool.polys[before:]:
-            if not signs.of(rest)[0] or any(not divmod(equation, rest)[1] for equation in equations):
+            if not signs.of(rest)[0] or any(
+                not divmod(equation, rest)[1] for equation in equations
+            ):
                 texts.append(problem.in_units(poly))
-    return texts[:2 * CANDIDATES]
+    return texts[: 2 * CANDIDATES]
 
 
 def mark(poly: checker.Poly, relation: str) -> tuple[frozenset[tuple[int, int]], str]:
     """A fact up to a positive factor."""
     content, key = poly.primitive()
-    return frozenset((key if content > 0 or relation in ("=", "!=") else -key).terms.items()), relation
+    return (
+        frozenset((key if content > 0 or relation in ("=", "!=") else -key).terms.items()),
+        relation,
+    )
 
 
-CONTRARY = {">": ((-1, ">"), (-1, ">="), (1, "=")), ">=": ((-1, ">"),), "=": ((1, ">"), (-1, ">"), (1, "!=")), "!=": ((1, "="),)}
+CONTRARY = {
+    ">": ((-1, ">"), (-1, ">="), (1, "=")),
+    ">=": ((-1, ">"),),
+    "=": ((1, ">"), (-1, ">"), (1, "!=")),
+    "!=": ((1, "="),),
+}
 
 
 def contradicted(formula: Any, known: set[tuple[frozenset[tuple[int, int]], str]]) -> bool:
-    """Whether a fact among the known ones is the negation of the formula, or of a part of a conjunction."""
+    """Whether a fact among the known ones is the negation of the formula, or of a part of a
+    conjunction."""
     if formula[0] == "and":
         return any(contradicted(part, known) for part in formula[1])
     return formula[0] == "atom" and any(
-        mark(formula[1] if sign > 0 else -formula[1], relation) in known for sign, relation in CONTRARY[formula[2]])
+        mark(formula[1] if sign > 0 else -formula[1], relation) in known
+        for sign, relation in CONTRARY[formula[2]]
+    )
 
 
 def wrapped(rounded: list[int], node: Node | None) -> Node | None:

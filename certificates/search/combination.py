@@ -1,4 +1,5 @@
-"""The columns of a linear program made from a problem's facts, and the certificate read off its solution."""
+"""The columns of a linear program made from a problem's facts, and the certificate read off its
+solution."""
 
 from __future__ import annotations
 
@@ -25,10 +26,17 @@ Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of
 
 
 class Combination:
-    """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable, times squares of the roots."""
+    """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable,
+    times squares of the roots."""
 
-    def __init__(self, problem: Problem, degree: int, bernstein: int, roots: list[fmpz_mpoly],
-                 only: list[int] | None = None) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        degree: int,
+        bernstein: int,
+        roots: list[fmpz_mpoly],
+        only: list[int] | None = None,
+    ) -> None:
         self.problem, self.roots, self.program = problem, roots, Program()
         self.blocks: list[Block] = []
         self.cofactors: list[Cofactor] = []
@@ -37,14 +45,19 @@ class Combination:
         if bounded is not None:
             others = [k for k in others if not problem.said_by_bounds(k, bounded)]
             degrees = [fact.degree(bounded.variable) for fact in facts]
-        most = bernstein + max((degrees[k] for k in others), default=0) if bounded is not None else 0
+        most = (
+            bernstein + max((degrees[k] for k in others), default=0) if bounded is not None else 0
+        )
         self.packing = Packing(problem.ring, [*problem.polys(), *roots])
         squares = [collect(multiply(row, row)) for row in map(self.packing.row, roots)]
         heights = [2 * self._height(root) for root in roots]
         own_heights = [self._height(fact.poly) for fact in facts]
         highest = max([2, *own_heights])
         products = Products(problem, others, self.packing)
-        in_bounded, in_others = np.array(degrees, dtype=np.int64), np.array(own_heights, dtype=np.int64)
+        in_bounded, in_others = (
+            np.array(degrees, dtype=np.int64),
+            np.array(own_heights, dtype=np.int64),
+        )
         levels: dict[int, Level] = {}
         for count in range(degree + 1):
             if count:
@@ -66,14 +79,21 @@ class Combination:
             keys, values = self.packing.row(poly)
             self.program.add_rewriting(self.packing.exponents(keys[:1])[0], keys, values)
         self.program.exponents = self.packing.exponents
-        self._add_equations([k for k, equation in enumerate(problem.reduction.left) if equation not in basis], degree, bernstein)
+        self._add_equations(
+            [k for k, equation in enumerate(problem.reduction.left) if equation not in basis],
+            degree,
+            bernstein,
+        )
 
     def _height(self, poly: fmpz_mpoly) -> int:
         """The total degree in all but the bounded variable."""
         bounded = self.problem.bounded
         if bounded is None:
             return total_degree(poly)
-        return max(sum(int(e) for v, e in enumerate(monomial) if v != bounded.variable) for monomial in poly.monoms())
+        return max(
+            sum(int(e) for v, e in enumerate(monomial) if v != bounded.variable)
+            for monomial in poly.monoms()
+        )
 
     def _add(self, level: Level, products: Products, root: int) -> None:
         """A block of columns: every product times every Bernstein polynomial of one degree."""
@@ -81,7 +101,11 @@ class Combination:
         columns = (products.at[:, None] * size + level.at).ravel()
         keys = (products.keys[:, None] + level.keys).ravel()
         values = (products.values[:, None] * level.values).ravel()
-        strict = np.outer(products.strict, level.strict).ravel() if root < 0 else np.zeros(count * size, dtype=bool)
+        strict = (
+            np.outer(products.strict, level.strict).ravel()
+            if root < 0
+            else np.zeros(count * size, dtype=bool)
+        )
         costs = 1.0 + products.widths / 4 + products.places.shape[1] + level.degree / 8
         self.blocks.append(Block(self.program.count, level, products.chosen, root))
         self.program.add(columns, keys, values, strict, np.repeat(costs, size))
@@ -90,23 +114,40 @@ class Combination:
         """The facts and the root (-1 for 1) of a column."""
         block = self.blocks[bisect_right(self.blocks, place, key=lambda one: one.start) - 1]
         product, power_of_bounds = divmod(place - block.start, len(block.level.strict))
-        return merge(powers_of(tuple(block.chosen[product].tolist())), block.level.factors[power_of_bounds]), block.root
+        return (
+            merge(
+                powers_of(tuple(block.chosen[product].tolist())),
+                block.level.factors[power_of_bounds],
+            ),
+            block.root,
+        )
 
     def _add_equations(self, places: list[int], degree: int, bernstein: int) -> None:
         """Adds equations that are left, times monomials, as free columns."""
         problem = self.problem
         degree = max(1, degree)
         polys = problem.polys() if places else []
-        bounds = [max(int(p.degrees()[v]) for p in polys) for v in range(problem.ring.size)] if places else []
+        bounds = (
+            [max(int(p.degrees()[v]) for p in polys) for v in range(problem.ring.size)]
+            if places
+            else []
+        )
         top = max((total_degree(p) for p in polys), default=0) * degree + bernstein
         for place in places:
             equation = problem.reduction.left[place]
             room, own = top - total_degree(equation.poly), [int(d) for d in equation.poly.degrees()]
-            ranges = [range(max(0, min(room, b * degree + (bernstein if b else 0) - o)) + 1 if b else 1) for b, o in zip(bounds, own)]
+            ranges = [
+                range(max(0, min(room, b * degree + (bernstein if b else 0) - o)) + 1 if b else 1)
+                for b, o in zip(bounds, own)
+            ]
             monomials = [exponents for exponents in choices(*ranges) if sum(exponents) <= room]
             keys, values = self.packing.row(equation.poly)
             self.cofactors += [(place, exponents) for exponents in monomials]
-            self.program.add_free(len(monomials), (self.packing.keys(monomials)[:, None] + keys).ravel(), np.tile(values, len(monomials)))
+            self.program.add_free(
+                len(monomials),
+                (self.packing.keys(monomials)[:, None] + keys).ravel(),
+                np.tile(values, len(monomials)),
+            )
 
     def node(self, budget: Budget) -> Node | None:
         """Solves the program, and gives the node of its solution."""
@@ -121,7 +162,8 @@ class Combination:
 
 @dataclass
 class Block:
-    """Columns that were added together: the number of the first, the facts of every product, and what each was multiplied by."""
+    """Columns that were added together: the number of the first, the facts of every product, and
+    what each was multiplied by."""
 
     start: int
     level: Level
@@ -130,7 +172,8 @@ class Block:
 
 
 class Products:
-    """Products of the same number of facts: what stands in each as rows of keys and values, one after another."""
+    """Products of the same number of facts: what stands in each as rows of keys and values, one
+    after another."""
 
     def __init__(self, problem: Problem, others: list[int], packing: Packing) -> None:
         rows = [problem.row(problem.facts[k].poly, packing) for k in others]
@@ -139,7 +182,9 @@ class Products:
         self.own_values = np.concatenate([np.zeros(0), *(values for _, values in rows)])
         self.own_strict = np.array([problem.facts[k].strict for k in others], dtype=bool)
         self.others = np.array(others, dtype=np.int64)
-        self.places = np.zeros((1, 0), np.int64)  # the facts of every product, by their places among the others
+        self.places = np.zeros(
+            (1, 0), np.int64
+        )  # the facts of every product, by their places among the others
         self.strict: Mask = np.ones(1, dtype=bool)
         self.at, self.keys, self.values = np.zeros(1, np.int64), np.zeros(1, np.int64), np.ones(1)
         self.widths = np.ones(1, np.int64)
@@ -168,8 +213,13 @@ class Products:
         here, there = np.divmod(inner, lengths[at])
         here += (np.cumsum(self.widths) - self.widths)[old[at]]
         there += (np.cumsum(self.lengths) - self.lengths)[fact[at]]
-        return self._changed(np.hstack([self.places[old], fact[:, None]]), self.strict[old] & self.own_strict[fact],
-                             at, self.keys[here] + self.own_keys[there], self.values[here] * self.own_values[there])
+        return self._changed(
+            np.hstack([self.places[old], fact[:, None]]),
+            self.strict[old] & self.own_strict[fact],
+            at,
+            self.keys[here] + self.own_keys[there],
+            self.values[here] * self.own_values[there],
+        )
 
     def only(self, kept: Mask) -> Products:
         """Some of the products."""
@@ -177,12 +227,24 @@ class Products:
             return self
         inside = kept[self.at]
         new_place = np.cumsum(kept) - 1
-        return self._changed(self.places[kept], self.strict[kept], new_place[self.at[inside]], self.keys[inside], self.values[inside])
+        return self._changed(
+            self.places[kept],
+            self.strict[kept],
+            new_place[self.at[inside]],
+            self.keys[inside],
+            self.values[inside],
+        )
 
     def times_row(self, row: Row) -> Products:
         """All of the products times one polynomial."""
         at = np.repeat(self.at, len(row[0]))
-        return self._changed(self.places, self.strict, at, (self.keys[:, None] + row[0]).ravel(), (self.values[:, None] * row[1]).ravel())
+        return self._changed(
+            self.places,
+            self.strict,
+            at,
+            (self.keys[:, None] + row[0]).ravel(),
+            (self.values[:, None] * row[1]).ravel(),
+        )
 
 
 def counted(counts: Keys) -> Keys:
@@ -196,32 +258,49 @@ def powers_of(chosen: tuple[int, ...]) -> Factors:
 
 
 class Level:
-    """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded variable, and how often."""
+    """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded
+    variable, and how often."""
 
     def __init__(self, problem: Problem, degree: int, packing: Packing) -> None:
         self.degree = degree
         bounded, facts = problem.bounded, problem.facts
         if bounded is None or degree == 0:
             self.factors: list[Factors] = [()]
-            self.strict, self.at, self.keys, self.values = np.ones(1, dtype=bool), np.zeros(1, np.int64), np.zeros(1, np.int64), np.ones(1)
+            self.strict, self.at, self.keys, self.values = (
+                np.ones(1, dtype=bool),
+                np.zeros(1, np.int64),
+                np.zeros(1, np.int64),
+                np.ones(1),
+            )
             return
         lines = []
         for k in (bounded.low, bounded.high):
             slope = float(int(facts[k].poly.derivative(bounded.variable).leading_coefficient()))
-            line, base = [np.ones(1)], np.array([float(-facts[k].end(bounded.variable) * int(slope)), slope])
+            line, base = (
+                [np.ones(1)],
+                np.array([float(-facts[k].end(bounded.variable) * int(slope)), slope]),
+            )
             for _ in range(degree):
                 line.append(np.convolve(line[-1], base))
             lines.append(line)
-        table = np.array([np.convolve(lines[0][i], lines[1][degree - i]) for i in range(degree + 1)])
+        table = np.array(
+            [np.convolve(lines[0][i], lines[1][degree - i]) for i in range(degree + 1)]
+        )
         self.at, powers = np.nonzero(table)
         self.keys, self.values = powers * packing.weights[bounded.variable], table[self.at, powers]
         pairs = [((bounded.low, i), (bounded.high, degree - i)) for i in range(degree + 1)]
         self.factors = [tuple(sorted((k, e) for k, e in pair if e)) for pair in pairs]
-        self.strict = np.array([all(facts[k].strict for k, _ in own) for own in self.factors], dtype=bool)
+        self.strict = np.array(
+            [all(facts[k].strict for k, _ in own) for own in self.factors], dtype=bool
+        )
 
 
-def lift(problem: Problem, used: list[tuple[tuple[Factors, int], Fraction]], cofactors: list[tuple[Cofactor, Fraction]],
-         roots: list[fmpz_mpoly]) -> Node | None:
+def lift(
+    problem: Problem,
+    used: list[tuple[tuple[Factors, int], Fraction]],
+    cofactors: list[tuple[Cofactor, Fraction]],
+    roots: list[fmpz_mpoly],
+) -> Node | None:
     """The node of an identity between the problem's facts and the equations left."""
     ring, facts = problem.ring, problem.facts
     divided: dict[int, int] = {}  # facts with a multiplier -> the largest exponent in use
@@ -238,7 +317,9 @@ def lift(problem: Problem, used: list[tuple[tuple[Factors, int], Fraction]], cof
                 whole = times(whole, facts[k].multiplier or [])
         for value, product in whole:
             terms.append(term(problem, value, product, roots[root] if root >= 0 else ring.one))
-    common = lcm(1, *(c.denominator for _, c in cofactors), *(t.coefficient.denominator for t in terms))
+    common = lcm(
+        1, *(c.denominator for _, c in cofactors), *(t.coefficient.denominator for t in terms)
+    )
     extra = ring.one  # what the terms have been multiplied by
     scale = Fraction(common)
     for k, most in divided.items():
@@ -252,8 +333,12 @@ def lift(problem: Problem, used: list[tuple[tuple[Factors, int], Fraction]], cof
     for at, place in enumerate(used_equations):
         equation = problem.reduction.left[place]
         own = [(monomial, c) for (where, monomial), c in cofactors if where == place]
-        # every term is multiplied by all multiples: an equation's own multiple is part of its combination
-        cofactor = extra * prod((multiple for other, (multiple, _) in enumerate(multiples) if other != at), start=ring.one)
+        # every term is multiplied by all multiples: an equation's own multiple is part of its
+        # combination
+        cofactor = extra * prod(
+            (multiple for other, (multiple, _) in enumerate(multiples) if other != at),
+            start=ring.one,
+        )
         if multiples[at][0] != equation.multiple:
             cofactor = cofactor * equation.multiple
         whole_cofactor = ring.zero
@@ -276,7 +361,10 @@ def term(problem: Problem, coefficient: Fraction, product: Factors, root: fmpz_m
         fact: Fact = problem.facts[k]
         factors, coefficient = merge(factors, power(fact.factors, e)), coefficient / fact.scale**e
         for step, n in zip(problem.reduction.steps, fact.counts):
-            factors, coefficient = merge(factors, power(step.lead_factors, n * e)), coefficient * step.lead_scale ** (n * e)
+            factors, coefficient = (
+                merge(factors, power(step.lead_factors, n * e)),
+                coefficient * step.lead_scale ** (n * e),
+            )
     return Term(coefficient, factors, root)
 
 
@@ -285,12 +373,19 @@ def sum_of(problem: Problem, total: Sum) -> tuple[fmpz_mpoly, Fraction]:
     common = lcm(*(c.denominator for c, _ in total))
     poly = problem.ring.zero
     for c, factors in total:
-        poly = poly + prod((problem.facts[k].poly ** e for k, e in factors), start=problem.ring.one) * int(c * common)
+        poly = poly + prod(
+            (problem.facts[k].poly ** e for k, e in factors), start=problem.ring.one
+        ) * int(c * common)
     return poly, Fraction(1, common)
 
 
 def squared(problem: Problem, place: int) -> tuple[fmpz_mpoly, Factors]:
-    """The multiple of an equation left and its facts, squared where a fact in it has no known sign."""
+    """The multiple of an equation left and its facts, squared where a fact in it has no known
+    sign."""
     equation = problem.reduction.left[place]
     even = any(problem.source.relations[k] == "!=" for k, _ in equation.factors)
-    return (equation.multiple * equation.multiple, power(equation.factors, 2)) if even else (equation.multiple, equation.factors)
+    return (
+        (equation.multiple * equation.multiple, power(equation.factors, 2))
+        if even
+        else (equation.multiple, equation.factors)
+    )

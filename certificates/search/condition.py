@@ -1,4 +1,5 @@
-"""Conditions over polynomials: a checker's formula held as flint polynomials, substituted, folded and evaluated fast."""
+"""Conditions over polynomials: a checker's formula held as flint polynomials, substituted, folded
+and evaluated fast."""
 
 from __future__ import annotations
 
@@ -15,7 +16,10 @@ from .algebraic import AlgebraicNumber, fraction, sign
 ZERO = fmpq(0)
 Tree = Any  # bool, (index of a polynomial, relation), or ("and" | "or", [Tree, ...])
 HOLDS = {
-    ">": lambda s: s > 0, ">=": lambda s: s >= 0, "=": lambda s: s == 0, "!=": lambda s: s != 0,
+    ">": lambda s: s > 0,
+    ">=": lambda s: s >= 0,
+    "=": lambda s: s == 0,
+    "!=": lambda s: s != 0,
 }
 
 
@@ -31,11 +35,14 @@ def places(ring: fmpq_mpoly_ctx) -> dict[str, int]:
 
 
 def valued(poly: fmpq_mpoly, given: Mapping[str, fmpq]) -> fmpq | None:
-    """The value of a polynomial at a point; None where it has a variable that the point does not give."""
+    """The value of a polynomial at a point; None where it has a variable that the point does not
+    give."""
     place = places(poly.context())
     if len(given) < len(place):
         degrees = poly.degrees()
-        if any(degrees[i] > 0 and name not in given for name, i in place.items()):  # the degrees of 0 are -1
+        if any(
+            degrees[i] > 0 and name not in given for name, i in place.items()
+        ):  # the degrees of 0 are -1
             return None
     return poly(*[given.get(name, ZERO) for name in place])
 
@@ -45,7 +52,12 @@ def to_flint(poly: checker.Poly, ring: fmpq_mpoly_ctx, size: int) -> fmpq_mpoly:
     mask = (1 << checker.BITS) - 1
     spread, rest = [checker.BITS * i for i in range(size)], [0] * (ring.nvars() - size)
     den = poly.den
-    return ring.from_dict({tuple([(m >> shift) & mask for shift in spread] + rest): fmpq(c, den) for m, c in poly.terms.items()})
+    return ring.from_dict(
+        {
+            tuple([(m >> shift) & mask for shift in spread] + rest): fmpq(c, den)
+            for m, c in poly.terms.items()
+        }
+    )
 
 
 def to_text(poly: fmpq_mpoly) -> str:
@@ -59,7 +71,11 @@ def to_text(poly: fmpq_mpoly) -> str:
         if len(size) and value.denominator != 1 and factors:
             size = [f"({abs(value)})"]
         part = "*".join(size + factors)
-        text += ("-" if value < 0 else "") + part if not text else (" - " if value < 0 else " + ") + part
+        text += (
+            ("-" if value < 0 else "") + part
+            if not text
+            else (" - " if value < 0 else " + ") + part
+        )
     return text or "0"
 
 
@@ -104,7 +120,9 @@ class Condition:
                 return (tree[0] + shift, tree[1])
             return (tree[0], [moved(part) for part in tree[1]])
 
-        return Condition(self.ring, self.polys + other.polys, _join("and", [self.tree, moved(other.tree)]))
+        return Condition(
+            self.ring, self.polys + other.polys, _join("and", [self.tree, moved(other.tree)])
+        )
 
     def substituted(self, values: Mapping[str, fmpq]) -> Condition:
         """The condition with numbers in place of variables, folded."""
@@ -116,11 +134,13 @@ class Condition:
         return self.mapped(lambda p: p.subs(given))
 
     def replaced(self, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Condition:
-        """The condition with top/bottom in place of a variable, every polynomial times a positive power of the bottom."""
+        """The condition with top/bottom in place of a variable, every polynomial times a positive
+        power of the bottom."""
         return self.mapped(lambda p: replace(p, name, top, bottom))
 
     def mapped(self, change: Any) -> Condition:
-        """The condition with polynomials changed by a function that keeps their signs; those that no longer matter are left as they are."""
+        """The condition with polynomials changed by a function that keeps their signs; those that
+        no longer matter are left as they are."""
         polys, done = list(self.polys), set()
 
         def changed(k: int) -> fmpq_mpoly:
@@ -150,24 +170,39 @@ class Condition:
 
     def cleared(self) -> Condition:
         """The same condition, its equations without the factors that it says not to vanish."""
-        nonzero = [p / p.leading_coefficient() for p, relation in self.facts() if relation in (">", "!=") and len(p) <= 4]
+        nonzero = [
+            p / p.leading_coefficient()
+            for p, relation in self.facts()
+            if relation in (">", "!=") and len(p) <= 4
+        ]
         polys = list(self.polys)
         for k, relation in top_atoms(self.tree):
-            if relation == "=" and 1 < len(polys[k]) <= 400 and any((polys[k] % q) == 0 for q in nonzero):
-                left = [f for f, _ in polys[k].factor()[1] if f / f.leading_coefficient() not in nonzero]
+            if (
+                relation == "="
+                and 1 < len(polys[k]) <= 400
+                and any((polys[k] % q) == 0 for q in nonzero)
+            ):
+                left = [
+                    f for f, _ in polys[k].factor()[1] if f / f.leading_coefficient() not in nonzero
+                ]
                 whole = self.ring.constant(1)
                 for factor in left:
                     whole = whole * factor
                 polys[k] = whole
         if len(top_atoms(self.tree)) != len({k for k, _ in top_atoms(self.tree)}) or any(
-                polys[k] is not self.polys[k] for k in _below(self.tree)):
+            polys[k] is not self.polys[k] for k in _below(self.tree)
+        ):
             return self
         return Condition(self.ring, polys, fold(self.tree, polys.__getitem__))
 
-    def univariate_truth(self, name: str, at: fmpq | AlgebraicNumber, polys: Mapping[int, fmpq_poly]) -> bool:
-        """Whether a condition in one variable holds at a number; `polys` are its polynomials in that variable."""
+    def univariate_truth(
+        self, name: str, at: fmpq | AlgebraicNumber, polys: Mapping[int, fmpq_poly]
+    ) -> bool:
+        """Whether a condition in one variable holds at a number; `polys` are its polynomials in
+        that variable."""
         signs = {
-            k: at.sign_of(p) if isinstance(at, AlgebraicNumber) else sign(p(at)) for k, p in polys.items()
+            k: at.sign_of(p) if isinstance(at, AlgebraicNumber) else sign(p(at))
+            for k, p in polys.items()
         }
         return evaluate(self.tree, signs)
 
@@ -192,14 +227,23 @@ def top_atoms(tree: Tree) -> list[tuple[int, str]]:
         return []
     if isinstance(tree[0], int):
         return [tree]
-    return [part for part in tree[1] if not isinstance(part, bool) and isinstance(part[0], int)] if tree[0] == "and" else []
+    return (
+        [part for part in tree[1] if not isinstance(part, bool) and isinstance(part[0], int)]
+        if tree[0] == "and"
+        else []
+    )
 
 
 def _below(tree: Tree) -> list[int]:
     """The numbers of the polynomials of relations that a tree does not assert on their own."""
     if isinstance(tree, bool) or isinstance(tree[0], int):
         return []
-    return [k for part in tree[1] if tree[0] == "or" or not isinstance(part[0], int) for k in _indices(part)]
+    return [
+        k
+        for part in tree[1]
+        if tree[0] == "or" or not isinstance(part[0], int)
+        for k in _indices(part)
+    ]
 
 
 def _join(op: str, parts: Sequence[Tree]) -> Tree:
@@ -216,7 +260,8 @@ def _join(op: str, parts: Sequence[Tree]) -> Tree:
 
 
 def fold(tree: Tree, poly_of: Callable[[int], fmpq_mpoly]) -> Tree:
-    """The tree with relations between constants decided; polynomials are asked for only as long as they matter."""
+    """The tree with relations between constants decided; polynomials are asked for only as long as
+    they matter."""
     if isinstance(tree, bool):
         return tree
     if isinstance(tree[0], int):
@@ -249,14 +294,22 @@ def univariate(poly: fmpq_mpoly, name: str) -> fmpq_poly:
     place = places(poly.context())[name]
     if len(poly) == poly.total_degree() + 1:  # no power is missing, so they stand in falling order
         return fmpq_poly(poly.coeffs()[::-1])
-    coefficients: dict[int, fmpq] = {powers[place]: c for powers, c in zip(poly.monoms(), poly.coeffs())}
+    coefficients: dict[int, fmpq] = {
+        powers[place]: c for powers, c in zip(poly.monoms(), poly.coeffs())
+    }
     return fmpq_poly([coefficients.get(k, 0) for k in range(max(coefficients, default=0) + 1)])
 
 
 def multivariate(poly: fmpq_poly, ring: fmpq_mpoly_ctx, name: str) -> fmpq_mpoly:
     """A dense polynomial as one of the ring."""
     place, size = ring.variable_to_index(name), ring.nvars()
-    return ring.from_dict({tuple(k if i == place else 0 for i in range(size)): c for k, c in enumerate(poly.coeffs()) if c})
+    return ring.from_dict(
+        {
+            tuple(k if i == place else 0 for i in range(size)): c
+            for k, c in enumerate(poly.coeffs())
+            if c
+        }
+    )
 
 
 def coefficients_in(poly: fmpq_mpoly, name: str) -> list[fmpq_mpoly]:
@@ -287,10 +340,10 @@ def replace(poly: fmpq_mpoly, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) ->
             result = result * top + c
         return result
     degree += degree % 2
-    powers = [bottom ** 0]
+    powers = [bottom**0]
     for _ in range(degree):
         powers.append(powers[-1] * bottom)
-    result, power = poly.context().constant(0), bottom ** 0
+    result, power = poly.context().constant(0), bottom**0
     for k, c in enumerate(coefficients):
         result += c * power * powers[degree - k]
         power *= top

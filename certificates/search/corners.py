@@ -1,4 +1,5 @@
-"""States on borders: unknowns put where relations that include equality are equations, the others in between, tried on samples of the base."""
+"""States on borders: unknowns put where relations that include equality are equations, the others
+in between, tried on samples of the base."""
 
 from __future__ import annotations
 
@@ -19,23 +20,35 @@ Move = tuple[str, Quotient, "Root | None"]
 
 
 class CornerSearch(TemplateSearch):
-    """One search for corners: equations are solved first, then some of the relations >= are taken as equations, and solved too.
+    """One search for corners: equations are solved first, then some of the relations >= are taken
+    as equations, and solved too.
 
-    The sharp end of a range lies as a rule where some inequalities meet, and beyond it the states that break a statement begin there.
+    The sharp end of a range lies as a rule where some inequalities meet, and beyond it the states
+    that break a statement begin there.
     """
 
     def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[Choice]:
         """Choices of terms for the unknowns, those on the most borders first."""
         self.steps, self.seen = STEPS, set[frozenset[int]]()
-        if self.borders is None:  # factors now: what an adjoined root is put into may no longer be a product
-            products = [condition.polys[k].factor()[1] for k in condition.used() if len(condition.polys[k]) <= MOST_FACTORS]
-            self.borders = [factor for factors in products if len(factors) > 1 for factor, _ in factors]
+        if (
+            self.borders is None
+        ):  # factors now: what an adjoined root is put into may no longer be a product
+            products = [
+                condition.polys[k].factor()[1]
+                for k in condition.used()
+                if len(condition.polys[k]) <= MOST_FACTORS
+            ]
+            self.borders = [
+                factor for factors in products if len(factors) > 1 for factor, _ in factors
+            ]
         yield from super().search(condition, unknowns)
 
     def _descend(self, partial: Partial, unknowns: list[str]) -> Iterator[Choice]:
         yield from self._corner(partial, unknowns, frozenset())
 
-    def _corner(self, partial: Partial, unknowns: list[str], chosen: frozenset[int]) -> Iterator[Choice]:
+    def _corner(
+        self, partial: Partial, unknowns: list[str], chosen: frozenset[int]
+    ) -> Iterator[Choice]:
         if sum(c.tree is not False for c in partial.sampled) < self.least:
             return
         if not unknowns:
@@ -46,8 +59,16 @@ class CornerSearch(TemplateSearch):
             one = partial.condition.ring.constant(1)
             yield from self._follow(partial, unknowns, chosen, [(unit, Quotient(one, one), None)])
             return
-        forced = next((moves for poly, relation in partial.condition.facts() if relation == "="
-                       for moves in [self._moves(partial, poly, unknowns)] if moves), None)
+        forced = next(
+            (
+                moves
+                for poly, relation in partial.condition.facts()
+                if relation == "="
+                for moves in [self._moves(partial, poly, unknowns)]
+                if moves
+            ),
+            None,
+        )
         if forced:
             yield from self._follow(partial, unknowns, chosen, forced)
             return
@@ -55,30 +76,58 @@ class CornerSearch(TemplateSearch):
             onward = chosen | {k}
             if relation in (">=", "=") and onward not in self.seen and self.steps > 0:
                 self.seen.add(onward)
-                yield from self._follow(partial, unknowns, onward, self._moves(partial, partial.condition.polys[k], unknowns))
+                yield from self._follow(
+                    partial,
+                    unknowns,
+                    onward,
+                    self._moves(partial, partial.condition.polys[k], unknowns),
+                )
         if len(unknowns) == 1:
             yield from super()._descend(partial, unknowns)
 
-    def _follow(self, partial: Partial, unknowns: list[str], chosen: frozenset[int], moves: Sequence[Move]) -> Iterator[Choice]:
+    def _follow(
+        self, partial: Partial, unknowns: list[str], chosen: frozenset[int], moves: Sequence[Move]
+    ) -> Iterator[Choice]:
         seen = self.seen
         for name, value, root in moves:
             self.steps -= 1
             self.budget.spend(100 + 60 * len(self.samples) * (1 + len(partial.condition.polys)))
-            widened = partial if root is None else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
-            rows = [Trial(sampled, name) if sampled.tree is not False else None for sampled in partial.sampled]
-            if (ring_names(value.top) | ring_names(value.bottom)) & set(unknowns) or self._plausible(widened, rows, value, None, {}):
+            widened = (
+                partial
+                if root is None
+                else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
+            )
+            rows = [
+                Trial(sampled, name) if sampled.tree is not False else None
+                for sampled in partial.sampled
+            ]
+            if (ring_names(value.top) | ring_names(value.bottom)) & set(
+                unknowns
+            ) or self._plausible(widened, rows, value, None, {}):
                 self.seen = set(seen) if len(moves) > 1 else seen
-                yield from self._corner(self._with(widened, name, value.top, value.bottom), [n for n in unknowns if n != name], chosen)
+                yield from self._corner(
+                    self._with(widened, name, value.top, value.bottom),
+                    [n for n in unknowns if n != name],
+                    chosen,
+                )
         self.seen = seen
 
     def _moves(self, partial: Partial, poly: fmpq_mpoly, unknowns: Sequence[str]) -> list[Move]:
-        """The ways to make a polynomial 0 by the value of one unknown: of a factor linear in it, or of degree 2 in it alone."""
+        """The ways to make a polynomial 0 by the value of one unknown: of a factor linear in it, or
+        of degree 2 in it alone."""
         found: list[Move] = []
         for factor, _ in poly.factor()[1] if len(poly) <= MOST_FACTORS else ():
             names = ring_names(factor)
             present = [n for n in unknowns if n in names and n not in self.integers]
             present.sort(key=lambda n: (self._degree(partial, n), -unknowns.index(n)))
-            linear = next((move for name in present for move in self._linear(partial, factor, name, unknowns)), None)
+            linear = next(
+                (
+                    move
+                    for name in present
+                    for move in self._linear(partial, factor, name, unknowns)
+                ),
+                None,
+            )
             if linear is not None:
                 found.append(linear)
             elif len(present) == 1 and len(coefficients_in(factor, present[0])) == 3:
@@ -93,7 +142,9 @@ class CornerSearch(TemplateSearch):
         place = condition.ring.variable_to_index(name)
         return max((int(condition.polys[k].degrees()[place]) for k in condition.used()), default=0)
 
-    def _linear(self, partial: Partial, factor: fmpq_mpoly, name: str, unknowns: Sequence[str]) -> list[Move]:
+    def _linear(
+        self, partial: Partial, factor: fmpq_mpoly, name: str, unknowns: Sequence[str]
+    ) -> list[Move]:
         parts = coefficients_in(factor, name)
         if len(parts) != 2 or ring_names(parts[1]) & set(unknowns):
             return []

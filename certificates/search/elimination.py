@@ -1,4 +1,5 @@
-"""Where a condition can change its verdict as one parameter moves: candidate numbers from iterated resultants and discriminants."""
+"""Where a condition can change its verdict as one parameter moves: candidate numbers from iterated
+resultants and discriminants."""
 
 from __future__ import annotations
 
@@ -10,14 +11,21 @@ from .algebraic import AlgebraicNumber, real_roots
 from .budget import Budget, Exhausted
 from .condition import Condition, coefficients_in, constant_of, replace, univariate
 
-TERMS = 4000  # a polynomial with more terms than this is dropped: the candidates are then too few, which certificates would show
+# a polynomial with more terms than this is dropped: the candidates are then too few, which
+# certificates would show
+TERMS = 4000
 
 
-def border_polynomials(conditions: Sequence[tuple[Condition, Condition | None]], parameters: Sequence[str], budget: Budget
-                       ) -> list[fmpq_mpoly]:
-    """Irreducible polynomials in the parameters on whose roots the projections of the conditions can change.
+def border_polynomials(
+    conditions: Sequence[tuple[Condition, Condition | None]],
+    parameters: Sequence[str],
+    budget: Budget,
+) -> list[fmpq_mpoly]:
+    """Irreducible polynomials in the parameters on whose roots the projections of the conditions
+    can change.
 
-    A second condition beside one is what further variables, bound in it alone, should meet: it is projected first.
+    A second condition beside one is what further variables, bound in it alone, should meet: it is
+    projected first.
     """
     found: list[fmpq_mpoly] = []
     for condition, inner in conditions:
@@ -41,13 +49,18 @@ def candidate_numbers(polys: Iterable[fmpq_mpoly], parameter: str) -> list[Algeb
     return sorted(found)
 
 
-def projected(condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly] = ()) -> list[fmpq_mpoly]:
-    """Irreducible polynomials in the parameters on whose roots the projection of one condition can change."""
+def projected(
+    condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly] = ()
+) -> list[fmpq_mpoly]:
+    """Irreducible polynomials in the parameters on whose roots the projection of one condition can
+    change."""
     condition, borders = without_equations(condition, parameters, budget, more)
     equations = [p for p, relation in condition.facts() if relation == "="]
     polys = _factors([*(condition.polys[k] for k in condition.used()), *borders])
     names = list(condition.ring.names())
-    left = [n for i, n in enumerate(names) if n not in parameters and any(p.degrees()[i] for p in polys)]
+    left = [
+        n for i, n in enumerate(names) if n not in parameters and any(p.degrees()[i] for p in polys)
+    ]
     while left:
         # The variable that is cheapest to eliminate: of least degree, in the fewest polynomials.
         name = min(left, key=lambda n: _cost(polys, names.index(n)))
@@ -61,9 +74,11 @@ def _cost(polys: Sequence[fmpq_mpoly], place: int) -> tuple[int, int, int]:
     return (max(degrees, default=0), len(degrees), sum(len(p) for p in polys if p.degrees()[place]))
 
 
-def without_equations(condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly]
-                 ) -> tuple[Condition, list[fmpq_mpoly]]:
-    """The condition after every equation linear in a variable is solved for it; where its coefficient vanishes is a border."""
+def without_equations(
+    condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly]
+) -> tuple[Condition, list[fmpq_mpoly]]:
+    """The condition after every equation linear in a variable is solved for it; where its
+    coefficient vanishes is a border."""
     borders: list[fmpq_mpoly] = list(more)
     while True:
         best: tuple[tuple[int, int], str, fmpq_mpoly, fmpq_mpoly] | None = None
@@ -88,16 +103,24 @@ def without_equations(condition: Condition, parameters: set[str], budget: Budget
         condition = condition.replaced(name, top, bottom)
 
 
-def _eliminate(polys: list[fmpq_mpoly], equations: list[fmpq_mpoly], name: str, budget: Budget
-               ) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
-    """The projection along one variable: coefficients, discriminants and resultants; only those with an equation where there is one."""
+def _eliminate(
+    polys: list[fmpq_mpoly], equations: list[fmpq_mpoly], name: str, budget: Budget
+) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
+    """The projection along one variable: coefficients, discriminants and resultants; only those
+    with an equation where there is one."""
     place = polys[0].context().variable_to_index(name)
     mixed = [p for p in polys if p.degrees()[place]]
     result = [p for p in polys if not p.degrees()[place]]
     pivots = [p for p in mixed if any((e % p) == 0 for e in equations if e != 0)]
-    pivot = min(pivots, key=lambda p: (p.degrees()[place], len(p))) if len(equations) and pivots else None
+    pivot = (
+        min(pivots, key=lambda p: (p.degrees()[place], len(p)))
+        if len(equations) and pivots
+        else None
+    )
     owned = [e for e in equations if pivot is not None and (e % pivot) == 0]
-    whole = pivot is not None and all(sum(1 for f, _ in e.factor()[1] if f.degrees()[place]) == 1 for e in owned[:1])
+    whole = pivot is not None and all(
+        sum(1 for f, _ in e.factor()[1] if f.degrees()[place]) == 1 for e in owned[:1]
+    )
     fresh: list[fmpq_mpoly] = []
     firsts = [pivot] if whole and pivot is not None else mixed
     for p in firsts:
@@ -139,7 +162,8 @@ def _spend(budget: Budget, p: fmpq_mpoly, q: fmpq_mpoly) -> None:
 
 
 def _factors(polys: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The distinct irreducible factors that are no constants, each with leading coefficient 1; too large ones are left out."""
+    """The distinct irreducible factors that are no constants, each with leading coefficient 1; too
+    large ones are left out."""
     found: dict[str, fmpq_mpoly] = {}
     for poly in polys:
         if poly == 0 or poly.is_constant() or len(poly) > TERMS:

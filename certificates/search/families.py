@@ -1,4 +1,5 @@
-"""Terms on all of a state: one choice of terms where it serves, and the state split by a sign where it does not."""
+"""Terms on all of a state: one choice of terms where it serves, and the state split by a sign where
+it does not."""
 
 from __future__ import annotations
 
@@ -21,7 +22,13 @@ from .setting import Task, length, margins_of, setting
 from .templates import TemplateSearch
 
 
-def cover(task: Task, state: checker.State, samples: Sequence[Sample], depth: int = 3, former: Sequence[Choice] = ()) -> Node | None:
+def cover(
+    task: Task,
+    state: checker.State,
+    samples: Sequence[Sample],
+    depth: int = 3,
+    former: Sequence[Choice] = (),
+) -> Node | None:
     """A found that serves on the whole state; None where none was found."""
     if state.closed:
         return ["empty", ["close"]]
@@ -37,7 +44,9 @@ def cover(task: Task, state: checker.State, samples: Sequence[Sample], depth: in
     tried: list[Choice] = list(former)
     if samples:
         margins = margins_of(state, condition, normal)
-        search = TemplateSearch(base, given, task.budget, integers, task.nodes, None, task.hints, margins)
+        search = TemplateSearch(
+            base, given, task.budget, integers, task.nodes, None, task.hints, margins
+        )
         tried += islice(search.search(condition, unknowns), task.tries)
     else:
         node = search_closing(state, task.known, task.budget, 1)
@@ -45,13 +54,17 @@ def cover(task: Task, state: checker.State, samples: Sequence[Sample], depth: in
             return ["empty", node]
     for choice in _shortest(tried):
         wanted = Wanted(task.statement, task.purpose, task.base, task.sharp, normal)
-        found = confirmed(wanted, state, choice, keys, task.known, task.budget, samples, task.effort)
+        found = confirmed(
+            wanted, state, choice, keys, task.known, task.budget, samples, task.effort
+        )
         if found is not None:
             return found
     if depth <= 0 or len(samples) < 2:
         return None
     partial = TemplateSearch(base, given, task.budget, integers, task.nodes, 1, task.hints, margins)
-    choices = sorted(islice(partial.search(condition, unknowns), 60), key=lambda c: (-len(c.serves), length(c)))
+    choices = sorted(
+        islice(partial.search(condition, unknowns), 60), key=lambda c: (-len(c.serves), length(c))
+    )
     for first in choices[:3]:
         for poly in _splitters(condition, first, given, base)[:2]:
             found = _split(task, state, normal.lift(poly), samples, depth, choices[:4])
@@ -60,8 +73,14 @@ def cover(task: Task, state: checker.State, samples: Sequence[Sample], depth: in
     return None
 
 
-def _split(task: Task, state: checker.State, poly: fmpq_mpoly, samples: Sequence[Sample], depth: int, former: Sequence[Choice]
-           ) -> Node | None:
+def _split(
+    task: Task,
+    state: checker.State,
+    poly: fmpq_mpoly,
+    samples: Sequence[Sample],
+    depth: int,
+    former: Sequence[Choice],
+) -> Node | None:
     text = to_text(poly)
     groups: list[list[Sample]] = [[], [], []]
     for sample in samples:
@@ -77,11 +96,15 @@ def _split(task: Task, state: checker.State, poly: fmpq_mpoly, samples: Sequence
         founds.append(found)
     whole = ["sign", text, *founds]
     named = {task.statement.name: task.statement}
-    ok = accepted(checker.find, state.branch(), whole, task.known, task.purpose, named, task.base, task.sharp)
+    ok = accepted(
+        checker.find, state.branch(), whole, task.known, task.purpose, named, task.base, task.sharp
+    )
     return whole if ok else None
 
 
-def _splitters(condition: Condition, choice: Choice, samples: Sequence[Sample], base: Sequence[str]) -> list[fmpq_mpoly]:
+def _splitters(
+    condition: Condition, choice: Choice, samples: Sequence[Sample], base: Sequence[str]
+) -> list[fmpq_mpoly]:
     """Polynomials in the base whose sign tells the samples that a choice serves from the others."""
     if choice.roots or len(choice.serves) == len(samples):
         return []

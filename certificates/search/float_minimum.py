@@ -1,4 +1,5 @@
-"""Points where a polynomial is small on a box, found in floating point: nothing here is believed, every value is computed again exactly."""
+"""Points where a polynomial is small on a box, found in floating point: nothing here is believed,
+every value is computed again exactly."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ NOISE = 2.0**-52
 
 
 class FloatPolynomial:
-    """Value, gradient and Hessian, all from one pass over the monomials of the polynomial and of its derivatives."""
+    """Value, gradient and Hessian, all from one pass over the monomials of the polynomial and of
+    its derivatives."""
 
     def __init__(self, terms: Mapping[Exponents, Fraction | float], size: int) -> None:
         self.size = size
@@ -50,13 +52,14 @@ class FloatPolynomial:
         return float(self.values(x, 1)[0])
 
     def descend(self, x: Array, low: Array, high: Array) -> tuple[float, Array]:
-        """(value, point) where a damped Newton method, kept in the box, comes to rest; the damping is Levenberg's."""
+        """(value, point) where a damped Newton method, kept in the box, comes to rest; the damping
+        is Levenberg's."""
         x = np.clip(x, low, high)
         value, damping = self(x), 1e-3
         for _ in range(STEPS):
             data = self.values(x)
-            slope, bend = data[1:1 + self.size], np.zeros((self.size, self.size))
-            for (i, j), second in zip(self.pairs, data[1 + self.size:]):
+            slope, bend = data[1 : 1 + self.size], np.zeros((self.size, self.size))
+            for (i, j), second in zip(self.pairs, data[1 + self.size :]):
                 bend[i, j] = bend[j, i] = second
             free = ~(((x <= low) & (slope > 0)) | ((x >= high) & (slope < 0)))
             if not free.any() or not np.abs(slope[free]).max() > 0:
@@ -84,12 +87,19 @@ class FloatPolynomial:
         return np.linalg.solve(bend + (damping + max(0.0, -2 * least)) * np.eye(len(slope)), slope)
 
 
-def polished(terms: Terms, polynomial: FloatPolynomial, x: Array, box: Sequence[tuple[Fraction, Fraction]], bits: int) -> list[Fraction]:
-    """The stationary point near x, in the coordinates that are not at an end of the box, to so many bits: exact gradients, a fixed Hessian."""
+def polished(
+    terms: Terms,
+    polynomial: FloatPolynomial,
+    x: Array,
+    box: Sequence[tuple[Fraction, Fraction]],
+    bits: int,
+) -> list[Fraction]:
+    """The stationary point near x, in the coordinates that are not at an end of the box, to so many
+    bits: exact gradients, a fixed Hessian."""
     point = [min(max(Fraction(float(v)), low), high) for v, (low, high) in zip(x, box)]
     free = [i for i, (v, (low, high)) in enumerate(zip(point, box)) if low < v < high]
     slopes = [derivative(terms, i) for i in free]
-    data, bend = polynomial.values(x)[1 + polynomial.size:], np.zeros((len(free), len(free)))
+    data, bend = polynomial.values(x)[1 + polynomial.size :], np.zeros((len(free), len(free)))
     for (i, j), second in zip(polynomial.pairs, data):
         if i in free and j in free:
             bend[free.index(i), free.index(j)] = bend[free.index(j), free.index(i)] = second

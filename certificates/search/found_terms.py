@@ -1,4 +1,5 @@
-"""Terms as the checker takes them: quotients written with divisions that are licensed, roots adjoined, nodes found and confirmed."""
+"""Terms as the checker takes them: quotients written with divisions that are licensed, roots
+adjoined, nodes found and confirmed."""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ class Renamed:
 
 
 class TermWriter:
-    """Writes quotients of lowered polynomials in a context; a bottom without a licence is adjoined, as a root."""
+    """Writes quotients of lowered polynomials in a context; a bottom without a licence is adjoined,
+    as a root."""
 
     def __init__(self, context: checker.Context, renamed: Renamed, normal: Normal) -> None:
         self.context, self.renamed, self.normal = context, renamed, normal
@@ -48,7 +50,9 @@ class TermWriter:
         self.licensed: list[tuple[fmpq_mpoly, fmpq_mpoly]] = []  # each as it is, and lowered
         for poly, _ in context.licensed.values():
             if set(keys) <= set(ring.names()):
-                whole = to_flint(poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size).project_to_context(ring)
+                whole = to_flint(
+                    poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size
+                ).project_to_context(ring)
                 lowered = normal.lower(whole)
                 if not lowered.is_constant():
                     self.licensed.append((whole, lowered))
@@ -67,10 +71,15 @@ class TermWriter:
 
     def unlicensed(self, value: Quotient) -> list[fmpq_mpoly]:
         """The factors of the bottom that no licence has."""
-        return [f for f, _ in value.bottom.factor()[1] if not f.is_constant() and self.licence(f) is None]
+        return [
+            f
+            for f, _ in value.bottom.factor()[1]
+            if not f.is_constant() and self.licence(f) is None
+        ]
 
     def text(self, value: Quotient, weight: Weight = ()) -> str:
-        """The quotient as text, of this weight; `inverses` grows by what has to be adjoined for it."""
+        """The quotient as text, of this weight; `inverses` grows by what has to be adjoined for
+        it."""
         normal = self.normal
         top, bottoms, inverses = value.top, [], []
         scale, factors = value.bottom.factor()
@@ -81,7 +90,10 @@ class TermWriter:
             if licence is not None:
                 top = top * (licence[1] / factor) ** power
                 bottoms += [(self.renamed.text(licence[0]), power)]
-                need = [n + power * w for n, w in zip(need, normal.weight(normal.lower_units(licence[0])))]
+                need = [
+                    n + power * w
+                    for n, w in zip(need, normal.weight(normal.lower_units(licence[0])))
+                ]
             else:
                 mark = self.renamed.text(factor)
                 if mark not in self.inverses:
@@ -91,7 +103,9 @@ class TermWriter:
         whole = normal.lift(top)
         for unit, power in zip(normal.units, missing):
             if power > 0:
-                whole = whole * whole.context().gen(whole.context().variable_to_index(unit)) ** power
+                whole = (
+                    whole * whole.context().gen(whole.context().variable_to_index(unit)) ** power
+                )
             elif power < 0 and top != 0:
                 bottoms.append((unit, -power))
         text = self.renamed.text(whole)
@@ -118,19 +132,46 @@ class Wanted:
     normal: Normal
 
 
-def confirmed(wanted: Wanted, state: checker.State, choice: Choice, keys: dict[str, str], known: Known, budget: Budget,
-              samples: Sequence[Sample], effort: int) -> Node | None:
-    """The choice as a found with all nodes, accepted by the checker; None where a node is missing."""
+def confirmed(
+    wanted: Wanted,
+    state: checker.State,
+    choice: Choice,
+    keys: dict[str, str],
+    known: Known,
+    budget: Budget,
+    samples: Sequence[Sample],
+    effort: int,
+) -> Node | None:
+    """The choice as a found with all nodes, accepted by the checker; None where a node is
+    missing."""
     found = _with_nodes(wanted, state, choice, keys, known, budget, samples, effort, 3)
     named = {wanted.statement.name: wanted.statement}
-    ok = found is not None and accepted(checker.find, state.branch(), found, known, wanted.purpose, named, wanted.base, wanted.sharp)
+    ok = found is not None and accepted(
+        checker.find, state.branch(), found, known, wanted.purpose, named, wanted.base, wanted.sharp
+    )
     return found if ok else None
 
 
-def _with_nodes(wanted: Wanted, state: checker.State, choice: Choice, keys: dict[str, str], known: Known, budget: Budget,
-                samples: Sequence[Sample], effort: int, depth: int) -> Node | None:
-    """The found; the signs of what it divides by are told apart first where no licence settles them."""
-    statement, purpose, base, sharp, normal = wanted.statement, wanted.purpose, wanted.base, wanted.sharp, wanted.normal
+def _with_nodes(
+    wanted: Wanted,
+    state: checker.State,
+    choice: Choice,
+    keys: dict[str, str],
+    known: Known,
+    budget: Budget,
+    samples: Sequence[Sample],
+    effort: int,
+    depth: int,
+) -> Node | None:
+    """The found; the signs of what it divides by are told apart first where no licence settles
+    them."""
+    statement, purpose, base, sharp, normal = (
+        wanted.statement,
+        wanted.purpose,
+        wanted.base,
+        wanted.sharp,
+        wanted.normal,
+    )
     own = state.branch()
     renamed = Renamed(choice.ring)
     writer = TermWriter(own.context, renamed, normal)
@@ -146,8 +187,13 @@ def _with_nodes(wanted: Wanted, state: checker.State, choice: Choice, keys: dict
                     node = search_closing(branch, known, budget, min(effort, 1))
                     if node is None and case == 1:
                         return None
-                    part = ["empty", node] if node is not None else _with_nodes(
-                        wanted, branch, choice, keys, known, budget, samples, effort, depth - 1)
+                    part = (
+                        ["empty", node]
+                        if node is not None
+                        else _with_nodes(
+                            wanted, branch, choice, keys, known, budget, samples, effort, depth - 1
+                        )
+                    )
                     if part is None:
                         return None
                     founds.append(part)
@@ -161,15 +207,29 @@ def _with_nodes(wanted: Wanted, state: checker.State, choice: Choice, keys: dict
             adjoined.append(entry)
         terms: dict[str, str] = {}
         for variable, key in sorted(keys.items()):
-            terms[variable] = writer.text(choice.values[key], normal.weights.get(key, ())) if key in choice.values else renamed.names[key]
+            terms[variable] = (
+                writer.text(choice.values[key], normal.weights.get(key, ()))
+                if key in choice.values
+                else renamed.names[key]
+            )
         for name, factor in list(writer.inverses.values()):
             entry = _adjoined_inverse(own, name, factor, renamed, known, budget, samples, effort)
             if entry is None:
                 return None
             adjoined.append(entry)
-        values = {variable: own.context.value(checker.parse(text)) for variable, text in terms.items()}
-        story = checker.Unfolding(statement, checker.Context(own.context, {**values, **base}), sharp)
-        aims = [own.branch(checker.negate(checker.join("and", story.goals if purpose == "witness" else story.premises)))]
+        values = {
+            variable: own.context.value(checker.parse(text)) for variable, text in terms.items()
+        }
+        story = checker.Unfolding(
+            statement, checker.Context(own.context, {**values, **base}), sharp
+        )
+        aims = [
+            own.branch(
+                checker.negate(
+                    checker.join("and", story.goals if purpose == "witness" else story.premises)
+                )
+            )
+        ]
         aims += [own.branch(story.goal(True), story.context)] if purpose == "counterexample" else []
     except checker.Rejected:
         return None
@@ -182,9 +242,18 @@ def _with_nodes(wanted: Wanted, state: checker.State, choice: Choice, keys: dict
     return [statement.name, adjoined, terms, *nodes]
 
 
-def _adjoined_root(state: checker.State, root: Root, renamed: Renamed, writer: TermWriter, known: Known, budget: Budget,
-                   samples: Sequence[Sample], effort: int) -> Node | None:
-    """The larger root of a polynomial of degree 2 with leading coefficient 1, between 0 or its vertex and a bound."""
+def _adjoined_root(
+    state: checker.State,
+    root: Root,
+    renamed: Renamed,
+    writer: TermWriter,
+    known: Known,
+    budget: Budget,
+    samples: Sequence[Sample],
+    effort: int,
+) -> Node | None:
+    """The larger root of a polynomial of degree 2 with leading coefficient 1, between 0 or its
+    vertex and a bound."""
     normal = writer.normal
     name = writer.fresh(root.name)
     renamed.names[root.name] = name
@@ -203,8 +272,16 @@ def _adjoined_root(state: checker.State, root: Root, renamed: Renamed, writer: T
     return None
 
 
-def _adjoined_inverse(state: checker.State, name: str, factor: fmpq_mpoly, renamed: Renamed, known: Known, budget: Budget,
-                      samples: Sequence[Sample], effort: int) -> Node | None:
+def _adjoined_inverse(
+    state: checker.State,
+    name: str,
+    factor: fmpq_mpoly,
+    renamed: Renamed,
+    known: Known,
+    budget: Budget,
+    samples: Sequence[Sample],
+    effort: int,
+) -> Node | None:
     values = [constant_of(factor.subs(dict(s))) for s in samples]
     known_values = [v for v in values if v]
     if not known_values or len({v > 0 for v in known_values}) > 1:
@@ -215,7 +292,8 @@ def _adjoined_inverse(state: checker.State, name: str, factor: fmpq_mpoly, renam
         if fmpq(1, bound) <= least:
             text, low, high = f"({renamed.text(factor)})*{name} - 1", "0", str(bound)
             if sign < 0:
-                # factor < 0: its inverse lies in [-bound, 0]; the polynomial 1 - factor * inverse rises there.
+                # factor < 0: its inverse lies in [-bound, 0]; the polynomial 1 - factor * inverse
+                # rises there.
                 text, low, high = f"1 - ({renamed.text(factor)})*{name}", str(-bound), "0"
             entry = adjoined_entry(state, name, text, low, high, known, budget, effort)
             if entry is not None:
@@ -223,16 +301,31 @@ def _adjoined_inverse(state: checker.State, name: str, factor: fmpq_mpoly, renam
     return None
 
 
-def adjoined_entry(state: checker.State, name: str, text: str, low: str, high: str, known: Known, budget: Budget, effort: int) -> Node | None:
+def adjoined_entry(
+    state: checker.State,
+    name: str,
+    text: str,
+    low: str,
+    high: str,
+    known: Known,
+    budget: Budget,
+    effort: int,
+) -> Node | None:
     """The adjoined entry with its nodes; the state then has the new variable."""
     context, zero, tree = state.context, checker.ZERO, checker.parse(text)
     ends = [context.value(checker.parse(end)) for end in (low, high)]
-    first, second = (checker.Context(context, {**context.values, name: end}).value(tree) for end in ends)
-    wrong = checker.join("or", [context.atom(ends[0], ">", ends[1]), context.atom(first, ">", zero)])
+    first, second = (
+        checker.Context(context, {**context.values, name: end}).value(tree) for end in ends
+    )
+    wrong = checker.join(
+        "or", [context.atom(ends[0], ">", ends[1]), context.atom(first, ">", zero)]
+    )
     below = search_closing(state.branch(wrong), known, budget, min(effort, 1))
     if below is None:
         return None
-    above = search_closing(state.branch(context.atom(second, "<", zero)), known, budget, min(effort, 1))
+    above = search_closing(
+        state.branch(context.atom(second, "<", zero)), known, budget, min(effort, 1)
+    )
     if above is None:
         return None
     entry = [name, text, low, high, below, above]

@@ -1,4 +1,5 @@
-"""Positive definite Gram matrices with given coefficients: found in floating point, then rounded to exact rationals."""
+"""Positive definite Gram matrices with given coefficients: found in floating point, then rounded to
+exact rationals."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ CENTRED = 1e-8
 
 @dataclass(frozen=True)
 class Block:
-    """sum G_ij multiplier b_i b_j, for the monomials b of the basis, each times its scale: a positive definite G is sought."""
+    """sum G_ij multiplier b_i b_j, for the monomials b of the basis, each times its scale: a
+    positive definite G is sought."""
 
     multiplier: Polynomial
     basis: tuple[Exponents, ...]
@@ -32,7 +34,11 @@ class Block:
         for i, a in enumerate(self.basis):
             for j, b in enumerate(self.basis):
                 scale = self.scales[i] * self.scales[j]
-                yield i, j, {tuple(map(sum, zip(e, a, b))): c * scale for e, c in self.multiplier.items()}
+                yield (
+                    i,
+                    j,
+                    {tuple(map(sum, zip(e, a, b))): c * scale for e, c in self.multiplier.items()},
+                )
 
 
 def product(p: Polynomial, q: Polynomial) -> Polynomial:
@@ -46,12 +52,18 @@ def product(p: Polynomial, q: Polynomial) -> Polynomial:
 
 
 def inner(p: Polynomial, blocks: Sequence[Block]) -> list[Array] | None:
-    """Matrices of the blocks whose sum is p to rounding, with the least eigenvalue as large as it gets; None where it is not positive.
+    """Matrices of the blocks whose sum is p to rounding, with the least eigenvalue as large as it
+    gets; None where it is not positive.
 
-    It follows the central path of: minimise t, where the matrices plus t are positive definite and have the sum p.
-    Source: Boyd and Vandenberghe, Convex Optimization, 11.4 (phase I).
+    It follows the central path of: minimise t, where the matrices plus t are positive definite and
+    have the sum p. Source: Boyd and Vandenberghe, Convex Optimization, 11.4 (phase I).
     """
-    rows = {e: k for k, e in enumerate(sorted({e for block in blocks for _, _, part in block.parts() for e in part}))}
+    rows = {
+        e: k
+        for k, e in enumerate(
+            sorted({e for block in blocks for _, _, part in block.parts() for e in part})
+        )
+    }
     if any(e not in rows for e in p):
         return None
     scales = [max(abs(float(c)) for c in block.multiplier.values()) for block in blocks]
@@ -64,7 +76,9 @@ def inner(p: Polynomial, blocks: Sequence[Block]) -> list[Array] | None:
     sought = np.zeros(len(rows))
     for e, c in p.items():
         sought[rows[e]] = float(c) / size
-    norms = np.max([np.abs(form).max(axis=(1, 2)) for form in forms if form.size], axis=0)  # a small row is to hold as well as a large one
+    norms = np.max(
+        [np.abs(form).max(axis=(1, 2)) for form in forms if form.size], axis=0
+    )  # a small row is to hold as well as a large one
     found = _follow([form / norms[:, None, None] for form in forms], sought / norms)
     return None if found is None else [gram * size / scale for gram, scale in zip(found, scales)]
 
@@ -75,7 +89,10 @@ def _follow(forms: list[Array], sought: Array) -> list[Array] | None:
     if np.abs(flat @ start - sought).max() > CENTRED:
         return None
     ends = np.cumsum([0] + [form.shape[1] ** 2 for form in forms])
-    grams = [start[first:last].reshape(form.shape[1:]) for first, last, form in zip(ends, ends[1:], forms)]
+    grams = [
+        start[first:last].reshape(form.shape[1:])
+        for first, last, form in zip(ends, ends[1:], forms)
+    ]
     lift = 1 - min(float(np.linalg.eigvalsh((gram + gram.T) / 2)[0]) for gram in grams)
     grams = [(gram + gram.T) / 2 + lift * np.eye(len(gram)) for gram in grams]
     units = sum(np.trace(form, axis1=1, axis2=2) for form in forms)
@@ -85,9 +102,14 @@ def _follow(forms: list[Array], sought: Array) -> list[Array] | None:
         system = np.zeros((len(sought) + 1, len(sought) + 1))
         system[:-1, -1] = system[-1, :-1] = units
         for form, gram in zip(forms, grams):
-            system[:-1, :-1] += form.reshape(len(sought), -1) @ (gram @ form @ gram).reshape(len(sought), -1).T
+            system[:-1, :-1] += (
+                form.reshape(len(sought), -1) @ (gram @ form @ gram).reshape(len(sought), -1).T
+            )
         solved = np.linalg.lstsq(system, np.append(values, pull), rcond=1e-15)[0]
-        steps = [gram - gram @ np.tensordot(solved[:-1], form, axes=1) @ gram for form, gram in zip(forms, grams)]
+        steps = [
+            gram - gram @ np.tensordot(solved[:-1], form, axes=1) @ gram
+            for form, gram in zip(forms, grams)
+        ]
         reach = min(_reach(gram, step) for gram, step in zip(grams, steps))
         length = min(1.0, 0.8 * reach)
         grams = [gram + length * (step + step.T) / 2 for gram, step in zip(grams, steps)]
@@ -110,17 +132,27 @@ def _reach(gram: Array, step: Array) -> float:
     return 1e9 if least >= 0 else -1 / least
 
 
-def rounded(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Array], spare: Sequence[int]) -> list[Matrix] | None:
-    """Rational matrices, positive definite, with exactly the sum p: the first block makes up for what rounding the others leaves.
+def rounded(
+    p: Polynomial, blocks: Sequence[Block], grams: Sequence[Array], spare: Sequence[int]
+) -> list[Matrix] | None:
+    """Rational matrices, positive definite, with exactly the sum p: the first block makes up for
+    what rounding the others leaves.
 
-    `spare` names blocks whose entry (0, 0) takes what is left of a monomial that the first block cannot have.
+    `spare` names blocks whose entry (0, 0) takes what is left of a monomial that the first block
+    cannot have.
     """
     home: dict[Exponents, list[tuple[int, int]]] = {}
     for i, a in enumerate(blocks[0].basis):
         for j in range(i, len(blocks[0].basis)):
             home.setdefault(tuple(map(sum, zip(a, blocks[0].basis[j]))), []).append((i, j))
     for bits in BITS:
-        exact = [[[Fraction(round(float(c) * 2**bits), 2**bits) for c in row] for row in (gram + gram.T) / 2] for gram in grams]
+        exact = [
+            [
+                [Fraction(round(float(c) * 2**bits), 2**bits) for c in row]
+                for row in (gram + gram.T) / 2
+            ]
+            for gram in grams
+        ]
         left = _left(p, blocks, exact)
         for k in spare:
             ((monomial, c),) = blocks[k].multiplier.items()
@@ -133,7 +165,10 @@ def rounded(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Array], spar
             for i, j in home[e]:
                 exact[0][i][j] += share / (blocks[0].scales[i] * blocks[0].scales[j])
                 exact[0][j][i] = exact[0][i][j]
-        if all(min(np.linalg.eigvalsh(np.array(gram, dtype=float))[:1], default=1) > 0 for gram in exact) and all(map(squares, exact)):
+        if all(
+            min(np.linalg.eigvalsh(np.array(gram, dtype=float))[:1], default=1) > 0
+            for gram in exact
+        ) and all(map(squares, exact)):
             return exact
     return None
 
@@ -148,7 +183,8 @@ def _left(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Matrix]) -> Po
 
 
 def squares(gram: Matrix) -> list[tuple[Fraction, list[Fraction]]] | None:
-    """G = sum d l l^T with d > 0, by elimination; None where G is not positive definite.  An empty G has no squares."""
+    """G = sum d l l^T with d > 0, by elimination; None where G is not positive definite.  An empty
+    G has no squares."""
     rest, found = [list(row) for row in gram], []
     for k in range(len(gram)):
         pivot = rest[k][k]

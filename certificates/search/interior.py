@@ -1,4 +1,5 @@
-"""Whether a problem seems to have a point: floating samples that are moved uphill, so that hopeless proofs are not tried.
+"""Whether a problem seems to have a point: floating samples that are moved uphill, so that hopeless
+proofs are not tried.
 
 A point found here proves nothing; it only ends the search for a proof that cannot exist.
 """
@@ -21,15 +22,21 @@ class Values:
 
     def __init__(self, problem: Problem) -> None:
         self.exponents: list[Array] = []
-        self.used = sorted({v for fact in problem.facts for v, d in enumerate(fact.poly.degrees()) if d})
+        self.used = sorted(
+            {v for fact in problem.facts for v, d in enumerate(fact.poly.degrees()) if d}
+        )
         place = {v: k for k, v in enumerate(self.used)}
         monomials: dict[tuple[int, ...], int] = {}
         entries: list[tuple[int, int, float]] = []
         for row, fact in enumerate(problem.facts):
             for monomial, coefficient in zip(fact.poly.monoms(), fact.poly.coeffs()):
-                column = monomials.setdefault(tuple(int(monomial[v]) for v in self.used), len(monomials))
+                column = monomials.setdefault(
+                    tuple(int(monomial[v]) for v in self.used), len(monomials)
+                )
                 entries.append((row, column, float(int(coefficient))))
-        self.powers = np.array(list(monomials), dtype=np.int64).reshape(len(monomials), len(self.used))
+        self.powers = np.array(list(monomials), dtype=np.int64).reshape(
+            len(monomials), len(self.used)
+        )
         self.matrix = np.zeros((len(problem.facts), len(monomials)))
         for row, column, value in entries:
             self.matrix[row, column] += value
@@ -37,11 +44,14 @@ class Values:
         self.range = None
         if problem.bounded is not None and problem.bounded.variable in place:
             bounded = problem.bounded
-            low, high = (float(problem.facts[k].end(bounded.variable)) for k in (bounded.low, bounded.high))
+            low, high = (
+                float(problem.facts[k].end(bounded.variable)) for k in (bounded.low, bounded.high)
+            )
             self.range = place[bounded.variable], low, high
 
     def least(self, points: Array) -> Array:
-        """At every point the least of the facts, each divided by the sum of the absolute values of its terms."""
+        """At every point the least of the facts, each divided by the sum of the absolute values of
+        its terms."""
         table = np.ones((self.top + 1, *points.shape))
         for k in range(1, self.top + 1):
             table[k] = table[k - 1] * points
@@ -54,7 +64,8 @@ class Values:
 
 
 def has_interior_point(problem: Problem, budget: Budget) -> bool:
-    """Whether a floating point was found at which every fact is positive by a margin; never where an equation is left."""
+    """Whether a floating point was found at which every fact is positive by a margin; never where
+    an equation is left."""
     if problem.reduction.left or not problem.facts or len(problem.facts) > 40:
         return False
     values = Values(problem)

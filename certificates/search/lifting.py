@@ -1,4 +1,5 @@
-"""Identities of the reduced problem turned into identities between the facts of the state, as the checker reads them."""
+"""Identities of the reduced problem turned into identities between the facts of the state, as the
+checker reads them."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ SWEEPS = 8
 
 @dataclass
 class Term:
-    """coefficient * product of facts * root^2, in the numbers and polynomials of the state with its units set to 1."""
+    """coefficient * product of facts * root^2, in the numbers and polynomials of the state with its
+    units set to 1."""
 
     coefficient: Fraction
     factors: Factors
@@ -27,7 +29,8 @@ class Term:
 
 @dataclass
 class Source:
-    """What the search started from: lowered facts (numerators), their denominators, and which are not known to be positive."""
+    """What the search started from: lowered facts (numerators), their denominators, and which are
+    not known to be positive."""
 
     ring: Ring
     scaling: Scaling
@@ -35,13 +38,19 @@ class Source:
     lowered: list[fmpz_mpoly]
     dens: list[int]
     relations: list[str]
-    unit_facts: dict[int, tuple[int, int]]  # unit variable -> (number of the fact c * variable > 0, c)
+    unit_facts: dict[
+        int, tuple[int, int]
+    ]  # unit variable -> (number of the fact c * variable > 0, c)
 
 
-def finish(source: Source, reduction: Reduction, terms: Sequence[Term], cofactors: dict[int, fmpz_mpoly]) -> list[object] | None:
-    """The node ["psatz", products, equations] for an identity that holds modulo the reduction's equations; None if it does not lift.
+def finish(
+    source: Source, reduction: Reduction, terms: Sequence[Term], cofactors: dict[int, fmpz_mpoly]
+) -> list[object] | None:
+    """The node ["psatz", products, equations] for an identity that holds modulo the reduction's
+    equations; None if it does not lift.
 
-    `cofactors` belong to the state's own equations; what the eliminated equations owe is found by division.
+    `cofactors` belong to the state's own equations; what the eliminated equations owe is found by
+    division.
     """
     ring, lowered = source.ring, source.lowered
     common = lcm(1, *(t.coefficient.denominator for t in terms))
@@ -61,14 +70,22 @@ def finish(source: Source, reduction: Reduction, terms: Sequence[Term], cofactor
             continue
         quotient, rest = divmod(total, step.form)
         if rest:
-            count, quotient, rest = pseudo_divide(total, step.variable, ring.gens[step.variable], step.lead, step.rest)
+            count, quotient, rest = pseudo_divide(
+                total, step.variable, ring.gens[step.variable], step.lead, step.rest
+            )
             if step.lead_factors:
                 extra = merge(extra, power(step.lead_factors, count))
             terms = [Term(t.coefficient * step.lead_scale**count, t.factors, t.root) for t in terms]
             owed = {k: c * step.lead**count for k, c in owed.items()}
         multiple, factors = step.multiple, step.multiple_factors
-        if any(source.relations[index] == "!=" for index, _ in factors):  # an even power, for want of a sign
-            quotient, multiple, factors = quotient * multiple, multiple * multiple, power(factors, 2)
+        if any(
+            source.relations[index] == "!=" for index, _ in factors
+        ):  # an even power, for want of a sign
+            quotient, multiple, factors = (
+                quotient * multiple,
+                multiple * multiple,
+                power(factors, 2),
+            )
         owed = {k: c * multiple for k, c in owed.items()}
         for k, c in step.combination.items():
             owed[k] = owed.get(k, ring.zero) - quotient * c
@@ -76,7 +93,8 @@ def finish(source: Source, reduction: Reduction, terms: Sequence[Term], cofactor
         total = rest * multiple
     for _ in range(SWEEPS if total else 0):
         for equation in reduction.basis():
-            # total * scale = quotient * poly + rest, with a scale that makes every division of coefficients exact
+            # total * scale = quotient * poly + rest, with a scale that makes every division of
+            # coefficients exact
             content = int(equation.poly.content())
             poly = equation.poly / content
             leading = abs(int(poly.leading_coefficient()))
@@ -86,7 +104,11 @@ def finish(source: Source, reduction: Reduction, terms: Sequence[Term], cofactor
                 continue
             multiple, factors, scale = equation.multiple, equation.factors, scale * content
             if any(source.relations[index] == "!=" for index, _ in factors):
-                quotient, multiple, factors = quotient * multiple, multiple * multiple, power(factors, 2)
+                quotient, multiple, factors = (
+                    quotient * multiple,
+                    multiple * multiple,
+                    power(factors, 2),
+                )
             terms = [Term(t.coefficient * scale, t.factors, t.root) for t in terms]
             owed = {k: c * multiple * scale for k, c in owed.items()}
             for k, c in equation.combination.items():
@@ -101,7 +123,8 @@ def finish(source: Source, reduction: Reduction, terms: Sequence[Term], cofactor
 
 
 def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> list[object]:
-    """The node of an identity between lowered facts, every term brought to one weight by powers of the units."""
+    """The node of an identity between lowered facts, every term brought to one weight by powers of
+    the units."""
     scaling, content = source.scaling, 0
     for t in terms:
         content = gcd(content, t.coefficient.numerator)
@@ -114,11 +137,17 @@ def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) 
         if scaling.units:
             own = scaling.largest(root)
             root = scaling.lift(root, own)
-            weight = tuple(2 * w + sum(e * weights[i][k] for i, e in t.factors) for k, w in enumerate(own))
+            weight = tuple(
+                2 * w + sum(e * weights[i][k] for i, e in t.factors) for k, w in enumerate(own)
+            )
         dens = prod(source.dens[i] ** e for i, e in t.factors)
         parts.append((t.coefficient / content * dens, t.factors, root, weight))
     wanted = [part[3] for part in parts]
-    wanted += [tuple(map(sum, zip(scaling.largest(c), weights[k]))) for k, c in owed.items()] if scaling.units else []
+    wanted += (
+        [tuple(map(sum, zip(scaling.largest(c), weights[k]))) for k, c in owed.items()]
+        if scaling.units
+        else []
+    )
     target = tuple(map(max, zip(*wanted)))
     products: list[object] = []
     for coefficient, factors, root, weight in parts:

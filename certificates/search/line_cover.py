@@ -1,4 +1,5 @@
-"""Families over one parameter: where exactly each choice of terms serves, and a cover of the whole range by a few of them."""
+"""Families over one parameter: where exactly each choice of terms serves, and a cover of the whole
+range by a few of them."""
 
 from __future__ import annotations
 
@@ -29,7 +30,10 @@ from .solver import ask
 from .templates import TemplateSearch
 
 NEGLIGIBLE_WIDTH = Fraction(1, 2**200)
-PARTS = (250_000, 1_500_000)  # units of work for closing one piece: for each choice at first, then for the best
+PARTS = (
+    250_000,
+    1_500_000,
+)  # units of work for closing one piece: for each choice at first, then for the best
 
 
 @dataclass
@@ -43,7 +47,9 @@ class Piece:
 class LineCover:
     """The search for a found that serves on a state in one parameter."""
 
-    def __init__(self, task: Task, state: checker.State, parameter: str, samples: Sequence[Sample]) -> None:
+    def __init__(
+        self, task: Task, state: checker.State, parameter: str, samples: Sequence[Sample]
+    ) -> None:
         self.task, self.state, self.parameter, self.samples = task, state, parameter, list(samples)
         self.condition, self.keys, self.integers = setting(task, state)
         self.normal = Normal(state, self.condition, equations=False)
@@ -59,7 +65,12 @@ class LineCover:
             node = search_closing(self.state, self.task.known, self.task.budget, 1)
             return None if node is None else ["empty", node]
         count = len(self.samples)
-        groups = [self.samples, self.samples[:3], self.samples[-3:], self.samples[count // 2:count // 2 + 1]]
+        groups = [
+            self.samples,
+            self.samples[:3],
+            self.samples[-3:],
+            self.samples[count // 2 : count // 2 + 1],
+        ]
         for number, group in enumerate(groups):
             if group and (number == 0 or group != self.samples):
                 self._gather(group)
@@ -83,9 +94,23 @@ class LineCover:
         """More choices: those that serve at all these samples."""
         task, nodes = self.task, min(self.task.nodes, 150)
         borders = self.borders if self.goal is not None else None
-        searches = [kind([self.parameter], samples, task.budget, self.integers, nodes, None, task.hints, self.margins, borders)
-                    for kind in (CornerSearch, TemplateSearch)]
-        for choice in self._failing(chain(*(search.search(self.condition, list(self.keys.values())) for search in searches))):
+        searches = [
+            kind(
+                [self.parameter],
+                samples,
+                task.budget,
+                self.integers,
+                nodes,
+                None,
+                task.hints,
+                self.margins,
+                borders,
+            )
+            for kind in (CornerSearch, TemplateSearch)
+        ]
+        for choice in self._failing(
+            chain(*(search.search(self.condition, list(self.keys.values())) for search in searches))
+        ):
             if all(choice.values != known.values for known, _ in self.served):
                 intervals = self._intervals_of(choice)
                 if intervals:
@@ -93,41 +118,70 @@ class LineCover:
         self.served.sort(key=lambda pair: length(pair[0]))
 
     def _failing(self, choices: Iterator[Choice]) -> Iterator[Choice]:
-        """The first choices; where the goals speak of further variables, those at which Z3 sees no values that meet the goals."""
+        """The first choices; where the goals speak of further variables, those at which Z3 sees no
+        values that meet the goals."""
         if self.goal is None:
             yield from islice(choices, 10)
             return
         count = 0
         for choice in islice(choices, 30):
-            sample = self.samples[choice.serves[len(choice.serves) // 2]] if choice.serves else self.samples[0]
+            sample = (
+                self.samples[choice.serves[len(choice.serves) // 2]]
+                if choice.serves
+                else self.samples[0]
+            )
             given = {**sample, **root_values(choice.roots, sample)}
-            values = {name: value for name, quotient in choice.values.items() if (value := quotient.at(given)) is not None}
-            values = {name: value if value.q < 10**9 else nearest(value) for name, value in values.items()}
-            if ask(self.goal.substituted({**sample, **values}), self.task.budget, self.integers, 100_000).verdict == "unsat":
+            values = {
+                name: value
+                for name, quotient in choice.values.items()
+                if (value := quotient.at(given)) is not None
+            }
+            values = {
+                name: value if value.q < 10**9 else nearest(value) for name, value in values.items()
+            }
+            if (
+                ask(
+                    self.goal.substituted({**sample, **values}),
+                    self.task.budget,
+                    self.integers,
+                    100_000,
+                ).verdict
+                == "unsat"
+            ):
                 yield choice
                 count += 1
                 if count >= 4:
                     return
 
     def _intervals_of(self, choice: Choice) -> list[Interval]:
-        """Where in the state the choice meets the condition, up to the accuracy with which roots are known."""
+        """Where in the state the choice meets the condition, up to the accuracy with which roots
+        are known."""
         condition = self.condition
         for name, value in choice.values.items():
             condition = condition.replaced(name, value.top, value.bottom)
         for root in choice.roots:
             condition = condition.mapped(lambda p, root=root: reduced_by(root, p))
         bottoms = [q.bottom for q in choice.values.values() if not q.bottom.is_constant()]
-        nonzero = Condition(condition.ring, bottoms, ("and", [(k, "!=") for k in range(len(bottoms))]) if bottoms else True)
+        nonzero = Condition(
+            condition.ring,
+            bottoms,
+            ("and", [(k, "!=") for k in range(len(bottoms))]) if bottoms else True,
+        )
         whole = condition.conjoined(nonzero)
         place = whole.ring.variable_to_index(self.parameter)
         for root in choice.roots:
-            if any(e for i, e in enumerate(root.poly.degrees()) if i not in (place, whole.ring.variable_to_index(root.name))):
+            if any(
+                e
+                for i, e in enumerate(root.poly.degrees())
+                if i not in (place, whole.ring.variable_to_index(root.name))
+            ):
                 return []
         self.task.budget.spend(300 + 200 * len(whole.polys))
         return _intervals(self.allowed, self.parameter, whole, choice)
 
     def _plan(self, regions: Sequence[Interval]) -> list[Piece] | Sample:
-        """Pieces that cover the regions from left to right, or a sample just where nothing serves."""
+        """Pieces that cover the regions from left to right, or a sample just where nothing
+        serves."""
         pieces: list[Piece] = []
         for region in regions:
             low, closed = region.low, region.low_closed
@@ -135,7 +189,9 @@ class LineCover:
                 best: Piece | None = None
                 for choice, intervals in self.served:
                     for interval in intervals:
-                        if _starts(interval, low, closed) and (best is None or _further(interval, best.interval)):
+                        if _starts(interval, low, closed) and (
+                            best is None or _further(interval, best.interval)
+                        ):
                             best = Piece(interval, choice)
                 if best is None:
                     return {self.parameter: _just_above(low, region.high)}
@@ -157,7 +213,11 @@ class LineCover:
         branches = state.by_sign(text)
         founds = [self._build(branches[0], plan[:k], depth)]
         if founds[0] is not None:
-            founds.append(self._leaf(branches[1], (left, right)[middle], 0) if middle is not None else self._empty(branches[1]))
+            founds.append(
+                self._leaf(branches[1], (left, right)[middle], 0)
+                if middle is not None
+                else self._empty(branches[1])
+            )
         if founds[-1] is not None:
             founds.append(self._build(branches[2], plan[k:], depth))
         return ["sign", text, *founds] if founds[-1] is not None else None
@@ -168,13 +228,26 @@ class LineCover:
 
     def _leaf(self, state: checker.State, piece: Piece, depth: int) -> Node | None:
         """The piece's choice, or another that serves there, or the piece in two halves."""
-        others = [c for c, intervals in self.served if c is not piece.choice and any(_within(piece.interval, i) for i in intervals)]
+        others = [
+            c
+            for c, intervals in self.served
+            if c is not piece.choice and any(_within(piece.interval, i) for i in intervals)
+        ]
         task = self.task
         wanted = Wanted(task.statement, task.purpose, task.base, task.sharp, self.normal)
         for part, choices in zip(PARTS, ([piece.choice, *others[:4]], [piece.choice, *others[:1]])):
             for choice in choices:
                 try:
-                    found = confirmed(wanted, state, choice, self.keys, task.known, task.budget.part(part), self.samples, task.effort)
+                    found = confirmed(
+                        wanted,
+                        state,
+                        choice,
+                        self.keys,
+                        task.known,
+                        task.budget.part(part),
+                        self.samples,
+                        task.effort,
+                    )
                 except Exhausted:
                     if task.budget.left <= 0:
                         raise
@@ -186,11 +259,17 @@ class LineCover:
             return None
         gap = high._low - low._high
         value = simplest_between(low._high + gap / 3, high._low - gap / 3)
-        halves = (Interval(low, piece.interval.low_closed, AlgebraicNumber.rational(value), True),
-                  Interval(AlgebraicNumber.rational(value), True, high, piece.interval.high_closed))
-        return self._build_halves(state, [Piece(half, piece.choice) for half in halves], value, depth - 1)
+        halves = (
+            Interval(low, piece.interval.low_closed, AlgebraicNumber.rational(value), True),
+            Interval(AlgebraicNumber.rational(value), True, high, piece.interval.high_closed),
+        )
+        return self._build_halves(
+            state, [Piece(half, piece.choice) for half in halves], value, depth - 1
+        )
 
-    def _build_halves(self, state: checker.State, halves: Sequence[Piece], value: fmpq, depth: int) -> Node | None:
+    def _build_halves(
+        self, state: checker.State, halves: Sequence[Piece], value: fmpq, depth: int
+    ) -> Node | None:
         text = linear_text(value, self.parameter)
         founds: list[Node] = []
         for branch, piece in zip(state.by_sign(text), (halves[0], halves[0], halves[1])):
@@ -201,8 +280,11 @@ class LineCover:
         return ["sign", text, *founds]
 
 
-def _intervals(allowed: Condition, parameter: str, whole: Condition | None = None, choice: Choice | None = None) -> list[Interval]:
-    """The maximal intervals on which the allowed condition, and the other one where there is one, hold."""
+def _intervals(
+    allowed: Condition, parameter: str, whole: Condition | None = None, choice: Choice | None = None
+) -> list[Interval]:
+    """The maximal intervals on which the allowed condition, and the other one where there is one,
+    hold."""
     numbers: list[AlgebraicNumber] = []
     roots = choice.roots if choice else []
     polys = [univariate(p, parameter) for k in allowed.used() for p in [allowed.polys[k]]]
@@ -227,19 +309,25 @@ def _intervals(allowed: Condition, parameter: str, whole: Condition | None = Non
             at = numbers[-1]._high + 1
         else:
             at = simplest_between(numbers[k // 2 - 1]._high, numbers[k // 2]._low)
-        verdicts.append(_holds(allowed, parameter, at) and (whole is None or _holds(whole, parameter, at, choice)))
+        verdicts.append(
+            _holds(allowed, parameter, at)
+            and (whole is None or _holds(whole, parameter, at, choice))
+        )
     return Line(tuple(numbers), tuple(verdicts)).intervals(True)
 
 
 def _norm(poly: fmpq_mpoly, choice: Choice | None) -> fmpq_mpoly:
-    """A polynomial in the parameter alone that vanishes where this one does, for some sign of the roots."""
+    """A polynomial in the parameter alone that vanishes where this one does, for some sign of the
+    roots."""
     for root in reversed(choice.roots if choice else []):
         if poly.degrees()[poly.context().variable_to_index(root.name)]:
             poly = poly.resultant(root.poly, root.name)
     return poly
 
 
-def _holds(condition: Condition, parameter: str, at: fmpq | AlgebraicNumber, choice: Choice | None = None) -> bool:
+def _holds(
+    condition: Condition, parameter: str, at: fmpq | AlgebraicNumber, choice: Choice | None = None
+) -> bool:
     if isinstance(condition.tree, bool):
         return condition.tree
     if not choice or not choice.roots:
@@ -259,11 +347,16 @@ def _holds(condition: Condition, parameter: str, at: fmpq | AlgebraicNumber, cho
 
 
 def _starts(interval: Interval, low: AlgebraicNumber | None, closed: bool) -> bool:
-    """Whether an interval has the first numbers above `low`, and `low` itself where that is asked."""
+    """Whether an interval has the first numbers above `low`, and `low` itself where that is
+    asked."""
     if low is None:
         return interval.low is None
     if interval.low is None or interval.low < low:
-        return interval.high is None or interval.high > low or (closed and interval.high == low and interval.high_closed)
+        return (
+            interval.high is None
+            or interval.high > low
+            or (closed and interval.high == low and interval.high_closed)
+        )
     return interval.low == low and (interval.low_closed or not closed)
 
 
@@ -273,7 +366,9 @@ def _further(interval: Interval, than: Interval) -> bool:
         return False
     if interval.high is None:
         return True
-    return interval.high > than.high or (interval.high == than.high and interval.high_closed and not than.high_closed)
+    return interval.high > than.high or (
+        interval.high == than.high and interval.high_closed and not than.high_closed
+    )
 
 
 def _within(inner: Interval, outer: Interval) -> bool:

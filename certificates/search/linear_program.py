@@ -1,4 +1,5 @@
-"""Positive combinations of polynomials that vanish identically: floating HiGHS for the support, exact rationals on it."""
+"""Positive combinations of polynomials that vanish identically: floating HiGHS for the support,
+exact rationals on it."""
 
 from __future__ import annotations
 
@@ -24,10 +25,13 @@ def _no_exponents(keys: Keys) -> Keys:
 
 
 class Program:
-    """Find c >= 0 for the columns and any m for the free ones with sum c * column + sum m * free = 0, and a strict c > 0."""
+    """Find c >= 0 for the columns and any m for the free ones with sum c * column + sum m * free =
+    0, and a strict c > 0."""
 
     def __init__(self) -> None:
-        self.places: list[Any] = []  # of every block, the columns, monomials and values of its entries
+        self.places: list[
+            Any
+        ] = []  # of every block, the columns, monomials and values of its entries
         self.keys: list[Any] = []
         self.values: list[Any] = []
         self.strict: list[Any] = []  # an array for every block
@@ -38,7 +42,8 @@ class Program:
         self.columns = 0
 
     def add(self, places: Any, keys: Any, values: Any, strict: Any, costs: Any) -> None:
-        """Columns that may be used with positive coefficients; `places` counts them from the first of these."""
+        """Columns that may be used with positive coefficients; `places` counts them from the first
+        of these."""
         self._entries(places, keys, values)
         self.strict.append(strict)
         self.costs.append(costs)
@@ -46,7 +51,8 @@ class Program:
         self.columns += len(strict)
 
     def add_free(self, count: int, keys: Any, values: Any) -> None:
-        """Columns with the same number of entries that may be used with any coefficients; these come last."""
+        """Columns with the same number of entries that may be used with any coefficients; these
+        come last."""
         self._entries(np.repeat(np.arange(count), len(keys) // max(1, count)), keys, values)
         self.columns += count
 
@@ -56,7 +62,8 @@ class Program:
         self.values.append(values)
 
     def add_rewriting(self, leading: Keys, keys: Keys, values: Any) -> None:
-        """An equation, its leading monomial first: columns are compared after its multiples are taken off."""
+        """An equation, its leading monomial first: columns are compared after its multiples are
+        taken off."""
         self.rewritings.append((leading, keys, values))
 
 
@@ -64,7 +71,8 @@ Solution = tuple[dict[int, Fraction], dict[int, Fraction]]
 
 
 def solve(program: Program, budget: Budget) -> Solution | None:
-    """The positive coefficients of the columns used and the coefficients of the free ones used, exactly; None where none were found.
+    """The positive coefficients of the columns used and the coefficients of the free ones used,
+    exactly; None where none were found.
 
     >>> from .polynomials import Packing, Ring
     >>> ring = Ring(("x",))
@@ -95,14 +103,24 @@ def solve(program: Program, budget: Budget) -> Solution | None:
     inequality, strict, costs = alive < count, strict[alive], costs[alive]
     budget.spend(100 + work.size // 8)
     for jitter in JITTER:
-        values, basic = optimum(work / size, inequality, strict, costs * (1 + jitter * NOISE[: len(costs)]))
+        values, basic = optimum(
+            work / size, inequality, strict, costs * (1 + jitter * NOISE[: len(costs)])
+        )
         if values is None or basic is None:
             return None
         for support in (np.flatnonzero(np.abs(values) > TINY), basic):
-            found = exact(work[:, support], inequality[support], strict[support], values[support] / size[support], budget)
+            found = exact(
+                work[:, support],
+                inequality[support],
+                strict[support],
+                values[support] / size[support],
+                budget,
+            )
             if found is not None:
                 chosen = [(int(alive[k]), c) for k, c in zip(support, found) if c]
-                return {k: c for k, c in chosen if k < count}, {k - count: c for k, c in chosen if k >= count}
+                return {k: c for k, c in chosen if k < count}, {
+                    k - count: c for k, c in chosen if k >= count
+                }
     return None
 
 
@@ -120,12 +138,17 @@ def assemble(program: Program, budget: Budget) -> Matrix | None:
     if rows * columns > 6_000_000 or columns > len(NOISE):
         return None
     where = inverse * columns + np.concatenate(program.places)
-    matrix: Matrix = np.bincount(where, values, rows * columns).astype(np.float64, copy=False).reshape(rows, columns)
+    matrix: Matrix = (
+        np.bincount(where, values, rows * columns)
+        .astype(np.float64, copy=False)
+        .reshape(rows, columns)
+    )
     return rewritten(matrix, keys, program, budget) if program.rewritings else matrix
 
 
 def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> Matrix | None:
-    """The columns reduced by the equations: a row of a multiple of a leading monomial is moved to the other monomials."""
+    """The columns reduced by the equations: a row of a multiple of a leading monomial is moved to
+    the other monomials."""
     for _ in range(SWEEPS):
         exponents = program.exponents(keys)
         hits = [(exponents >= leading).all(axis=1) for leading, _, _ in program.rewritings]
@@ -133,19 +156,23 @@ def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> M
         if place is None:
             return matrix
         hit, (_, own, values) = hits[place], program.rewritings[place]
-        # the whole matrix is multiplied by the leading coefficient, which changes no relation between its columns
+        # the whole matrix is multiplied by the leading coefficient, which changes no relation
+        # between its columns
         moved = ((keys[hit] - own[0])[:, None] + own[1:]).ravel()
         parts = (matrix[hit][:, None, :] * -values[1:, None]).reshape(len(moved), matrix.shape[1])
         keys, inverse = np.unique(np.concatenate([keys[~hit], moved]), return_inverse=True)
         order = np.argsort(inverse, kind="stable")
         starts = np.searchsorted(inverse[order], np.arange(len(keys)))
-        matrix = np.add.reduceat(np.vstack([matrix[~hit] * values[0], parts])[order], starts, axis=0)
+        matrix = np.add.reduceat(
+            np.vstack([matrix[~hit] * values[0], parts])[order], starts, axis=0
+        )
         budget.spend(20 + matrix.size // 20)
     return None
 
 
 def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
-    """The columns that may be positive: where all of a row has one sign, its columns are zero.  None if no strict one is left."""
+    """The columns that may be positive: where all of a row has one sign, its columns are zero.
+    None if no strict one is left."""
     positive: Mask = matrix > 0
     negative: Mask = matrix < 0
     fixed: Mask = np.asarray(positive[:, count:].any(axis=1) | negative[:, count:].any(axis=1))
@@ -164,7 +191,8 @@ def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
 
 
 def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple[Any, Any]:
-    """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in floats, and its basic columns."""
+    """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in
+    floats, and its basic columns."""
     rows, columns = matrix.shape
     whole = np.vstack([matrix, strict.astype(float)])
     model = highspy.HighsLp()
@@ -193,12 +221,22 @@ def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple
 
 
 # iterations, not seconds, bound a run; one thread and a fixed seed make it the same every time
-OPTIONS = (("output_flag", False), ("presolve", "off"), ("threads", 1), ("random_seed", 1), ("solver", "simplex"),
-           ("simplex_iteration_limit", 5000), ("primal_feasibility_tolerance", 1e-10))
+OPTIONS = (
+    ("output_flag", False),
+    ("presolve", "off"),
+    ("threads", 1),
+    ("random_seed", 1),
+    ("solver", "simplex"),
+    ("simplex_iteration_limit", 5000),
+    ("primal_feasibility_tolerance", 1e-10),
+)
 
 
-def exact(matrix: Matrix, inequality: Mask, strict: Mask, near: Any, budget: Budget) -> list[Fraction] | None:
-    """Exact coefficients of the columns near the floating ones, or None where the columns allow none."""
+def exact(
+    matrix: Matrix, inequality: Mask, strict: Mask, near: Any, budget: Budget
+) -> list[Fraction] | None:
+    """Exact coefficients of the columns near the floating ones, or None where the columns allow
+    none."""
     count = matrix.shape[1]
     kept = matrix[matrix.any(axis=1)]
     if not count or kept.size and np.abs(kept).max() >= EXACT or not strict.any():
@@ -213,11 +251,18 @@ def exact(matrix: Matrix, inequality: Mask, strict: Mask, near: Any, budget: Bud
         pivots.append(next(k for k, c in enumerate(line) if c))
     if pivots and pivots[-1] == count:
         return None
-    values = [Fraction(float(v)).limit_denominator(64) if k not in pivots else Fraction(0) for k, v in enumerate(near)]
+    values = [
+        Fraction(float(v)).limit_denominator(64) if k not in pivots else Fraction(0)
+        for k, v in enumerate(near)
+    ]
     values = [max(v, Fraction(0)) if inequality[k] else v for k, v in enumerate(values)]
     free = [k for k in range(count) if k not in pivots and values[k]]
     for pivot, line in zip(pivots, table):
-        values[pivot] = (Fraction(int(line[count])) - sum(int(line[k]) * values[k] for k in free)) / den
-    if any(v < 0 for v, needed in zip(values, inequality) if needed) or not any(v for v, s in zip(values, strict) if s):
+        values[pivot] = (
+            Fraction(int(line[count])) - sum(int(line[k]) * values[k] for k in free)
+        ) / den
+    if any(v < 0 for v, needed in zip(values, inequality) if needed) or not any(
+        v for v, s in zip(values, strict) if s
+    ):
         return None
     return values

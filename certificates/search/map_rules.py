@@ -13,9 +13,14 @@ from .certificate import search_proof
 from .closing import Hints
 
 
-def search_map_rule(statement: checker.Statement, known: dict[str, checker.Statement], budget: int,
-                    hints: Mapping[str, Hints] | None = None) -> dict[str, Any]:
-    """{"certified": {premise: proof}}, or {"unknown": the premise for which no proof was found}; each premise may take the whole budget.
+def search_map_rule(
+    statement: checker.Statement,
+    known: dict[str, checker.Statement],
+    budget: int,
+    hints: Mapping[str, Hints] | None = None,
+) -> dict[str, Any]:
+    """{"certified": {premise: proof}}, or {"unknown": the premise for which no proof was found};
+    each premise may take the whole budget.
 
     >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\nspace x >= 0\\npiece x >= 0 -> x/2"
     >>> sorted(search_map_rule(checker.read_statements(text)["demo/halves"], {}, 10**6)["certified"])
@@ -29,7 +34,9 @@ def search_map_rule(statement: checker.Statement, known: dict[str, checker.State
         proof = None
         for effort in (1, 2):
             try:
-                proof = proof or search_proof(premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name))
+                proof = proof or search_proof(
+                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
+                )
             except Exhausted:
                 continue
         if proof is None:

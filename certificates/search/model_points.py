@@ -1,4 +1,5 @@
-"""Points where sampling fails: a model of Z3, its values pinned one after another to the simplest that leave the rest possible."""
+"""Points where sampling fails: a model of Z3, its values pinned one after another to the simplest
+that leave the rest possible."""
 
 from __future__ import annotations
 
@@ -16,8 +17,13 @@ from .solver import ask
 WINDOWS = tuple(fmpq(1, 4**k) for k in range(6))
 
 
-def model_assignments(condition: Condition, names: Sequence[str], integers: frozenset[str], budget: Budget, effort: int
-                      ) -> Iterator[Assignment]:
+def model_assignments(
+    condition: Condition,
+    names: Sequence[str],
+    integers: frozenset[str],
+    budget: Budget,
+    effort: int,
+) -> Iterator[Assignment]:
     """Assignments that meet the condition, near a model of it; none where Z3 finds no model."""
     resources = 300_000 * 10 ** (effort - 1)
     answer = ask(condition, budget, integers, resources, model=True)
@@ -44,7 +50,8 @@ def model_assignments(condition: Condition, names: Sequence[str], integers: froz
 
 
 def _near(condition: Condition, name: str, value: Value, integral: bool) -> list[fmpq]:
-    """Values to try in place of a model's: favourites that meet what is said of the variable alone, then simple ones ever nearer."""
+    """Values to try in place of a model's: favourites that meet what is said of the variable alone,
+    then simple ones ever nearer."""
     found = list(trials(condition, name, integral, 4))
     if isinstance(value, AlgebraicNumber):
         centre = value.approximation()

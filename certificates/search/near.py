@@ -28,12 +28,17 @@ class Trial:
     def __init__(self, condition: Condition, name: str) -> None:
         self.condition, self.name, self.size = condition, name, len(condition.polys)
         self.place = places(condition.ring)[name]
-        self.alone: dict[int, fmpq_poly | None] = {}  # polynomials in the variable alone; None: others occur as well
-        self.direct: list[tuple[fmpq_poly, str]] = []  # relations in the variable alone that have to hold
+        self.alone: dict[
+            int, fmpq_poly | None
+        ] = {}  # polynomials in the variable alone; None: others occur as well
+        self.direct: list[
+            tuple[fmpq_poly, str]
+        ] = []  # relations in the variable alone that have to hold
         self.tree: Tree = None
 
     def fails(self, value: fmpq, nearly: bool = False) -> bool:
-        """Whether the condition cannot be met with this value of the variable, as far as folding shows."""
+        """Whether the condition cannot be met with this value of the variable, as far as folding
+        shows."""
         if self.tree is None:
             self._prepare()
         for place, (poly, relation) in enumerate(self.direct):
@@ -52,14 +57,23 @@ class Trial:
                 else:
                     poly = self.condition.polys[k].subs({self.place: value})
                     poly = rounded(poly) if nearly else poly
-                    number = None if poly.total_degree() > 0 else poly.coefficient(0) if poly else ZERO
-                signs[k] = None if number is None else 0 if nearly and abs(number) < NEGLIGIBLE else sign(number)
+                    number = (
+                        None if poly.total_degree() > 0 else poly.coefficient(0) if poly else ZERO
+                    )
+                signs[k] = (
+                    None
+                    if number is None
+                    else 0
+                    if nearly and abs(number) < NEGLIGIBLE
+                    else sign(number)
+                )
             return signs[k]
 
         return _decided(self.tree, sign_of) is False
 
     def _prepare(self) -> None:
-        """Sets apart the polynomials that the variable decides; what does not speak of it is left open."""
+        """Sets apart the polynomials that the variable decides; what does not speak of it is left
+        open."""
         condition, place = self.condition, self.place
         open_ones = set()
         for k in condition.used():
@@ -70,7 +84,11 @@ class Trial:
                 alone = not any(d for i, d in enumerate(degrees) if i != place)
                 self.alone[k] = univariate(condition.polys[k], self.name) if alone else None
         top = [atom for atom in top_atoms(condition.tree) if self.alone.get(atom[0]) is not None]
-        self.direct = [(dense, relation) for k, relation in top_atoms(condition.tree) if (dense := self.alone.get(k)) is not None]
+        self.direct = [
+            (dense, relation)
+            for k, relation in top_atoms(condition.tree)
+            if (dense := self.alone.get(k)) is not None
+        ]
         whole = condition.tree
         if top:
             left = [part for part in whole[1] if part not in top] if whole[0] == "and" else []
@@ -87,7 +105,13 @@ class Trial:
         return (tree[0], sorted(parts, key=self._cost))
 
     def _cost(self, tree: Tree) -> int:
-        return 3 if tree[0] is None else 2 if isinstance(tree[0], str) else int(self.alone[tree[0]] is None)
+        return (
+            3
+            if tree[0] is None
+            else 2
+            if isinstance(tree[0], str)
+            else int(self.alone[tree[0]] is None)
+        )
 
 
 def _decided(tree: Tree, sign_of: Any) -> bool | None:
@@ -122,7 +146,9 @@ def rounded(poly: fmpq_mpoly) -> fmpq_mpoly:
     """The polynomial without the coefficients that are 0 but for the accuracy of roots."""
     if all(abs(c) >= NEGLIGIBLE for c in poly.coeffs()):
         return poly
-    return poly.context().from_dict({powers: c for powers, c in poly.to_dict().items() if abs(c) >= NEGLIGIBLE})
+    return poly.context().from_dict(
+        {powers: c for powers, c in poly.to_dict().items() if abs(c) >= NEGLIGIBLE}
+    )
 
 
 def ring_names(poly: fmpq_mpoly) -> set[str]:
@@ -141,13 +167,22 @@ def among(ordered: Sequence[Quotient]) -> Iterator[Quotient]:
 
 
 def between(lines: Sequence[Quotient]) -> list[Quotient]:
-    """For three of them, low + (a - low)*(b - low)/((a - low) + (b - low)): above low, and below a and b where both are above it."""
+    """For three of them, low + (a - low)*(b - low)/((a - low) + (b - low)): above low, and below a
+    and b where both are above it."""
     found = []
     for k, low in enumerate(lines[:3]):
-        above = [Quotient(q.top * low.bottom - low.top * q.bottom, q.bottom * low.bottom) for j, q in enumerate(lines[:5]) if j != k]
+        above = [
+            Quotient(q.top * low.bottom - low.top * q.bottom, q.bottom * low.bottom)
+            for j, q in enumerate(lines[:5])
+            if j != k
+        ]
         for i, a in enumerate(above):
             for b in above[:i]:
                 total = a.top * b.bottom + b.top * a.bottom
                 if total != 0:
-                    found.append(Quotient.reduced(low.top * total + low.bottom * a.top * b.top, low.bottom * total))
+                    found.append(
+                        Quotient.reduced(
+                            low.top * total + low.bottom * a.top * b.top, low.bottom * total
+                        )
+                    )
     return found

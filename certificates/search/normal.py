@@ -1,4 +1,5 @@
-"""A state in fewer variables: units set to 1 and linear equations used up, with a way back for the terms found there."""
+"""A state in fewer variables: units set to 1 and linear equations used up, with a way back for the
+terms found there."""
 
 from __future__ import annotations
 
@@ -16,34 +17,62 @@ from .scaling import Scaling, Weight
 
 
 class Normal:
-    """The variables of a state and of the unknowns, lowered: a unit is 1, and a variable that an equation gives is what it gives."""
+    """The variables of a state and of the unknowns, lowered: a unit is 1, and a variable that an
+    equation gives is what it gives."""
 
     def __init__(self, state: checker.State, condition: Condition, equations: bool = True) -> None:
         self.ring: fmpq_mpoly_ctx = condition.ring
         names = tuple(self.ring.names())
         size = len(state.context.index)
         own = fmpq_mpoly_ctx.get(list(state.context.index) or ["none"], self.ring.ordering())
-        facts = [(to_flint(poly, own, size).project_to_context(self.ring), relation) for poly, relation in state.facts]
-        positive = [p.degrees().index(1) for p, relation in facts if relation == ">" and len(p) == 1 and p.total_degree() == 1
-                    and p.leading_coefficient() > 0]
-        choices = [to_flint(part[1], own, size).project_to_context(self.ring)
-                   for choice in state.choices for part in _atoms(("or", list(choice)))]
+        facts = [
+            (to_flint(poly, own, size).project_to_context(self.ring), relation)
+            for poly, relation in state.facts
+        ]
+        positive = [
+            p.degrees().index(1)
+            for p, relation in facts
+            if relation == ">"
+            and len(p) == 1
+            and p.total_degree() == 1
+            and p.leading_coefficient() > 0
+        ]
+        choices = [
+            to_flint(part[1], own, size).project_to_context(self.ring)
+            for choice in state.choices
+            for part in _atoms(("or", list(choice)))
+        ]
         polys = [p for p in [*condition.polys, *choices, *(p for p, _ in facts)] if p != 0]
         self.scaling = Scaling(Ring(names), polys, sorted(set(positive)))
         whole = {*state.context.integers}
-        if any(any(self.scaling.weights[k]) for k, name in enumerate(names) if name in whole and self.scaling.units):
+        if any(
+            any(self.scaling.weights[k])
+            for k, name in enumerate(names)
+            if name in whole and self.scaling.units
+        ):
             self.scaling = Scaling(Ring(names), polys, [])
         self.units = {names[k]: fmpq(1) for k in self.scaling.units}
-        self.weights: dict[str, Weight] = dict(zip(names, self.scaling.weights)) if self.units else {}
+        self.weights: dict[str, Weight] = (
+            dict(zip(names, self.scaling.weights)) if self.units else {}
+        )
         self.steps: list[tuple[str, fmpq_mpoly]] = []
         if equations:
-            self._use_equations([p.subs(self.units) for p, relation in facts if relation == "="],
-                                [n for n in state.context.index if n not in whole])
+            self._use_equations(
+                [p.subs(self.units) for p, relation in facts if relation == "="],
+                [n for n in state.context.index if n not in whole],
+            )
 
     def _use_equations(self, equations: list[fmpq_mpoly], names: Sequence[str]) -> None:
         while True:
-            step = next(((name, -rest / lead) for poly in equations for name in reversed(names)
-                         for rest, lead in _linear(poly, name)), None)
+            step = next(
+                (
+                    (name, -rest / lead)
+                    for poly in equations
+                    for name in reversed(names)
+                    for rest, lead in _linear(poly, name)
+                ),
+                None,
+            )
             if step is None:
                 return
             self.steps.append(step)
@@ -83,7 +112,8 @@ class Normal:
     # ------------------------------------------------ the way back
 
     def weight_of_root(self, root: Root) -> Weight:
-        """The weight that makes the polynomial of an adjoined root liftable; from now on that of its name."""
+        """The weight that makes the polynomial of an adjoined root liftable; from now on that of
+        its name."""
         if self.units and root.name.startswith("root"):
             self.weights[root.name] = (0,) * len(self.units)
             lower = coefficients_in(root.poly, root.name)
@@ -94,12 +124,18 @@ class Normal:
     def weight(self, poly: fmpq_mpoly) -> Weight:
         """The least weight to which a lowered polynomial can be lifted."""
         names, zero = self.ring.names(), (0,) * len(self.units)
-        parts = [tuple(sum(int(e) * self.weights[n][k] for n, e in zip(names, powers) if e) for k in range(len(zero)))
-                 for powers in poly.to_dict()]
+        parts = [
+            tuple(
+                sum(int(e) * self.weights[n][k] for n, e in zip(names, powers) if e)
+                for k in range(len(zero))
+            )
+            for powers in poly.to_dict()
+        ]
         return tuple(map(max, zip(*parts))) if parts and zero else zero
 
     def lift(self, poly: fmpq_mpoly, weight: Weight | None = None) -> fmpq_mpoly:
-        """The homogeneous polynomial of this weight, or the least possible, which lowers to the given one."""
+        """The homogeneous polynomial of this weight, or the least possible, which lowers to the
+        given one."""
         if not self.units:
             return poly
         weight = self.weight(poly) if weight is None else weight
@@ -117,7 +153,11 @@ class Normal:
 def _atoms(formula: Any) -> list[tuple[str, checker.Poly, str]]:
     if isinstance(formula, bool):
         return []
-    return [formula] if formula[0] == "atom" else [atom for part in formula[1] for atom in _atoms(part)]
+    return (
+        [formula]
+        if formula[0] == "atom"
+        else [atom for part in formula[1] for atom in _atoms(part)]
+    )
 
 
 def _linear(poly: fmpq_mpoly, name: str) -> list[tuple[fmpq_mpoly, fmpq]]:

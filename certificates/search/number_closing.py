@@ -1,4 +1,5 @@
-"""Closing a state whose only variable is an adjoined algebraic number: signs on its interval, arithmetic modulo its polynomial."""
+"""Closing a state whose only variable is an adjoined algebraic number: signs on its interval,
+arithmetic modulo its polynomial."""
 
 from __future__ import annotations
 
@@ -20,9 +21,12 @@ def dense_text(poly: fmpq_poly, name: str) -> str:
 
 
 class Adjoined:
-    """An algebraic number under a name, between decimals, as the checker adjoins it: its polynomial rises through the root."""
+    """An algebraic number under a name, between decimals, as the checker adjoins it: its polynomial
+    rises through the root."""
 
-    def __init__(self, name: str, number: AlgebraicNumber, poly: fmpz_poly, low: Fraction, high: Fraction) -> None:
+    def __init__(
+        self, name: str, number: AlgebraicNumber, poly: fmpz_poly, low: Fraction, high: Fraction
+    ) -> None:
         self.name, self.number, self.poly, self.low, self.high = name, number, poly, low, high
 
     @staticmethod
@@ -35,7 +39,13 @@ class Adjoined:
         low = Fraction((number.low * scale).__floor__(), scale)
         high = low + Fraction(1, scale)
         poly = number.poly
-        return Adjoined(name, number, poly if number.sign_of(fmpq_poly(poly).derivative()) > 0 else -poly, low, high)
+        return Adjoined(
+            name,
+            number,
+            poly if number.sign_of(fmpq_poly(poly).derivative()) > 0 else -poly,
+            low,
+            high,
+        )
 
     def text(self, poly: fmpq_poly) -> str:
         """A polynomial in the number as text."""
@@ -44,11 +54,19 @@ class Adjoined:
     def entry(self) -> list[Any]:
         """[name, polynomial, low, high, node, node]."""
         coefficients = [int(c) for c in self.poly.coeffs()]
-        return [self.name, polynomial_text(coefficients, self.name), str(self.low), str(self.high), ["close"], ["close"]]
+        return [
+            self.name,
+            polynomial_text(coefficients, self.name),
+            str(self.low),
+            str(self.high),
+            ["close"],
+            ["close"],
+        ]
 
 
 def close_at_number(state: checker.State, adjoined: Adjoined) -> list[Any] | None:
-    """A node that closes the state, whose only variable is the adjoined number; None where a fact's sign is not yet visible."""
+    """A node that closes the state, whose only variable is the adjoined number; None where a fact's
+    sign is not yet visible."""
     if state.closed:
         return ["close"]
     for index, (poly, _) in enumerate(state.facts):
@@ -78,11 +96,22 @@ def _contradiction(state: checker.State, index: int, adjoined: Adjoined) -> list
     if sign == 0:
         quotient = dense // modulus
         if relation == ">":
-            return ["psatz", [["1", [[index, 1]], "1"]], [[equation, dense_text(-quotient, adjoined.name)]]]
-        return ["psatz", [["1", [[index, 2]], "1"]], [[equation, dense_text(-quotient * dense, adjoined.name)]]]
+            return [
+                "psatz",
+                [["1", [[index, 1]], "1"]],
+                [[equation, dense_text(-quotient, adjoined.name)]],
+            ]
+        return [
+            "psatz",
+            [["1", [[index, 2]], "1"]],
+            [[equation, dense_text(-quotient * dense, adjoined.name)]],
+        ]
     if relation == "=":
         gcd, u, v = dense.xgcd(modulus)
-        cofactors = [[index, dense_text(-u / gcd[0], adjoined.name)], [equation, dense_text(-v / gcd[0], adjoined.name)]]
+        cofactors = [
+            [index, dense_text(-u / gcd[0], adjoined.name)],
+            [equation, dense_text(-v / gcd[0], adjoined.name)],
+        ]
         return ["psatz", [["1", [], "1"]], cofactors]
     if dense(exact(adjoined.low)) < 0 and _no_root(dense, adjoined):
         return ["interval", index, low, high]
@@ -91,12 +120,26 @@ def _contradiction(state: checker.State, index: int, adjoined: Adjoined) -> list
 
 def _no_root(dense: fmpq_poly, adjoined: Adjoined) -> bool:
     ends = dense(exact(adjoined.low)), dense(exact(adjoined.high))
-    return all(ends) and checker.count_roots([int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high) == 0
+    return (
+        all(ends)
+        and checker.count_roots(
+            [int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high
+        )
+        == 0
+    )
 
 
 def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly:
     """A polynomial in one variable; the checker refuses any other."""
-    return fmpq_poly([int(c) for c in checker.univariate(context, checker.Poly(poly.terms, 1, poly.deg), name)]) / poly.den
+    return (
+        fmpq_poly(
+            [
+                int(c)
+                for c in checker.univariate(context, checker.Poly(poly.terms, 1, poly.deg), name)
+            ]
+        )
+        / poly.den
+    )
 
 
 def _own_facts(state: checker.State, adjoined: Adjoined) -> tuple[int, int, int]:

@@ -1,4 +1,5 @@
-"""Points in floats that nearly meet a condition, by damped Gauss-Newton steps from counted starts: a guide to exact ones, and no more."""
+"""Points in floats that nearly meet a condition, by damped Gauss-Newton steps from counted starts:
+a guide to exact ones, and no more."""
 
 from __future__ import annotations
 
@@ -21,7 +22,9 @@ class Residual:
 
     def __init__(self, poly: fmpq_mpoly, relation: str, variables: Sequence[int]) -> None:
         self.relation = relation
-        self.powers = np.array([[m[v] for v in variables] for m in poly.monoms()], dtype=np.int64).reshape(-1, len(variables))
+        self.powers = np.array(
+            [[m[v] for v in variables] for m in poly.monoms()], dtype=np.int64
+        ).reshape(-1, len(variables))
         values = [float(int(c.p) / int(c.q)) for c in poly.coeffs()]
         self.values = np.array(values) / max(map(abs, values), default=1.0)
 
@@ -29,8 +32,17 @@ class Residual:
         """The residual and its gradient at a point."""
         table = point[None, :] ** self.powers
         whole = table.prod(axis=1) @ self.values
-        gradient = np.array([(self.values * self.powers[:, v] * point[v] ** np.maximum(self.powers[:, v] - 1, 0)
-                              * np.delete(table, v, axis=1).prod(axis=1)).sum() for v in range(len(point))])
+        gradient = np.array(
+            [
+                (
+                    self.values
+                    * self.powers[:, v]
+                    * point[v] ** np.maximum(self.powers[:, v] - 1, 0)
+                    * np.delete(table, v, axis=1).prod(axis=1)
+                ).sum()
+                for v in range(len(point))
+            ]
+        )
         if self.relation == "=":
             return float(whole), gradient
         if self.relation == "!=":
@@ -39,8 +51,11 @@ class Residual:
         return (short, -gradient) if short > 0 else (0.0, np.zeros(len(point)))
 
 
-def near_points(condition: Condition, names: Sequence[str], budget: Budget) -> Iterator[dict[str, fmpq]]:
-    """Points near which the condition may be met, as rationals; other alternatives of `or` are taken from start to start."""
+def near_points(
+    condition: Condition, names: Sequence[str], budget: Budget
+) -> Iterator[dict[str, fmpq]]:
+    """Points near which the condition may be met, as rationals; other alternatives of `or` are
+    taken from start to start."""
     variables = [name for name in names if name in condition.variables()]
     at = [places(condition.ring)[name] for name in variables]
     random = np.random.default_rng(11)
@@ -51,7 +66,10 @@ def near_points(condition: Condition, names: Sequence[str], budget: Budget) -> I
         for margin in MARGINS:
             point = _descended(residuals, start, margin, budget)
             if point is not None:
-                yield {name: fmpq(round(float(value) * 2**40), 2**40) for name, value in zip(variables, point)}
+                yield {
+                    name: fmpq(round(float(value) * 2**40), 2**40)
+                    for name, value in zip(variables, point)
+                }
                 break
 
 
@@ -67,7 +85,9 @@ def _alternative(tree: Tree, random: Any) -> Iterator[tuple[int, str]]:
         yield from _alternative(tree[1][int(random.integers(len(tree[1])))], random)
 
 
-def _descended(residuals: Sequence[Residual], point: Array, margin: float, budget: Budget) -> Array | None:
+def _descended(
+    residuals: Sequence[Residual], point: Array, margin: float, budget: Budget
+) -> Array | None:
     """The point to which the steps lead, if all residuals vanish there."""
     damping = 1e-2
     with np.errstate(all="ignore"):
@@ -79,10 +99,17 @@ def _descended(residuals: Sequence[Residual], point: Array, margin: float, budge
                 return None
             if size < 1e-20:
                 return point
-            step = np.linalg.solve(jacobian.T @ jacobian + damping * np.eye(len(point)), -jacobian.T @ value)
+            step = np.linalg.solve(
+                jacobian.T @ jacobian + damping * np.eye(len(point)), -jacobian.T @ value
+            )
             there, slope = _all(residuals, point + step, margin)
             if float(there @ there) < size:
-                point, value, jacobian, damping = point + step, there, slope, max(damping / 5, 1e-12)
+                point, value, jacobian, damping = (
+                    point + step,
+                    there,
+                    slope,
+                    max(damping / 5, 1e-12),
+                )
             else:
                 damping *= 6
             if damping > 1e8:
@@ -92,4 +119,6 @@ def _descended(residuals: Sequence[Residual], point: Array, margin: float, budge
 
 def _all(residuals: Sequence[Residual], point: Array, margin: float) -> tuple[Array, Array]:
     pairs = [residual.at(point, margin) for residual in residuals]
-    return np.array([value for value, _ in pairs]), np.array([gradient for _, gradient in pairs]).reshape(len(pairs), len(point))
+    return np.array([value for value, _ in pairs]), np.array(
+        [gradient for _, gradient in pairs]
+    ).reshape(len(pairs), len(point))

@@ -1,4 +1,5 @@
-"""A condition on its way to terms: what was decided so far, and what is left, at every sample and in symbols."""
+"""A condition on its way to terms: what was decided so far, and what is left, at every sample and
+in symbols."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from .quotients import Root
 
 @dataclass
 class Partial:
-    """A condition on its way: at every sample, and symbolic, which is made only where it is asked for."""
+    """A condition on its way: at every sample, and symbolic, which is made only where it is asked
+    for."""
 
     make: Callable[[], Condition]
     sampled: list[Condition]

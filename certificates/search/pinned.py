@@ -1,4 +1,5 @@
-"""Whole numbers that the hypotheses tie to a parameter, as floor and ceiling do: the pairs of both are where a range is sought."""
+"""Whole numbers that the hypotheses tie to a parameter, as floor and ceiling do: the pairs of both
+are where a range is sought."""
 
 from __future__ import annotations
 
@@ -18,8 +19,11 @@ from .near import ring_names
 from .writing import relation_of
 
 
-def pinned(statements: Sequence[checker.Statement], parameter: str, domain: Any, budget: Budget) -> tuple[str, Formula] | None:
-    """(a whole number of all the statements, what their hypotheses say of it and the parameter alone), units being 1.
+def pinned(
+    statements: Sequence[checker.Statement], parameter: str, domain: Any, budget: Budget
+) -> tuple[str, Formula] | None:
+    """(a whole number of all the statements, what their hypotheses say of it and the parameter
+    alone), units being 1.
 
     >>> text = "statement a/b\\nforall alpha n x\\ninteger n\\ngiven n <= 2*alpha and 2*alpha < n + 1\\nshow x*n <= 2*x*alpha"
     >>> (one,) = checker.read_statements(text).values()
@@ -29,11 +33,15 @@ def pinned(statements: Sequence[checker.Statement], parameter: str, domain: Any,
     for name in sorted({n for each in statements for line in each.get("integer") for n in line}):
         said = [_said(each, parameter, name, domain, budget) for each in statements]
         if said and all(said):
-            return name, conjunction(list({str(formula): formula for formulas in said for formula in formulas}.values()))
+            return name, conjunction(
+                list({str(formula): formula for formulas in said for formula in formulas}.values())
+            )
     return None
 
 
-def _said(statement: checker.Statement, parameter: str, name: str, domain: Any, budget: Budget) -> list[Formula]:
+def _said(
+    statement: checker.Statement, parameter: str, name: str, domain: Any, budget: Budget
+) -> list[Formula]:
     story = checker.Unfolding(statement, checker.Context(), [domain])
     if name not in story.integers or name not in story.universal:
         return []
@@ -41,8 +49,16 @@ def _said(statement: checker.Statement, parameter: str, name: str, domain: Any, 
     premises = Condition.of(story.context, checker.join("and", list(story.premises)), ring)
     premises = premises.substituted({unit: fmpq(1) for unit in UNITS & story.variables})
     left, _ = without_equations(premises, {parameter, name}, budget, ())
-    positive = [poly for poly, relation in left.facts() if relation == ">" and ring_names(poly) == {parameter}]
-    return [relation_of(_without(positive, poly), relation) for poly, relation in left.facts() if ring_names(poly) == {parameter, name}]
+    positive = [
+        poly
+        for poly, relation in left.facts()
+        if relation == ">" and ring_names(poly) == {parameter}
+    ]
+    return [
+        relation_of(_without(positive, poly), relation)
+        for poly, relation in left.facts()
+        if ring_names(poly) == {parameter, name}
+    ]
 
 
 def _without(positive: Sequence[fmpq_mpoly], poly: fmpq_mpoly) -> fmpq_mpoly:

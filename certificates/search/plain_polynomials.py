@@ -1,4 +1,5 @@
-"""Polynomials and boxes as plain data, and what is computed of them exactly; nothing here loads NumPy."""
+"""Polynomials and boxes as plain data, and what is computed of them exactly; nothing here loads
+NumPy."""
 
 from __future__ import annotations
 
@@ -16,7 +17,14 @@ DENOMINATORS = (1, 2, 12, 120, 1000, 10**4, 10**6, 10**8, 10**10, 10**13, 10**16
 
 def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
     """The exact value at a point."""
-    powers = [[x**e for e in range(1 + max(exponents[i] for exponents in terms))] for i, x in enumerate(point)] if terms else []
+    powers = (
+        [
+            [x**e for e in range(1 + max(exponents[i] for exponents in terms))]
+            for i, x in enumerate(point)
+        ]
+        if terms
+        else []
+    )
     total = Fraction(0)
     for exponents, c in terms.items():
         for table, e in zip(powers, exponents):
@@ -27,14 +35,19 @@ def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
 
 def derivative(part: Mapping[Exponents, Any], axis: int) -> dict[Exponents, Any]:
     """The derivative along an axis."""
-    return {(*e[:axis], e[axis] - 1, *e[axis + 1:]): c * e[axis] for e, c in part.items() if e[axis]}
+    return {
+        (*e[:axis], e[axis] - 1, *e[axis + 1 :]): c * e[axis] for e, c in part.items() if e[axis]
+    }
 
 
 def simple_points(x: Iterable[float], box: Box) -> Iterator[tuple[Fraction, ...]]:
     """Rational points of the box near x, the simplest first."""
     seen = set()
     for most in DENOMINATORS:
-        point = tuple(min(max(Fraction(float(v)).limit_denominator(most), low), high) for v, (low, high) in zip(x, box))
+        point = tuple(
+            min(max(Fraction(float(v)).limit_denominator(most), low), high)
+            for v, (low, high) in zip(x, box)
+        )
         if point not in seen:
             seen.add(point)
             yield point

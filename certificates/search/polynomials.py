@@ -1,4 +1,5 @@
-"""Polynomials of a state as python-flint polynomials, and as arrays of monomial keys and coefficients for linear programs."""
+"""Polynomials of a state as python-flint polynomials, and as arrays of monomial keys and
+coefficients for linear programs."""
 
 from __future__ import annotations
 
@@ -12,11 +13,18 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 from certificates import checker
 
 Keys = np.ndarray[Any, np.dtype[np.int64]]
-Row = tuple[Keys, np.ndarray[Any, np.dtype[np.float64]]]  # the keys of a polynomial's monomials, and its coefficients
+Row = tuple[
+    Keys, np.ndarray[Any, np.dtype[np.float64]]
+]  # the keys of a polynomial's monomials, and its coefficients
 
-# With many variables: one odd number for each, a monomial's key being the sum of exponent times number, modulo 2^64.  Two monomials
-# share a key with negligible probability, and then an exact solution fails its check and is dropped.
-WEIGHTS = np.random.default_rng(20).integers(-(1 << 62), 1 << 62, checker.MAX_VARIABLES, dtype=np.int64) | 1
+# With many variables: one odd number for each, a monomial's key being the sum of exponent times
+# number, modulo 2^64.  Two monomials
+# share a key with negligible probability, and then an exact solution fails its check and is
+# dropped.
+WEIGHTS = (
+    np.random.default_rng(20).integers(-(1 << 62), 1 << 62, checker.MAX_VARIABLES, dtype=np.int64)
+    | 1
+)
 
 
 class Ring:
@@ -34,7 +42,9 @@ class Ring:
         self.size = max(1, len(names))
         self.form = struct.Struct(f"<{self.size}H")
         self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
-        self.differences: dict[int, tuple[fmpz_mpoly, frozenset[tuple[int, ...]]]] = {}  # what was found of units, for all states of a search
+        self.differences: dict[
+            int, tuple[fmpz_mpoly, frozenset[tuple[int, ...]]]
+        ] = {}  # what was found of units, for all states of a search
         self.lowered: dict[tuple[int, tuple[int, ...]], tuple[fmpz_mpoly, fmpz_mpoly]] = {}
         self.scalings: dict[Any, Any] = {}
         self.one = self.ctx.constant(1)
@@ -48,7 +58,10 @@ class Ring:
         unpack, width = self.form.unpack, 2 * self.size
         terms = {unpack(m.to_bytes(width, "little")): c for m, c in poly.terms.items()}
         result = self.ctx.from_dict(terms) if terms else self.zero
-        self.seen[id(poly)] = (poly, result)  # holding the polynomial keeps its id from being used again
+        self.seen[id(poly)] = (
+            poly,
+            result,
+        )  # holding the polynomial keeps its id from being used again
         return result
 
 
@@ -66,7 +79,11 @@ class Packing:
         degrees = [poly.degrees() for poly in polys if poly]
         self.used = [v for v in range(ring.size) if any(d[v] for d in degrees)]
         self.bits = 62 // max(1, len(self.used))
-        self.exact = self.bits >= 6  # else keys tell monomials apart with all but certainty, yet do not give the exponents back
+        self.exact = (
+            self.bits >= 6
+            # else keys tell monomials apart with all but certainty, yet do not give the exponents
+            # back
+        )
         self.weights = np.zeros(ring.size, np.int64) if self.exact else WEIGHTS[: ring.size]
         for place, v in enumerate(self.used if self.exact else ()):
             self.weights[v] = 1 << (self.bits * place)
@@ -75,11 +92,16 @@ class Packing:
         """The polynomial as keys and float coefficients."""
         if not poly:
             return np.zeros(0, np.int64), np.zeros(0)
-        return np.array(poly.monoms(), dtype=np.int64) @ self.weights, np.array([int(c) for c in poly.coeffs()], dtype=np.float64)
+        return np.array(poly.monoms(), dtype=np.int64) @ self.weights, np.array(
+            [int(c) for c in poly.coeffs()], dtype=np.float64
+        )
 
     def keys(self, monomials: list[tuple[int, ...]]) -> Keys:
         """The keys of monomials given by the exponents of all variables."""
-        return np.array(monomials, dtype=np.int64).reshape(len(monomials), len(self.weights)) @ self.weights
+        return (
+            np.array(monomials, dtype=np.int64).reshape(len(monomials), len(self.weights))
+            @ self.weights
+        )
 
     def exponents(self, keys: Keys) -> Keys:
         """The exponents of the used variables, one row a key."""
@@ -134,9 +156,11 @@ def coefficients_in(poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly) -> list[fm
     return result[::-1]
 
 
-def pseudo_divide(poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly, lead: fmpz_mpoly,
-                  rest: fmpz_mpoly) -> tuple[int, fmpz_mpoly, fmpz_mpoly]:
-    """(n, q, r) with lead^n * poly = q * (lead * gen - rest) + r, where gen occurs in none of lead, rest and r."""
+def pseudo_divide(
+    poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly
+) -> tuple[int, fmpz_mpoly, fmpz_mpoly]:
+    """(n, q, r) with lead^n * poly = q * (lead * gen - rest) + r, where gen occurs in none of lead,
+    rest and r."""
     coefficients = coefficients_in(poly, variable, gen)
     degree = len(coefficients) - 1
     if degree == 0:

@@ -1,4 +1,5 @@
-"""The facts of a state made ready for a search: units set to 1, equations used up, each fact once and primitive."""
+"""The facts of a state made ready for a search: units set to 1, equations used up, each fact once
+and primitive."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ MANY = 7  # facts, from which on those near the goal are tried first
 
 
 class Problem:
-    """What a leaf of a proof has to contradict; `whole`, with the facts too that seem to say only what a root is.
+    """What a leaf of a proof has to contradict; `whole`, with the facts too that seem to say only
+    what a root is.
 
     >>> context = checker.Context()
     >>> for name in ("r", "x", "y"):
@@ -41,15 +43,40 @@ class Problem:
         relations = [relation for _, relation in state.facts]
         unit_facts: dict[int, tuple[int, int]] = {}
         for index, (poly, relation) in enumerate(zip(polys, relations)):
-            if relation == ">" and len(poly) == 1 and poly.total_degree() == 1 and poly.leading_coefficient() > 0:
-                unit_facts.setdefault(poly.degrees().index(1), (index, int(poly.leading_coefficient())))
+            if (
+                relation == ">"
+                and len(poly) == 1
+                and poly.total_degree() == 1
+                and poly.leading_coefficient() > 0
+            ):
+                unit_facts.setdefault(
+                    poly.degrees().index(1), (index, int(poly.leading_coefficient()))
+                )
         scaling = Scaling(ring, [p for p in polys if p], sorted(unit_facts))
         lowered = [scaling.lower(poly) for poly in polys]
-        self.source = Source(ring, scaling, polys, lowered, [poly.den for poly, _ in state.facts], relations, unit_facts)
+        self.source = Source(
+            ring,
+            scaling,
+            polys,
+            lowered,
+            [poly.den for poly, _ in state.facts],
+            relations,
+            unit_facts,
+        )
         self.idle: set[int] = set() if whole else idle_facts(lowered, relations)
-        equations = [(k, p) for k, p in enumerate(lowered) if relations[k] == "=" and p and k not in self.idle]
-        signed = [Signed(k, p, relations[k] == ">") for k, p in enumerate(lowered) if relations[k] in (">", "!=")]
-        integers = frozenset(k for k, name in enumerate(ring.names) if name in state.context.integers)
+        equations = [
+            (k, p)
+            for k, p in enumerate(lowered)
+            if relations[k] == "=" and p and k not in self.idle
+        ]
+        signed = [
+            Signed(k, p, relations[k] == ">")
+            for k, p in enumerate(lowered)
+            if relations[k] in (">", "!=")
+        ]
+        integers = frozenset(
+            k for k, name in enumerate(ring.names) if name in state.context.integers
+        )
         kept = integers | self._bounded_variables(lowered, relations)
         self.reduction = Reduction(ring, equations, signed if equations else [], kept)
         self.facts: list[Fact] = []
@@ -68,11 +95,17 @@ class Problem:
             if relation in (">", ">=") and len(poly) < 3 and poly.total_degree() == 1:
                 degrees = [int(d) for d in poly.degrees()]
                 if sum(degrees) == 1:
-                    sides.add((degrees.index(1), (constant_of(poly.derivative(degrees.index(1))) or 0) > 0))
+                    sides.add(
+                        (
+                            degrees.index(1),
+                            (constant_of(poly.derivative(degrees.index(1))) or 0) > 0,
+                        )
+                    )
         return frozenset(v for v, up in sides if up and (v, False) in sides)
 
     def _take(self, index: int, poly: fmpz_mpoly, relation: str) -> None:
-        """Adds the fact as it stands after the eliminations, unless it is there already or says nothing."""
+        """Adds the fact as it stands after the eliminations, unless it is there already or says
+        nothing."""
         counts, rest = self.reduction.reduce(poly)
         own: Factors = ((index, 1),)
         if relation == "!=":
@@ -83,7 +116,9 @@ class Problem:
                 self.contradiction = Fact(rest, strict, own, counts, Fraction(1))
             return
         content = abs(int(rest.content()))
-        self.add(Fact(rest / content if content > 1 else rest, strict, own, counts, Fraction(content)))
+        self.add(
+            Fact(rest / content if content > 1 else rest, strict, own, counts, Fraction(content))
+        )
 
     def add(self, fact: Fact) -> None:
         """Adds a fact unless the same polynomial is there already, at least as strict."""
@@ -100,28 +135,43 @@ class Problem:
 
     def polys(self) -> list[fmpz_mpoly]:
         """The polynomials of the equations left and of the facts."""
-        return [equation.poly for equation in self.reduction.left] + [fact.poly for fact in self.facts]
+        return [equation.poly for equation in self.reduction.left] + [
+            fact.poly for fact in self.facts
+        ]
 
     def content(self) -> Hashable:
         """What a search for a combination depends on."""
         facts = tuple((str(fact.poly), fact.strict) for fact in self.facts)
         equations = tuple(str(equation.poly) for equation in self.reduction.left)
-        before = tuple(str(p) for k, p in enumerate(self.source.lowered) if k not in self.idle) if self.reduction.steps else ()
+        before = (
+            tuple(str(p) for k, p in enumerate(self.source.lowered) if k not in self.idle)
+            if self.reduction.steps
+            else ()
+        )
         return facts, equations, self.bounded, before
 
     def row(self, poly: fmpz_mpoly, packing: Packing) -> Row:
         """A polynomial as arrays; its exponents are read once."""
         known = self.rows.get(id(poly))
         if known is None:
-            known = self.rows[id(poly)] = poly, np.array(poly.monoms(), dtype=np.int64), np.array(list(map(int, poly.coeffs())), dtype=np.float64)
+            known = self.rows[id(poly)] = (
+                poly,
+                np.array(poly.monoms(), dtype=np.int64),
+                np.array(list(map(int, poly.coeffs())), dtype=np.float64),
+            )
         return known[1] @ packing.weights, known[2]
 
     def near_goal(self) -> list[int] | None:
-        """The facts in the variables of the last one alone; None where that is all of them, or few are."""
+        """The facts in the variables of the last one alone; None where that is all of them, or few
+        are."""
         if len(self.facts) < MANY:
             return None
         own = [bool(d) for d in self.facts[-1].poly.degrees()]
-        near = [k for k, fact in enumerate(self.facts) if all(mine or not d for mine, d in zip(own, fact.poly.degrees()))]
+        near = [
+            k
+            for k, fact in enumerate(self.facts)
+            if all(mine or not d for mine, d in zip(own, fact.poly.degrees()))
+        ]
         return near if len(near) < len(self.facts) else None
 
     # -------------------------------------------------------- bounded variables
@@ -154,23 +204,33 @@ class Problem:
         return j if (ends[1] > ends[0]) == below else i
 
     def said_by_bounds(self, index: int, bounded: Bounded) -> bool:
-        """Whether a fact is one of the bounds, or in the bounded variable alone and implied by them."""
+        """Whether a fact is one of the bounds, or in the bounded variable alone and implied by
+        them."""
         if index in (bounded.low, bounded.high):
             return True
         poly = self.facts[index].poly
-        return self.facts[index].degree(bounded.variable) == sum(map(int, poly.degrees())) == total_degree(poly) and positive_between(
-            univariate(poly, bounded.variable), self.facts[bounded.low].end(bounded.variable),
-            self.facts[bounded.high].end(bounded.variable))
+        return self.facts[index].degree(bounded.variable) == sum(
+            map(int, poly.degrees())
+        ) == total_degree(poly) and positive_between(
+            univariate(poly, bounded.variable),
+            self.facts[bounded.low].end(bounded.variable),
+            self.facts[bounded.high].end(bounded.variable),
+        )
 
     # -------------------------------------------------------- candidates and divided facts
 
     def candidates(self, kind: str, most: int = MOST) -> list[fmpz_mpoly]:
-        """Polynomials worth squaring: read off the facts before and after the eliminations, and reduced."""
+        """Polynomials worth squaring: read off the facts before and after the eliminations, and
+        reduced."""
         parameter = self.bounded.variable if self.bounded else -1
         find = {"squares": squares, "resultants": resultants}[kind]
         pool = Pool()
         if self.reduction.steps:
-            before = [p for k, p in enumerate(self.source.lowered) if p and not p.is_constant() and k not in self.idle]
+            before = [
+                p
+                for k, p in enumerate(self.source.lowered)
+                if p and not p.is_constant() and k not in self.idle
+            ]
             for poly in find(self.ring, before, parameter, most):
                 pool.add(self.reduction.reduce(poly)[1])
         for poly in find(self.ring, self.polys(), parameter, most):
@@ -178,7 +238,8 @@ class Problem:
         return pool.polys
 
     def unsigned_factors(self) -> list[fmpz_mpoly]:
-        """The irreducible factors of equations left, and those of facts that have no sign at sight, smallest first."""
+        """The irreducible factors of equations left, and those of facts that have no sign at sight,
+        smallest first."""
         signs, pool = self.signs(), Pool()
         for equation in self.reduction.left:
             found = factors(equation.poly)
@@ -193,7 +254,8 @@ class Problem:
         return sorted(pool.polys[:count], key=size) + sorted(pool.polys[count:], key=size)
 
     def variables_and_differences(self) -> list[fmpz_mpoly]:
-        """Variables of no known sign, and differences of two variables of one weight, but for the bounded variable."""
+        """Variables of no known sign, and differences of two variables of one weight, but for the
+        bounded variable."""
         used = [v for v in range(self.ring.size) if any(poly.degrees()[v] for poly in self.polys())]
         used = [v for v in used if self.bounded is None or v != self.bounded.variable]
         signs, alike, gens = self.signs(), self.source.scaling.alike, self.ring.gens
@@ -206,7 +268,8 @@ class Problem:
         return str(scaling.lift(poly, scaling.largest(poly)) if scaling.units else poly)
 
     def divide(self) -> bool:
-        """Replaces facts that have a positive factor by what is left without it; whether there were any."""
+        """Replaces facts that have a positive factor by what is left without it; whether there were
+        any."""
         signs = self.signs()
         changed = []
         for place, fact in enumerate(self.facts):
@@ -217,13 +280,27 @@ class Problem:
             for factor, exponent in factors(fact.poly):
                 sign, found = signs.of(factor)
                 for _ in range(exponent if found else 0):
-                    rest, positive, multiplier = rest / factor, positive * sign, times(multiplier, found)
-            if len(multiplier) == 1 and multiplier[0][1] == () or rest.is_constant() and positive * int(rest.leading_coefficient()) > 0:
+                    rest, positive, multiplier = (
+                        rest / factor,
+                        positive * sign,
+                        times(multiplier, found),
+                    )
+            if (
+                len(multiplier) == 1
+                and multiplier[0][1] == ()
+                or rest.is_constant()
+                and positive * int(rest.leading_coefficient()) > 0
+            ):
                 continue
             rest = rest * positive
             content = abs(int(rest.content()))
             scale = fact.scale * content
-            changed.append((place, Fact(rest / content, fact.strict, fact.factors, fact.counts, scale, multiplier)))
+            changed.append(
+                (
+                    place,
+                    Fact(rest / content, fact.strict, fact.factors, fact.counts, scale, multiplier),
+                )
+            )
         for place, fact in changed:
             self.facts[place] = fact
         self.bounded = self._most_common_bounded()
@@ -236,16 +313,24 @@ def size(poly: fmpz_mpoly) -> tuple[int, int]:
 
 
 def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int]:
-    """The facts that only say what a root is, where the root occurs nowhere else: root >= 0 and root^2 = term."""
+    """The facts that only say what a root is, where the root occurs nowhere else: root >= 0 and
+    root^2 = term."""
     idle: set[int] = set()
     while True:
-        degrees = {k: [int(d) for d in p.degrees()] for k, p in enumerate(polys) if p and k not in idle}
+        degrees = {
+            k: [int(d) for d in p.degrees()] for k, p in enumerate(polys) if p and k not in idle
+        }
         found: set[int] = set()
         for k, own in degrees.items():
             for variable, degree in enumerate(own):
                 if relations[k] == "=" and degree == 2 and not found:
                     others = [i for i, d in degrees.items() if d[variable] and i != k]
-                    if others and all(sum(degrees[i]) == 1 and relations[i] == ">=" and polys[i].leading_coefficient() > 0 for i in others):
+                    if others and all(
+                        sum(degrees[i]) == 1
+                        and relations[i] == ">="
+                        and polys[i].leading_coefficient() > 0
+                        for i in others
+                    ):
                         found = {k, *others}
         if not found:
             return idle

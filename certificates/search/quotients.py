@@ -1,4 +1,5 @@
-"""Quotients of polynomials in base variables and adjoined roots: the terms that a search proposes for unknown variables."""
+"""Quotients of polynomials in base variables and adjoined roots: the terms that a search proposes
+for unknown variables."""
 
 from __future__ import annotations
 
@@ -45,7 +46,11 @@ class Quotient:
     @cached_property
     def used(self) -> frozenset[int]:
         """The numbers of the variables that occur."""
-        return frozenset(i for i, d in enumerate(zip(self.top.degrees(), self.bottom.degrees())) if d[0] > 0 or d[1] > 0)
+        return frozenset(
+            i
+            for i, d in enumerate(zip(self.top.degrees(), self.bottom.degrees()))
+            if d[0] > 0 or d[1] > 0
+        )
 
     def within(self, point: Point) -> fmpq | None:
         """The value at a point; None where the bottom vanishes or a value is missing."""
@@ -60,23 +65,28 @@ class Quotient:
         """The sum of two quotients."""
         if other.bottom == 1:
             return Quotient.reduced(self.top + other.top * self.bottom, self.bottom)
-        return Quotient.reduced(self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
+        return Quotient.reduced(
+            self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom
+        )
 
     def mark(self) -> tuple[Any, ...]:
         """The same for the same quotient, and but by an unlikely chance no other's."""
-        point = MARKS[:len(places(self.top.context()))]
+        point = MARKS[: len(places(self.top.context()))]
         top, bottom = self.top(*point), self.bottom(*point)
         return int(top.p), int(top.q), int(bottom.p), int(bottom.q)
 
     def size(self) -> tuple[int, int]:
         """How long it is to read."""
         coefficients = [*self.top.coeffs(), *self.bottom.coeffs()]
-        return int(self.top.total_degree() + self.bottom.total_degree()), sum(int(c.height_bits()) + 2 for c in coefficients)
+        return int(self.top.total_degree() + self.bottom.total_degree()), sum(
+            int(c.height_bits()) + 2 for c in coefficients
+        )
 
 
 @dataclass(frozen=True)
 class Point:
-    """Values of all variables of a ring in their order, 0 where none is known, and the numbers of those that are."""
+    """Values of all variables of a ring in their order, 0 where none is known, and the numbers of
+    those that are."""
 
     values: list[fmpq]
     known: frozenset[int]
@@ -85,7 +95,9 @@ class Point:
     def of(ring: fmpq_mpoly_ctx, given: Mapping[str, fmpq]) -> Point:
         """The point that a mapping by names gives."""
         place = places(ring)
-        return Point([given.get(name, ZERO) for name in place], frozenset(place[name] for name in given))
+        return Point(
+            [given.get(name, ZERO) for name in place], frozenset(place[name] for name in given)
+        )
 
 
 @dataclass
@@ -135,8 +147,11 @@ def reduced_by(root: Root, poly: fmpq_mpoly) -> fmpq_mpoly:
     return parts[0] + parts[1] * gen if len(parts) == 2 else parts[0]
 
 
-def square_roots(factor: fmpq_mpoly, name: str, roots: Sequence[Root]) -> tuple[list[Quotient], Root | None]:
-    """Both zeros of a polynomial of degree 2 in a variable, and the square root to be adjoined for them, if none at hand serves."""
+def square_roots(
+    factor: fmpq_mpoly, name: str, roots: Sequence[Root]
+) -> tuple[list[Quotient], Root | None]:
+    """Both zeros of a polynomial of degree 2 in a variable, and the square root to be adjoined for
+    them, if none at hand serves."""
     c, b, a = coefficients_in(factor, name)
     ring = factor.context()
     scale, factors = (b * b - 4 * a * c).factor()
@@ -145,7 +160,14 @@ def square_roots(factor: fmpq_mpoly, name: str, roots: Sequence[Root]) -> tuple[
         outer, inner = outer * part ** (power // 2), inner * part ** (power % 2)
     # scale * inner is what stands under the root; its square factors go outside.
     top, bottom = int(scale.p), int(scale.q)
-    square = next((k for k in range(min(isqrt(abs(top * bottom)), 1000), 0, -1) if (top * bottom) % (k * k) == 0), 1)
+    square = next(
+        (
+            k
+            for k in range(min(isqrt(abs(top * bottom)), 1000), 0, -1)
+            if (top * bottom) % (k * k) == 0
+        ),
+        1,
+    )
     outer, inner = outer * fmpq(square, bottom), inner * fmpq(top * bottom // (square * square))
     taken = [root for root in roots if coefficients_in(root.poly, root.name)[0] == -inner]
     free = [spare for spare in SPARE if spare not in [root.name for root in roots]]

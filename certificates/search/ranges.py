@@ -1,4 +1,5 @@
-"""Sets of one parameter as intervals with exact ends, and as conditions that the language of statements can say."""
+"""Sets of one parameter as intervals with exact ends, and as conditions that the language of
+statements can say."""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ class Interval:
 
 @dataclass(frozen=True)
 class Line:
-    """The domain cut at numbers: the verdicts on its open cells and at the numbers, in order: cell, number, cell, ..., cell."""
+    """The domain cut at numbers: the verdicts on its open cells and at the numbers, in order: cell,
+    number, cell, ..., cell."""
 
     numbers: tuple[AlgebraicNumber, ...]
     verdicts: tuple[bool, ...]
@@ -73,16 +75,25 @@ def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
     inside = line.intervals(True)
     if not line.intervals(False):
         return domain
-    if len(line.intervals(False)) == 1 and len(inside) == 2 and line.intervals(False)[0].low is line.intervals(False)[0].high:
+    if (
+        len(line.intervals(False)) == 1
+        and len(inside) == 2
+        and line.intervals(False)[0].low is line.intervals(False)[0].high
+    ):
         number = line.intervals(False)[0].low
         if number is not None and number.is_rational:
             return Formula("!=", *_rational_sides(number.as_fraction(), parameter))
     single = one_relation(line, parameter, domain)
-    return single if single is not None else disjunction([_interval_formula(i, domain, parameter) for i in inside])
+    return (
+        single
+        if single is not None
+        else disjunction([_interval_formula(i, domain, parameter) for i in inside])
+    )
 
 
 def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
-    """p relation 0 for the one irreducible polynomial p of all the ends, where that says the same on the domain.
+    """p relation 0 for the one irreducible polynomial p of all the ends, where that says the same
+    on the domain.
 
     >>> from certificates.terms import reals
     >>> (a,) = reals("alpha")
@@ -96,10 +107,15 @@ def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
     if len(isolated(poly, domain, parameter)) != len(line.numbers):
         return None
     rising = line.numbers[0].sign_of(fmpq_poly(line.numbers[0].poly).derivative()) > 0
-    signs = [0 if k % 2 else 1 if (k // 2 % 2 == 1) == rising else -1 for k in range(len(line.verdicts))]
+    signs = [
+        0 if k % 2 else 1 if (k // 2 % 2 == 1) == rising else -1 for k in range(len(line.verdicts))
+    ]
     relation = next((r for r in HOLDS if [HOLDS[r](s) for s in signs] == list(line.verdicts)), None)
     if relation is None:
-        relation = next((MIRRORED[r] for r in HOLDS if [HOLDS[r](-s) for s in signs] == list(line.verdicts)), None)
+        relation = next(
+            (MIRRORED[r] for r in HOLDS if [HOLDS[r](-s) for s in signs] == list(line.verdicts)),
+            None,
+        )
     return Formula(relation, polynomial_term(poly, parameter), term(0)) if relation else None
 
 
@@ -110,7 +126,9 @@ def _interval_formula(interval: Interval, domain: Formula, parameter: str) -> Fo
     if interval.low is not None:
         parts.append(_bound(interval.low, ">=" if interval.low_closed else ">", domain, parameter))
     if interval.high is not None:
-        parts.append(_bound(interval.high, "<=" if interval.high_closed else "<", domain, parameter))
+        parts.append(
+            _bound(interval.high, "<=" if interval.high_closed else "<", domain, parameter)
+        )
     return conjunction(parts)
 
 
@@ -127,12 +145,19 @@ def polynomial_term(coefficients: Sequence[int], parameter: str) -> Term:
             size: Term = term(abs(c)) if power == 0 else name if power == 1 else name**power
             if power and abs(c) != 1:
                 size = abs(c) * size
-            total = (size if c > 0 else -size) if total is None else total + size if c > 0 else total - size
+            total = (
+                (size if c > 0 else -size)
+                if total is None
+                else total + size
+                if c > 0
+                else total - size
+            )
     return term(0) if total is None else total
 
 
 def _bound(number: AlgebraicNumber, relation: str, domain: Formula, parameter: str) -> Formula:
-    """parameter relation number, exact on the domain: by the sign of the polynomial on the interval on which this is its only root."""
+    """parameter relation number, exact on the domain: by the sign of the polynomial on the interval
+    on which this is its only root."""
     if number.is_rational:
         return Formula(relation, *_rational_sides(number.as_fraction(), parameter))
     rising = number.sign_of(fmpq_poly(number.poly).derivative()) > 0
@@ -148,24 +173,39 @@ def _bound(number: AlgebraicNumber, relation: str, domain: Formula, parameter: s
     return disjunction([*(below if relation in ("<", "<=") else above), conjunction([*parts, own])])
 
 
-def isolated(coefficients: Sequence[int], domain: Formula, parameter: str) -> list[tuple[Fraction, Fraction]]:
-    """Intervals that fill the domain (or what holds all roots, where it has no ends), each with one root of an irreducible polynomial.
+def isolated(
+    coefficients: Sequence[int], domain: Formula, parameter: str
+) -> list[tuple[Fraction, Fraction]]:
+    """Intervals that fill the domain (or what holds all roots, where it has no ends), each with one
+    root of an irreducible polynomial.
 
     >>> a = real("alpha")
     >>> isolated([-1, 10, -20, 10], (a > 0) & (a < 1), "alpha")
     [(Fraction(0, 1), Fraction(1, 2)), (Fraction(1, 2), Fraction(1, 1))]
     """
     bottom, top = ends_of(checker.parse(str(domain)), parameter)
-    roots = [r for r in real_roots(fmpq_poly(list(coefficients))) if (bottom is None or r > bottom) and (top is None or r < top)]
+    roots = [
+        r
+        for r in real_roots(fmpq_poly(list(coefficients)))
+        if (bottom is None or r > bottom) and (top is None or r < top)
+    ]
     separate(roots)
     low = fraction(roots[0]._low) - 1 if bottom is None else bottom
     high = fraction(roots[-1]._high) + 1 if top is None else top
-    cuts = [low, *(fraction(simplest_between(left._high, right._low)) for left, right in zip(roots, roots[1:])), high]
+    cuts = [
+        low,
+        *(
+            fraction(simplest_between(left._high, right._low))
+            for left, right in zip(roots, roots[1:])
+        ),
+        high,
+    ]
     return list(zip(cuts, cuts[1:]))
 
 
 def ends_of(domain: Any, parameter: str) -> tuple[Fraction | None, Fraction | None]:
-    """The rational ends of a domain, as the checker parses it, that bounds the parameter by relations linear in it; None where it has no such end."""
+    """The rational ends of a domain, as the checker parses it, that bounds the parameter by
+    relations linear in it; None where it has no such end."""
     context = checker.Context()
     context.declare(parameter)
     bounds: dict[bool, list[Fraction]] = {True: [], False: []}

@@ -10,11 +10,13 @@ from flint import fmpq
 
 from .semidefinite import Array
 
-NEAR = 2e-3  # to a rational with a small denominator: eigenvectors of singular matrices are no better known
+# to a rational with a small denominator: eigenvectors of singular matrices are no better known
+NEAR = 2e-3
 
 
 def rational_image(vectors: Array, near: float = NEAR) -> list[list[int]] | None:
-    """A basis of the space that the columns span, as small integers, in echelon form; None where none is near."""
+    """A basis of the space that the columns span, as small integers, in echelon form; None where
+    none is near."""
     work, pivots = vectors.T.copy(), []
     for row in range(len(work)):
         size = np.abs(work[row:])
@@ -39,7 +41,8 @@ def rational_image(vectors: Array, near: float = NEAR) -> list[list[int]] | None
 
 
 def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] | None:
-    """(c, row) with gram = sum c * row row^T, every c > 0, by LDL^T; None where the matrix is not positive semidefinite.
+    """(c, row) with gram = sum c * row row^T, every c > 0, by LDL^T; None where the matrix is not
+    positive semidefinite.
 
     >>> as_squares([[Fraction(1), Fraction(-1)], [Fraction(-1), Fraction(1)]])
     [(Fraction(1, 1), [1, -1])]
@@ -57,7 +60,9 @@ def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] |
             continue
         line = [c / head for c in rest[k]]
         common = lcm(*(int(c.q) for c in line))
-        squares.append((Fraction(int(head.p), int(head.q) * common**2), [int(c * common) for c in line]))
+        squares.append(
+            (Fraction(int(head.p), int(head.q) * common**2), [int(c * common) for c in line])
+        )
         for i in range(k + 1, size):
             factor = rest[i][k]
             if factor:

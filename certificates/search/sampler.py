@@ -1,4 +1,5 @@
-"""Exact values for all variables of a condition: equations are solved, the other variables sampled, the last one decided on its cells."""
+"""Exact values for all variables of a condition: equations are solved, the other variables sampled,
+the last one decided on its cells."""
 
 from __future__ import annotations
 
@@ -32,7 +33,8 @@ class Assignment:
 
 @dataclass
 class Sampler:
-    """One search: how many values to try for each variable, and how many substitutions to spend in all."""
+    """One search: how many values to try for each variable, and how many substitutions to spend in
+    all."""
 
     budget: Budget
     integers: frozenset[str] = frozenset()
@@ -43,7 +45,8 @@ class Sampler:
     order: Sequence[str] = ()
 
     def search(self, condition: Condition, names: Sequence[str]) -> Iterator[Assignment]:
-        """Assignments of the names that meet the condition, the simplest first as far as the sampling goes."""
+        """Assignments of the names that meet the condition, the simplest first as far as the
+        sampling goes."""
         self.order = list(names)
         yield from self._descend(condition, [], None)
 
@@ -60,7 +63,7 @@ class Sampler:
         free = sorted(names, key=lambda n: place[n])
         units = [n for n in free if n in UNITS]
         if units:
-            for value in favourites(units[0], False)[:1 if self.width < 7 else 3]:
+            for value in favourites(units[0], False)[: 1 if self.width < 7 else 3]:
                 yield from self._step(condition, steps, theta, units[0], value)
             return
         equation = self._equation_in_one(condition, theta)
@@ -69,10 +72,19 @@ class Sampler:
             for root in sorted(real_roots(poly), key=lambda r: not r.is_rational):
                 if root.is_rational and (name not in self.integers or root._low.q == 1):
                     yield from self._step(condition, steps, theta, name, root._low)
-                elif not root.is_rational and self.irrational and theta is None and name not in self.integers:
+                elif (
+                    not root.is_rational
+                    and self.irrational
+                    and theta is None
+                    and name not in self.integers
+                ):
                     yield from self._step(condition, steps, theta, name, root)
             return
-        implied = self._eliminated(condition) if self.irrational and theta is None and len(free) > 1 else None
+        implied = (
+            self._eliminated(condition)
+            if self.irrational and theta is None and len(free) > 1
+            else None
+        )
         if implied is not None:
             self._spend(condition)
             yield from self._descend(condition.conjoined(implied), steps, theta)
@@ -86,11 +98,17 @@ class Sampler:
             return
         name = free[0]
         if len(free) == 1:
-            alone = condition if theta is None else condition.substituted({theta[0]: theta[1].approximation()})
+            alone = (
+                condition
+                if theta is None
+                else condition.substituted({theta[0]: theta[1].approximation()})
+            )
             self._spend(condition)
             if theta is not None and not alone.variables() == {name}:
                 return
-            for value in solutions(alone, name, name in self.integers, self.last, self.irrational and theta is None):
+            for value in solutions(
+                alone, name, name in self.integers, self.last, self.irrational and theta is None
+            ):
                 yield from self._step(condition, steps, theta, name, value)
             return
         self._spend(condition)
@@ -101,15 +119,21 @@ class Sampler:
         self.nodes -= 1
         self.budget.spend(40 + 10 * len(condition.polys))
 
-    def _step(self, condition: Condition, steps: Steps, theta: Theta, name: str, value: Value) -> Iterator[Assignment]:
+    def _step(
+        self, condition: Condition, steps: Steps, theta: Theta, name: str, value: Value
+    ) -> Iterator[Assignment]:
         self._spend(condition)
         if isinstance(value, AlgebraicNumber):
             adjoined = (name, value)
             gen = condition.ring.gen(self._index(condition, name))
-            yield from self._descend(self._settled(condition, adjoined), [*steps, (name, gen)], adjoined)
+            yield from self._descend(
+                self._settled(condition, adjoined), [*steps, (name, gen)], adjoined
+            )
         else:
             changed = self._settled(condition.substituted({name: value}), theta)
-            yield from self._descend(changed, [*steps, (name, condition.ring.constant(value))], theta)
+            yield from self._descend(
+                changed, [*steps, (name, condition.ring.constant(value))], theta
+            )
 
     @staticmethod
     def _index(condition: Condition, name: str) -> int:
@@ -136,11 +160,21 @@ class Sampler:
         return None
 
     def _eliminated(self, condition: Condition) -> Condition | None:
-        """An equation in one variable that follows from two in the same two variables; none of them linear."""
-        equations = [poly for poly, relation in condition.facts() if relation == "=" and poly.total_degree() > 1]
+        """An equation in one variable that follows from two in the same two variables; none of them
+        linear."""
+        equations = [
+            poly
+            for poly, relation in condition.facts()
+            if relation == "=" and poly.total_degree() > 1
+        ]
         pairs = [(p, q) for p, q in combinations(equations, 2) if len(p) * len(q) <= 100]
         for p, q in pairs:
-            shared = {name for poly in (p, q) for name, e in zip(places(condition.ring), poly.degrees()) if e > 0}
+            shared = {
+                name
+                for poly in (p, q)
+                for name, e in zip(places(condition.ring), poly.degrees())
+                if e > 0
+            }
             if len(shared) == 2 and not shared & self.integers:
                 name = max(shared, key=places(condition.ring).__getitem__)
                 result, line = p.resultant(q, name), linear_remainder(p, q, name)
@@ -148,8 +182,11 @@ class Sampler:
                     return Condition(condition.ring, [result, line], ("and", [(0, "="), (1, "=")]))
         return None
 
-    def _linear_equation(self, condition: Condition, free: Sequence[str], theta: Theta) -> tuple[str, fmpq_mpoly] | None:
-        """(variable, value) from an equation that is linear in it with a number as its coefficient; parameters last."""
+    def _linear_equation(
+        self, condition: Condition, free: Sequence[str], theta: Theta
+    ) -> tuple[str, fmpq_mpoly] | None:
+        """(variable, value) from an equation that is linear in it with a number as its coefficient;
+        parameters last."""
         for poly, relation in condition.facts():
             if relation != "=":
                 continue
@@ -183,11 +220,14 @@ class Sampler:
         return result
 
     def _complete(self, condition: Condition, steps: Steps, theta: Theta) -> Assignment | None:
-        """The values of all variables, from the last decided back to the first; what does not matter is 1, or 1/2 for a parameter."""
+        """The values of all variables, from the last decided back to the first; what does not
+        matter is 1, or 1/2 for a parameter."""
         decided = {name for name, _ in steps}
         ring = condition.ring
         values: dict[str, fmpq_mpoly] = {
-            name: ring.constant(fmpq(1, 2) if name in PARAMETERS else 1) for name in self.order if name not in decided
+            name: ring.constant(fmpq(1, 2) if name in PARAMETERS else 1)
+            for name in self.order
+            if name not in decided
         }
         for name, value in reversed(steps):
             for other, known in values.items():
@@ -208,7 +248,8 @@ class Sampler:
 
 
 def linear_remainder(p: fmpq_mpoly, q: fmpq_mpoly, name: str) -> fmpq_mpoly:
-    """A combination of two polynomials whose degree in a variable is 1 at most, by pseudo-division: it gives the variable where both vanish."""
+    """A combination of two polynomials whose degree in a variable is 1 at most, by pseudo-division:
+    it gives the variable where both vanish."""
     gen = p.context().gen(places(p.context())[name])
     while True:
         one, other = sorted((coefficients_in(p, name), coefficients_in(q, name)), key=len)

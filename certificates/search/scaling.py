@@ -1,4 +1,5 @@
-"""Physical units: positive variables that a change of units makes 1, and identities lifted back by powers of them."""
+"""Physical units: positive variables that a change of units makes 1, and identities lifted back by
+powers of them."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ Weight = tuple[int, ...]  # one entry for each unit
 
 
 class Scaling:
-    """Gradings under which every polynomial of a state is homogeneous, each with a positive variable of weight 1: its unit.
+    """Gradings under which every polynomial of a state is homogeneous, each with a positive
+    variable of weight 1: its unit.
 
     >>> ring = Ring(("r", "v", "w"))
     >>> r, v, w = ring.gens
@@ -41,7 +43,10 @@ class Scaling:
         if known is None:
             first, *others = poly.monoms()
             found = frozenset(tuple(a - b for a, b in zip(first, other)) for other in others)
-            known = self.ring.differences[id(poly)] = poly, found  # holding the polynomial keeps its id from being used again
+            known = self.ring.differences[id(poly)] = (
+                poly,
+                found,
+            )  # holding the polynomial keeps its id from being used again
         return known[1]
 
     def _find(self, differences: frozenset[tuple[int, ...]], positive: Sequence[int]) -> None:
@@ -57,15 +62,23 @@ class Scaling:
                 return
 
     def _choose(self, units: tuple[int, ...]) -> bool:
-        """Takes these units, if each has a grading of its own with integer weights for all variables."""
+        """Takes these units, if each has a grading of its own with integer weights for all
+        variables."""
         size = self.ring.size
         others = [k for k in range(size) if k not in units]
         for first in others if len(units) < len(self.gradings) else others[:1] or [-1]:
             order = [*units, *(k for k in (first, *(k for k in others if k != first)) if k >= 0)]
             table, den, rank = fmpz_mat([[row[k] for k in order] for row in self.gradings]).rref()
             lines, den = [[int(c) for c in line] for line in table.tolist()[: len(units)]], int(den)
-            if rank >= len(units) and all(c % den == 0 for line in lines for c in line) and all(
-                    lines[i][j] == (den if i == j else 0) for i in range(len(units)) for j in range(len(units))):
+            if (
+                rank >= len(units)
+                and all(c % den == 0 for line in lines for c in line)
+                and all(
+                    lines[i][j] == (den if i == j else 0)
+                    for i in range(len(units))
+                    for j in range(len(units))
+                )
+            ):
                 place = {variable: k for k, variable in enumerate(order)}
                 self.units, self.values = units, dict.fromkeys(units, 1)
                 self.weights = [tuple(line[place[k]] // den for line in lines) for k in range(size)]
@@ -87,11 +100,16 @@ class Scaling:
 
     def of_monomial(self, monomial: Sequence[int]) -> Weight:
         """The weight of one monomial."""
-        return tuple(sum(int(e) * self.weights[k][i] for k, e in enumerate(monomial) if e) for i in range(len(self.units)))
+        return tuple(
+            sum(int(e) * self.weights[k][i] for k, e in enumerate(monomial) if e)
+            for i in range(len(self.units))
+        )
 
     def largest(self, poly: fmpz_mpoly) -> Weight:
         """The least weight to which a lowered polynomial can be lifted."""
-        parts = [self.of_monomial(monomial) for monomial in poly.monoms()] or [(0,) * len(self.units)]
+        parts = [self.of_monomial(monomial) for monomial in poly.monoms()] or [
+            (0,) * len(self.units)
+        ]
         return tuple(map(max, zip(*parts)))
 
     def lift(self, poly: fmpz_mpoly, weight: Weight) -> fmpz_mpoly:

@@ -1,7 +1,9 @@
-"""Semidefinite feasibility in floats: a hint at sums of squares, which exact arithmetic and the checker have to confirm.
+"""Semidefinite feasibility in floats: a hint at sums of squares, which exact arithmetic and the
+checker have to confirm.
 
-An infeasible primal-dual interior-point method (Helmberg, Rendl, Vanderbei and Wolkowicz 1996; Kojima, Shindoh and Hara 1997).
-Its steps are counted, so that it ends after the same work everywhere.
+An infeasible primal-dual interior-point method (Helmberg, Rendl, Vanderbei and Wolkowicz 1996;
+Kojima, Shindoh and Hara 1997). Its steps are counted, so that it ends after the same work
+everywhere.
 """
 
 from __future__ import annotations
@@ -18,11 +20,15 @@ ENOUGH = 1e-6  # what equations may miss
 SMALL = 1e-13  # an eigenvalue of equations that depend on others
 
 
-def feasible(blocks: list[Array], free: Array, right: Array, budget: Budget, trace: float, last: float) -> list[Array] | None:
-    """Positive semidefinite X_k with sum A_k X_k + free m = right for some m, as floats; None where the steps lead to none.
+def feasible(
+    blocks: list[Array], free: Array, right: Array, budget: Budget, trace: float, last: float
+) -> list[Array] | None:
+    """Positive semidefinite X_k with sum A_k X_k + free m = right for some m, as floats; None where
+    the steps lead to none.
 
-    A_k has the shape (rows, n_k, n_k).  With a cost of the trace, X tends to a simple solution; with hardly any, to the middle of all
-    solutions: where all of them are singular, X is nearly so, and its small eigenvalues show their common kernel.
+    A_k has the shape (rows, n_k, n_k).  With a cost of the trace, X tends to a simple solution;
+    with hardly any, to the middle of all solutions: where all of them are singular, X is nearly so,
+    and its small eigenvalues show their common kernel.
     """
     if free.shape[1]:
         budget.spend(20 + len(right) ** 3 // 8000)
@@ -39,7 +45,11 @@ def feasible(blocks: list[Array], free: Array, right: Array, budget: Budget, tra
     flat = [block.reshape(rows, -1) for block in blocks]
     cost = sum(rows * n**3 + rows * rows * n * n for n in sizes) + rows**3
     total = sum(sizes)
-    primal, dual, y = [10 * np.eye(n) for n in sizes], [10 * np.eye(n) for n in sizes], np.zeros(rows)
+    primal, dual, y = (
+        [10 * np.eye(n) for n in sizes],
+        [10 * np.eye(n) for n in sizes],
+        np.zeros(rows),
+    )
     best: list[Array] | None = None
     for _ in range(STEPS):
         budget.spend(50 + cost // 4000)
@@ -62,8 +72,11 @@ def feasible(blocks: list[Array], free: Array, right: Array, budget: Budget, tra
     return best
 
 
-def _independent(blocks: list[Array], right: Array, budget: Budget) -> tuple[list[Array], Array] | None:
-    """The same equations as orthonormal rows, without those that follow from others; None where they contradict one another."""
+def _independent(
+    blocks: list[Array], right: Array, budget: Budget
+) -> tuple[list[Array], Array] | None:
+    """The same equations as orthonormal rows, without those that follow from others; None where
+    they contradict one another."""
     budget.spend(20 + len(right) ** 3 // 8000)
     whole = np.hstack([block.reshape(len(right), -1) for block in blocks])
     values, left = np.linalg.eigh(whole @ whole.T)
@@ -74,8 +87,16 @@ def _independent(blocks: list[Array], right: Array, budget: Budget) -> tuple[lis
     return [np.tensordot(change, block, 1) for block in blocks], change @ right
 
 
-def _step(blocks: list[Array], flat: list[Array], primal: list[Array], dual: list[Array], y: Array, missing: Array, mu: float,
-          trace: float) -> tuple[list[Array], list[Array], Array] | None:
+def _step(
+    blocks: list[Array],
+    flat: list[Array],
+    primal: list[Array],
+    dual: list[Array],
+    y: Array,
+    missing: Array,
+    mu: float,
+    trace: float,
+) -> tuple[list[Array], list[Array], Array] | None:
     """One step with a predictor and a corrector; None where it makes no way."""
     rows = len(y)
     inverse = [np.linalg.inv(z) for z in dual]
@@ -90,7 +111,9 @@ def _step(blocks: list[Array], flat: list[Array], primal: list[Array], dual: lis
     system = (system + system.T) / 2
     system += 1e-13 * np.trace(system) / rows * np.eye(rows)
 
-    def direction(target: float, second: list[Array] | None) -> tuple[list[Array], list[Array], Array]:
+    def direction(
+        target: float, second: list[Array] | None
+    ) -> tuple[list[Array], list[Array], Array]:
         right = base - target * centre
         if second is not None:
             right = right + sum((a @ s.ravel() for a, s in zip(flat, second)), np.zeros(rows))
@@ -103,7 +126,10 @@ def _step(blocks: list[Array], flat: list[Array], primal: list[Array], dual: lis
 
     dx, dz, _ = direction(0.0, None)
     ahead, behind = min(1.0, _room(primal, dx)), min(1.0, _room(dual, dz))
-    there = sum(float(((x + ahead * a) * (z + behind * b)).sum()) for x, a, z, b in zip(primal, dx, dual, dz)) / sum(map(len, primal))
+    there = sum(
+        float(((x + ahead * a) * (z + behind * b)).sum())
+        for x, a, z, b in zip(primal, dx, dual, dz)
+    ) / sum(map(len, primal))
     target = mu * min(1.0, max(0.05, (max(there, 0.0) / mu) ** 2))
     dx, dz, dy = direction(target, [a @ b @ back for a, b, back in zip(dx, dz, inverse)])
     ahead, behind = min(1.0, 0.95 * _room(primal, dx)), min(1.0, 0.95 * _room(dual, dz))

@@ -1,4 +1,5 @@
-"""Sharp ranges in several parameters: one polynomial border, or two, whose signs tell where statements hold."""
+"""Sharp ranges in several parameters: one polynomial border, or two, whose signs tell where
+statements hold."""
 
 from __future__ import annotations
 
@@ -28,12 +29,21 @@ from .violations import Violation
 from .writing import relation_of
 
 RELATIONS = ("=", "!=", ">", ">=")
-Guess = tuple[str, list[tuple[fmpq_mpoly, str]]]  # "and" or "or", and relations of border polynomials to 0
+Guess = tuple[
+    str, list[tuple[fmpq_mpoly, str]]
+]  # "and" or "or", and relations of border polynomials to 0
 
 
-def find_sharp_region(statements: Sequence[checker.Statement], parameters: Sequence[str], domain: Formula, name: str, known: Known,
-                      budget: Budget) -> Range:
-    """The set of several parameters on which all the statements hold, as at most two relations of border polynomials to 0."""
+def find_sharp_region(
+    statements: Sequence[checker.Statement],
+    parameters: Sequence[str],
+    domain: Formula,
+    name: str,
+    known: Known,
+    budget: Budget,
+) -> Range:
+    """The set of several parameters on which all the statements hold, as at most two relations of
+    border polynomials to 0."""
     tree = checker.parse(str(domain))
     state: checker.State = checker.State(checker.Context())
     for parameter in parameters:
@@ -51,7 +61,9 @@ def find_sharp_region(statements: Sequence[checker.Statement], parameters: Seque
             verdicts.append(verdict)
         for guess in _guesses(polys, samples, verdicts):
             condition = _formula(guess)
-            statement = SharpRange(name, tuple(s.name for s in statements), tuple(parameters), domain, condition)
+            statement = SharpRange(
+                name, tuple(s.name for s in statements), tuple(parameters), domain, condition
+            )
             certificate, failure = _certified(read(statement), statements, samples, known, budget)
             return Range(statement, [], certificate, failure)
     except Exhausted:
@@ -59,7 +71,9 @@ def find_sharp_region(statements: Sequence[checker.Statement], parameters: Seque
     return Range(failure="no two borders tell the samples apart")
 
 
-def _borders(state: checker.State, violations: Sequence[Violation], parameters: Sequence[str], budget: Budget) -> list[fmpq_mpoly]:
+def _borders(
+    state: checker.State, violations: Sequence[Violation], parameters: Sequence[str], budget: Budget
+) -> list[fmpq_mpoly]:
     """Polynomials from resultants, and for whole numbers those of the next one."""
     empty = Condition.of(state.context, True)
     found = border_polynomials([(v.condition, v.goal) for v in violations], parameters, budget)
@@ -70,14 +84,24 @@ def _borders(state: checker.State, violations: Sequence[Violation], parameters: 
     return list({str(q): q for q in own}.values())[:24]
 
 
-def _samples(state: checker.State, polys: Sequence[fmpq_mpoly], parameters: Sequence[str], budget: Budget) -> list[Sample]:
-    """Points of the domain on both sides of the borders, and on them where a border is linear in a parameter."""
+def _samples(
+    state: checker.State, polys: Sequence[fmpq_mpoly], parameters: Sequence[str], budget: Budget
+) -> list[Sample]:
+    """Points of the domain on both sides of the borders, and on them where a border is linear in a
+    parameter."""
     found = base_samples(state, budget, 24)
-    inside = [Condition.of(state.context, checker.join("and", [("atom", poly, relation) for poly, relation in state.facts]))]
+    inside = [
+        Condition.of(
+            state.context,
+            checker.join("and", [("atom", poly, relation) for poly, relation in state.facts]),
+        )
+    ]
     for sample in list(found):
         for poly in polys:
             for name in sorted(set(parameters) - state.context.integers):
-                parts = coefficients_in(poly.subs({n: v for n, v in sample.items() if n != name}), name)
+                parts = coefficients_in(
+                    poly.subs({n: v for n, v in sample.items() if n != name}), name
+                )
                 slope = constant_of(parts[1]) if len(parts) == 2 else None
                 rest = constant_of(parts[0])
                 if slope and rest is not None:
@@ -92,7 +116,12 @@ def _verdict(violations: Sequence[Violation], sample: Sample, budget: Budget) ->
     for violation in violations:
         goal = violation.goal.substituted(sample) if violation.goal is not None else None
         unreachable = (goal, violation.bound) if goal is not None else None
-        verdict = ask(violation.condition.substituted(sample), budget, violation.integers, unreachable=unreachable).verdict
+        verdict = ask(
+            violation.condition.substituted(sample),
+            budget,
+            violation.integers,
+            unreachable=unreachable,
+        ).verdict
         if verdict == "sat":
             return False
         if verdict != "unsat":
@@ -100,7 +129,9 @@ def _verdict(violations: Sequence[Violation], sample: Sample, budget: Budget) ->
     return True
 
 
-def _guesses(polys: Sequence[fmpq_mpoly], samples: Sequence[Sample], verdicts: Sequence[bool]) -> Iterator[Guess]:
+def _guesses(
+    polys: Sequence[fmpq_mpoly], samples: Sequence[Sample], verdicts: Sequence[bool]
+) -> Iterator[Guess]:
     """Conditions that agree with every verdict, the shortest first."""
     atoms: list[tuple[tuple[fmpq_mpoly, str], list[bool]]] = []
     if all(verdicts):
@@ -124,11 +155,18 @@ def _guesses(polys: Sequence[fmpq_mpoly], samples: Sequence[Sample], verdicts: S
 
 def _formula(guess: Guess) -> Formula:
     op, atoms = guess
-    return (conjunction if op == "and" else disjunction)([relation_of(poly, relation) for poly, relation in atoms])
+    return (conjunction if op == "and" else disjunction)(
+        [relation_of(poly, relation) for poly, relation in atoms]
+    )
 
 
-def _certified(statement: checker.Statement, statements: Sequence[checker.Statement], samples: Sequence[Sample], known: Mapping[str, Any],
-               budget: Budget) -> tuple[list[Any] | None, str]:
+def _certified(
+    statement: checker.Statement,
+    statements: Sequence[checker.Statement],
+    samples: Sequence[Sample],
+    known: Mapping[str, Any],
+    budget: Budget,
+) -> tuple[list[Any] | None, str]:
     inside, failure = proofs_inside(statement, statements, known, budget)
     if inside is None:
         return None, failure
@@ -138,14 +176,21 @@ def _certified(statement: checker.Statement, statements: Sequence[checker.Statem
     node = search_closing(state, dict(known), budget, 1)
     outside: list[Any] | None = None if node is None else ["empty", node]
     for each in statements if outside is None else ():
-        outside = cover(Task(each, "counterexample", base, dict(known), budget, [domain]), state, base_samples(state, budget), depth=3)
+        outside = cover(
+            Task(each, "counterexample", base, dict(known), budget, [domain]),
+            state,
+            base_samples(state, budget),
+            depth=3,
+        )
         if outside is not None:
             break
     sample = sample_of(statement, statements, budget)
     if outside is None or sample is None:
         return None, "no family of counterexamples outside the range"
     certificate = [inside, outside, sample]
-    if not accepted(checker.check_sharp, statement, certificate, dict(known), {s.name: s for s in statements}):
+    if not accepted(
+        checker.check_sharp, statement, certificate, dict(known), {s.name: s for s in statements}
+    ):
         return None, "the checker does not accept the certificate"
     return certificate, ""
 

@@ -13,12 +13,15 @@ from .polynomials import constant_of
 from .reduction import Factors
 from .sturm import bernstein, univariate
 
-Sum = list[tuple[Fraction, Factors]]  # of products of facts of the problem, each with a positive coefficient
+Sum = list[
+    tuple[Fraction, Factors]
+]  # of products of facts of the problem, each with a positive coefficient
 
 
 @dataclass
 class Fact:
-    """leads^counts * facts of the state^factors = scale * multiplier * poly modulo the equations; poly is primitive, scale > 0."""
+    """leads^counts * facts of the state^factors = scale * multiplier * poly modulo the equations;
+    poly is primitive, scale > 0."""
 
     poly: fmpz_mpoly
     strict: bool
@@ -31,17 +34,20 @@ class Fact:
         """The degree in one variable."""
         return int(self.poly.degrees()[variable])
 
-
     def end(self, variable: int) -> Fraction:
         """Where a bound a*z + b vanishes."""
         slope = constant_of(self.poly.derivative(variable)) or 1
-        rest = next((c for monomial, c in zip(self.poly.monoms(), self.poly.coeffs()) if not any(monomial)), 0)
+        rest = next(
+            (c for monomial, c in zip(self.poly.monoms(), self.poly.coeffs()) if not any(monomial)),
+            0,
+        )
         return Fraction(-int(rest), slope)
 
 
 @dataclass(frozen=True)
 class Bounded:
-    """A variable with a fact low = a*z + b that bounds it below, a > 0, and a fact high = d - c*z that bounds it above."""
+    """A variable with a fact low = a*z + b that bounds it below, a > 0, and a fact high = d - c*z
+    that bounds it above."""
 
     variable: int
     low: int
@@ -73,9 +79,14 @@ class Signs:
                 self.at_least_zero[degrees.index(1)] = k
 
     def of(self, poly: fmpz_mpoly) -> tuple[int, Sum]:
-        """(sign, positive sum equal to sign * poly) with a strict term; (0, []) where none is seen."""
+        """(sign, positive sum equal to sign * poly) with a strict term; (0, []) where none is
+        seen."""
         for k, fact in enumerate(self.facts):
-            if fact.strict and fact.multiplier is None and (fact.poly == poly or fact.poly == -poly):
+            if (
+                fact.strict
+                and fact.multiplier is None
+                and (fact.poly == poly or fact.poly == -poly)
+            ):
                 return (1 if fact.poly == poly else -1), [(Fraction(1), ((k, 1),))]
         for sign in (1, -1):
             found = self._termwise(poly * sign) or self._between(poly * sign)
@@ -104,17 +115,27 @@ class Signs:
         degree = int(poly.degrees()[bounded.variable])
         if not degree or degree != sum(map(int, poly.degrees())):
             return []
-        facts, ends = self.facts, [self.facts[k].end(bounded.variable) for k in (bounded.low, bounded.high)]
+        facts, ends = (
+            self.facts,
+            [self.facts[k].end(bounded.variable) for k in (bounded.low, bounded.high)],
+        )
         width = ends[1] - ends[0]
-        slopes = [abs(constant_of(facts[k].poly.derivative(bounded.variable)) or 1) for k in (bounded.low, bounded.high)]
+        slopes = [
+            abs(constant_of(facts[k].poly.derivative(bounded.variable)) or 1)
+            for k in (bounded.low, bounded.high)
+        ]
         if width <= 0:
             return []
         found: Sum = []
         strict = False
-        for k, b in enumerate(bernstein(univariate(poly, bounded.variable), ends[0], ends[1], degree)):
+        for k, b in enumerate(
+            bernstein(univariate(poly, bounded.variable), ends[0], ends[1], degree)
+        ):
             if b < 0:
                 return []
-            own = tuple((i, e) for i, e in sorted(((bounded.low, k), (bounded.high, degree - k))) if e)
+            own = tuple(
+                (i, e) for i, e in sorted(((bounded.low, k), (bounded.high, degree - k))) if e
+            )
             if b:
                 strict = strict or all(facts[i].strict for i, _ in own)
                 value = Fraction(int(b.p), int(b.q)) * comb(degree, k) / width**degree

@@ -1,6 +1,8 @@
-"""A box tree that shows that a polynomial is nowhere negative on a box: depth first, in plain lists of integers, for small problems.
+"""A box tree that shows that a polynomial is nowhere negative on a box: depth first, in plain lists
+of integers, for small problems.
 
-Where boxes have few coefficients this takes about as long as the check; `box_tree` is for bounds that are not known before, and for large boxes.
+Where boxes have few coefficients this takes about as long as the check; `box_tree` is for bounds
+that are not known before, and for large boxes.
 """
 
 from __future__ import annotations
@@ -11,11 +13,14 @@ from certificates import checker
 
 from .plain_polynomials import LETTERS, Box, Terms
 
-Part = tuple[list[int], list[int]]  # the sizes of a box's coefficients, and these, as the checker orders them
+Part = tuple[
+    list[int], list[int]
+]  # the sizes of a box's coefficients, and these, as the checker orders them
 
 
 def search_tree(terms: Terms, box: Box, most: int) -> str | None:
-    """The text of a tree of at most `most` letters for `terms` >= 0; None where it has more, or where a corner has a negative value.
+    """The text of a tree of at most `most` letters for `terms` >= 0; None where it has more, or
+    where a corner has a negative value.
 
     >>> from fractions import Fraction as F
     >>> search_tree({(2,): F(1), (1,): F(-1), (0,): F(1, 4)}, [(F(0), F(1))], 9)
@@ -23,10 +28,17 @@ def search_tree(terms: Terms, box: Box, most: int) -> str | None:
     """
     used = [k for k in range(len(box)) if any(e[k] for e in terms)]
     unit = lcm(*(c.denominator for c in terms.values()))
-    packed = {sum(e[k] << checker.BITS * k for k in used): -c.numerator * (unit // c.denominator) for e, c in terms.items()}
+    packed = {
+        sum(e[k] << checker.BITS * k for k in used): -c.numerator * (unit // c.denominator)
+        for e, c in terms.items()
+    }
     checker.work_left[0] = checker.MAX_WORK
     try:
-        boxes = [checker.bernstein(checker.Poly(packed, 1, 0), [(checker.BITS * k, *box[k]) for k in used])]
+        boxes = [
+            checker.bernstein(
+                checker.Poly(packed, 1, 0), [(checker.BITS * k, *box[k]) for k in used]
+            )
+        ]
     except checker.Rejected:
         return None
     letters: list[str] = []
@@ -40,7 +52,8 @@ def search_tree(terms: Terms, box: Box, most: int) -> str | None:
 
 
 def _on_a_line(sizes: list[int], c: list[int]) -> tuple[str, list[Part]]:
-    """The same as `_treated`, for one axis: which nearly all boxes have that are close to the minimum."""
+    """The same as `_treated`, for one axis: which nearly all boxes have that are close to the
+    minimum."""
     if max(c) <= 0:
         return ".", []
     if c[0] > 0 or c[-1] > 0:
@@ -49,7 +62,8 @@ def _on_a_line(sizes: list[int], c: list[int]) -> tuple[str, list[Part]]:
 
 
 def _treated(sizes: list[int], c: list[int]) -> tuple[str, list[Part]]:
-    """The letter of a box, and its parts: a leaf, a face, or halves along the axis with the largest n (n - 1) max |second difference|.
+    """The letter of a box, and its parts: a leaf, a face, or halves along the axis with the largest
+    n (n - 1) max |second difference|.
 
     No letter where halving is in vain: a corner has a positive value, or all are corners.
     """
@@ -57,19 +71,30 @@ def _treated(sizes: list[int], c: list[int]) -> tuple[str, list[Part]]:
         return ".", []
     weight, choice, best = 0, 0, c
     for axis, count in enumerate(sizes):
-        step, size = prod(sizes[axis + 1:]), len(c) // count
-        first = [x for j in range(0, step * count, step) for k in range(j, len(c), count * step) for x in c[k:k + step]] if axis else c
+        step, size = prod(sizes[axis + 1 :]), len(c) // count
+        first = (
+            [
+                x
+                for j in range(0, step * count, step)
+                for k in range(j, len(c), count * step)
+                for x in c[k : k + step]
+            ]
+            if axis
+            else c
+        )
         rises = [y - x for x, y in zip(first, first[size:])]
         least, greatest = min(rises), max(rises)
         if least >= 0 or greatest <= 0:
-            return LETTERS[axis].upper(), [(sizes[:axis] + sizes[axis + 1:], first[-size:] if greatest > 0 else first[:size])]
+            return LETTERS[axis].upper(), [
+                (sizes[:axis] + sizes[axis + 1 :], first[-size:] if greatest > 0 else first[:size])
+            ]
         bends = [y - x for x, y in zip(rises, rises[size:])]
         found = max(max(bends), -min(bends)) * (count - 1) * (count - 2) if bends else 0
         if found > weight:
             weight, choice, best = found, axis, first
     if not weight or _corner_is_positive(sizes, c):
         return "", []
-    return LETTERS[choice], _halves([sizes[choice], *sizes[:choice], *sizes[choice + 1:]], best)
+    return LETTERS[choice], _halves([sizes[choice], *sizes[:choice], *sizes[choice + 1 :]], best)
 
 
 def _halves(sizes: list[int], c: list[int]) -> list[Part]:
@@ -78,8 +103,10 @@ def _halves(sizes: list[int], c: list[int]) -> list[Part]:
     levels = [c]
     for _ in range(n):
         levels.append([x + y for x, y in zip(levels[-1], levels[-1][size:])])
-    return [(sizes, [x << k for k, level in enumerate(levels[::-1]) for x in level[-size:]]),
-            (sizes, [x << n - k for k, level in enumerate(levels) for x in level[:size]])]
+    return [
+        (sizes, [x << k for k, level in enumerate(levels[::-1]) for x in level[-size:]]),
+        (sizes, [x << n - k for k, level in enumerate(levels) for x in level[:size]]),
+    ]
 
 
 def _corner_is_positive(sizes: list[int], c: list[int]) -> bool:

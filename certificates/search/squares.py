@@ -1,4 +1,5 @@
-"""Polynomials worth squaring, or telling the sign of: candidates read off the facts of a problem."""
+"""Polynomials worth squaring, or telling the sign of: candidates read off the facts of a
+problem."""
 
 from __future__ import annotations
 
@@ -33,8 +34,11 @@ def factors(poly: fmpz_mpoly) -> list[tuple[fmpz_mpoly, int]]:
     return [] if not poly or poly.is_constant() else [(p, int(e)) for p, e in poly.factor()[1]]
 
 
-def squares(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST) -> list[fmpz_mpoly]:
-    """Candidates for squares, cheapest first: repeated factors, critical lines, variables, differences of variables."""
+def squares(
+    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
+) -> list[fmpz_mpoly]:
+    """Candidates for squares, cheapest first: repeated factors, critical lines, variables,
+    differences of variables."""
     pool = Pool()
     used = [v for v in range(ring.size) if v != parameter and any(p.degrees()[v] for p in facts)]
     for poly in facts:
@@ -56,8 +60,11 @@ def squares(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int =
     return pool.polys[:most]
 
 
-def resultants(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST) -> list[fmpz_mpoly]:
-    """Factors of resultants of two facts in a variable that is linear in one of them, smallest first."""
+def resultants(
+    ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
+) -> list[fmpz_mpoly]:
+    """Factors of resultants of two facts in a variable that is linear in one of them, smallest
+    first."""
     pool = Pool()
     for v in range(ring.size):
         if v == parameter:
@@ -67,6 +74,8 @@ def resultants(ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: in
             if min(p.degrees()[v], q.degrees()[v]) == 1:
                 for factor, _ in factors(p.resultant(q, v)):
                     pool.add(factor)
-    found = [p for p in pool.polys if any(p.degrees()[v] for v in range(ring.size) if v != parameter)]
+    found = [
+        p for p in pool.polys if any(p.degrees()[v] for v in range(ring.size) if v != parameter)
+    ]
     found.sort(key=lambda p: (len(p), total_degree(p)))
     return found[:most]

@@ -1,4 +1,5 @@
-"""Statements unfolded once: the searches for points, proofs and witnesses share what the checker makes of a text."""
+"""Statements unfolded once: the searches for points, proofs and witnesses share what the checker
+makes of a text."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ _kept: dict[tuple[int, ...], tuple[Any, ...]] = {}
 
 
 def unfolded(statement: checker.Statement, sharp: list[Any] | None = None) -> checker.Unfolding:
-    """The statement's variables, premises, obligations and goals in a context of its own; not to be changed.
+    """The statement's variables, premises, obligations and goals in a context of its own; not to be
+    changed.
 
     >>> story = unfolded(checker.read_statements("statement a/b\\nforall x\\ngiven x > 1\\nshow x > 0")["a/b"])
     >>> story.universal, len(story.premises)
@@ -22,5 +24,9 @@ def unfolded(statement: checker.Statement, sharp: list[Any] | None = None) -> ch
         while len(_kept) >= MOST:
             del _kept[next(iter(_kept))]
         # the statement and the trees are kept with it, so that their ids stay theirs
-        _kept[key] = (checker.Unfolding(statement, checker.Context(), sharp), statement, sharp and list(sharp))
+        _kept[key] = (
+            checker.Unfolding(statement, checker.Context(), sharp),
+            statement,
+            sharp and list(sharp),
+        )
     return _kept[key][0]

@@ -1,4 +1,5 @@
-"""Polynomials in one variable on an interval: exact real root counts, by Descartes' rule with bisection."""
+"""Polynomials in one variable on an interval: exact real root counts, by Descartes' rule with
+bisection."""
 
 from __future__ import annotations
 
@@ -21,14 +22,21 @@ def _coefficients(poly: fmpz_mpoly, variable: int) -> list[int]:
 
 
 def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> list[fmpq]:
-    """The coefficients b_k with poly = sum b_k comb(n, k) (z - low)^k (high - z)^(n - k) / (high - low)^n.
+    """The coefficients b_k with poly = sum b_k comb(n, k) (z - low)^k (high - z)^(n - k) / (high -
+    low)^n.
 
     >>> [str(b) for b in bernstein(fmpq_poly([0, 1]), Fraction(0), Fraction(1), 2)]
     ['0', '1/2', '1']
     """
-    start, width = fmpq(low.numerator, low.denominator), fmpq((high - low).numerator, (high - low).denominator)
+    start, width = (
+        fmpq(low.numerator, low.denominator),
+        fmpq((high - low).numerator, (high - low).denominator),
+    )
     moved = poly(fmpq_poly([start, width])).coeffs()
-    return [sum((c * fmpq(comb(k, j), comb(degree, j)) for j, c in enumerate(moved[: k + 1])), fmpq(0)) for k in range(degree + 1)]
+    return [
+        sum((c * fmpq(comb(k, j), comb(degree, j)) for j, c in enumerate(moved[: k + 1])), fmpq(0))
+        for k in range(degree + 1)
+    ]
 
 
 def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
@@ -44,4 +52,6 @@ def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
         return False
     if all(b >= 0 for b in coefficients):
         return True
-    return low < high and checker.count_roots([int(c) for c in poly.numer().coeffs()], low, high) == 0
+    return (
+        low < high and checker.count_roots([int(c) for c in poly.numer().coeffs()], low, high) == 0
+    )

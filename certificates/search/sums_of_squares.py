@@ -1,8 +1,10 @@
-"""Positive combinations with sums of squares as multipliers: sum s_k * product of facts + sum m_j * equation = 0, every s_k a sum of squares.
+"""Positive combinations with sums of squares as multipliers: sum s_k * product of facts + sum m_j *
+equation = 0, every s_k a sum of squares.
 
-A semidefinite program in floats hints at Gram matrices (Parrilo 2000).  Where they are singular, as at every point of equality, their kernel is
-read off as rationals and the squares are confined to its complement, so that what is left can be rounded (Peyrl and Parrilo 2008; Monniaux
-and Corbineau 2011).  The result is exact, and the checker confirms it.
+A semidefinite program in floats hints at Gram matrices (Parrilo 2000).  Where they are singular, as
+at every point of equality, their kernel is read off as rationals and the squares are confined to
+its complement, so that what is left can be rounded (Peyrl and Parrilo 2008; Monniaux and Corbineau
+2011).  The result is exact, and the checker confirms it.
 """
 
 from __future__ import annotations
@@ -35,7 +37,11 @@ MOST_BITS = 6000  # of a coefficient
 MOST_MONOMIALS = 70  # in one block
 DENOMINATORS = (1, 2, 12, 60, 1 << 8, 1 << 14, 1 << 20, 1 << 28)
 ROUNDS = 6
-GOALS = ((1e-4, 1e-9), (1e-5, 1e-8), (1e-6, 1e-7))  # what the trace costs, and where to stop: from simple solutions to the middle of all
+GOALS = (
+    (1e-4, 1e-9),
+    (1e-5, 1e-8),
+    (1e-6, 1e-7),
+)  # what the trace costs, and where to stop: from simple solutions to the middle of all
 KERNELS = (1e-3, 1e-5, 1e-2, 1e-7)
 
 
@@ -52,16 +58,24 @@ class Block:
 class Squares:
     """One program: the blocks, and the equations with the monomials that multiply them."""
 
-    def __init__(self, problem: Problem, count: int, degree: int, only: Sequence[int], budget: Budget) -> None:
+    def __init__(
+        self, problem: Problem, count: int, degree: int, only: Sequence[int], budget: Budget
+    ) -> None:
         self.problem, self.ring, self.degree, self.only = problem, problem.ring, degree, only
-        polys = [*(equation.poly for equation in problem.reduction.left), *(problem.facts[k].poly for k in only)]
+        polys = [
+            *(equation.poly for equation in problem.reduction.left),
+            *(problem.facts[k].poly for k in only),
+        ]
         self.used = [v for v in range(self.ring.size) if any(p.degrees()[v] for p in polys)]
         self.flips = self._flips(polys)
         self.leading = [equation.poly.monoms()[0] for equation in problem.reduction.basis()]
         self.blocks = list(self._blocks(count, budget))
-        self.cofactors = [(place, monomial) for place, equation in enumerate(problem.reduction.left)
-                          for monomial in self._monomials(degree - total_degree(equation.poly))
-                          if self._class(monomial) == self._class(equation.poly.monoms()[0])]
+        self.cofactors = [
+            (place, monomial)
+            for place, equation in enumerate(problem.reduction.left)
+            for monomial in self._monomials(degree - total_degree(equation.poly))
+            if self._class(monomial) == self._class(equation.poly.monoms()[0])
+        ]
         products = sum(len(block.basis) ** 2 * len(block.poly) for block in self.blocks) // 2
         if products > MOST_ENTRIES:
             self.blocks = []
@@ -71,7 +85,8 @@ class Squares:
     # ------------------------------------------------------------ what is in the program
 
     def _flips(self, polys: Sequence[fmpz_mpoly]) -> list[Monomial]:
-        """The sets of variables whose signs can be changed without changing any fact or equation, but for an equation's own sign."""
+        """The sets of variables whose signs can be changed without changing any fact or equation,
+        but for an equation's own sign."""
         odd = [[tuple(e % 2 for e in m) for m in p.monoms()] for p in polys]
         found = []
         for signs in choices((0, 1), repeat=len(self.used)) if len(self.used) <= 9 else ():
@@ -80,7 +95,11 @@ class Squares:
                 flip[v] = sign
             parities = [{sum(a * b for a, b in zip(m, flip)) % 2 for m in p} for p in odd]
             count = len(self.problem.reduction.left)
-            if any(signs) and all(len(one) == 1 for one in parities[:count]) and all(one <= {0} for one in parities[count:]):
+            if (
+                any(signs)
+                and all(len(one) == 1 for one in parities[:count])
+                and all(one <= {0} for one in parities[count:])
+            ):
                 found.append(tuple(flip))
         return found
 
@@ -110,9 +129,13 @@ class Squares:
                 budget.spend(comb(len(self.used) + room, room))
                 parts: dict[Monomial, list[fmpz_mpoly]] = {}
                 for monomial in self._monomials(room):
-                    if any(all(a >= b for a, b in zip(monomial, leading)) for leading in self.leading):
+                    if any(
+                        all(a >= b for a, b in zip(monomial, leading)) for leading in self.leading
+                    ):
                         continue  # modulo the equations it is a combination of others
-                    parts.setdefault(self._class(monomial), []).append(self.ring.ctx.from_dict({monomial: 1}))
+                    parts.setdefault(self._class(monomial), []).append(
+                        self.ring.ctx.from_dict({monomial: 1})
+                    )
                 for basis in parts.values():
                     yield Block(powers_of(chosen), poly, False, basis)
                 if all(facts[k].strict for k in chosen):
@@ -122,15 +145,22 @@ class Squares:
                         yield Block(((chosen[0], power),), poly**power, True, [self.ring.one])
 
     def _prune(self) -> None:
-        """Drops squares that nothing can cancel: of a monomial that only squares reach, and all with one sign."""
+        """Drops squares that nothing can cancel: of a monomial that only squares reach, and all
+        with one sign."""
         while True:
             fixed, signs = set[Monomial](), dict[Monomial, set[int]]()
             owners: dict[Monomial, list[tuple[int, int]]] = {}
             for place, monomial in self.cofactors:
-                fixed |= {tuple(int(a) + b for a, b in zip(m, monomial)) for m in self.problem.reduction.left[place].poly.monoms()}
+                fixed |= {
+                    tuple(int(a) + b for a, b in zip(m, monomial))
+                    for m in self.problem.reduction.left[place].poly.monoms()
+                }
             for k, block in enumerate(self.blocks):
                 exponents = [tuple(map(int, b.monoms()[0])) for b in block.basis]
-                terms = [(tuple(map(int, m)), 1 if int(c) > 0 else -1) for m, c in zip(block.poly.monoms(), block.poly.coeffs())]
+                terms = [
+                    (tuple(map(int, m)), 1 if int(c) > 0 else -1)
+                    for m, c in zip(block.poly.monoms(), block.poly.coeffs())
+                ]
                 for i, one in enumerate(exponents):
                     for j in range(i + 1):
                         for m, sign in terms:
@@ -140,7 +170,12 @@ class Squares:
                             else:
                                 signs.setdefault(whole, set()).add(sign)
                                 owners.setdefault(whole, []).append((k, i))
-            dead = {place for whole, found in signs.items() if len(found) == 1 and whole not in fixed for place in owners[whole]}
+            dead = {
+                place
+                for whole, found in signs.items()
+                if len(found) == 1 and whole not in fixed
+                for place in owners[whole]
+            }
             if not dead:
                 break
             for k, block in enumerate(self.blocks):
@@ -164,9 +199,17 @@ class Squares:
                     return node
         return None
 
-    def _followed(self, blocks: list[Block], solved: Solved | None, threshold: float, goal: tuple[float, float],
-                  tried: set[tuple[int, ...]], budget: Budget) -> Node | None:
-        """The node of a solution inside of the cone that is left when kernels are taken off, as long as there are any."""
+    def _followed(
+        self,
+        blocks: list[Block],
+        solved: Solved | None,
+        threshold: float,
+        goal: tuple[float, float],
+        tried: set[tuple[int, ...]],
+        budget: Budget,
+    ) -> Node | None:
+        """The node of a solution inside of the cone that is left when kernels are taken off, as
+        long as there are any."""
         self.blocks = blocks
         for _ in range(ROUNDS):
             confined = self._confined(solved[1], threshold) if solved else []
@@ -191,14 +234,21 @@ class Squares:
 
     def _linear(self) -> Linear | None:
         """The equations, where there are any that could be met, and they are not too many."""
-        if not any(block.strict for block in self.blocks) or max(len(block.basis) for block in self.blocks) > MOST_MONOMIALS:
+        if (
+            not any(block.strict for block in self.blocks)
+            or max(len(block.basis) for block in self.blocks) > MOST_MONOMIALS
+        ):
             return None
         left = self.problem.reduction.left
-        linear = Linear(self.blocks, [left[place].poly * self.ring.ctx.from_dict({m: 1}) for place, m in self.cofactors])
+        linear = Linear(
+            self.blocks,
+            [left[place].poly * self.ring.ctx.from_dict({m: 1}) for place, m in self.cofactors],
+        )
         return linear if linear.size <= MOST_ENTRIES else None
 
     def _confined(self, grams: list[Array], threshold: float) -> list[Block]:
-        """The blocks, each confined to the complement of its matrix's kernel, where that is a simple rational space."""
+        """The blocks, each confined to the complement of its matrix's kernel, where that is a
+        simple rational space."""
         kept = []
         top = max(float(np.abs(gram).max()) for gram in grams)
         for block, gram in zip(self.blocks, grams):
@@ -208,11 +258,16 @@ class Squares:
             if image is None:
                 kept.append(block)
             elif image:
-                basis = [sum((b * c for b, c in zip(block.basis, row) if c), self.ring.zero) for row in image]
+                basis = [
+                    sum((b * c for b, c in zip(block.basis, row) if c), self.ring.zero)
+                    for row in image
+                ]
                 kept.append(Block(block.factors, block.poly, block.strict, basis))
         return kept
 
-    def _rounded(self, linear: Linear, grams: list[Array], denominators: Sequence[int], budget: Budget) -> Node | None:
+    def _rounded(
+        self, linear: Linear, grams: list[Array], denominators: Sequence[int], budget: Budget
+    ) -> Node | None:
         """The node of exact matrices near the floating ones."""
         for denominator in denominators:
             budget.spend(50 + linear.rows**2 * len(linear.terms) // 4000)
@@ -231,7 +286,11 @@ class Squares:
             size = len(block.basis)
             gram = [[entries[(k, max(i, j), min(i, j))] for j in range(size)] for i in range(size)]
             squares = as_squares(gram)
-            if squares is None or any(c.bit_length() > MOST_BITS for weight, row in squares for c in (*weight.as_integer_ratio(), *row)):
+            if squares is None or any(
+                c.bit_length() > MOST_BITS
+                for weight, row in squares
+                for c in (*weight.as_integer_ratio(), *row)
+            ):
                 return None
             for weight, row in squares:
                 root = sum((b * int(c) for b, c in zip(block.basis, row) if c), self.ring.zero)
@@ -247,21 +306,45 @@ class Squares:
             return None
 
 
-# (facts in a product at most, degree beyond that of the facts, whether bounds and signs of single variables are left out)
-STAGES = ((1, 0, True), (1, 0, False), (2, 0, False), (1, 2, True), (1, 2, False), (2, 2, False), (1, 4, True), (1, 4, False))
+# (facts in a product at most, degree beyond that of the facts, whether bounds and signs of single
+# variables are left out)
+STAGES = (
+    (1, 0, True),
+    (1, 0, False),
+    (2, 0, False),
+    (1, 2, True),
+    (1, 2, False),
+    (2, 2, False),
+    (1, 4, True),
+    (1, 4, False),
+)
 
 
-def search_squares(problem: Problem, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES) -> Node | None:
+def search_squares(
+    problem: Problem, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
+) -> Node | None:
     """The node of the first program that leads to an identity.
 
-    Without the signs of variables more changes of signs leave everything as it is, and programs are smaller and their kernels rational.
+    Without the signs of variables more changes of signs leave everything as it is, and programs are
+    smaller and their kernels rational.
     """
     everything = list(range(len(problem.facts)))
-    bare = [k for k in everything if total_degree(problem.facts[k].poly) > 1 or sum(map(bool, problem.facts[k].poly.degrees())) > 1]
+    bare = [
+        k
+        for k in everything
+        if total_degree(problem.facts[k].poly) > 1
+        or sum(map(bool, problem.facts[k].poly.degrees())) > 1
+    ]
     top = max(map(total_degree, problem.polys()), default=0)
     for count, more, without in stages:
         only = bare if without else everything
-        if not top or without and len(bare) == len(everything) or count > 1 and len(only) > MOST_FOR_PAIRS:
+        if (
+            not top
+            or without
+            and len(bare) == len(everything)
+            or count > 1
+            and len(only) > MOST_FOR_PAIRS
+        ):
             continue
         node = Squares(problem, count, top + top % 2 + more, only, budget).node(budget)
         if node is not None:

@@ -1,4 +1,5 @@
-"""Terms for unknown variables as rational functions of the base variables, tried on samples of the base: roots, vertices, averages."""
+"""Terms for unknown variables as rational functions of the base variables, tried on samples of the
+base: roots, vertices, averages."""
 
 from __future__ import annotations
 
@@ -12,32 +13,66 @@ from .candidates import PARAMETERS, UNITS, favourites, solutions, trials
 from .condition import Condition, coefficients_in, constant_of, places, replace, valued
 from .near import Trial, among, between, partly, ring_names, rounded
 from .partial import Partial
-from .quotients import SPARE, Choice, Point, Quotient, Root, Sample, insert, reduced_by, root_values, square_roots
+from .quotients import (
+    SPARE,
+    Choice,
+    Point,
+    Quotient,
+    Root,
+    Sample,
+    insert,
+    reduced_by,
+    root_values,
+    square_roots,
+)
 
-Candidate = tuple[Quotient, Quotient | None, Root | None]  # a quotient, what is added to it, and the root adjoined for it
+Candidate = tuple[
+    Quotient, Quotient | None, Root | None
+]  # a quotient, what is added to it, and the root adjoined for it
 UNKNOWN = fmpq(0)  # itself stands for a value that was not asked for yet
-BESIDE = tuple(fmpq(sign, size) for size in (10, 100, 1000) for sign in (1, -1))  # how far beside a border, in margins
+BESIDE = tuple(
+    fmpq(sign, size) for size in (10, 100, 1000) for sign in (1, -1)
+)  # how far beside a border, in margins
 
 
 class TemplateSearch:
     """One search for terms; `least` is how many of the samples a choice has to serve."""
 
-    def __init__(self, base: Sequence[str], samples: Sequence[Sample], budget: Budget, integers: frozenset[str] = frozenset(),
-                 nodes: int = 400, least: int | None = None, hints: Mapping[str, Sequence[Quotient]] | None = None,
-                 margins: Sequence[fmpq_mpoly] = (), borders: Sequence[fmpq_mpoly] | None = None) -> None:
-        self.base, self.samples, self.budget, self.integers = list(base), [dict(s) for s in samples], budget, integers
+    def __init__(
+        self,
+        base: Sequence[str],
+        samples: Sequence[Sample],
+        budget: Budget,
+        integers: frozenset[str] = frozenset(),
+        nodes: int = 400,
+        least: int | None = None,
+        hints: Mapping[str, Sequence[Quotient]] | None = None,
+        margins: Sequence[fmpq_mpoly] = (),
+        borders: Sequence[fmpq_mpoly] | None = None,
+    ) -> None:
+        self.base, self.samples, self.budget, self.integers = (
+            list(base),
+            [dict(s) for s in samples],
+            budget,
+            integers,
+        )
         self.nodes, self.hints, self.margins = nodes, dict(hints or {}), list(margins)
-        self.given: dict[tuple[int, str], dict[str, fmpq]] = {}  # samples with the values of adjoined roots
+        self.given: dict[
+            tuple[int, str], dict[str, fmpq]
+        ] = {}  # samples with the values of adjoined roots
         self.points: dict[tuple[int, ...], tuple[list[Root], list[Point]]] = {}
         self.shifts: dict[tuple[int, int], fmpq | None] = {}
-        self.slight = [Quotient(margin * c, margin ** 0) for margin in self.margins[:5] for c in BESIDE]
+        self.slight = [
+            Quotient(margin * c, margin**0) for margin in self.margins[:5] for c in BESIDE
+        ]
         small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
         self.small = [Quotient(m * sign, m + k) for m, k in small for sign in (1, -1)]
         self.borders = borders  # where these are given, they are tried first
         self.least = len(self.samples) if least is None else least
 
     def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[Choice]:
-        """Choices of terms for the unknowns that meet the condition on enough samples, in the order that they are met."""
+        """Choices of terms for the unknowns that meet the condition on enough samples, in the order
+        that they are met."""
         start = Partial(lambda: condition, [condition.substituted(s) for s in self.samples])
         self.ring = condition.ring
         yield from self._descend(start, list(unknowns))
@@ -56,28 +91,43 @@ class TemplateSearch:
         forced = self._equation(partial, unknowns)
         if forced is not None:
             name, top, bottom = forced
-            yield from self._descend(self._with(partial, name, top, bottom), [n for n in unknowns if n != name])
+            yield from self._descend(
+                self._with(partial, name, top, bottom), [n for n in unknowns if n != name]
+            )
             return
         adjoined = self._square_equation(partial, unknowns)
         if adjoined is not None:
             name, poly = adjoined
-            yield from self._descend(self._adjoined(partial, name, poly), [n for n in unknowns if n != name])
+            yield from self._descend(
+                self._adjoined(partial, name, poly), [n for n in unknowns if n != name]
+            )
             spare = next((n for n in SPARE if n not in [root.name for root in partial.roots]), None)
             if spare is not None:  # the smaller root, from the larger
                 gen = poly.context().gen(poly.context().variable_to_index(spare))
-                larger = Root(spare, replace(poly, name, gen, gen ** 0))
-                widened = Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, larger])
+                larger = Root(spare, replace(poly, name, gen, gen**0))
+                widened = Partial(
+                    partial.make, partial.sampled, partial.steps, [*partial.roots, larger]
+                )
                 value = -coefficients_in(poly, name)[1] - gen
-                yield from self._descend(self._with(widened, name, value, gen ** 0), [n for n in unknowns if n != name])
+                yield from self._descend(
+                    self._with(widened, name, value, gen**0), [n for n in unknowns if n != name]
+                )
             return
         name, rest = unknowns[0], unknowns[1:]
-        rows = [Trial(sampled, name) if sampled.tree is not False else None for sampled in partial.sampled]
+        rows = [
+            Trial(sampled, name) if sampled.tree is not False else None
+            for sampled in partial.sampled
+        ]
         values: dict[tuple[int, int], fmpq | None] = {}
         tried: set[tuple[Any, ...]] = set()
         for value, more, root in self._candidates(partial, name, rest):
             if self.nodes < 0:
                 return
-            widened = partial if root is None else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
+            widened = (
+                partial
+                if root is None
+                else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
+            )
             mark = () if more else value.mark()
             if mark in tried or not self._plausible(widened, rows, value, more, values):
                 continue
@@ -88,16 +138,25 @@ class TemplateSearch:
                 tried.add(mark)
                 yield from self._descend(self._with(widened, name, value.top, value.bottom), rest)
 
-    def _plausible(self, partial: Partial, rows: Sequence[Trial | None], value: Quotient, more: Quotient | None,
-                   values: dict[tuple[int, int], fmpq | None]) -> bool:
-        """Whether value + more may serve at enough samples; `values` keeps what a quotient of this node is at each."""
+    def _plausible(
+        self,
+        partial: Partial,
+        rows: Sequence[Trial | None],
+        value: Quotient,
+        more: Quotient | None,
+        values: dict[tuple[int, int], fmpq | None],
+    ) -> bool:
+        """Whether value + more may serve at enough samples; `values` keeps what a quotient of this
+        node is at each."""
         missing, points = len(self.samples) - self.least, self._points(partial)
         self.budget.spend(30)
         for k, row in enumerate(rows):
             at = None
             if row is not None:
                 self.budget.spend(20 + 5 * row.size)
-                at = value.within(points[k]) if more is None else values.get((id(value), k), UNKNOWN)
+                at = (
+                    value.within(points[k]) if more is None else values.get((id(value), k), UNKNOWN)
+                )
                 if at is UNKNOWN:
                     at = values[id(value), k] = value.within(points[k])
                 if more is not None and at is not None:
@@ -111,8 +170,13 @@ class TemplateSearch:
     def _points(self, partial: Partial) -> list[Point]:
         """The samples with the values of the adjoined roots, as points of the ring."""
         mark = tuple(map(id, partial.roots))
-        if mark not in self.points:  # the roots are kept with their points, so that their ids stay theirs
-            self.points[mark] = partial.roots, [Point.of(self.ring, self._given(partial, sample)) for sample in self.samples]
+        if (
+            mark not in self.points
+        ):  # the roots are kept with their points, so that their ids stay theirs
+            self.points[mark] = (
+                partial.roots,
+                [Point.of(self.ring, self._given(partial, sample)) for sample in self.samples],
+            )
         return self.points[mark][1]
 
     def _shift(self, more: Quotient, k: int) -> fmpq | None:
@@ -138,16 +202,27 @@ class TemplateSearch:
             if low == 0:
                 sampled.append(Condition(before.ring, before.polys, False))
             elif partial.roots:
-                sampled.append(before.mapped(lambda p, high=high, low=low: rounded(replace(p, name, high, low))))
+                sampled.append(
+                    before.mapped(
+                        lambda p, high=high, low=low: rounded(replace(p, name, high, low))
+                    )
+                )
             else:
                 number = constant_of(low)
-                sampled.append(before.replaced(name, high, low) if number is None else before.replaced(name, high / number, low ** 0))
+                sampled.append(
+                    before.replaced(name, high, low)
+                    if number is None
+                    else before.replaced(name, high / number, low**0)
+                )
         return Partial(make, sampled, [*partial.steps, (name, top, bottom)], partial.roots)
 
     # ------------------------------------------------ equations
 
-    def _equation(self, partial: Partial, unknowns: Sequence[str]) -> tuple[str, fmpq_mpoly, fmpq_mpoly] | None:
-        """An equation linear in an unknown, its coefficient free of unknowns and nonzero at the samples."""
+    def _equation(
+        self, partial: Partial, unknowns: Sequence[str]
+    ) -> tuple[str, fmpq_mpoly, fmpq_mpoly] | None:
+        """An equation linear in an unknown, its coefficient free of unknowns and nonzero at the
+        samples."""
         place = places(partial.condition.ring)
         best: tuple[tuple[int, int], tuple[str, fmpq_mpoly, fmpq_mpoly]] | None = None
         for poly, relation in partial.condition.facts():
@@ -166,20 +241,28 @@ class TemplateSearch:
                         best = size, (name, -rest, slope)
         return best[1] if best else None
 
-    def _square_equation(self, partial: Partial, unknowns: Sequence[str]) -> tuple[str, fmpq_mpoly] | None:
+    def _square_equation(
+        self, partial: Partial, unknowns: Sequence[str]
+    ) -> tuple[str, fmpq_mpoly] | None:
         """An equation of degree 2 in one unknown alone, over the base: its root is adjoined."""
         place = places(partial.condition.ring)
         for poly, relation in partial.condition.facts():
             degrees = poly.degrees()
             present = [n for n in unknowns if degrees[place[n]]]
-            if relation == "=" and len(present) == 1 and degrees[place[present[0]]] == 2 and present[0] not in self.integers:
+            if (
+                relation == "="
+                and len(present) == 1
+                and degrees[place[present[0]]] == 2
+                and present[0] not in self.integers
+            ):
                 lead = coefficients_in(poly, present[0])[2]
                 if constant_of(lead) is not None:
                     return present[0], poly / lead.leading_coefficient()
         return None
 
     def _adjoined(self, partial: Partial, name: str, poly: fmpq_mpoly) -> Partial:
-        """The condition with the unknown taken as a root: every polynomial is reduced modulo its equation."""
+        """The condition with the unknown taken as a root: every polynomial is reduced modulo its
+        equation."""
         root = Root(name, poly)
         changed = partial.condition.mapped(lambda p: reduced_by(root, p))
         roots = [*partial.roots, root]
@@ -187,8 +270,11 @@ class TemplateSearch:
         for sample, before in zip(self.samples, partial.sampled):
             given = self._given(result, sample)
             failed = before.tree is False or name not in given
-            result.sampled.append(Condition(changed.ring, changed.polys, False) if failed else
-                                  changed.mapped(lambda p, given=given: rounded(partly(p, given))))
+            result.sampled.append(
+                Condition(changed.ring, changed.polys, False)
+                if failed
+                else changed.mapped(lambda p, given=given: rounded(partly(p, given)))
+            )
         return result
 
     def _given(self, partial: Partial, sample: Sample) -> Sample:
@@ -210,18 +296,28 @@ class TemplateSearch:
             yield Quotient(one, one), None, None
             return
         plain = list(self.hints.get(name, ()))
-        likely = [Quotient(self.ring.constant(v), one) for v in favourites(name, name in self.integers)[:8]]
+        likely = [
+            Quotient(self.ring.constant(v), one)
+            for v in favourites(name, name in self.integers)[:8]
+        ]
         if name in self.integers:
             gens = [self.ring.gen(places(self.ring)[n]) for n in self.base if n in self.integers]
             whole = [Quotient(gen + shift, one) for shift in (0, 1, -1) for gen in gens]
-            yield from ((q, None, None) for q in [*plain, *likely, *self._constants(partial, name), *whole])
+            yield from (
+                (q, None, None) for q in [*plain, *likely, *self._constants(partial, name), *whole]
+            )
             return
         lines, roots = self._lines(partial, name, rest)
         plain += [*likely[:3], *lines] if self.borders is None else [*lines, *likely[:3]]
         yield from ((q, None, None) for q in plain)
         parts = (fmpq(1), fmpq(1, 2), fmpq(1, 10), fmpq(1, 100))
-        yield from ((Quotient(margin * part, one), None, None) for margin in self.margins for part in parts)
-        yield from ((q, None, None) for q in among(self._ordered(partial, [*lines, Quotient(self.ring.constant(0), one)])))
+        yield from (
+            (Quotient(margin * part, one), None, None) for margin in self.margins for part in parts
+        )
+        yield from (
+            (q, None, None)
+            for q in among(self._ordered(partial, [*lines, Quotient(self.ring.constant(0), one)]))
+        )
         yield from ((q, None, None) for q in [*likely[3:], *self._constants(partial, name)])
         yield from ((q, None, None) for q in between(lines))
         yield from ((q, None, root) for q, root in roots)
@@ -233,18 +329,29 @@ class TemplateSearch:
         """Numbers that serve at the middle sample or at the first and the last."""
         found: list[fmpq] = []
         alive = [c for c in partial.sampled if c.tree is not False]
-        for condition in {id(c): c for c in (alive[len(alive) // 2], alive[0], alive[-1])}.values() if alive else ():
+        for condition in (
+            {id(c): c for c in (alive[len(alive) // 2], alive[0], alive[-1])}.values()
+            if alive
+            else ()
+        ):
             if condition.tree is True or name not in condition.variables():
                 continue
             if condition.variables() == {name}:
-                values = [v for v in solutions(condition, name, name in self.integers, 2, False) if isinstance(v, fmpq)]
+                values = [
+                    v
+                    for v in solutions(condition, name, name in self.integers, 2, False)
+                    if isinstance(v, fmpq)
+                ]
             else:
                 values = trials(condition, name, name in self.integers, 2)
             found += [v for v in values if v not in found]
         return [Quotient(self.ring.constant(v), self.ring.constant(1)) for v in found]
 
-    def _lines(self, partial: Partial, name: str, rest: Sequence[str]) -> tuple[list[Quotient], list[tuple[Quotient, Root | None]]]:
-        """The zeros, as quotients or with square roots, of polynomials and of resultants of two of them, as functions of the base."""
+    def _lines(
+        self, partial: Partial, name: str, rest: Sequence[str]
+    ) -> tuple[list[Quotient], list[tuple[Quotient, Root | None]]]:
+        """The zeros, as quotients or with square roots, of polynomials and of resultants of two of
+        them, as functions of the base."""
         place = places(partial.condition.ring)
         polys = [partial.condition.polys[k] for k in partial.condition.used()]
         polys += self._borders_at(partial)
@@ -258,7 +365,11 @@ class TemplateSearch:
                     if sum(p.degrees()) + sum(q.degrees()) <= 14:
                         self.budget.spend(200)
                         resultant = p.resultant(q, other)
-                        if resultant != 0 and resultant.degrees()[place[name]] and not any(resultant.degrees()[place[n]] for n in rest):
+                        if (
+                            resultant != 0
+                            and resultant.degrees()[place[name]]
+                            and not any(resultant.degrees()[place[n]] for n in rest)
+                        ):
                             direct.append(resultant)
         found: list[Quotient] = []
         roots: list[tuple[Quotient, Root | None]] = []
@@ -272,7 +383,10 @@ class TemplateSearch:
                 elif factor.degrees()[place[name]] == 2 and len(factor) <= 40:
                     zeros, fresh = square_roots(factor, name, partial.roots)
                     roots += [(q, fresh) for q in zeros]
-        return sorted(found, key=lambda q: q.size())[:10], sorted(roots, key=lambda pair: pair[0].size())[:8]
+        return (
+            sorted(found, key=lambda q: q.size())[:10],
+            sorted(roots, key=lambda pair: pair[0].size())[:8],
+        )
 
     def _borders_at(self, partial: Partial) -> list[fmpq_mpoly]:
         """The borders after what was decided so far."""
@@ -295,7 +409,8 @@ class TemplateSearch:
         return [valued[v] for v in sorted(valued)]
 
     def _completed(self, partial: Partial) -> dict[str, Quotient]:
-        """The values of all unknowns: what was solved for earlier may speak of what was chosen later."""
+        """The values of all unknowns: what was solved for earlier may speak of what was chosen
+        later."""
         values: dict[str, Quotient] = {}
         for name, top, bottom in reversed(partial.steps):
             value = Quotient(top, bottom)

@@ -1,6 +1,8 @@
-"""Points whose values are roots of equations with one another's values as coefficients: each root is adjoined between two decimals.
+"""Points whose values are roots of equations with one another's values as coefficients: each root
+is adjoined between two decimals.
 
-Signs are told at rational approximations, which are only hints: the nodes that the checker asks for are searched as any others.
+Signs are told at rational approximations, which are only hints: the nodes that the checker asks for
+are searched as any others.
 """
 
 from __future__ import annotations
@@ -27,20 +29,41 @@ DIGITS = (2, 4, 8, 14)
 
 @dataclass(frozen=True)
 class Tower:
-    """Values of variables: terms in the roots, which are given in the order in which each can be adjoined."""
+    """Values of variables: terms in the roots, which are given in the order in which each can be
+    adjoined."""
 
-    roots: tuple[tuple[str, fmpq_mpoly, fmpq], ...]  # variable, polynomial in it and in earlier roots, approximation
+    roots: tuple[
+        tuple[str, fmpq_mpoly, fmpq], ...
+    ]  # variable, polynomial in it and in earlier roots, approximation
     values: Mapping[str, fmpq_mpoly]
 
 
 class Towers:
-    """A search for points: equations in one variable give roots, linear ones terms, and the other variables are tried."""
+    """A search for points: equations in one variable give roots, linear ones terms, and the other
+    variables are tried."""
 
-    def __init__(self, budget: Budget, names: Sequence[str], guide: Mapping[str, fmpq], nodes: int, width: int) -> None:
-        self.budget, self.names, self.guide, self.nodes, self.width = budget, list(names), guide, nodes, width
+    def __init__(
+        self,
+        budget: Budget,
+        names: Sequence[str],
+        guide: Mapping[str, fmpq],
+        nodes: int,
+        width: int,
+    ) -> None:
+        self.budget, self.names, self.guide, self.nodes, self.width = (
+            budget,
+            list(names),
+            guide,
+            nodes,
+            width,
+        )
 
-    def search(self, condition: Condition, roots: tuple[tuple[str, fmpq_mpoly, fmpq], ...] = (),
-               steps: tuple[tuple[str, fmpq_mpoly], ...] = ()) -> Iterator[Tower]:
+    def search(
+        self,
+        condition: Condition,
+        roots: tuple[tuple[str, fmpq_mpoly, fmpq], ...] = (),
+        steps: tuple[tuple[str, fmpq_mpoly], ...] = (),
+    ) -> Iterator[Tower]:
         """Points that seem to meet the condition."""
         self.nodes -= 1
         self.budget.spend(60 + 20 * len(condition.polys))
@@ -62,56 +85,115 @@ class Towers:
                 slope = constant_of(slopes[0]) if len(slopes) == 1 else None
                 if slope:
                     value = rest * (-1 / slope)
-                    yield from self.search(condition.replaced(name, value, condition.ring.constant(1)), roots, (*steps, (name, value)))
+                    yield from self.search(
+                        condition.replaced(name, value, condition.ring.constant(1)),
+                        roots,
+                        (*steps, (name, value)),
+                    )
                     return
         name = next(n for n in self.names if n in condition.variables() and n not in near)
         for value in self._tried(condition, name, near):
-            yield from self.search(condition.substituted({name: value}), roots, (*steps, (name, condition.ring.constant(value))))
+            yield from self.search(
+                condition.substituted({name: value}),
+                roots,
+                (*steps, (name, condition.ring.constant(value))),
+            )
 
     def _free(self, poly: fmpq_mpoly, near: Mapping[str, fmpq]) -> list[str]:
-        return [name for name, e in zip(places(poly.context()), poly.degrees()) if e > 0 and name not in near]
+        return [
+            name
+            for name, e in zip(places(poly.context()), poly.degrees())
+            if e > 0 and name not in near
+        ]
 
-    def _rooted(self, condition: Condition, roots: tuple[tuple[str, fmpq_mpoly, fmpq], ...], steps: tuple[tuple[str, fmpq_mpoly], ...],
-                name: str, poly: fmpq_mpoly, near: Mapping[str, fmpq]) -> Iterator[Tower]:
+    def _rooted(
+        self,
+        condition: Condition,
+        roots: tuple[tuple[str, fmpq_mpoly, fmpq], ...],
+        steps: tuple[tuple[str, fmpq_mpoly], ...],
+        name: str,
+        poly: fmpq_mpoly,
+        near: Mapping[str, fmpq],
+    ) -> Iterator[Tower]:
         """The roots of an equation in one variable, those next to the guide first."""
         given = {places(condition.ring)[n]: v for n, v in near.items()}
         alone = univariate(poly.subs(given), name)
-        found = [root for root in real_roots(alone) if root.is_rational or sign(alone.derivative()(root.approximation()))]
-        found.sort(key=lambda root: abs(root.approximation() - self.guide[name]) if name in self.guide else fmpq(0))
-        rational = not any(e > 0 for n, e in zip(places(poly.context()), poly.degrees()) if n in near)
+        found = [
+            root
+            for root in real_roots(alone)
+            if root.is_rational or sign(alone.derivative()(root.approximation()))
+        ]
+        found.sort(
+            key=lambda root: (
+                abs(root.approximation() - self.guide[name]) if name in self.guide else fmpq(0)
+            )
+        )
+        rational = not any(
+            e > 0 for n, e in zip(places(poly.context()), poly.degrees()) if n in near
+        )
         for root in found:
             if root.is_rational and rational:
                 value = root.approximation()
-                yield from self.search(condition.substituted({name: value}), roots, (*steps, (name, condition.ring.constant(value))))
+                yield from self.search(
+                    condition.substituted({name: value}),
+                    roots,
+                    (*steps, (name, condition.ring.constant(value))),
+                )
             elif sign(alone.derivative()(root.approximation())):
-                yield from self.search(condition, (*roots, (name, poly, root.approximation())), steps)
+                yield from self.search(
+                    condition, (*roots, (name, poly, root.approximation())), steps
+                )
 
     def _tried(self, condition: Condition, name: str, near: Mapping[str, fmpq]) -> list[fmpq]:
         values: list[fmpq] = []
         if name in self.guide:
-            values += [exact(fraction(self.guide[name]).limit_denominator(k)) for k in (1, 4, 20, 200)]
-            values.append(simplest_between(self.guide[name] - fmpq(1, 10**6), self.guide[name] + fmpq(1, 10**6)))
-        values += trials(condition.substituted(near) if near else condition, name, False, self.width)
+            values += [
+                exact(fraction(self.guide[name]).limit_denominator(k)) for k in (1, 4, 20, 200)
+            ]
+            values.append(
+                simplest_between(
+                    self.guide[name] - fmpq(1, 10**6), self.guide[name] + fmpq(1, 10**6)
+                )
+            )
+        values += trials(
+            condition.substituted(near) if near else condition, name, False, self.width
+        )
         return list(dict.fromkeys(values))
 
-    def _settled(self, condition: Condition, roots: Sequence[tuple[str, fmpq_mpoly, fmpq]]) -> Condition:
+    def _settled(
+        self, condition: Condition, roots: Sequence[tuple[str, fmpq_mpoly, fmpq]]
+    ) -> Condition:
         """The condition with the signs of polynomials in roots alone, as they seem."""
         near = {name: value for name, _, value in roots}
         if not near or isinstance(condition.tree, bool):
             return condition
-        given, changed = {places(condition.ring)[n]: v for n, v in near.items()}, list(condition.polys)
+        given, changed = (
+            {places(condition.ring)[n]: v for n, v in near.items()},
+            list(condition.polys),
+        )
         for k in condition.used():
             if changed[k].total_degree() > 0 and not self._free(changed[k], near):
                 value = constant_of(changed[k].subs(given)) or fmpq(0)
                 changed[k] = condition.ring.constant(0 if abs(value) < TINY else sign(value))
         return Condition(condition.ring, changed, fold(condition.tree, changed.__getitem__))
 
-    def _completed(self, condition: Condition, roots: tuple[tuple[str, fmpq_mpoly, fmpq], ...], steps: Sequence[tuple[str, fmpq_mpoly]]) -> Tower:
+    def _completed(
+        self,
+        condition: Condition,
+        roots: tuple[tuple[str, fmpq_mpoly, fmpq], ...],
+        steps: Sequence[tuple[str, fmpq_mpoly]],
+    ) -> Tower:
         values = {name: condition.ring.constant(1) for name in self.names}
-        values.update({name: condition.ring.gen(places(condition.ring)[name]) for name, _, _ in roots})
+        values.update(
+            {name: condition.ring.gen(places(condition.ring)[name]) for name, _, _ in roots}
+        )
         for name, value in reversed(steps):
             for other in self.names:
-                if other != name and value.degrees()[places(condition.ring)[other]] > 0 and other not in {n for n, _, _ in roots}:
+                if (
+                    other != name
+                    and value.degrees()[places(condition.ring)[other]] > 0
+                    and other not in {n for n, _, _ in roots}
+                ):
                     parts = coefficients_in(value, other)
                     value = parts[-1]
                     for c in reversed(parts[:-1]):
@@ -120,9 +202,17 @@ class Towers:
         return Tower(roots, values)
 
 
-def as_found(statement: checker.Statement, state: checker.State, tower: Tower, purpose: str, known: dict[str, checker.Statement], budget: Budget,
-             digits: int) -> Found | None:
-    """The point as `checker.find` takes it, with roots between neighbouring decimals; None where a node is missing."""
+def as_found(
+    statement: checker.Statement,
+    state: checker.State,
+    tower: Tower,
+    purpose: str,
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    digits: int,
+) -> Found | None:
+    """The point as `checker.find` takes it, with roots between neighbouring decimals; None where a
+    node is missing."""
     own, entries = state.branch(), []
     for name, poly, near in tower.roots:
         place, ring = places(poly.context()), poly.context()
@@ -130,7 +220,9 @@ def as_found(statement: checker.Statement, state: checker.State, tower: Tower, p
         rises = sign(constant_of(poly.derivative(place[name]).subs(at)) or fmpq(0)) > 0
         low = fmpq((near * 10**digits).floor(), 10**digits)
         text = to_text(poly if rises else ring.constant(0) - poly)
-        entry = adjoined_entry(own, name, text, str(low), str(low + fmpq(1, 10**digits)), known, budget, 1)
+        entry = adjoined_entry(
+            own, name, text, str(low), str(low + fmpq(1, 10**digits)), known, budget, 1
+        )
         if entry is None:
             return None
         entries.append(entry)

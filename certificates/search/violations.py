@@ -1,4 +1,5 @@
-"""What a point at which a statement fails meets, and Z3's verdict on whether there is one at a value of a parameter."""
+"""What a point at which a statement fails meets, and Z3's verdict on whether there is one at a
+value of a parameter."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from .solver import RESOURCES, ask
 
 @dataclass(frozen=True)
 class Violation:
-    """What a point at which a statement fails meets: the premises, and no values of the bound variables that meet the goals."""
+    """What a point at which a statement fails meets: the premises, and no values of the bound
+    variables that meet the goals."""
 
     name: str
     condition: Condition
@@ -36,11 +38,18 @@ class Violation:
         exists = tuple(sorted(story.variables - set(story.universal)))
         whole = premises if exists else [*premises, story.goal(False)]
         condition = Condition.of(story.context, checker.join("and", whole), ring).substituted(ones)
-        goal = Condition.of(story.context, story.goal(True), ring).substituted(ones) if exists else None
+        goal = (
+            Condition.of(story.context, story.goal(True), ring).substituted(ones)
+            if exists
+            else None
+        )
         return Violation(statement.name, condition, goal, exists, tuple(sorted(story.integers)))
 
-    def absent(self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES) -> bool | None:
-        """Z3's verdict at one value of the parameter: True where there is no violation, None where it has none."""
+    def absent(
+        self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES
+    ) -> bool | None:
+        """Z3's verdict at one value of the parameter: True where there is no violation, None where
+        it has none."""
         condition, goal = self.condition, self.goal
         if isinstance(at, AlgebraicNumber) and at.is_rational:
             at = at._low
@@ -48,7 +57,11 @@ class Violation:
             ring = condition.ring
             gen = ring.gen(ring.variable_to_index(parameter))
             modulus = multivariate(fmpq_poly(at.poly), ring, parameter)
-            here = Condition(ring, [modulus, gen - at._low, at._high - gen], ("and", [(0, "="), (1, ">"), (2, ">")]))
+            here = Condition(
+                ring,
+                [modulus, gen - at._low, at._high - gen],
+                ("and", [(0, "="), (1, ">"), (2, ">")]),
+            )
             condition = condition.conjoined(here)
         else:
             condition = condition.substituted({parameter: at})

@@ -28,6 +28,14 @@ def term_of(poly: fmpq_mpoly) -> Term:
             if e:
                 factor: Term = real(name) if e == 1 else real(name) ** int(e)
                 part = factor if part is None else part * factor
-        size: Term = term(abs(value)) if part is None else part if abs(value) == 1 else abs(value) * part
-        total = (size if value > 0 else -size) if total is None else total + size if value > 0 else total - size
+        size: Term = (
+            term(abs(value)) if part is None else part if abs(value) == 1 else abs(value) * part
+        )
+        total = (
+            (size if value > 0 else -size)
+            if total is None
+            else total + size
+            if value > 0
+            else total - size
+        )
     return term(0) if total is None else total

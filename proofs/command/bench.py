@@ -1,4 +1,5 @@
-"""`juggleproof bench`: speed against error, in one table and plot a question; the engines are in `benchmarks`, which only a checkout has."""
+"""`juggleproof bench`: speed against error, in one table and plot a question; the engines are in
+`benchmarks`, which only a checkout has."""
 
 from __future__ import annotations
 
@@ -12,13 +13,17 @@ FOLDER = Path("juggleproof-bench")
 
 
 def bench(options: argparse.Namespace) -> int:
-    """Runs the benchmark; 1 where an enclosure does not hold the closed form.  Raises ClaimError, one line, for what cannot be measured."""
+    """Runs the benchmark; 1 where an enclosure does not hold the closed form.  Raises ClaimError,
+    one line, for what cannot be measured."""
     try:
         from benchmarks.bench.run import Run, wish
     except ModuleNotFoundError as error:
         if not str(error.name).startswith("benchmarks"):
             raise
-        raise ClaimError("bench needs a checkout, with its folder benchmarks; run it there, or with PYTHONPATH=CHECKOUT") from None
+        raise ClaimError(
+            "bench needs a checkout, with its folder benchmarks; run it there, or with"
+            " PYTHONPATH=CHECKOUT"
+        ) from None
     wanted = wish(options.question, options.widths, options.seconds, options.quick)
     folder = options.output or FOLDER
     fault = _fault(folder)

@@ -11,7 +11,10 @@ from certificates.terms import ClaimError
 from proofs.bounds import BUDGET, enclose_minimum, refuse_other_files
 
 SHOWN = 12  # decimals of a bound, more where the width asks for them
-_NUMBER = re.compile(r"[+-]?(?:\d{1,400}(?:/\d{1,400})?|\d{0,400}\.\d{1,400}|\d{1,400}\.)(?:e[+-]?\d{1,3})?", re.ASCII | re.IGNORECASE)
+_NUMBER = re.compile(
+    r"[+-]?(?:\d{1,400}(?:/\d{1,400})?|\d{0,400}\.\d{1,400}|\d{1,400}\.)(?:e[+-]?\d{1,3})?",
+    re.ASCII | re.IGNORECASE,
+)
 
 
 def number(text: str, name: str) -> Fraction:
@@ -28,7 +31,9 @@ def number(text: str, name: str) -> Fraction:
             return Fraction(text.strip())
     except ZeroDivisionError:
         raise ClaimError(f"{name}: {text.strip()[:40]} divides by 0") from None
-    raise ClaimError(f"{name}: {text.strip()[:40]!r} is no rational number; write it as 3/10, 0.3 or 1e-9")
+    raise ClaimError(
+        f"{name}: {text.strip()[:40]!r} is no rational number; write it as 3/10, 0.3 or 1e-9"
+    )
 
 
 def box(text: str) -> dict[str, tuple[Fraction, Fraction]]:
@@ -41,7 +46,9 @@ def box(text: str) -> dict[str, tuple[Fraction, Fraction]]:
         name, equal, pair = part.strip().partition("=")
         bounds = pair.split("..")
         if not equal or len(bounds) != 2:
-            raise ClaimError(f"--box: {part.strip()[:40]!r} is no side of a box; write x=0..1,y=-1/2..3")
+            raise ClaimError(
+                f"--box: {part.strip()[:40]!r} is no side of a box; write x=0..1,y=-1/2..3"
+            )
         name = name.strip()
         if name in ends:
             raise ClaimError(f"--box: {name} stands twice")
@@ -62,7 +69,8 @@ def decimals(value: Fraction, digits: int, up: bool) -> str:
 
 
 def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | None) -> int:
-    """Prints the enclosure, certified before anything is printed; 0 where it is as narrow as was asked for, else 1."""
+    """Prints the enclosure, certified before anything is printed; 0 where it is as narrow as was
+    asked for, else 1."""
     ends, sought = box(sides), number(width, "--width")
     if output is not None:
         refuse_other_files(output)
@@ -77,10 +85,15 @@ def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | N
     print(f"width   {found.width}")
     print(f"boxes   {found.boxes}")
     print(f"bytes   {found.certificate_bytes} of certificates")
-    print("checked: the minimum is at least low everywhere on the box, and at most high at the point")
+    print(
+        "checked: the minimum is at least low everywhere on the box, and at most high at the point"
+    )
     if output is not None:
         found.write(output)
         print(f"written to {output}; `juggleproof check {output}` reads it again")
     if not found.reached:
-        print(f"the width {sought} is not reached within {found.boxes} boxes; the enclosure above is certified all the same")
+        print(
+            f"the width {sought} is not reached within {found.boxes} boxes; the enclosure above is"
+            " certified all the same"
+        )
     return 0 if found.reached else 1

@@ -1,4 +1,5 @@
-"""`juggleproof certify`: judge every claim, store what was found, let the checker read the whole store, compare with the register."""
+"""`juggleproof certify`: judge every claim, store what was found, let the checker read the whole
+store, compare with the register."""
 
 from __future__ import annotations
 
@@ -27,12 +28,16 @@ from proofs.reports.results import Results, results_of_run
 from proofs.running import judge_all, lemmas
 
 FINDINGS = "findings"
-TITLE = "Every statement that the claims come to; certificates/checker.py reads this file and believes nothing else."
+TITLE = (
+    "Every statement that the claims come to; certificates/checker.py reads this file and believes"
+    " nothing else."
+)
 
 
 @dataclass(frozen=True)
 class Run:
-    """What a run came to: the claims and the judgements on them, the seconds they took, the theorem's lines, and what the checker rejects."""
+    """What a run came to: the claims and the judgements on them, the seconds they took, the
+    theorem's lines, and what the checker rejects."""
 
     claims: Sequence[Claim]
     judgements: Sequence[Judgement]
@@ -42,7 +47,8 @@ class Run:
 
 
 def certify(options: argparse.Namespace, register: Path = PATH) -> int:
-    """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where every claim holds), else 1."""
+    """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where
+    every claim holds), else 1."""
     from rich.console import Console
 
     outputs.refuse_unwritable(options)
@@ -55,8 +61,15 @@ def certify(options: argparse.Namespace, register: Path = PATH) -> int:
     for name, reason in done.rejected:
         print(f"rejected by the checker: {name}: {reason}")
     accepts = options.accept and not done.rejected
-    results = results_of_run(done.claims, done.judgements, before, theorem=done.theorem, rejected=done.rejected, partial=bool(options.only),
-                             accepted=accepts)
+    results = results_of_run(
+        done.claims,
+        done.judgements,
+        before,
+        theorem=done.theorem,
+        rejected=done.rejected,
+        partial=bool(options.only),
+        accepted=accepts,
+    )
     for change in results.changes:
         print(f"{'accepted ' if accepts else 'differs from the register '} {change}")
     if before is not None and accepts:
@@ -65,10 +78,16 @@ def certify(options: argparse.Namespace, register: Path = PATH) -> int:
     return results.exit
 
 
-def run(options: argparse.Namespace, console: Any = None, executor: Executor | None = None, given: Sequence[Claim] = ()) -> Run:
+def run(
+    options: argparse.Namespace,
+    console: Any = None,
+    executor: Executor | None = None,
+    given: Sequence[Claim] = (),
+) -> Run:
     """Judges the claims, stores what was found, and has the checker read all that is stored.
 
-    An executor judges in place of processes of our own; `given` are claims in hand, which need `options.store`.
+    An executor judges in place of processes of our own; `given` are claims in hand, which need
+    `options.store`.
     """
     routes = _routes(options.routes)
     own = bool(options.files or given)
@@ -78,22 +97,56 @@ def run(options: argparse.Namespace, console: Any = None, executor: Executor | N
     budget = options.budget or DEFAULT_BUDGET
     with Reading(folder, jobs, nothing=options.fresh) as reading:
         records = Records(None if own or options.fresh else budget, read=not options.accept)
-        everything = records.claims or list(given) or ([claim for path in options.files for claim in claims_of_file(path)] if own else paper_claims())
+        everything = (
+            records.claims
+            or list(given)
+            or (
+                [claim for path in options.files for claim in claims_of_file(path)]
+                if own
+                else paper_claims()
+            )
+        )
         refuse_duplicates(everything)
         claims = _selected(everything, options.only)
-        judged = Options(routes, budget, Store(Path(os.devnull)) if options.fresh else store, {} if options.fresh else _findings(folder),
-                         {} if records.claims else lemmas(everything, claims))
+        judged = Options(
+            routes,
+            budget,
+            Store(Path(os.devnull)) if options.fresh else store,
+            {} if options.fresh else _findings(folder),
+            {} if records.claims else lemmas(everything, claims),
+        )
         judged = replace(judged, checked=reading.outcomes())
-    judgements, seconds = judge_with_records(claims, judged, records, lambda rest, judged: _with_progress(rest, judged, jobs, console, executor))
+    judgements, seconds = judge_with_records(
+        claims,
+        judged,
+        records,
+        lambda rest, judged: _with_progress(rest, judged, jobs, console, executor),
+    )
     records.keep(judgements, len(everything))
     changed = _write(folder, store, everything, claims, judgements)
-    results = reading.results if reading.results and not changed else checker.check_folder(str(folder))
+    results = (
+        reading.results if reading.results and not changed else checker.check_folder(str(folder))
+    )
     if records.key:
         keep_results(folder, results)
     outcomes = {name: outcome for name, outcome, _ in results}
     settle_by_rules(judgements, outcomes, Store(folder).texts)
-    line = "" if own else theorem_line(Store(folder), outcomes, {name: cast for one in judgements for name, cast in one.votes.items()})
-    return Run(claims, judgements, seconds, line, [(name, reason) for name, outcome, reason in results if outcome == "rejected"])
+    line = (
+        ""
+        if own
+        else theorem_line(
+            Store(folder),
+            outcomes,
+            {name: cast for one in judgements for name, cast in one.votes.items()},
+        )
+    )
+    return Run(
+        claims,
+        judgements,
+        seconds,
+        line,
+        [(name, reason) for name, outcome, reason in results if outcome == "rejected"],
+    )
 
 
 def _routes(text: str) -> tuple[str, ...]:
@@ -102,7 +155,10 @@ def _routes(text: str) -> tuple[str, ...]:
     chosen = tuple(text.split(","))
     unknown = [route for route in chosen if route not in ROUTES]
     if unknown or "exact" not in chosen:
-        raise ClaimError(f"--routes {text}: choose from {', '.join(ROUTES)}; exact is always among them, since only a certificate certifies")
+        raise ClaimError(
+            f"--routes {text}: choose from {', '.join(ROUTES)}; exact is always among them, since"
+            " only a certificate certifies"
+        )
     return chosen
 
 
@@ -120,7 +176,9 @@ def _selected(claims: list[Claim], only: list[str] | None) -> list[Claim]:
         return claims
     missing = set(only) - {claim.id for claim in claims}
     if missing:
-        raise ClaimError(f"--only {sorted(missing)[0]}: no such claim; `juggleproof list` names them")
+        raise ClaimError(
+            f"--only {sorted(missing)[0]}: no such claim; `juggleproof list` names them"
+        )
     return [claim for claim in claims if claim.id in only]
 
 
@@ -135,13 +193,23 @@ def _findings(folder: Path) -> dict[str, Any]:
     return data if isinstance(data, dict) else {}
 
 
-def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console: Any, executor: Executor | None,
-                   ) -> tuple[list[Judgement], dict[str, float]]:
+def _with_progress(
+    claims: Sequence[Claim],
+    judged: Options,
+    jobs: int,
+    console: Any,
+    executor: Executor | None,
+) -> tuple[list[Judgement], dict[str, float]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     if console is None or not console.is_terminal:
         return judge_all(claims, judged, jobs, lambda claim, judgement: None, executor)
-    columns = (TextColumn("{task.description:24}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    columns = (
+        TextColumn("{task.description:24}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+    )
     with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("judging", total=len(claims))
 
@@ -151,8 +219,15 @@ def _with_progress(claims: Sequence[Claim], judged: Options, jobs: int, console:
         return judge_all(claims, judged, jobs, step, executor)
 
 
-def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequence[Claim], judgements: Sequence[Judgement]) -> int:
-    """Writes statements, certificates and findings; claims that were not selected keep what is stored of them.  Returns the files changed."""
+def _write(
+    folder: Path,
+    store: Store,
+    everything: Sequence[Claim],
+    claims: Sequence[Claim],
+    judgements: Sequence[Judgement],
+) -> int:
+    """Writes statements, certificates and findings; claims that were not selected keep what is
+    stored of them.  Returns the files changed."""
     fresh = {judgement.id: judgement for judgement in judgements}
     texts: list[str] = []
     certificates: dict[str, Mapping[str, Any]] = {}
@@ -165,17 +240,27 @@ def _write(folder: Path, store: Store, everything: Sequence[Claim], claims: Sequ
                 certificates[claim.id] = judgement.certificates
             findings[claim.id] = judgement.finding()
         else:
-            held = {name: text for name, text in store.texts.items() if name.split("/")[0] == claim.id}
+            held = {
+                name: text for name, text in store.texts.items() if name.split("/")[0] == claim.id
+            }
             texts += held.values()
             if held:
-                certificates[claim.id] = {name: store.certificate(name, text) for name, text in held.items()}
+                certificates[claim.id] = {
+                    name: store.certificate(name, text) for name, text in held.items()
+                }
     findings = {claim.id: findings[claim.id] for claim in everything if claim.id in findings}
     changed = write_store(folder, "\n\n".join([f"# {TITLE}", *texts]) + "\n", certificates)
     return changed + write_file(folder / FINDINGS, canonical(findings))
 
 
-def _accept(results: Results, before: Mapping[str, Mapping[str, Any]], options: argparse.Namespace, register: Path) -> None:
-    """Writes the verdicts into the register, and the results into the README where they are those of the stored certificates."""
+def _accept(
+    results: Results,
+    before: Mapping[str, Mapping[str, Any]],
+    options: argparse.Namespace,
+    register: Path,
+) -> None:
+    """Writes the verdicts into the register, and the results into the README where they are those
+    of the stored certificates."""
     from proofs.command import readme
 
     after = {one.id: one.registered() for one in results.claims}
@@ -186,5 +271,9 @@ def _accept(results: Results, before: Mapping[str, Mapping[str, Any]], options: 
 
 def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
     """What the register keeps of a judgement."""
-    return registered(judgement.verdict.word, judgement.verdict.detail, judgement.correction,
-                      table.sharp_range(judgement) if judgement.sharp else "")
+    return registered(
+        judgement.verdict.word,
+        judgement.verdict.detail,
+        judgement.correction,
+        table.sharp_range(judgement) if judgement.sharp else "",
+    )

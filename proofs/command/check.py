@@ -1,4 +1,5 @@
-"""`juggleproof check`: the bare checker over a folder, and what its results mean for the theorem."""
+"""`juggleproof check`: the bare checker over a folder, and what its results mean for the
+theorem."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ from proofs.command.tree import theorem_line
 
 
 def check(folder: Path | None) -> int:
-    """Prints what the checker rejects, the counts of outcomes, and one line for the theorem; 0 where nothing is rejected, else 1.
+    """Prints what the checker rejects, the counts of outcomes, and one line for the theorem; 0
+    where nothing is rejected, else 1.
 
     Raises ClaimError, one line, where the folder cannot be read.
     """
@@ -19,7 +21,9 @@ def check(folder: Path | None) -> int:
     try:
         results = checker.check_folder(str(where))
     except checker.Rejected as reason:
-        raise ClaimError(f"{where}: {reason}; name a folder that `juggleproof certify` wrote") from None
+        raise ClaimError(
+            f"{where}: {reason}; name a folder that `juggleproof certify` wrote"
+        ) from None
     code = checker.report(results)
     line = theorem_line(Store(where), {name: outcome for name, outcome, _ in results})
     if line:

@@ -14,7 +14,9 @@ def plain(rows: Sequence[Sequence[str]]) -> str:
     10  1/3
     """
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows)
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows
+    )
 
 
 def draw(heads: Sequence[str], rows: Sequence[Sequence[str]], console: Any) -> None:

@@ -1,4 +1,5 @@
-"""`juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, the certified ones as Coq lemmas with proofs, prints as LaTeX."""
+"""`juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, the certified ones as
+Coq lemmas with proofs, prints as LaTeX."""
 
 from __future__ import annotations
 
@@ -15,10 +16,11 @@ from certificates.terms import ClaimError
 
 
 def export_smt2(ids: Sequence[str], folder: Path | None) -> int:
-    """Writes the statements of the claims named (or of all) to standard output, or to one file each.
+    """Writes the statements of the claims named (or of all) to standard output, or to one file
+    each.
 
-    Every check begins with `(reset)`, so that a solver reads any number of statements as one script.
-    Raises ClaimError for a name that neither a claim nor a statement bears.
+    Every check begins with `(reset)`, so that a solver reads any number of statements as one
+    script. Raises ClaimError for a name that neither a claim nor a statement bears.
     """
     store = Store(DEFAULT)
     names = _names(store, ids)
@@ -33,7 +35,8 @@ def export_smt2(ids: Sequence[str], folder: Path | None) -> int:
 
 
 def export_coq(ids: Sequence[str], folder: Path | None) -> int:
-    """Writes the certified statements named (or all) as Coq lemmas with proofs; says on standard error which it cannot, and why.
+    """Writes the certified statements named (or all) as Coq lemmas with proofs; says on standard
+    error which it cannot, and why.
 
     Raises ClaimError for an unknown name, or where nothing at all can be written.
     """
@@ -57,7 +60,8 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
 
 
 def export_latex(ids: Sequence[str], folder: Path | None) -> int:
-    """Writes the equations of the claims named (or all that the paper prints) as LaTeX, corrected where the print is false.
+    """Writes the equations of the claims named (or all that the paper prints) as LaTeX, corrected
+    where the print is false.
 
     Raises ClaimError for a name that no claim bears, or one without a printed formula.
     """
@@ -69,7 +73,10 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
     for wanted in ids:
         if wanted not in by_id:
             raise ClaimError(f"{wanted}: no such claim; `juggleproof list` names them")
-    texts = {name: equation(by_id[name]) for name in ids or [name for name, entry in by_id.items() if entry.claim.printed]}
+    texts = {
+        name: equation(by_id[name])
+        for name in ids or [name for name, entry in by_id.items() if entry.claim.printed]
+    }
     for name, text in texts.items():
         if folder:
             write_file(folder / f"{name}.tex", text.encode())
@@ -87,5 +94,8 @@ def _names(store: Store, ids: Sequence[str]) -> list[str]:
     names = [name for name in store.texts if not ids or name in ids or name.split("/")[0] in ids]
     for wanted in ids:
         if not any(wanted in (name, name.split("/")[0]) for name in names):
-            raise ClaimError(f"{wanted}: no stored statement of this name; `juggleproof certify` makes them, `juggleproof list` names the claims")
+            raise ClaimError(
+                f"{wanted}: no stored statement of this name; `juggleproof certify` makes them,"
+                " `juggleproof list` names the claims"
+            )
     return names

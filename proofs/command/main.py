@@ -17,7 +17,8 @@ ROUTES = ("exact", "z3", "boxes")
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that tells a wrong argument in one line, and takes all that begins as a negative number, such as -1/3 or -1:2:5, for a value."""
+    """A parser that tells a wrong argument in one line, and takes all that begins as a negative
+    number, such as -1/3 or -1:2:5, for a value."""
 
     def __init__(self, *given: Any, **named: Any) -> None:
         super().__init__(*given, **named)
@@ -36,61 +37,192 @@ def _count(text: str) -> int:
 def build_parser() -> argparse.ArgumentParser:
     """The commands and their options."""
     parser = _Parser(
-        prog="juggleproof", description="Derives, proves or refutes, and independently checks what one paper on juggling prints.")
+        prog="juggleproof",
+        description=(
+            "Derives, proves or refutes, and independently checks what one paper on juggling"
+            " prints."
+        ),
+    )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    certify = commands.add_parser("certify", help="derive, prove and check every claim; ends with a table")
-    certify.add_argument("files", nargs="*", type=Path, metavar="FILE",
-                         help="claims of your own (.py) or problems in SMT-LIB (.smt2) instead of the paper's")
-    certify.add_argument("--only", action="append", metavar="ID", help="only this claim (may be given several times)")
+    certify = commands.add_parser(
+        "certify", help="derive, prove and check every claim; ends with a table"
+    )
+    certify.add_argument(
+        "files",
+        nargs="*",
+        type=Path,
+        metavar="FILE",
+        help="claims of your own (.py) or problems in SMT-LIB (.smt2) instead of the paper's",
+    )
+    certify.add_argument(
+        "--only", action="append", metavar="ID", help="only this claim (may be given several times)"
+    )
     certify.add_argument("--routes", default=",".join(ROUTES), help="exact,z3,boxes (default: all)")
-    certify.add_argument("--fresh", action="store_true", help="state and search again, ignoring stored certificates and kept records")
-    certify.add_argument("--jobs", type=_count, default=0, metavar="N", help="processes (default: one a core); results do not depend on it")
-    certify.add_argument("--budget", type=_count, default=0, metavar="N", help="counted work for each statement (default: enough for the paper)")
-    certify.add_argument("--accept", action="store_true", help="write the verdicts into the register, showing before and after")
-    certify.add_argument("--store", type=Path, metavar="DIR", help="where certificates are kept (default: certificates/store)")
+    certify.add_argument(
+        "--fresh",
+        action="store_true",
+        help="state and search again, ignoring stored certificates and kept records",
+    )
+    certify.add_argument(
+        "--jobs",
+        type=_count,
+        default=0,
+        metavar="N",
+        help="processes (default: one a core); results do not depend on it",
+    )
+    certify.add_argument(
+        "--budget",
+        type=_count,
+        default=0,
+        metavar="N",
+        help="counted work for each statement (default: enough for the paper)",
+    )
+    certify.add_argument(
+        "--accept",
+        action="store_true",
+        help="write the verdicts into the register, showing before and after",
+    )
+    certify.add_argument(
+        "--store",
+        type=Path,
+        metavar="DIR",
+        help="where certificates are kept (default: certificates/store)",
+    )
     certify.add_argument("--json", type=Path, metavar="F", help="write the verdicts as JSON")
-    certify.add_argument("--junit", type=Path, metavar="F", help="write the verdicts as a JUnit report")
-    certify.add_argument("--markdown", type=Path, metavar="F", help="write a summary as Markdown, such as a CI job shows")
-    certify.add_argument("--timings", type=Path, metavar="F", help="write the seconds that each claim took")
+    certify.add_argument(
+        "--junit", type=Path, metavar="F", help="write the verdicts as a JUnit report"
+    )
+    certify.add_argument(
+        "--markdown",
+        type=Path,
+        metavar="F",
+        help="write a summary as Markdown, such as a CI job shows",
+    )
+    certify.add_argument(
+        "--timings", type=Path, metavar="F", help="write the seconds that each claim took"
+    )
 
     check = commands.add_parser("check", help="the bare checker over the stored certificates")
     check.add_argument("folder", nargs="?", type=Path, metavar="DIR")
     commands.add_parser("list", help="the claims, with place and registered verdict")
     explain = commands.add_parser("explain", help="one claim whole")
     explain.add_argument("id", metavar="ID")
-    explain.add_argument("--premises", action="store_true", help="the texts of the premises that the checker's map rules write")
-    explain.add_argument("--alpha", metavar="A", help="with `theorem`: the restitution, exactly, such as 3/10")
-    explain.add_argument("--state", metavar="S", help="with `theorem`: x=..,w=.. or beta=..,v=..,r=..,g=..: what is certified, and the orbit")
-    explain.add_argument("--bounds", action="store_true", help="with `theorem`: the paper's bounds and ours against the worst of stated orbits")
-    commands.add_parser("errata", help="what the paper prints wrongly, with correction and exact counterexample")
-    bound = commands.add_parser("bound", help="a certified enclosure of the minimum of a polynomial over a box")
-    bound.add_argument("polynomial", metavar="POLYNOMIAL", help="such as \"x^2 - x*y + 1/2*y^4\"")
-    bound.add_argument("--box", required=True, metavar="BOX", help="each variable with its rational bounds, such as x=0..1,y=-1/2..3")
-    bound.add_argument("--width", required=True, metavar="W", help="how wide the enclosure may be, such as 1e-9; 0 asks for the minimum itself")
-    bound.add_argument("--budget", type=_count, default=0, metavar="N", help="boxes to look at (default: 20000)")
-    bound.add_argument("-o", "--output", type=Path, metavar="DIR", help="write statements and certificates there, as `check` reads them")
+    explain.add_argument(
+        "--premises",
+        action="store_true",
+        help="the texts of the premises that the checker's map rules write",
+    )
+    explain.add_argument(
+        "--alpha", metavar="A", help="with `theorem`: the restitution, exactly, such as 3/10"
+    )
+    explain.add_argument(
+        "--state",
+        metavar="S",
+        help=(
+            "with `theorem`: x=..,w=.. or beta=..,v=..,r=..,g=..: what is certified, and the orbit"
+        ),
+    )
+    explain.add_argument(
+        "--bounds",
+        action="store_true",
+        help="with `theorem`: the paper's bounds and ours against the worst of stated orbits",
+    )
+    commands.add_parser(
+        "errata", help="what the paper prints wrongly, with correction and exact counterexample"
+    )
+    bound = commands.add_parser(
+        "bound", help="a certified enclosure of the minimum of a polynomial over a box"
+    )
+    bound.add_argument("polynomial", metavar="POLYNOMIAL", help='such as "x^2 - x*y + 1/2*y^4"')
+    bound.add_argument(
+        "--box",
+        required=True,
+        metavar="BOX",
+        help="each variable with its rational bounds, such as x=0..1,y=-1/2..3",
+    )
+    bound.add_argument(
+        "--width",
+        required=True,
+        metavar="W",
+        help="how wide the enclosure may be, such as 1e-9; 0 asks for the minimum itself",
+    )
+    bound.add_argument(
+        "--budget", type=_count, default=0, metavar="N", help="boxes to look at (default: 20000)"
+    )
+    bound.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="write statements and certificates there, as `check` reads them",
+    )
     export = commands.add_parser("export", help="statements for other tools")
     export.add_argument("format", choices=["smt2", "coq", "latex"])
     export.add_argument("ids", nargs="*", metavar="ID")
-    export.add_argument("-o", "--output", type=Path, metavar="DIR", help="one file a statement there, instead of standard output")
-    report = commands.add_parser("report", help="the regenerated appendices, the theorem, errata and figures")
-    report.add_argument("--format", required=True, metavar="F", help="html, latex, pdf, markdown, json, badge or figures")
-    report.add_argument("-o", "--output", type=Path, metavar="DIR", help="where to write (default: juggleproof-report)")
+    export.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="one file a statement there, instead of standard output",
+    )
+    report = commands.add_parser(
+        "report", help="the regenerated appendices, the theorem, errata and figures"
+    )
+    report.add_argument(
+        "--format",
+        required=True,
+        metavar="F",
+        help="html, latex, pdf, markdown, json, badge or figures",
+    )
+    report.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="where to write (default: juggleproof-report)",
+    )
     add_simulate(commands)
-    bench = commands.add_parser("bench", help="speed against error: every method on the same questions, in one run")
-    bench.add_argument("--question", action="append", metavar="Q", help="only this question (may be given several times)")
-    bench.add_argument("--quick", action="store_true", help="one question, two widths, a few methods, unless told otherwise")
-    bench.add_argument("--widths", metavar="W", help="widths of enclosures (default: 1e-1,1e-2,...,1e-12)")
+    bench = commands.add_parser(
+        "bench", help="speed against error: every method on the same questions, in one run"
+    )
+    bench.add_argument(
+        "--question",
+        action="append",
+        metavar="Q",
+        help="only this question (may be given several times)",
+    )
+    bench.add_argument(
+        "--quick",
+        action="store_true",
+        help="one question, two widths, a few methods, unless told otherwise",
+    )
+    bench.add_argument(
+        "--widths", metavar="W", help="widths of enclosures (default: 1e-1,1e-2,...,1e-12)"
+    )
     bench.add_argument("--seconds", metavar="S", help="limit for each answer (default: 10)")
-    bench.add_argument("-o", "--output", type=Path, metavar="DIR", help="where plots go (default: juggleproof-bench)")
+    bench.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="where plots go (default: juggleproof-bench)",
+    )
     return parser
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; returns its exit code: 0 as registered, 1 not, 2 bad input, 130 interrupted."""
+    """Runs the command; returns its exit code: 0 as registered, 1 not, 2 bad input, 130
+    interrupted."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    if given[:1] == ["bound"] and given[1:] and given[1][0:1] == "-" and given[1] not in ("-h", "-o") and given[1][:2] != "--":
+    if (
+        given[:1] == ["bound"]
+        and given[1:]
+        and given[1][0:1] == "-"
+        and given[1] not in ("-h", "-o")
+        and given[1][:2] != "--"
+    ):
         given[1] = " " + given[1]  # a polynomial that begins with a minus, and no option
     parsed = build_parser().parse_args(given)
     from certificates.terms import ClaimError
@@ -109,10 +241,18 @@ def run(arguments: Sequence[str] | None = None) -> int:
         _leave_standard_output()
         return 0
     except OSError as error:
-        if error.filename is not None or error.errno not in (errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EDQUOT):
+        if error.filename is not None or error.errno not in (
+            errno.ENOSPC,
+            errno.EIO,
+            errno.EFBIG,
+            errno.EDQUOT,
+        ):
             raise
         _leave_standard_output()
-        print(f"juggleproof: standard output cannot be written ({error.strerror}); send it elsewhere", file=sys.stderr)
+        print(
+            f"juggleproof: standard output cannot be written ({error.strerror}); send it elsewhere",
+            file=sys.stderr,
+        )
         return 2
 
 
@@ -135,14 +275,20 @@ def _dispatch(parsed: argparse.Namespace) -> int:
 
         return check(parsed.folder)
     if parsed.command == "bound":
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: the matrices are small, and sums in one order repeat
+        os.environ.setdefault(
+            "OPENBLAS_NUM_THREADS", "1"
+        )  # before numpy: the matrices are small, and sums in one order repeat
         from proofs.command.bound import bound
 
         return bound(parsed.polynomial, parsed.box, parsed.width, parsed.budget, parsed.output)
     if parsed.command == "export":
         from proofs.command import export
 
-        writers = {"coq": export.export_coq, "smt2": export.export_smt2, "latex": export.export_latex}
+        writers = {
+            "coq": export.export_coq,
+            "smt2": export.export_smt2,
+            "latex": export.export_latex,
+        }
         return writers[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "report":
         from proofs.command.report import report
@@ -171,7 +317,11 @@ def _explain(parsed: argparse.Namespace) -> int:
     from certificates.terms import ClaimError
     from proofs.command import show
 
-    of_theorem = [option for option in ("alpha", "state", "bounds") if getattr(parsed, option) not in (None, False)]
+    of_theorem = [
+        option
+        for option in ("alpha", "state", "bounds")
+        if getattr(parsed, option) not in (None, False)
+    ]
     if of_theorem and parsed.id != "theorem":
         raise ClaimError(f"--{of_theorem[0]} goes with `explain theorem` only")
     if parsed.bounds:
@@ -182,7 +332,9 @@ def _explain(parsed: argparse.Namespace) -> int:
         return explain_bounds()
     if of_theorem:
         if len(of_theorem) < 2 or parsed.premises:
-            raise ClaimError("give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41")
+            raise ClaimError(
+                "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
+            )
         from proofs.command.theorem import explain_state
 
         return explain_state(parsed.alpha, parsed.state)

@@ -13,7 +13,9 @@ DIGITS = 12  # shown of a number that is longer
 MAX_BITS = 12000  # of a number that is read
 _WHOLE = r"(\d{1,1000})(?:\^(\d{1,5}))?"
 _EXACT = re.compile(rf"(-?){_WHOLE}(?:/{_WHOLE})?", re.ASCII)
-_DECIMAL = re.compile(r"-?(\d{1,30}\.?\d{0,30}|\.\d{1,30})(e[+-]?\d{1,2})?", re.ASCII | re.IGNORECASE)
+_DECIMAL = re.compile(
+    r"-?(\d{1,30}\.?\d{0,30}|\.\d{1,30})(e[+-]?\d{1,2})?", re.ASCII | re.IGNORECASE
+)
 
 
 def exact(text: str, name: str) -> Fraction:
@@ -28,10 +30,16 @@ def exact(text: str, name: str) -> Fraction:
     found = _EXACT.fullmatch(text)
     if not found:
         if _DECIMAL.fullmatch(text):
-            raise ClaimError(f"{name} = {text} is a rounded number; write it exactly, as {Fraction(text)}")
-        raise ClaimError(f"{name} = {text[:40]!r} is no number; write it exactly, as 3/10, -41 or 10^300")
+            raise ClaimError(
+                f"{name} = {text} is a rounded number; write it exactly, as {Fraction(text)}"
+            )
+        raise ClaimError(
+            f"{name} = {text[:40]!r} is no number; write it exactly, as 3/10, -41 or 10^300"
+        )
     sign, top, top_power, bottom, bottom_power = found.groups()
-    return (-1 if sign else 1) * Fraction(_power(top, top_power, name), _power(bottom or "1", bottom_power, name, zero=False))
+    return (-1 if sign else 1) * Fraction(
+        _power(top, top_power, name), _power(bottom or "1", bottom_power, name, zero=False)
+    )
 
 
 def whole(text: str) -> int:
@@ -54,7 +62,10 @@ def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:
         name, equals, value = (piece.strip() for piece in part.partition("="))
         if not equals or name not in names:
             units = ",r=..,g=.." if "r" in names else ""
-            raise ClaimError(f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or beta=..,v=..{units}")
+            raise ClaimError(
+                f"{part.strip()[:40]!r} is no component of a state; write x=..,w=.. or"
+                f" beta=..,v=..{units}"
+            )
         if name in given:
             raise ClaimError(f"{name} is given twice; give each component of the state once")
         given[name] = exact(value, name)
@@ -89,7 +100,11 @@ def shown(value: Fraction | int, digits: int = DIGITS) -> str:
     power, scaled = (power + 1, scaled // 10) if scaled == 10**digits else (power, scaled)
     text = str(scaled)
     if -5 <= power < digits:
-        whole, part = (text[:power + 1], text[power + 1:]) if power >= 0 else ("0", "0" * (-power - 1) + text)
+        whole, part = (
+            (text[: power + 1], text[power + 1 :])
+            if power >= 0
+            else ("0", "0" * (-power - 1) + text)
+        )
         part = part if scaled * Fraction(10) ** (power - digits + 1) != value else part.rstrip("0")
         return sign + whole + ("." + part if part else "")
     return f"{sign}{text[0]}.{text[1:]}e{power}"

@@ -14,15 +14,32 @@ from scenes.juggler.given import counted
 from scenes.juggler.hard_cases import CASES, Finding, finding
 from scenes.juggler.motion import MOST_TIMES, heights
 from scenes.juggler.orbits import Orbits, Row
-from scenes.juggler.periodic import attracts_for, exists_for, family, longest_flight, orbit_of, search_words
+from scenes.juggler.periodic import (
+    attracts_for,
+    exists_for,
+    family,
+    longest_flight,
+    orbit_of,
+    search_words,
+)
 from scenes.juggler.setting import Scene
 from scenes.juggler.starts import axis
 from scenes.juggler.tables import NAMES, UNITS, in_units, written
 
 MOST_ROWS, SHORT_BITS, LONG_TEXT = 40, 4000, 100
-PROVED = {"exact": "exact", "enclosed": "enclosed: the true state differs by the error at most, proved",
-          "mp": "mp: rounded to {} digits, nothing proved", "fast": "fast: the true state differs from the floats by the error at most, proved"}
-MARKS = {"": "not at its end", "reached": "", "trap": "in the trap", "undecided": "branch undecided", "too long": "numbers too long"}
+PROVED = {
+    "exact": "exact",
+    "enclosed": "enclosed: the true state differs by the error at most, proved",
+    "mp": "mp: rounded to {} digits, nothing proved",
+    "fast": "fast: the true state differs from the floats by the error at most, proved",
+}
+MARKS = {
+    "": "not at its end",
+    "reached": "",
+    "trap": "in the trap",
+    "undecided": "branch undecided",
+    "too long": "numbers too long",
+}
 
 
 def _draw(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
@@ -33,11 +50,18 @@ def _draw(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
 
 def told(value: Any) -> str:
     """A number, rounded to 12 digits."""
-    if isinstance(value, Fraction) and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS:
+    if (
+        isinstance(value, Fraction)
+        and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS
+    ):
         return shown(value)
     if isinstance(value, float):
         return f"{value:.{DIGITS}g}"
-    return written(value, None, DIGITS)[0] if not hasattr(value, "context") else str(value.context.nstr(value, DIGITS))
+    return (
+        written(value, None, DIGITS)[0]
+        if not hasattr(value, "context")
+        else str(value.context.nstr(value, DIGITS))
+    )
 
 
 def error_told(error: Any) -> str:
@@ -57,10 +81,14 @@ def error_told(error: Any) -> str:
 
 
 def orbits(found: Orbits, units: str) -> None:
-    """The table: every state that was kept, or where each orbit stands; the first rows, and the first that were not decided."""
+    """The table: every state that was kept, or where each orbit stands; the first rows, and the
+    first that were not decided."""
     setting = found.scene
-    print(f"alpha = {_short(setting.alpha)}, {len(found)} start{'s' * (len(found) != 1)}, {found.goal.steps} {found.goal.unit}"
-          f"{' or until the trap' * found.goal.until_trap}; {PROVED[found.arithmetic].format(found.precision)}")
+    print(
+        f"alpha = {_short(setting.alpha)}, {len(found)} start{'s' * (len(found) != 1)},"
+        f" {found.goal.steps} {found.goal.unit}{' or until the trap' * found.goal.until_trap};"
+        f" {PROVED[found.arithmetic].format(found.precision)}"
+    )
     names = NAMES[units]
     heads = ("start", "periods", "impacts", names[0], names[1], "error", "")
     rows: list[tuple[str, ...]] = []
@@ -78,7 +106,14 @@ def orbits(found: Orbits, units: str) -> None:
 def _line(row: Row, last: bool) -> tuple[str, ...]:
     error = "unknown" if row.error is None else error_told(max(row.error))
     counts = ["" if count < 0 else shown(count) for count in (row.periods, row.impacts)]
-    return (str(row.start), *counts, told(row.x), told(row.w), error, MARKS[row.end] if last else "")
+    return (
+        str(row.start),
+        *counts,
+        told(row.x),
+        told(row.w),
+        error,
+        MARKS[row.end] if last else "",
+    )
 
 
 def _tell_ends(found: Orbits) -> None:
@@ -87,19 +122,32 @@ def _tell_ends(found: Orbits) -> None:
         print(", ".join(f"{count} {name or 'not at the end'}" for name, count in counts.items()))
     undecided = counts.get("undecided", 0)
     if undecided:
-        first = ", ".join(f"{index} (period {shown(period)})" for index, period in islice(found.each_undecided(), 10))
+        first = ", ".join(
+            f"{index} (period {shown(period)})"
+            for index, period in islice(found.each_undecided(), 10)
+        )
         more = f" and {undecided - 10} more" if undecided > 10 else ""
-        print(f"undecided: {first}{more}; whether the table strikes there is not known from these numbers; --arithmetic enclosed or exact tells")
+        print(
+            f"undecided: {first}{more}; whether the table strikes there is not known from these"
+            " numbers; --arithmetic enclosed or exact tells"
+        )
     edges = sum(track.edges for track in found.tracks)
     if edges:
-        print(f"on x = w: {edges} state{'s' * (edges != 1)}, exactly" if found.arithmetic != "mp" else f"on x = w: {edges} as rounded")
+        print(
+            f"on x = w: {edges} state{'s' * (edges != 1)}, exactly"
+            if found.arithmetic != "mp"
+            else f"on x = w: {edges} as rounded"
+        )
 
 
 def times(setting: Scene, low: Any, high: Any, count: int) -> int:
     """Heights of ball and table at times, in the units of r and g."""
     if setting.starts.count > 1:
         raise SceneError(f"times of {setting.starts.count} starts; give one start")
-    found = heights(setting, list(axis(low, high, counted(count, "the number of times", 1, MOST_TIMES), "times")))
+    found = heights(
+        setting,
+        list(axis(low, high, counted(count, "the number of times", 1, MOST_TIMES), "times")),
+    )
     print(f"alpha = {_short(setting.alpha)}; exact heights, shown rounded to {DIGITS} digits")
     _draw(("time", "ball", "table"), [tuple(map(told, one)) for one in found])
     return 0
@@ -109,35 +157,74 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
     """All periodic orbits of up to so many impacts."""
     found = search_words(alpha, longest, flight)
     most = longest_flight(alpha) if flight is None else min(flight, longest_flight(alpha))
-    print(f"alpha = {_short(alpha)}: every periodic orbit with at most {longest} impacts and flights of at most {most} periods")
+    print(
+        f"alpha = {_short(alpha)}: every periodic orbit with at most {longest} impacts and flights"
+        f" of at most {most} periods"
+    )
     if most == longest_flight(alpha):
-        print("no periodic orbit has a longer flight: (1 + alpha)/(1 - alpha) is the limit, by theorem-flights")
+        print(
+            "no periodic orbit has a longer flight: (1 + alpha)/(1 - alpha) is the limit, by"
+            " theorem-flights"
+        )
     rows = []
     for one in found:
         name = f"e_{one.word[0]}" if len(one.word) == 1 else ""
-        verdict = "attracts near states" if one.attracts else "on x = w: the affine map does not tell"
-        rows.append((",".join(map(str, one.word)), name, str(sum(one.word)), *map(told, one.impacts[0]), told(one.radius), verdict))
+        verdict = (
+            "attracts near states" if one.attracts else "on x = w: the affine map does not tell"
+        )
+        rows.append(
+            (
+                ",".join(map(str, one.word)),
+                name,
+                str(sum(one.word)),
+                *map(told, one.impacts[0]),
+                told(one.radius),
+                verdict,
+            )
+        )
     _draw(("word", "", "periods", "x at impact", "w at impact", "spectral radius", ""), rows)
     return 0
 
 
 def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
-    """The orbit of a word, at this alpha or for all; for which alpha it exists, and for which it attracts."""
+    """The orbit of a word, at this alpha or for all; for which alpha it exists, and for which it
+    attracts."""
     found, near = exists_for(wanted), attracts_for(wanted)
     at = orbit_of(wanted, alpha) if alpha is not None else None
-    print(f"word {','.join(map(str, wanted))}: {sum(wanted)} periods, impacts {len(wanted)}, spectral radius alpha^{len(wanted)}")
+    print(
+        f"word {','.join(map(str, wanted))}: {sum(wanted)} periods, impacts {len(wanted)}, spectral"
+        f" radius alpha^{len(wanted)}"
+    )
     print("exists for " + ("; ".join(map(str, found)) if found else "no alpha in (0, 1)"))
     if near:
         print(f"attracts near states for {'; '.join(map(str, near))}")
     if found != near:
-        print("for the other alpha of these a state of it lies on x = w, where the affine map does not tell whether it attracts")
+        print(
+            "for the other alpha of these a state of it lies on x = w, where the affine map does"
+            " not tell whether it attracts"
+        )
     if alpha is None and found:
-        _draw(("impact", "x", "w"), [(str(k + 1), *(_formula(part) for part in place)) for k, place in enumerate(family(wanted))])
+        _draw(
+            ("impact", "x", "w"),
+            [
+                (str(k + 1), *(_formula(part) for part in place))
+                for k, place in enumerate(family(wanted))
+            ],
+        )
     elif alpha is not None and at is None:
         print(f"at alpha = {_short(alpha)} no orbit has this word")
     elif at is not None:
-        print(f"at alpha = {_short(at.alpha)}, exactly; {'attracts near states' if at.attracts else 'a state lies on x = w'}")
-        _draw(("impact", "x", "w"), [(str(k + 1), *(_fraction(part) for part in place)) for k, place in enumerate(at.impacts)])
+        print(
+            f"at alpha = {_short(at.alpha)}, exactly;"
+            f" {'attracts near states' if at.attracts else 'a state lies on x = w'}"
+        )
+        _draw(
+            ("impact", "x", "w"),
+            [
+                (str(k + 1), *(_fraction(part) for part in place))
+                for k, place in enumerate(at.impacts)
+            ],
+        )
     return 0
 
 
@@ -150,13 +237,20 @@ def _formula(expression: Any) -> str:
 
 
 def _fraction(value: Fraction) -> str:
-    text = str(value) if max(value.numerator.bit_length(), value.denominator.bit_length()) < 3 * LONG_TEXT else ""
+    text = (
+        str(value)
+        if max(value.numerator.bit_length(), value.denominator.bit_length()) < 3 * LONG_TEXT
+        else ""
+    )
     return text if 0 < len(text) <= LONG_TEXT else told(value)
 
 
 def hard_cases() -> int:
     """The hard cases: what floats say, what is true, and what the bounded arithmetics say."""
-    print("float64: plain floats, period by period; exact: the truth; fast: float64 with a proved bound; enclosed: balls")
+    print(
+        "float64: plain floats, period by period; exact: the truth; fast: float64 with a proved"
+        " bound; enclosed: balls"
+    )
     rows = []
     for case in CASES:
         rows.append(_finding(finding(case)))
@@ -169,23 +263,50 @@ def _pair(x: Any, w: Any) -> str:
 
 
 def _short(value: Any) -> str:
-    if isinstance(value, Fraction) and value.numerator.bit_length() + value.denominator.bit_length() < 24:
+    if (
+        isinstance(value, Fraction)
+        and value.numerator.bit_length() + value.denominator.bit_length() < 24
+    ):
         return str(value)
-    if isinstance(value, Fraction) and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS:
+    if (
+        isinstance(value, Fraction)
+        and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS
+    ):
         return shown(value, 6)
     return f"{value:.6g}" if isinstance(value, float) else written(value, None, 6)[0]
 
 
 def _finding(one: Finding) -> tuple[str, ...]:
     case = one.case
-    floats = _pair(*one.floats) + (f"; WRONG BRANCH at period {one.wrong_at}" if one.wrong_at is not None else "")
-    exact_told = MARKS["too long"] + f" after {shown(one.exact.periods)} periods" if one.exact.end == "too long" else _pair(one.exact.x, one.exact.w)
-    fast = f"undecided at period {shown(one.fast.periods)}" if one.fast.end == "undecided" else \
-        f"{_pair(one.fast.x, one.fast.w)} +/- {error_told(max(one.fast.error or (0.0,)))}"
-    balls = f"{_pair(one.enclosed.x, one.enclosed.w)} +/- {error_told(max(one.enclosed.error or (Fraction(0),)))}"
+    floats = _pair(*one.floats) + (
+        f"; WRONG BRANCH at period {one.wrong_at}" if one.wrong_at is not None else ""
+    )
+    exact_told = (
+        MARKS["too long"] + f" after {shown(one.exact.periods)} periods"
+        if one.exact.end == "too long"
+        else _pair(one.exact.x, one.exact.w)
+    )
+    fast = (
+        f"undecided at period {shown(one.fast.periods)}"
+        if one.fast.end == "undecided"
+        else f"{_pair(one.fast.x, one.fast.w)} +/- {error_told(max(one.fast.error or (0.0,)))}"
+    )
+    balls = (
+        f"{_pair(one.enclosed.x, one.enclosed.w)} +/-"
+        f" {error_told(max(one.enclosed.error or (Fraction(0),)))}"
+    )
     balls += f"; {one.edges} on x = w" if one.edges else ""
     steps = f"{shown(case.steps)} {'impacts' if case.impacts else 'periods'}"
-    return case.name, _short(case.alpha), _pair(case.x, case.w), steps, floats, exact_told, fast, balls
+    return (
+        case.name,
+        _short(case.alpha),
+        _pair(case.x, case.w),
+        steps,
+        floats,
+        exact_told,
+        fast,
+        balls,
+    )
 
 
 __all__ = ["UNITS", "hard_cases", "orbits", "times", "word", "words"]

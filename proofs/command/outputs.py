@@ -1,4 +1,5 @@
-"""The files that `certify` writes beside the store: refused before the run where they could not be written after it."""
+"""The files that `certify` writes beside the store: refused before the run where they could not be
+written after it."""
 
 from __future__ import annotations
 
@@ -18,21 +19,29 @@ OPTIONS = ("json", "junit", "markdown", "timings")
 
 
 def refuse_unwritable(options: argparse.Namespace) -> None:
-    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot be written, or would overwrite another."""
+    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
+    be written, or would overwrite another."""
     taken = {path.resolve(): f"the claims of {path}" for path in options.files}
     for option, path in _asked(options).items():
-        fault = fault_of(path) or (f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else "")
+        fault = fault_of(path) or (
+            f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else ""
+        )
         if fault:
             raise ClaimError(f"--{option} {path}: {fault}; name another file")
         taken[path.resolve()] = f"what --{option} writes"
 
 
 def _asked(options: argparse.Namespace) -> dict[str, Path]:
-    return {option: getattr(options, option) for option in OPTIONS if getattr(options, option) is not None}
+    return {
+        option: getattr(options, option)
+        for option in OPTIONS
+        if getattr(options, option) is not None
+    }
 
 
 def fault_of(path: Path) -> str:
-    """Why the file cannot be written, found out by a file made beside it and removed; nothing where it can."""
+    """Why the file cannot be written, found out by a file made beside it and removed; nothing where
+    it can."""
     try:
         if path.is_dir():
             return "is a folder"
@@ -47,10 +56,13 @@ def fault_of(path: Path) -> str:
 
 @contextmanager
 def written_aside(path: Path) -> Iterator[BinaryIO]:
-    """A file to write to, put in the place of the path when all is written; removed where that fails.  ClaimError for a full disk."""
+    """A file to write to, put in the place of the path when all is written; removed where that
+    fails.  ClaimError for a full disk."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(prefix=".", suffix=path.suffix + ".new", dir=path.parent, delete=False) as file:
+        with tempfile.NamedTemporaryFile(
+            prefix=".", suffix=path.suffix + ".new", dir=path.parent, delete=False
+        ) as file:
             try:
                 yield file  # type: ignore[misc]
                 file.flush()
@@ -60,7 +72,9 @@ def written_aside(path: Path) -> Iterator[BinaryIO]:
                 os.unlink(file.name)
                 raise
     except OSError as error:
-        raise ClaimError(f"{path}: cannot be written ({error.strerror}); choose a folder that can be") from None
+        raise ClaimError(
+            f"{path}: cannot be written ({error.strerror}); choose a folder that can be"
+        ) from None
 
 
 def write(options: argparse.Namespace, results: Results, seconds: Mapping[str, float]) -> None:

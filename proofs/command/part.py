@@ -23,11 +23,17 @@ from scenes.part.setting import Scene, scene
 from scenes.part.sweeping import Point, as_json, chosen, recorded, sweep
 
 WISHES = ("sweep", "still", "figure", "animation")
-SUFFIXES = {"figure": (".svg", ".pdf"), "animation": (".html",), "sweep": (".json",), "table": (".csv", ".npz")}
+SUFFIXES = {
+    "figure": (".svg", ".pdf"),
+    "animation": (".html",),
+    "sweep": (".json",),
+    "table": (".csv", ".npz"),
+}
 
 
 def part(options: argparse.Namespace) -> int:
-    """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was interrupted."""
+    """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was
+    interrupted."""
     _needed("numba")
     wishes = [name for name in WISHES if getattr(options, name)] or ["table"]
     if len(wishes) > 1:
@@ -41,7 +47,9 @@ def _needed(module: str) -> None:
     try:
         __import__(module)
     except ImportError:
-        raise ClaimError(f"{module} is needed for this scene; install it with pip install -e '.[part]'") from None
+        raise ClaimError(
+            f"{module} is needed for this scene; install it with pip install -e '.[part]'"
+        ) from None
 
 
 def _threads(jobs: int | None) -> AbstractContextManager[Any]:
@@ -56,7 +64,9 @@ def _refuse_unwritable(options: argparse.Namespace, wish: str) -> None:
     path: Path | None = options.output
     if wish in ("figure", "animation"):
         if path is not None:
-            raise ClaimError(f"--output {path} goes with table I or a sweep; --{wish} names its own file")
+            raise ClaimError(
+                f"--output {path} goes with table I or a sweep; --{wish} names its own file"
+            )
         path = getattr(options, wish)
     if path is None:
         return
@@ -74,7 +84,9 @@ def _number(text: str, name: str) -> float:
     try:
         return float(Fraction(text)) if len(text) <= 60 else math.nan
     except (ValueError, ZeroDivisionError, OverflowError):
-        raise ClaimError(f"{name} = {text[:40]!r} is no number; write it as 0.7, 1e-3 or 2/3") from None
+        raise ClaimError(
+            f"{name} = {text[:40]!r} is no number; write it as 0.7, 1e-3 or 2/3"
+        ) from None
 
 
 def _one_of(text: str, name: str, known: dict[str, Any]) -> Any:
@@ -91,9 +103,18 @@ def _setting(options: argparse.Namespace) -> Scene:
     pair = chosen(recorded()) if stored else Point(0, 0, (), (), 0)
     frequency, amplitude = _vibration(options.vibration)
     return scene(
-        a=a, b=b, e=pair.e if options.e is None else _number(options.e, "e"), mu=pair.mu if options.mu is None else _number(options.mu, "mu"),
-        A_x=peak * amplitude, f_x=frequency, phase_x=math.radians(_number(options.phase, "phase")), A_y=peak * 2e-4, f_y=60.0,
-        tolerance=_number(options.tolerance, "tolerance"), rest_speed=_number(options.rest_speed, "rest speed"), launch=options.launch,
+        a=a,
+        b=b,
+        e=pair.e if options.e is None else _number(options.e, "e"),
+        mu=pair.mu if options.mu is None else _number(options.mu, "mu"),
+        A_x=peak * amplitude,
+        f_x=frequency,
+        phase_x=math.radians(_number(options.phase, "phase")),
+        A_y=peak * 2e-4,
+        f_y=60.0,
+        tolerance=_number(options.tolerance, "tolerance"),
+        rest_speed=_number(options.rest_speed, "rest speed"),
+        launch=options.launch,
     )
 
 
@@ -105,10 +126,19 @@ def _vibration(text: str) -> tuple[float, float]:
 
 
 def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
-    found = table_one(setting, ensembles=options.ensembles, horizon=_number(options.horizon, "horizon"), seed=options.seed,
-                      peak=AMPLITUDES[options.amplitudes], executor=executor, tell=progress())
+    found = table_one(
+        setting,
+        ensembles=options.ensembles,
+        horizon=_number(options.horizon, "horizon"),
+        seed=options.seed,
+        peak=AMPLITUDES[options.amplitudes],
+        executor=executor,
+        tell=progress(),
+    )
     clear()
-    keep_results(setting, found, options.amplitudes, options.seed)  # before anything is printed, to a reader who may not stay
+    keep_results(
+        setting, found, options.amplitudes, options.seed
+    )  # before anything is printed, to a reader who may not stay
     part_tables.table(found, setting, options.amplitudes, options.e is None and options.mu is None)
     if options.output is not None:
         with written_aside(options.output) as file:
@@ -130,18 +160,30 @@ def _axis(text: str, name: str) -> list[float]:
     pieces = text.split(":")
     if len(pieces) != 3:
         raise ClaimError(f"--sweep {name}: {text[:40]!r} is not FROM:TO:COUNT")
-    low, high, count = _number(pieces[0], name), _number(pieces[1], name), _number(pieces[2], f"the count of {name}")
+    low, high, count = (
+        _number(pieces[0], name),
+        _number(pieces[1], name),
+        _number(pieces[2], f"the count of {name}"),
+    )
     if not 1 <= count <= 1000 or count != int(count):
-        raise ClaimError(f"--sweep {name}: a count of {pieces[2][:20]} is not a whole number from 1 to 1000")
+        raise ClaimError(
+            f"--sweep {name}: a count of {pieces[2][:20]} is not a whole number from 1 to 1000"
+        )
     return [round(low + (high - low) * k / max(count - 1, 1), 10) for k in range(int(count))]
 
 
 def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     if options.e is not None or options.mu is not None:
         raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
-    axes = {name.strip(): text for name, _, text in (piece.partition("=") for piece in options.sweep.split(","))}
+    axes = {
+        name.strip(): text
+        for name, _, text in (piece.partition("=") for piece in options.sweep.split(","))
+    }
     if set(axes) != {"e", "mu"}:
-        raise ClaimError(f"--sweep {options.sweep[:40]!r} has not e and mu; write e=FROM:TO:COUNT,mu=FROM:TO:COUNT")
+        raise ClaimError(
+            f"--sweep {options.sweep[:40]!r} has not e and mu; write"
+            " e=FROM:TO:COUNT,mu=FROM:TO:COUNT"
+        )
     horizon = _number(options.horizon, "horizon")
     points: list[Point] = []
 
@@ -152,8 +194,17 @@ def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     print(part_tables.POINT_HEADS)
     interrupted = False
     try:
-        sweep(setting, _axis(axes["e"], "e"), _axis(axes["mu"], "mu"), ensembles=options.ensembles, horizon=horizon, seed=options.seed,
-              peak=AMPLITUDES[options.amplitudes], executor=executor, tell=tell)
+        sweep(
+            setting,
+            _axis(axes["e"], "e"),
+            _axis(axes["mu"], "mu"),
+            ensembles=options.ensembles,
+            horizon=horizon,
+            seed=options.seed,
+            peak=AMPLITUDES[options.amplitudes],
+            executor=executor,
+            tell=tell,
+        )
     except KeyboardInterrupt:
         interrupted = True
         print(f"juggleproof: interrupted; {len(points)} points are done", file=sys.stderr)
@@ -194,5 +245,9 @@ def _drawn(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
 
 
 DONE_BY: dict[str, Callable[[argparse.Namespace, Scene, Any], int]] = {
-    "table": _table, "sweep": _sweep, "still": _still, "figure": _drawn, "animation": _drawn,
+    "table": _table,
+    "sweep": _sweep,
+    "still": _still,
+    "figure": _drawn,
+    "animation": _drawn,
 }

@@ -1,4 +1,5 @@
-"""`juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows what settles each."""
+"""`juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows what settles
+each."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings")
 
 
 def are_scripts(files: Sequence[Path]) -> bool:
-    """Whether the files are scripts of SMT-LIB; raises ClaimError where some are and others are not."""
+    """Whether the files are scripts of SMT-LIB; raises ClaimError where some are and others are
+    not."""
     scripts = [path for path in files if path.suffix == SUFFIX]
     if scripts and len(scripts) < len(files):
         other = next(path for path in files if path.suffix != SUFFIX)
@@ -44,8 +46,10 @@ def certify_problems(options: argparse.Namespace) -> int:
     draw(answered, Console(highlight=False))
     for one in answered:
         if one.contradicts:
-            print(f"CONTRADICTS {one.problem.file}:{one.problem.line}: the script states {one.problem.status}, but it is {one.answer.word}, "
-                  "by what the checker accepted")
+            print(
+                f"CONTRADICTS {one.problem.file}:{one.problem.line}: the script states"
+                f" {one.problem.status}, but it is {one.answer.word}, by what the checker accepted"
+            )
         if one.rejected:
             print(f"rejected by the checker: {one.answer.name}: {one.rejected}")
     print(summary(answered))
@@ -61,7 +65,13 @@ def _answered(options: argparse.Namespace) -> list[Answered]:
         return answer_files(options.files, budget=budget, store=options.store, fresh=options.fresh)
     with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=start) as pool:
         try:
-            return answer_files(options.files, budget=budget, store=options.store, fresh=options.fresh, executor=pool)
+            return answer_files(
+                options.files,
+                budget=budget,
+                store=options.store,
+                fresh=options.fresh,
+                executor=pool,
+            )
         except ClaimError:
             raise
         except BaseException:
@@ -81,7 +91,14 @@ def settled_by(one: Answered) -> str:
 
 def rows(answered: Sequence[Answered]) -> list[tuple[str, str, str]]:
     """The table's rows."""
-    return [(one.name, one.answer.word + (f" (stated: {one.problem.status})" if one.contradicts else ""), settled_by(one)) for one in answered]
+    return [
+        (
+            one.name,
+            one.answer.word + (f" (stated: {one.problem.status})" if one.contradicts else ""),
+            settled_by(one),
+        )
+        for one in answered
+    ]
 
 
 def draw(answered: Sequence[Answered], console: Any) -> None:
@@ -106,11 +123,21 @@ def summary(answered: Sequence[Answered]) -> str:
     words = [one.answer.word for one in answered]
     wrong = sum(one.contradicts for one in answered)
     counted = ", ".join(f"{words.count(word)} {word}" for word in ("unsat", "sat", "unknown"))
-    return f"{len(answered)} problem{'' if len(answered) == 1 else 's'}: {counted}" + (f"; {wrong} not as stated" if wrong else "")
+    return f"{len(answered)} problem{'' if len(answered) == 1 else 's'}: {counted}" + (
+        f"; {wrong} not as stated" if wrong else ""
+    )
 
 
 def data(one: Answered) -> dict[str, Any]:
     """An answer for other programs."""
-    return {"file": one.path.name, "line": one.problem.line, "answer": one.answer.word, "stated": one.problem.status,
-            "statement": one.answer.text, "reason": one.answer.reason, "rejected": one.rejected,
-            "model": dict(in_script(one.answer, one.problem)) if one.answer.word == "sat" else {}, "numbers": list(one.answer.numbers)}
+    return {
+        "file": one.path.name,
+        "line": one.problem.line,
+        "answer": one.answer.word,
+        "stated": one.problem.status,
+        "statement": one.answer.text,
+        "reason": one.answer.reason,
+        "rejected": one.rejected,
+        "model": dict(in_script(one.answer, one.problem)) if one.answer.word == "sat" else {},
+        "numbers": list(one.answer.numbers),
+    }

@@ -1,4 +1,5 @@
-"""`juggleproof report`: the stored claims as a page, as LaTeX, as a PDF, and as data for other programs."""
+"""`juggleproof report`: the stored claims as a page, as LaTeX, as a PDF, and as data for other
+programs."""
 
 from __future__ import annotations
 
@@ -16,9 +17,11 @@ Files = Mapping[str, bytes]
 
 
 def report(wanted: str, folder: Path | None) -> int:
-    """Writes a report of this format into the folder and prints the paths; returns 1 where what was made has faults that a reader would see.
+    """Writes a report of this format into the folder and prints the paths; returns 1 where what was
+    made has faults that a reader would see.
 
-    Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a library or program that is absent.
+    Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
+    library or program that is absent.
     """
     if wanted not in FORMATS:
         raise ClaimError(f"--format {wanted}: choose from {', '.join(FORMATS)}")
@@ -55,7 +58,20 @@ def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     from proofs.reports.tex import files
     from scenes.figures import TABLE
 
-    return files(contents, [(one.slug, f"Figure {one.number}. {one.title}" if one.number else one.title, one.caption) for one in TABLE]), []
+    return (
+        files(
+            contents,
+            [
+                (
+                    one.slug,
+                    f"Figure {one.number}. {one.title}" if one.number else one.title,
+                    one.caption,
+                )
+                for one in TABLE
+            ],
+        ),
+        [],
+    )
 
 
 def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
@@ -101,16 +117,30 @@ def _can_draw() -> bool:
     """Whether matplotlib is there; says so where it is not."""
     if importlib.util.find_spec("matplotlib") is not None:
         return True
-    print("juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]' brings it", file=sys.stderr)
+    print(
+        "juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]'"
+        " brings it",
+        file=sys.stderr,
+    )
     return False
 
 
 def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
     from proofs.reports.figures import saved
 
-    return {f"figures/{slug}.{form}": content for form in ("svg", "pdf") for slug, *_, content in saved(contents, form)}, []
+    return {
+        f"figures/{slug}.{form}": content
+        for form in ("svg", "pdf")
+        for slug, *_, content in saved(contents, form)
+    }, []
 
 
 FORMATS: Mapping[str, Callable[[Contents, Path], tuple[Files, list[str]]]] = {
-    "html": _html, "latex": _latex, "pdf": _pdf, "markdown": _markdown, "json": _json, "badge": _badge, "figures": _drawings,
+    "html": _html,
+    "latex": _latex,
+    "pdf": _pdf,
+    "markdown": _markdown,
+    "json": _json,
+    "badge": _badge,
+    "figures": _drawings,
 }

@@ -27,12 +27,16 @@ def list_claims() -> int:
 
 
 def explain(claim_id: str, with_premises: bool = False) -> int:
-    """One claim whole: print, derivation, reading, statements, certificates or counterexamples, sharp range, verdict; the tree of its rules."""
+    """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
+    sharp range, verdict; the tree of its rules."""
     records = Records(DEFAULT_BUDGET)
     claims = {claim.id: claim for claim in records.claims or paper_claims()}
     if claim_id not in claims:
         near = [name for name in claims if claim_id in name][:5]
-        raise ClaimError(f"{claim_id}: no such claim" + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them"))
+        raise ClaimError(
+            f"{claim_id}: no such claim"
+            + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them")
+        )
     claim, store = claims[claim_id], Store(DEFAULT)
     try:
         body = body_of(records.by_claim[claim_id], store.texts)
@@ -54,13 +58,17 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
     print(f"sharp range {entry.get('sharp', 'none: the claim has no range of alpha to settle')}")
     if "correction" in entry:
         print(f"correction  {entry['correction']}")
-    print(f"verdict     {entry.get('verdict', 'not judged')}" + (f"; {entry['detail']}" if "detail" in entry else ""))
+    print(
+        f"verdict     {entry.get('verdict', 'not judged')}"
+        + (f"; {entry['detail']}" if "detail" in entry else "")
+    )
     print_tree(claim_id, getattr(body, "rests_on", ()), store, with_premises)
     return 0
 
 
 def kept_claims() -> list[Claim]:
-    """The paper's claims as a table tells them: from the records of an earlier run of the same sources, else loaded."""
+    """The paper's claims as a table tells them: from the records of an earlier run of the same
+    sources, else loaded."""
     return Records(DEFAULT_BUDGET).claims or paper_claims()
 
 
@@ -77,13 +85,21 @@ def _print_of(claim: Claim) -> None:
 def reading_of(body: Body) -> str:
     """How the statements of a body make up the claim, in a few words."""
     if isinstance(body, Assertion):
-        return f"all {len(body.parts)} statements hold" if len(body.parts) > 1 else "the statement holds"
+        return (
+            f"all {len(body.parts)} statements hold"
+            if len(body.parts) > 1
+            else "the statement holds"
+        )
     if isinstance(body, Readings):
         return "can be read as " + ", or as ".join(body.of)
     if isinstance(body, Following):
         return "the conclusion of " + ", ".join(body.rests_on)
     if isinstance(body, Argument):
-        return "argued from " + ", ".join(body.steps) + (f"; rescued by {body.rescue}" if body.rescue else "")
+        return (
+            "argued from "
+            + ", ".join(body.steps)
+            + (f"; rescued by {body.rescue}" if body.rescue else "")
+        )
     raise ClaimError("a body of unknown kind")
 
 
@@ -100,7 +116,10 @@ def _statement(name: str, text: str, store: Store) -> None:
         print(f"    -> refuted at {counterexample(certificate['refuted'])}")
     else:
         shown = json.dumps(certificate["certified"], separators=(",", ":"))
-        print(f"    -> certified by {shown if len(shown) < 400 else shown[:400] + '... (' + str(len(shown)) + ' characters)'}")
+        print(
+            "    -> certified by"
+            f" {shown if len(shown) < 400 else shown[:400] + '... (' + str(len(shown)) + ' characters)'}"
+        )
 
 
 def counterexample(found: Any) -> str:
@@ -108,5 +127,8 @@ def counterexample(found: Any) -> str:
     if found[0] == "sign":
         return f"a family by the sign of {found[1]}"
     values = ", ".join(f"{name} = {value}" for name, value in found[2].items())
-    adjoined = "".join(f" where {entry[0]} is a root of {entry[1]} between {entry[2]} and {entry[3]}" for entry in found[1])
+    adjoined = "".join(
+        f" where {entry[0]} is a root of {entry[1]} between {entry[2]} and {entry[3]}"
+        for entry in found[1]
+    )
     return values + adjoined

@@ -17,7 +17,16 @@ from proofs.command.progress import clear, progress
 from scenes.errors import SceneError
 from scenes.juggler.orbits import Orbits, prepare
 from scenes.juggler.setting import Scene, scene
-from scenes.juggler.starts import Axis, boundary, grid, listed, physical, physical_box, physical_grid, random
+from scenes.juggler.starts import (
+    Axis,
+    boundary,
+    grid,
+    listed,
+    physical,
+    physical_box,
+    physical_grid,
+    random,
+)
 from scenes.juggler.states import Starts
 from scenes.juggler.tables import NAMES
 
@@ -26,11 +35,17 @@ FORMATS = (".csv", ".npz", ".svg")
 STEPS, IMPACTS_TO_TRAP = 20, 1000
 Writer = Callable[[Orbits, BinaryIO], None]
 STARTS = ("state", "grid", "boundary", "random")
-LISTS: dict[str, tuple[str, ...]] = {"hard_cases": (), "words": ("alpha",), "word": ("alpha",), "times": ("alpha", *STARTS)}  # and what each takes
+LISTS: dict[str, tuple[str, ...]] = {
+    "hard_cases": (),
+    "words": ("alpha",),
+    "word": ("alpha",),
+    "times": ("alpha", *STARTS),
+}  # and what each takes
 
 
 def simulate(options: argparse.Namespace) -> int:
-    """Runs a scene; 0, or 130 where it was interrupted.  Raises ClaimError, one line, for what cannot be carried out."""
+    """Runs a scene; 0, or 130 where it was interrupted.  Raises ClaimError, one line, for what
+    cannot be carried out."""
     scenes: dict[str, Callable[[argparse.Namespace], int]] = {"juggler": juggler, "part": _part}
     try:
         return scenes[options.scene](options)
@@ -51,7 +66,9 @@ def juggler(options: argparse.Namespace) -> int:
         return orbit_tables.hard_cases()
     if options.word is not None:
         flights = tuple(_whole(part, "a flight") for part in options.word.split(","))
-        return orbit_tables.word(flights, None if options.alpha is None else exact(options.alpha, "alpha"))
+        return orbit_tables.word(
+            flights, None if options.alpha is None else exact(options.alpha, "alpha")
+        )
     if options.alpha is None:
         raise ClaimError("--alpha is missing; give the restitution, such as --alpha 3/10")
     alpha = exact(options.alpha, "alpha")
@@ -65,11 +82,16 @@ def juggler(options: argparse.Namespace) -> int:
 
 
 def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
-    """Raises ClaimError for two lists at once, and for options that a list would leave out in silence."""
+    """Raises ClaimError for two lists at once, and for options that a list would leave out in
+    silence."""
     lists = [name for name in LISTS if getattr(options, name) not in (None, False)]
     if not lists:
         return
-    others = [name for name in ("alpha", *STARTS, "output") if getattr(options, name) is not None and name not in LISTS[lists[0]]]
+    others = [
+        name
+        for name in ("alpha", *STARTS, "output")
+        if getattr(options, name) is not None and name not in LISTS[lists[0]]
+    ]
     if lists[1:] + others:
         one, two = (name.replace("_", "-") for name in (lists[0], (lists[1:] + others)[0]))
         raise ClaimError(f"--{one} and --{two} do not go together; leave one of them out")
@@ -79,17 +101,29 @@ def starts(options: argparse.Namespace) -> Starts:
     """The starting states that were asked for."""
     given = [name for name in STARTS if getattr(options, name) is not None]
     if len(given) != 1:
-        told = " and ".join(f"--{name}" for name in given) + " do not go together" if given else "no start is given"
+        told = (
+            " and ".join(f"--{name}" for name in given) + " do not go together"
+            if given
+            else "no start is given"
+        )
         raise ClaimError(f"{told}; give one of --state, --grid, --boundary and --random")
     if options.boundary is not None:
         return boundary(exact(options.alpha, "alpha"), options.boundary)
     if options.random is not None:
         names, (low, high, _), (slow, quick, _) = _axes(options.box, "box", 2)
-        sides = physical_box((low, high), (slow, quick), *_units(options)) if names == PHYSICAL else ((low, high), (slow, quick))
+        sides = (
+            physical_box((low, high), (slow, quick), *_units(options))
+            if names == PHYSICAL
+            else ((low, high), (slow, quick))
+        )
         return random(options.random, options.seed, *sides)
     if options.grid is not None:
         names, heights, speeds = _axes(options.grid, "grid", 3)
-        return physical_grid(heights, speeds, *_units(options)) if names == PHYSICAL else grid(heights, speeds)
+        return (
+            physical_grid(heights, speeds, *_units(options))
+            if names == PHYSICAL
+            else grid(heights, speeds)
+        )
     return listed([_state(text, options) for text in options.state])
 
 
@@ -100,7 +134,9 @@ def _state(text: str, options: argparse.Namespace) -> tuple[Fraction, Fraction]:
     elif set(given) == {"x", "w"}:
         x, w = given["x"], given["w"]
     else:
-        raise ClaimError(f"{text[:40]} has not both components of a state; write x=..,w=.. or beta=..,v=..")
+        raise ClaimError(
+            f"{text[:40]} has not both components of a state; write x=..,w=.. or beta=..,v=.."
+        )
     return x, w
 
 
@@ -111,7 +147,9 @@ def _units(options: argparse.Namespace) -> tuple[Fraction, Fraction]:
 def _axis(text: str, name: str, parts: int) -> Axis:
     pieces = text.split(":")
     if len(pieces) != parts:
-        raise ClaimError(f"{name}: {text[:40]!r} is not {'FROM:TO:COUNT' if parts == 3 else 'FROM:TO'}")
+        raise ClaimError(
+            f"{name}: {text[:40]!r} is not {'FROM:TO:COUNT' if parts == 3 else 'FROM:TO'}"
+        )
     count = _whole(pieces[2], f"the count of {name}") if parts == 3 else 1
     return exact(pieces[0], name), exact(pieces[1], name), count
 
@@ -135,7 +173,9 @@ def _axes(text: str, option: str, parts: int) -> tuple[tuple[str, str], Axis, Ax
     for names in (NORMAL, PHYSICAL):
         if set(found) == set(names):
             return names, found[names[0]], found[names[1]]
-    raise ClaimError(f"--{option} {text[:40]!r} has not x and w, nor beta and v; write x=..,w=.. or beta=..,v=..")
+    raise ClaimError(
+        f"--{option} {text[:40]!r} has not x and w, nor beta and v; write x=..,w=.. or beta=..,v=.."
+    )
 
 
 def _follow(options: argparse.Namespace, setting: Scene) -> int:
@@ -143,8 +183,15 @@ def _follow(options: argparse.Namespace, setting: Scene) -> int:
     steps, impacts = options.steps, options.impacts
     if steps is None:
         steps, impacts = (IMPACTS_TO_TRAP, True) if options.until_trap else (STEPS, impacts)
-    orbits = prepare(setting, options.arithmetic, steps, impacts=impacts, until_trap=options.until_trap, keep=options.keep,
-                     precision=options.precision)
+    orbits = prepare(
+        setting,
+        options.arithmetic,
+        steps,
+        impacts=impacts,
+        until_trap=options.until_trap,
+        keep=options.keep,
+        precision=options.precision,
+    )
     interrupted = False
     try:
         orbits.run(progress())
@@ -157,7 +204,11 @@ def _follow(options: argparse.Namespace, setting: Scene) -> int:
             writer(orbits, file)
         print(f"{options.output}: {orbits.followed} of {len(orbits)} orbits written")
     if interrupted:
-        print(f"juggleproof: interrupted; {orbits.followed} of {len(orbits)} orbits were begun, and what was done of them is told", file=sys.stderr)
+        print(
+            f"juggleproof: interrupted; {orbits.followed} of {len(orbits)} orbits were begun, and"
+            " what was done of them is told",
+            file=sys.stderr,
+        )
     return 130 if interrupted else 0
 
 
@@ -183,4 +234,6 @@ def _writer(options: argparse.Namespace) -> Writer | None:
         return picture
     from scenes.juggler import tables
 
-    return lambda orbits, file: (tables.as_csv if path.suffix == ".csv" else tables.as_npz)(orbits, file, units)
+    return lambda orbits, file: (tables.as_csv if path.suffix == ".csv" else tables.as_npz)(
+        orbits, file, units
+    )

@@ -11,39 +11,105 @@ from proofs.command.part_options import add_part
 
 def add_simulate(commands: Any) -> None:
     """Adds the command with its scenes."""
-    scenes = commands.add_parser("simulate", help="orbits of a scene, with their error").add_subparsers(dest="scene", required=True, metavar="SCENE")
+    scenes = commands.add_parser(
+        "simulate", help="orbits of a scene, with their error"
+    ).add_subparsers(dest="scene", required=True, metavar="SCENE")
     _add_juggler(scenes)
     add_part(scenes)
 
 
 def _add_juggler(scenes: Any) -> None:
-    juggler = scenes.add_parser("juggler", help="the ball on the bouncing table: orbits of the paper's map f")
+    juggler = scenes.add_parser(
+        "juggler", help="the ball on the bouncing table: orbits of the paper's map f"
+    )
     juggler.add_argument("--alpha", metavar="A", help="the restitution, exactly, such as 3/10")
-    juggler.add_argument("--r", default="1", metavar="R", help="launch speed of the table (default: 1)")
+    juggler.add_argument(
+        "--r", default="1", metavar="R", help="launch speed of the table (default: 1)"
+    )
     juggler.add_argument("--g", default="1", metavar="G", help="gravity (default: 1)")
     start = juggler.add_argument_group("where orbits start (one of them)")
-    start.add_argument("--state", action="append", metavar="S", help="x=..,w=.. or beta=..,v=..; may be given several times")
+    start.add_argument(
+        "--state",
+        action="append",
+        metavar="S",
+        help="x=..,w=.. or beta=..,v=..; may be given several times",
+    )
     start.add_argument("--grid", metavar="G", help="x=FROM:TO:COUNT,w=FROM:TO:COUNT, or beta and v")
-    start.add_argument("--boundary", type=whole, metavar="N", help="so many states on the boundary of R")
-    start.add_argument("--random", type=whole, metavar="N", help="so many states of a box, by --seed")
-    start.add_argument("--seed", type=whole, default=0, metavar="N", help="with --random (default: 0)")
-    start.add_argument("--box", default="x=0:10,w=-5:5", metavar="B",
-                       help="with --random: x=FROM:TO,w=FROM:TO, or beta and v (default: x=0:10,w=-5:5)")
+    start.add_argument(
+        "--boundary", type=whole, metavar="N", help="so many states on the boundary of R"
+    )
+    start.add_argument(
+        "--random", type=whole, metavar="N", help="so many states of a box, by --seed"
+    )
+    start.add_argument(
+        "--seed", type=whole, default=0, metavar="N", help="with --random (default: 0)"
+    )
+    start.add_argument(
+        "--box",
+        default="x=0:10,w=-5:5",
+        metavar="B",
+        help="with --random: x=FROM:TO,w=FROM:TO, or beta and v (default: x=0:10,w=-5:5)",
+    )
     how = juggler.add_argument_group("how they are followed")
-    how.add_argument("--arithmetic", default="exact", metavar="A",
-                     help="exact, enclosed (balls), mp (mpmath) or fast (float64 with proved bounds); default: exact")
-    how.add_argument("--precision", type=whole, metavar="N", help="bits to begin with (enclosed) or digits (mp)")
-    how.add_argument("--steps", type=whole, metavar="N", help="periods, or impacts with --impacts (default: 20; with --until-trap 1000 impacts)")
-    how.add_argument("--impacts", action="store_true", help="count and tell impacts only; flights are taken whole")
-    how.add_argument("--until-trap", action="store_true", help="stop where only impacts follow for ever")
-    how.add_argument("--keep", action="store_true", help="tell every state, not only where orbits end")
-    how.add_argument("--times", metavar="T", help="FROM:TO:COUNT: heights of ball and table at these times, from one start, instead")
+    how.add_argument(
+        "--arithmetic",
+        default="exact",
+        metavar="A",
+        help=(
+            "exact, enclosed (balls), mp (mpmath) or fast (float64 with proved bounds); default:"
+            " exact"
+        ),
+    )
+    how.add_argument(
+        "--precision", type=whole, metavar="N", help="bits to begin with (enclosed) or digits (mp)"
+    )
+    how.add_argument(
+        "--steps",
+        type=whole,
+        metavar="N",
+        help="periods, or impacts with --impacts (default: 20; with --until-trap 1000 impacts)",
+    )
+    how.add_argument(
+        "--impacts",
+        action="store_true",
+        help="count and tell impacts only; flights are taken whole",
+    )
+    how.add_argument(
+        "--until-trap", action="store_true", help="stop where only impacts follow for ever"
+    )
+    how.add_argument(
+        "--keep", action="store_true", help="tell every state, not only where orbits end"
+    )
+    how.add_argument(
+        "--times",
+        metavar="T",
+        help="FROM:TO:COUNT: heights of ball and table at these times, from one start, instead",
+    )
     out = juggler.add_argument_group("what is told")
-    out.add_argument("--units", default="normal", metavar="U", help="normal (x, w) or physical (beta, v); default: normal")
+    out.add_argument(
+        "--units",
+        default="normal",
+        metavar="U",
+        help="normal (x, w) or physical (beta, v); default: normal",
+    )
     out.add_argument("-o", "--output", type=Path, metavar="F", help="F.csv, F.npz or F.svg")
     words = juggler.add_argument_group("periodic orbits and hard cases")
-    words.add_argument("--words", action="store_true", help="all periodic orbits at this alpha with at most --longest impacts")
-    words.add_argument("--longest", type=whole, default=4, metavar="N", help="impacts of a word (default: 4)")
-    words.add_argument("--flight", type=whole, metavar="N", help="periods of a flight (default: as many as can be)")
-    words.add_argument("--word", metavar="W", help="flights such as 1,2: the periodic orbit, for which alpha it exists and attracts")
-    words.add_argument("--hard-cases", action="store_true", help="the cases at which floats go wrong or might")
+    words.add_argument(
+        "--words",
+        action="store_true",
+        help="all periodic orbits at this alpha with at most --longest impacts",
+    )
+    words.add_argument(
+        "--longest", type=whole, default=4, metavar="N", help="impacts of a word (default: 4)"
+    )
+    words.add_argument(
+        "--flight", type=whole, metavar="N", help="periods of a flight (default: as many as can be)"
+    )
+    words.add_argument(
+        "--word",
+        metavar="W",
+        help="flights such as 1,2: the periodic orbit, for which alpha it exists and attracts",
+    )
+    words.add_argument(
+        "--hard-cases", action="store_true", help="the cases at which floats go wrong or might"
+    )

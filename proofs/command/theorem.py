@@ -1,4 +1,5 @@
-"""`juggleproof explain theorem --alpha A --state S`: what is certified of one state, and its actual orbit beside it."""
+"""`juggleproof explain theorem --alpha A --state S`: what is certified of one state, and its actual
+orbit beside it."""
 
 from __future__ import annotations
 
@@ -26,22 +27,31 @@ def read_alpha(text: str) -> Fraction:
     """The restitution, strictly between 0 and 1."""
     alpha = exact(text, "alpha")
     if not 0 < alpha < 1:
-        raise ClaimError(f"alpha = {shown(alpha)} is not between 0 and 1; the restitution has 0 < alpha < 1")
+        raise ClaimError(
+            f"alpha = {shown(alpha)} is not between 0 and 1; the restitution has 0 < alpha < 1"
+        )
     return alpha
 
 
 def read_state(alpha: Fraction, text: str) -> State:
-    """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the normal form."""
+    """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the
+    normal form."""
     given = components(text, NORMAL_FORM + UNITS)
     names = UNITS if set(given) & set(UNITS) else NORMAL_FORM
     if set(given) != set(names):
-        odd = next((f"{name} is missing" for name in names if name not in given), f"{text[:40]} mixes two kinds of components")
+        odd = next(
+            (f"{name} is missing" for name in names if name not in given),
+            f"{text[:40]} mixes two kinds of components",
+        )
         raise ClaimError(f"{odd}; a state has {', '.join(names[:-1])} and {names[-1]}")
     if names == NORMAL_FORM:
         return a_state(alpha, given["x"], given["w"])
     for name in ("r", "g"):
         if given[name] <= 0:
-            raise ClaimError(f"{name} = {shown(given[name])} is not positive; the launch speed r and gravity g are")
+            raise ClaimError(
+                f"{name} = {shown(given[name])} is not positive; the launch speed r and gravity"
+                " g are"
+            )
     if not holds_at(PHYSICAL.space, given):
         raise ClaimError(f"beta = {shown(given['beta'])} is below the table; a state has beta >= 0")
     x, w = (value_of(term(entry), given) for entry in PHYSICAL.place.entries)
@@ -54,7 +64,10 @@ def explain_state(alpha_text: str, state_text: str) -> int:
     state = read_state(alpha, state_text)
     fixed = state.moved(FIXED)
     print(f"alpha       {alpha}" if len(str(alpha)) < 40 else f"alpha       about {shown(alpha)}")
-    print(f"state       x = {shown(state.x)}, w = {shown(state.w)}, u^2 = {SPEED[1]} = {shown(state.speed_squared)}, in units of r T and r")
+    print(
+        f"state       x = {shown(state.x)}, w = {shown(state.w)}, u^2 = {SPEED[1]} ="
+        f" {shown(state.speed_squared)}, in units of r T and r"
+    )
     print(f"e_1         x = {shown(fixed.x)}, w = {shown(fixed.w)}")
     print(f"numbers are exact and shown rounded to {DIGITS} digits")
     print()
@@ -68,14 +81,29 @@ def explain_state(alpha_text: str, state_text: str) -> int:
 
 def _certified(state: State) -> None:
     claim = "theorem" if quantities.attracted(state.alpha) else "theorem-one-third"
-    plain, sharper, best = quantities.by_the_theorem(state), quantities.best_way(state), quantities.certified(state)
+    plain, sharper, best = (
+        quantities.by_the_theorem(state),
+        quantities.best_way(state),
+        quantities.certified(state),
+    )
     print("certified   trap: " + str(TRAP))
-    print(f"  {claim}/descends: with the rank {TO_THE_POINT.rank}, in the trap after every N >= {shown(plain.trap)} periods,")
+    print(
+        f"  {claim}/descends: with the rank {TO_THE_POINT.rank}, in the trap after every N >="
+        f" {shown(plain.trap)} periods,"
+    )
     print(f"      and there within 1 of e_1 after every N >= {shown(plain.core)}")
-    print(f"  theorem-sharper/descends with W = {shown(sharper.W)}: u <= W - 1 after {shown(sharper.to_little)} periods, where that rank is at most")
-    print(f"      {shown(sharper.then)}: in the trap after every N >= {shown(sharper.bound.trap)}, "
-          f"within 1 of e_1 after every N >= {shown(sharper.bound.core)}")
-    print(f"  {claim}/attracts: after N + k periods, N = {shown(best.core)}, within (2 alpha)^k of e_1; theorem-closed-form: within (1 + k) alpha^k")
+    print(
+        f"  theorem-sharper/descends with W = {shown(sharper.W)}: u <= W - 1 after"
+        f" {shown(sharper.to_little)} periods, where that rank is at most"
+    )
+    print(
+        f"      {shown(sharper.then)}: in the trap after every N >= {shown(sharper.bound.trap)}, "
+        f"within 1 of e_1 after every N >= {shown(sharper.bound.core)}"
+    )
+    print(
+        f"  {claim}/attracts: after N + k periods, N = {shown(best.core)}, within (2 alpha)^k of"
+        " e_1; theorem-closed-form: within (1 + k) alpha^k"
+    )
     print()
 
 
@@ -86,11 +114,20 @@ def _orbit_to_the_trap(state: State) -> None:
     best = quantities.certified(state)
     _lines(found, entered, " (the trap)")
     if entered is None:
-        print(f"  not followed further: {MAX_IMPACTS} impacts or {MAX_BITS} bits of a number are the limit; it enters the trap by the theorem")
+        print(
+            f"  not followed further: {MAX_IMPACTS} impacts or {MAX_BITS} bits of a number are the"
+            " limit; it enters the trap by the theorem"
+        )
         return
     at = found[entered]
-    print(f"  in the trap from n = {shown(at.start)} on; certified: n = {shown(best.trap)}" +
-          (f", which is {shown(Fraction(best.trap, at.start), 4)} times as many" if at.start else ""))
+    print(
+        f"  in the trap from n = {shown(at.start)} on; certified: n = {shown(best.trap)}"
+        + (
+            f", which is {shown(Fraction(best.trap, at.start), 4)} times as many"
+            if at.start
+            else ""
+        )
+    )
     print()
     _after_the_certified_number(at, best.core, state.alpha)
 
@@ -121,20 +158,36 @@ def _lines(found: Sequence[Move], turn: int | None, note: str = "") -> None:
 
 
 def _line(move: Move, note: str) -> None:
-    then = "impact" if move.impact else f"flight of {shown(move.periods)} period" + "s" * (move.periods > 1)
-    print(f"  {shown(move.start):>20} {shown(move.state.x):>20} {shown(move.state.w):>20} {shown(move.state.distance):>20}  {then}{note}")
+    then = (
+        "impact"
+        if move.impact
+        else f"flight of {shown(move.periods)} period" + "s" * (move.periods > 1)
+    )
+    print(
+        f"  {shown(move.start):>20} {shown(move.state.x):>20} {shown(move.state.w):>20}"
+        f" {shown(move.state.distance):>20}  {then}{note}"
+    )
 
 
 def _after_the_certified_number(entry: Move, core: int, alpha: Fraction) -> None:
-    """Actual distances after the certified number of periods, by the closed form from the entry in the trap on."""
+    """Actual distances after the certified number of periods, by the closed form from the entry in
+    the trap on."""
     print(f"after N + k periods, N = {shown(core)}")
     print(f"  {'k':>4} {'actual distance':>20} {'(2 alpha)^k':>20} {'(1 + k) alpha^k':>20}")
     for k in LATER:
         passed = core + k - entry.start
-        actual = shown(later(entry.state, passed).distance) if passed <= MAX_POWER else "not computed"
-        print(f"  {k:>4} {actual:>20} {shown(quantities.by_the_rate(alpha, k)):>20} {shown(quantities.by_the_closed_form(alpha, k)):>20}")
+        actual = (
+            shown(later(entry.state, passed).distance) if passed <= MAX_POWER else "not computed"
+        )
+        print(
+            f"  {k:>4} {actual:>20} {shown(quantities.by_the_rate(alpha, k)):>20}"
+            f" {shown(quantities.by_the_closed_form(alpha, k)):>20}"
+        )
     if core - entry.start + LATER[-1] > MAX_POWER:
-        print(f"  where it is not computed, more than {MAX_POWER} periods have passed since the trap was entered")
+        print(
+            f"  where it is not computed, more than {MAX_POWER} periods have passed since the trap"
+            " was entered"
+        )
 
 
 def later(state: State, periods: int) -> State:
@@ -144,12 +197,21 @@ def later(state: State, periods: int) -> State:
 
 def _not_certified(state: State) -> None:
     other = state.moved(OTHER)
-    print("certified   theorem/escapes: from alpha = 1/3 on e_1 is not globally attracting, for the orbit of e_2 has period 2:")
+    print(
+        "certified   theorem/escapes: from alpha = 1/3 on e_1 is not globally attracting, for the"
+        " orbit of e_2 has period 2:"
+    )
     print(f"      x = {shown(other.x)}, w = {shown(other.w)}, an impact and a flight by turns")
     if quantities.is_exception(state):
-        print("  theorem-one-third/attracts: at alpha = 1/3 e_1 is stable and attracts all states but three, of which this is one")
+        print(
+            "  theorem-one-third/attracts: at alpha = 1/3 e_1 is stable and attracts all states but"
+            " three, of which this is one"
+        )
     near = (shown(value_of(weight * NEARBY.radius, state.point())) for weight in NEARBY.weights)
-    print("  theorem-nearby/contracts: e_1 is stable, and attracts all states within {} in x and {} in w of it".format(*near))
+    print(
+        "  theorem-nearby/contracts: e_1 is stable, and attracts all states within {} in x and {}"
+        " in w of it".format(*near)
+    )
     print()
     found, turn, said = follow(state)
     print("orbit")
@@ -165,19 +227,42 @@ def follow(state: State) -> tuple[list[Move], int | None, str]:
         here = move.state
         found.append(move)
         if quantities.is_nearby(here):
-            return found, len(found) - 1, f"tends to e_1: at n = {shown(move.start)} it is in the neighbourhood of theorem-nearby"
+            return (
+                found,
+                len(found) - 1,
+                (
+                    f"tends to e_1: at n = {shown(move.start)} it is in the neighbourhood of"
+                    " theorem-nearby"
+                ),
+            )
         if move.impact and (here.x, here.w) in seen:
             first = seen[here.x, here.w]
-            return found, len(found) - 1, (f"does not tend to e_1: from n = {shown(first)} on it has period {shown(move.start - first)}"
-                                           + _known_as(here))
+            return (
+                found,
+                len(found) - 1,
+                (
+                    f"does not tend to e_1: from n = {shown(first)} on it has period"
+                    f" {shown(move.start - first)}" + _known_as(here)
+                ),
+            )
         if move.impact:
             seen[here.x, here.w] = move.start
-    return found, None, (f"not known: {FOLLOWED} impacts or {MAX_BITS} bits of a number are the limit, and it has neither come near e_1 "
-                         "nor met a periodic orbit")
+    return (
+        found,
+        None,
+        (
+            f"not known: {FOLLOWED} impacts or {MAX_BITS} bits of a number are the limit, and it"
+            " has neither come near e_1 nor met a periodic orbit"
+        ),
+    )
 
 
 def _known_as(state: State) -> str:
     """Which fixed point of the paper has its impact at this state."""
     K = state.w * (1 + state.alpha) / 2
     there = state.moved(derived("normal_impact_fixed_point"), K=K)
-    return f", the orbit of e_{K}" if K.denominator == 1 and (there.x, there.w) == (state.x, state.w) else ""
+    return (
+        f", the orbit of e_{K}"
+        if K.denominator == 1 and (there.x, there.w) == (state.x, state.w)
+        else ""
+    )

@@ -1,4 +1,5 @@
-"""Load the ledger; check that claims that exist, or a reason from the closed list, settle every item in order."""
+"""Load the ledger; check that claims that exist, or a reason from the closed list, settle every
+item in order."""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ class LedgerError(ValueError):
 
 @dataclass(frozen=True)
 class Row:
-    """One item of the paper and what settles it: exactly one of `claims` and `reason` is not empty."""
+    """One item of the paper and what settles it: exactly one of `claims` and `reason` is not
+    empty."""
 
     key: str
     line: int
@@ -48,7 +50,9 @@ def load_ledger(path: Path = ROWS) -> list[Row]:
     if lines[0].split("\t") != list(COLUMNS):
         raise LedgerError(f"{path.name}: the first line must name the columns {', '.join(COLUMNS)}")
     if lines[-1]:
-        raise LedgerError(f"{path.name}: the last row does not end with a newline; the file may be cut short")
+        raise LedgerError(
+            f"{path.name}: the last row does not end with a newline; the file may be cut short"
+        )
     rows = [_row(line, f"{path.name}:{number}") for number, line in enumerate(lines[1:-1], start=2)]
     check_rows(rows)
     return rows
@@ -73,28 +77,44 @@ def check_rows(rows: Sequence[Row]) -> None:
 
 
 def check_claims(rows: Iterable[Row], register: Collection[str]) -> None:
-    """Raise unless the rows name registered claims only, and every registered claim that the paper prints has a row."""
+    """Raise unless the rows name registered claims only, and every registered claim that the paper
+    prints has a row."""
     named: set[str] = set()
     for row in rows:
         for claim in row.claims:
             if claim not in register:
-                raise LedgerError(f"{row.key}: no claim is called {claim}; write the claim or correct the row")
+                raise LedgerError(
+                    f"{row.key}: no claim is called {claim}; write the claim or correct the row"
+                )
             named.add(claim)
     for claim in sorted(set(register) - named - set(UNPRINTED)):
-        raise LedgerError(f"the claim {claim} stands in no row of the ledger: add it to the row of what it judges")
+        raise LedgerError(
+            f"the claim {claim} stands in no row of the ledger: add it to the row of what it judges"
+        )
     for claim in sorted(named & set(UNPRINTED)):
-        raise LedgerError(f"the claim {claim} has a row although it is listed as unprinted: take it off one of the two")
+        raise LedgerError(
+            f"the claim {claim} has a row although it is listed as unprinted: take it off one of"
+            " the two"
+        )
 
 
 def check_against_paper(rows: Sequence[Row], items: Sequence[Item]) -> None:
-    """Raise unless key, line, kind and digest of the rows are those of the items that the paper's text holds."""
-    for row, item in zip(rows, items, strict=False):  # a difference in length is told below, once the rest agrees
+    """Raise unless key, line, kind and digest of the rows are those of the items that the paper's
+    text holds."""
+    for row, item in zip(
+        rows, items, strict=False
+    ):  # a difference in length is told below, once the rest agrees
         for name in ("key", "line", "kind", "digest"):
             held, found = getattr(row, name), getattr(item, name)
             if held != found:
-                raise LedgerError(f"{row.key}: the ledger holds {name} {held} where the paper has {found}; rescan it")
+                raise LedgerError(
+                    f"{row.key}: the ledger holds {name} {held} where the paper has {found};"
+                    " rescan it"
+                )
     if len(rows) != len(items):
-        raise LedgerError(f"the ledger has {len(rows)} rows but the paper has {len(items)} items: rescan it")
+        raise LedgerError(
+            f"the ledger has {len(rows)} rows but the paper has {len(items)} items: rescan it"
+        )
 
 
 def _row(line: str, place: str) -> Row:
@@ -112,31 +132,46 @@ def _row(line: str, place: str) -> Row:
 
 
 def _check_order(rows: Sequence[Row]) -> None:
-    """Keys count upward within section and kind, sections are not torn apart, lines never go back."""
+    """Keys count upward within section and kind, sections are not torn apart, lines never go
+    back."""
     counts: dict[tuple[str, str], int] = {}
     section, line, closed = "", 0, set[str]()
     for row in rows:
         if not (key := KEY.fullmatch(row.key)):
-            raise LedgerError(f"{row.key!r} is no key: write section, hyphen, letter of the kind and number")
+            raise LedgerError(
+                f"{row.key!r} is no key: write section, hyphen, letter of the kind and number"
+            )
         if KINDS.get(row.kind) != key[2]:
-            raise LedgerError(f"{row.key}: the key's letter does not stand for the kind {row.kind!r}")
+            raise LedgerError(
+                f"{row.key}: the key's letter does not stand for the kind {row.kind!r}"
+            )
         if row.section != section:
             closed.add(section)
             section = row.section
         if section in closed:
-            raise LedgerError(f"{row.key}: section {section} was already closed; keep the rows in the paper's order")
+            raise LedgerError(
+                f"{row.key}: section {section} was already closed; keep the rows in the paper's"
+                " order"
+            )
         expected = counts[section, row.kind] = counts.get((section, row.kind), 0) + 1
         if int(key[3]) != expected:
-            raise LedgerError(f"{row.key}: the next {row.kind} of section {section} is number {expected}")
+            raise LedgerError(
+                f"{row.key}: the next {row.kind} of section {section} is number {expected}"
+            )
         if row.line < line:
-            raise LedgerError(f"{row.key}: line {row.line} comes after line {line}; keep the rows in the paper's order")
+            raise LedgerError(
+                f"{row.key}: line {row.line} comes after line {line}; keep the rows in the paper's"
+                " order"
+            )
         line = row.line
 
 
 def _check_reason(row: Row, settled: dict[str, Row], earlier: set[str]) -> None:
     name, _, key = row.reason.partition(" ")
     if name not in REASONS and name not in REASONS_WITH_KEY:
-        raise LedgerError(f"{row.key}: the reason {name!r} is not in the closed list of proofs/ledger/reasons.py")
+        raise LedgerError(
+            f"{row.key}: the reason {name!r} is not in the closed list of proofs/ledger/reasons.py"
+        )
     if name in REASONS:
         if key:
             raise LedgerError(f"{row.key}: the reason {name!r} takes nothing after it")

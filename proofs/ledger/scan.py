@@ -1,9 +1,11 @@
-"""Rebuild, from the text of the paper, the ordered list of all it prints in sections 2.2 to 4.4 and the appendices.
+"""Rebuild, from the text of the paper, the ordered list of all it prints in sections 2.2 to 4.4 and
+the appendices.
 
-An item is a display, an inline formula or a piece of prose: a sentence, a sentence of a footnote, a caption, a table
-row.  A sentence that a display, a page turn or a footnote interrupts gives one item for each of its pieces, and
-mathematics that the transcription left without dollar signs stays in its sentence.  Lines that hold nothing but an
-equation number or a stray mark of punctuation belong to the display before them and are no items.
+An item is a display, an inline formula or a piece of prose: a sentence, a sentence of a footnote, a
+caption, a table row.  A sentence that a display, a page turn or a footnote interrupts gives one
+item for each of its pieces, and mathematics that the transcription left without dollar signs stays
+in its sentence.  Lines that hold nothing but an equation number or a stray mark of punctuation
+belong to the display before them and are no items.
 
 The list keeps a line number and a digest of each item, never its words:
 
@@ -19,11 +21,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-KINDS = {"display": "d", "inline": "i", "sentence": "s", "note": "n", "caption": "c", "tablerow": "t"}
+KINDS = {
+    "display": "d",
+    "inline": "i",
+    "sentence": "s",
+    "note": "n",
+    "caption": "c",
+    "tablerow": "t",
+}
 SCOPE = ("2.2", "2.3", "3", "4", "A", "B")
 
 NUMBERED = re.compile(r"\s*(?:APPENDIX )?(\d(?:\.\d){0,2}|[AB](?:\.\d){0,2})\.\s+(?=\S)")
-NUMBER_AT_THE_END = re.compile(r"\s([AB]\.\d)\.\s*$")  # the transcription puts one heading's number after its words
+NUMBER_AT_THE_END = re.compile(
+    r"\s([AB]\.\d)\.\s*$"
+)  # the transcription puts one heading's number after its words
 # What opens or closes a section without a number: section 4.2 has lost its heading.
 UNNUMBERED = {re.compile(r"\s*References\s*$"): "", re.compile(r"\s*Proposition 1\."): "4.2"}
 CAPTION = re.compile(r"\s*(?:Figure \d+ (?=[A-Z#\u0370-\u03ff])|Table II )")
@@ -36,7 +47,8 @@ SENTENCE_END = re.compile(r"""[.?!][)"”]*[⁰¹²³⁴-⁹]*\s+(?=[A-Z\\("“\
 
 @dataclass(frozen=True)
 class Item:
-    """One thing the paper prints: where it stands, what kind of thing it is, and a digest of its text."""
+    """One thing the paper prints: where it stands, what kind of thing it is, and a digest of its
+    text."""
 
     key: str
     section: str
@@ -46,7 +58,8 @@ class Item:
 
     @property
     def digest(self) -> str:
-        """The first 16 hexadecimal digits of the SHA-256 of the text, runs of white space counted as one space.
+        """The first 16 hexadecimal digits of the SHA-256 of the text, runs of white space counted
+        as one space.
 
         >>> Item("3-s01", "3", 7, "sentence", "a  b ").digest == Item("3-s01", "3", 7, "sentence", "a b").digest
         True
@@ -55,7 +68,8 @@ class Item:
 
 
 def scan(paper: str) -> list[Item]:
-    """Every item of the paper in printed order; a sentence comes before the inline formulas that stand in it.
+    """Every item of the paper in printed order; a sentence comes before the inline formulas that
+    stand in it.
 
     >>> demo = "2.2. The Ball\\nIt falls. So $x>0$.\\n$$y$$\\n (4)"
     >>> [(item.key, item.line, item.kind) for item in scan(demo)]  # doctest: +NORMALIZE_WHITESPACE
@@ -77,16 +91,21 @@ def _pieces(paper: str) -> Iterator[tuple[str, int, str, str]]:
             yield section, line, "display", block[2:-2]
         elif not NOT_PROSE.match(block):
             kind = _kind_of_prose(block)
-            for sentence in _sentences(FOOTNOTE.sub("", block) if kind == "note" else block, whole=kind == "tablerow"):
+            for sentence in _sentences(
+                FOOTNOTE.sub("", block) if kind == "note" else block, whole=kind == "tablerow"
+            ):
                 yield section, line, kind, sentence
                 for formula in INLINE.finditer(sentence):
                     yield section, line, "inline", formula[1]
 
 
 def _blocks(paper: str) -> Iterator[tuple[str, int, str]]:
-    """Section, first line and text of every display and of every line of prose between displays, within the scope."""
+    """Section, first line and text of every display and of every line of prose between displays,
+    within the scope."""
     if paper.count("$$") % 2:
-        raise ValueError(f"the paper holds {paper.count('$$')} double dollars: some display is never closed")
+        raise ValueError(
+            f"the paper holds {paper.count('$$')} double dollars: some display is never closed"
+        )
     section, line, counted = "", 1, 0
     for found in BLOCK.finditer(paper):
         block, start = found[0], found.start()
@@ -118,7 +137,8 @@ def _kind_of_prose(block: str) -> str:
 
 
 def _sentences(block: str, whole: bool) -> Iterator[str]:
-    """The sentences of a block; inline formulas are hidden first, so that no dot inside one ends a sentence."""
+    """The sentences of a block; inline formulas are hidden first, so that no dot inside one ends a
+    sentence."""
     if whole:
         yield block
         return

@@ -34,12 +34,19 @@ SECTIONS = (
 
 
 def load_claims() -> None:
-    """Registers every claim of the paper, in the paper's order, and those of the theorem and of the part after them."""
+    """Registers every claim of the paper, in the paper's order, and those of the theorem and of the
+    part after them."""
     from proofs import part, theorem
 
     loaded = set(sys.modules)
-    packages = ((__name__, SECTIONS), (theorem.__name__, theorem.SECTIONS), (part.__name__, part.SECTIONS))
+    packages = (
+        (__name__, SECTIONS),
+        (theorem.__name__, theorem.SECTIONS),
+        (part.__name__, part.SECTIONS),
+    )
     for name in (f"{package}.{section}" for package, sections in packages for section in sections):
         module = import_module(name)
-        if name in loaded:  # its claims were registered then: they are registered again, here and in order
+        if (
+            name in loaded
+        ):  # its claims were registered then: they are registered again, here and in order
             reload(module)

@@ -1,6 +1,8 @@
-"""What happens within a period, in formulas of derived flight and impact: ball and table meet, approach, collide, and fly on.
+"""What happens within a period, in formulas of derived flight and impact: ball and table meet,
+approach, collide, and fly on.
 
-A time at which something happens is left unknown and told by what happens then: nothing that was solved for enters here.
+A time at which something happens is left unknown and told by what happens then: nothing that was
+solved for enters here.
 """
 
 from __future__ import annotations
@@ -56,7 +58,8 @@ def meet(time: Number, ball: Vector = b) -> Formula:
 
 
 def strikes_at(time: Term) -> Formula:
-    """The ball strikes the table at this time, which lies within the period: they meet, and approach each other."""
+    """The ball strikes the table at this time, which lies within the period: they meet, and
+    approach each other."""
     return conjunction([time >= 0, time < T, meet(time), v < r])
 
 
@@ -67,6 +70,7 @@ def after_impact(time: Number) -> Vector:
 
 def only_at(place: Vector, value: Any, factor: bool = False) -> StateFunction:
     """The function that has this value at this state, and is refused at any other."""
+
     def call(state: Vector) -> Any:
         if state != place:
             raise ShapeError("this function is known at the state of the claim only")

@@ -1,4 +1,5 @@
-"""The region inclusions that the argument of section 4 rests on, for alpha < 1/3, and the change to the normal form.
+"""The region inclusions that the argument of section 4 rests on, for alpha < 1/3, and the change to
+the normal form.
 
 Each is stated for the range (21) of the paper; how far it really goes is found by the program.
 """
@@ -12,7 +13,14 @@ from certificates.terms import equal, iff, term
 from proofs.claims import Assertion, Readings, claim
 from proofs.paper.events import height, speed, vector
 from proofs.paper.outside import B1_OUTSIDE, OUTSIDE
-from proofs.paper.relative_motion import RANGE_21, band, c, leaves_R_at, narrow_band_stays, on_the_line
+from proofs.paper.relative_motion import (
+    RANGE_21,
+    band,
+    c,
+    leaves_R_at,
+    narrow_band_stays,
+    on_the_line,
+)
 from proofs.paper.vocabulary import (
     B1,
     B1_MINUS,
@@ -57,14 +65,20 @@ def in_normal_form(name: str, state: Vector) -> Any:
 
 @claim("region-scaling", "inclusions", "normal form")
 def normal_form_is_conjugate() -> list[Statement]:
-    """With heights in units of r T and closing speeds in units of r, maps and regions no longer depend on r and g, only on alpha."""
+    """With heights in units of r T and closing speeds in units of r, maps and regions no longer
+    depend on r and g, only on alpha."""
     there = scaled(b)
     x, w = height(there), speed(there)
     return [
         always(equals(scaled(vector(f1(b))), in_normal_form("normal_f1", there)), label="f1"),
         always(equals(scaled(vector(f2(b))), in_normal_form("normal_f2", there)), label="f2"),
-        always(iff(H(b), x >= 0) & iff(B1(b), (0 <= x) & (x < w)) & iff(B2(b), (0 <= x) & (x >= w)), label="regions"),
-        always(equal(term(energy(b)), r**2 * in_normal_form("normal_energy", there)), label="energy"),
+        always(
+            iff(H(b), x >= 0) & iff(B1(b), (0 <= x) & (x < w)) & iff(B2(b), (0 <= x) & (x >= w)),
+            label="regions",
+        ),
+        always(
+            equal(term(energy(b)), r**2 * in_normal_form("normal_energy", there)), label="energy"
+        ),
         always(equals(in_normal_form("unscaling", there), b), label="one-to-one"),
     ]
 
@@ -80,7 +94,8 @@ def states_stay_in_h() -> list[Statement]:
 
 @claim("region-B-partition", "inclusions", "line 315")
 def b1_and_b2_part_h() -> list[Statement]:
-    """Each state of H is in exactly one of B1 and B2; the time to collision tells which, where the ball is slower than the launch."""
+    """Each state of H is in exactly one of B1 and B2; the time to collision tells which, where the
+    ball is slower than the launch."""
     in_time = term(collision_time(b)) < T
     return [
         always((B1(b) | B2(b)) & ~(B1(b) & B2(b)), given=[H(b)], label="exactly-one"),
@@ -115,39 +130,78 @@ def no_period_gains_more() -> list[Statement]:
     """On H the energy rises in a period by Delta E_max at most."""
     gain = derived("delta_E_max")
     return [
-        always(energy(f1(b)) - energy(b) <= gain, given=[B1(b)], in_range=RANGE_21, label="with-impact"),
-        always(energy(f2(b)) - energy(b) <= gain, given=[B2(b)], in_range=RANGE_21, label="without-impact"),
+        always(
+            energy(f1(b)) - energy(b) <= gain, given=[B1(b)], in_range=RANGE_21, label="with-impact"
+        ),
+        always(
+            energy(f2(b)) - energy(b) <= gain,
+            given=[B2(b)],
+            in_range=RANGE_21,
+            label="without-impact",
+        ),
     ]
 
 
 @claim("region-DE-sup", "inclusions", "line 712")
 def impacts_outside_lose_at_least() -> list[Statement]:
-    """Delta E_sup is the supremum of the energy change on B1 outside R, and is not attained there."""
-    return is_supremum(derived("delta_E_sup"), term(impact_energy_change(b)), ["beta", "v"], B1_OUTSIDE(b), strict=True, in_range=RANGE_21)
+    """Delta E_sup is the supremum of the energy change on B1 outside R, and is not attained
+    there."""
+    return is_supremum(
+        derived("delta_E_sup"),
+        term(impact_energy_change(b)),
+        ["beta", "v"],
+        B1_OUTSIDE(b),
+        strict=True,
+        in_range=RANGE_21,
+    )
 
 
 @claim("region-p", "inclusions", "line 559")
 def point_p_lies_outside() -> Statement:
-    """The state that has the velocity of e_1 and meets the table just at its next bounce does not belong to R."""
+    """The state that has the velocity of e_1 and meets the table just at its next bounce does not
+    belong to R."""
     return always(~R(on_the_line(speed(e_1))), in_range=RANGE_21)
 
 
 @claim("region-near", "inclusions", "line 559", parameters=("alpha", "eps"))
 def states_of_the_region_near_e_1_lie_in_b1() -> Readings:
-    """The states of R whose velocity is near that of e_1 lie in B1: exactly those slower than where R leaves B1 are sure to.
+    """The states of R whose velocity is near that of e_1 lie in B1: exactly those slower than where
+    R leaves B1 are sure to.
 
-    The second reading is that those lie in B1 whose velocity differs from that of e_1 by at most eps r, whatever eps.
+    The second reading is that those lie in B1 whose velocity differs from that of e_1 by at most
+    eps r, whatever eps.
     """
     edge = on_the_line(c)
     near = (speed(e_1) - eps * r <= v) & (v <= speed(e_1) + eps * r)
-    return Readings({
-        "exactly-how-near": Assertion((
-            always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=RANGE_21, label="slower"),
-            always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=RANGE_21, label="e_1-is-slower"),
-            always(B2(edge) & R(edge), given=[leaves_R_at(c)], in_range=RANGE_21, label="no-further"),
-        )),
-        "every-distance": Assertion((always(B1(b), given=[eps > 0, R(b), near], in_range=RANGE_21),)),
-    })
+    return Readings(
+        {
+            "exactly-how-near": Assertion(
+                (
+                    always(
+                        B1(b),
+                        given=[leaves_R_at(c), R(b), v < c],
+                        in_range=RANGE_21,
+                        label="slower",
+                    ),
+                    always(
+                        speed(e_1) < c,
+                        given=[leaves_R_at(c)],
+                        in_range=RANGE_21,
+                        label="e_1-is-slower",
+                    ),
+                    always(
+                        B2(edge) & R(edge),
+                        given=[leaves_R_at(c)],
+                        in_range=RANGE_21,
+                        label="no-further",
+                    ),
+                )
+            ),
+            "every-distance": Assertion(
+                (always(B1(b), given=[eps > 0, R(b), near], in_range=RANGE_21),)
+            ),
+        }
+    )
 
 
 @claim("region-e1-R", "inclusions", "line 561")
@@ -158,18 +212,32 @@ def fixed_point_lies_in_both() -> Statement:
 
 @claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"))
 def bands_are_mapped_into_themselves() -> Readings:
-    """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself, if the band does not reach to where R leaves B1.
+    """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself, if the band does
+    not reach to where R leaves B1.
 
-    Images stay in R and in the band whatever its size; the second reading says that they stay in B1 as well, for every size.
+    Images stay in R and in the band whatever its size; the second reading says that they stay in B1
+    as well, for every size.
     """
     size = eps * r**2
-    return Readings({
-        "narrow": Assertion(narrow_band_stays(size)),
-        "every-size": Assertion((always(B1(vector(f1(b))), given=[eps > 0, band(size)(b)], in_range=RANGE_21, label="stays-in-B1"),)),
-    })
+    return Readings(
+        {
+            "narrow": Assertion(narrow_band_stays(size)),
+            "every-size": Assertion(
+                (
+                    always(
+                        B1(vector(f1(b))),
+                        given=[eps > 0, band(size)(b)],
+                        in_range=RANGE_21,
+                        label="stays-in-B1",
+                    ),
+                )
+            ),
+        }
+    )
 
 
 @claim("region-trap", "inclusions", "not printed")
 def trap_is_mapped_into_itself() -> Statement:
-    """The states of B1 whose closing speed is below r/alpha are mapped to such states by f, which is f1 there."""
+    """The states of B1 whose closing speed is below r/alpha are mapped to such states by f, which
+    is f1 there."""
     return always(TRAP(vector(f1(b))), given=[TRAP(b)], in_range=RANGE_21)

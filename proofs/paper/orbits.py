@@ -1,4 +1,5 @@
-"""From bounce to bounce: the state after a period with an impact, after periods without, and states that come back.
+"""From bounce to bounce: the state after a period with an impact, after periods without, and states
+that come back.
 
 A state that comes back is told by that property: no fixed point that was solved for enters here.
 """
@@ -11,7 +12,18 @@ from functools import partial
 from typing import Any
 
 from certificates.statements import Statement
-from certificates.terms import ClaimError, Formula, Number, Term, conjunction, different, equal, iff, reals, term
+from certificates.terms import (
+    ClaimError,
+    Formula,
+    Number,
+    Term,
+    conjunction,
+    different,
+    equal,
+    iff,
+    reals,
+    term,
+)
 from proofs import forms
 from proofs.claims import Assertion, Readings
 from proofs.paper.events import ball_at, height, speed, table_at, vector
@@ -53,9 +65,12 @@ exists_integer = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
 
 
 def strikes_from(start: Vector, time: Term) -> Formula:
-    """The ball, in this state when the table is launched, strikes the table at this time of the period."""
+    """The ball, in this state when the table is launched, strikes the table at this time of the
+    period."""
     ball, table = ball_at(time, start), table_at(time)
-    return conjunction([time >= 0, time < T, equal(height(ball), height(table)), speed(ball) < speed(table)])
+    return conjunction(
+        [time >= 0, time < T, equal(height(ball), height(table)), speed(ball) < speed(table)]
+    )
 
 
 def struck(start: Vector, time: Number) -> Vector:
@@ -96,8 +111,11 @@ def function_of(printed: Printed, environment: Environment) -> StateFunction:
     return value
 
 
-def relations_of(printed: Printed, environment: Environment, count: int) -> list[tuple[Any, str, Any]]:
-    """The relations of a print that has to have this many, each with the values on its two sides."""
+def relations_of(
+    printed: Printed, environment: Environment, count: int
+) -> list[tuple[Any, str, Any]]:
+    """The relations of a print that has to have this many, each with the values on its two
+    sides."""
     chain = printed.relation_chain(environment)
     if len(chain) != count:
         raise ClaimError(f"this print has {len(chain)} relations, where {count} are expected")
@@ -110,12 +128,21 @@ def from_threshold_on(count: Number = K) -> tuple[Formula, ...]:
 
 
 def eigenvalue_of(matrix: Matrix, real_part: Term, imaginary_part: Term) -> Formula:
-    """The complex number is an eigenvalue of the 2 by 2 matrix: real and imaginary part of det(z - M) vanish."""
+    """The complex number is an eigenvalue of the 2 by 2 matrix: real and imaginary part of det(z -
+    M) vanish."""
     (a, _), (_, d) = ((term(entry) for entry in row) for row in matrix.rows)
-    shifted = Matrix(tuple(tuple((real_part if i == j else 0) - term(entry) for j, entry in enumerate(row))
-                           for i, row in enumerate(matrix.rows)))
-    return conjunction([equal(term(shifted.determinant()) - imaginary_part**2, 0),
-                        equal(imaginary_part * (2 * real_part - a - d), 0)])
+    shifted = Matrix(
+        tuple(
+            tuple((real_part if i == j else 0) - term(entry) for j, entry in enumerate(row))
+            for i, row in enumerate(matrix.rows)
+        )
+    )
+    return conjunction(
+        [
+            equal(term(shifted.determinant()) - imaginary_part**2, 0),
+            equal(imaginary_part * (2 * real_part - a - d), 0),
+        ]
+    )
 
 
 def next_state_is(state: Vector, says: Callable[[Vector], Formula]) -> Formula:
@@ -124,7 +151,8 @@ def next_state_is(state: Vector, says: Callable[[Vector], Formula]) -> Formula:
 
 
 def offset_with(time: Term) -> Vector:
-    """r_0 flown back for this time, shrunk by 1 - alpha and turned round: the offset of f1 for the time xi_1."""
+    """r_0 flown back for this time, shrunk by 1 - alpha and turned round: the offset of f1 for the
+    time xi_1."""
     return vector(flight_matrix(-time) * r_0).scaled(alpha - 1)
 
 
@@ -133,18 +161,33 @@ def is_fixed_point(printed: Printed) -> Statement:
     return always(iff(equals(f1(b), b), printed.formula(PAPER.extended({"e_1": b}))))
 
 
-def one_image_for_every_state(printed: Printed, environment: Environment, given: tuple[Formula, ...] = ()) -> Assertion:
-    """What is printed for f holds of a state and of what becomes of the ball within a period, and of nothing else."""
+def one_image_for_every_state(
+    printed: Printed, environment: Environment, given: tuple[Formula, ...] = ()
+) -> Assertion:
+    """What is printed for f holds of a state and of what becomes of the ball within a period, and
+    of nothing else."""
     says = printed.formula(environment.extended({r"\overline f": image}))
-    return Assertion((
-        always(iff(equals(image, next_bounce(b, t)), says), given=[*given, H(b), strikes_from(b, t)], label="with-impact"),
-        always(iff(equals(image, ball_at(T)), says), given=[*given, B2(b)], label="without-impact"),
-    ))
+    return Assertion(
+        (
+            always(
+                iff(equals(image, next_bounce(b, t)), says),
+                given=[*given, H(b), strikes_from(b, t)],
+                label="with-impact",
+            ),
+            always(
+                iff(equals(image, ball_at(T)), says), given=[*given, B2(b)], label="without-impact"
+            ),
+        )
+    )
 
 
 def is_the_map(printed: Printed) -> Readings:
     """The cases of f, with B2 as the rest of H, and with B2 as (11) has it."""
-    return Readings({
-        "rest-of-H": one_image_for_every_state(printed, PAPER),
-        "as-in-11": one_image_for_every_state(printed, PAPER.extended({r"\mathcal{B}_2": MEETS_LATE}), (different(v, r),)),
-    })
+    return Readings(
+        {
+            "rest-of-H": one_image_for_every_state(printed, PAPER),
+            "as-in-11": one_image_for_every_state(
+                printed, PAPER.extended({r"\mathcal{B}_2": MEETS_LATE}), (different(v, r),)
+            ),
+        }
+    )

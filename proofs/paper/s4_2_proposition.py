@@ -1,4 +1,5 @@
-"""Section 4.2: Proposition 1, that every orbit enters the region R and stays there, and each sentence of its proof."""
+"""Section 4.2: Proposition 1, that every orbit enters the region R and stays there, and each
+sentence of its proof."""
 
 from __future__ import annotations
 
@@ -62,10 +63,12 @@ tau, t_R = real("tau"), real("t_R")
 
 def stays(in_range: list[Formula] | None = None) -> Assertion:
     """f maps R into itself, on both of its branches."""
-    return Assertion((
-        always(R(f1(b)), given=[R(b), B1(b)], in_range=in_range, label="with-impact"),
-        always(R(f2(b)), given=[R(b), B2(b)], label="without-impact"),
-    ))
+    return Assertion(
+        (
+            always(R(f1(b)), given=[R(b), B1(b)], in_range=in_range, label="with-impact"),
+            always(R(f2(b)), given=[R(b), B2(b)], label="without-impact"),
+        )
+    )
 
 
 def loses_outside() -> tuple[Statement, Statement]:
@@ -90,70 +93,104 @@ def impacts_outside_the_region_lose() -> Statement:
 
 @claim("prop-1-B2-to-B1", "4.2", "line 478")
 def flights_end_in_b1_outside_the_region() -> Readings:
-    """Free flight at constant energy takes the states of B2 to the part of B1 outside R: those outside R, or all of them.
+    """Free flight at constant energy takes the states of B2 to the part of B1 outside R: those
+    outside R, or all of them.
 
     The flights end, for once its worst flight time is over the ball would be below the ground.
     """
     arrives = (B1 & OUTSIDE)(f2(b))
     flying = (
-        always(H(f2(b)) & equal(energy(f2(b)), energy(b)), given=[B2(b)], label="in-H-at-one-energy"),
+        always(
+            H(f2(b)) & equal(energy(f2(b)), energy(b)), given=[B2(b)], label="in-H-at-one-energy"
+        ),
         always_counting(~B2(flown(n)), given=[H(b_0), n * T > worst_wait], label="not-for-ever"),
     )
-    return Readings({
-        "outside-R": Assertion((*flying, always(arrives, given=[B2(b), ~R(b), B1(f2(b))], label="arrives-outside"))),
-        "all-of-B2": Assertion((*flying, always(arrives, given=[B2(b), B1(f2(b))], label="arrives-outside"))),
-    })
+    return Readings(
+        {
+            "outside-R": Assertion(
+                (*flying, always(arrives, given=[B2(b), ~R(b), B1(f2(b))], label="arrives-outside"))
+            ),
+            "all-of-B2": Assertion(
+                (*flying, always(arrives, given=[B2(b), B1(f2(b))], label="arrives-outside"))
+            ),
+        }
+    )
 
 
 @claim("prop-1-lose-energy", "4.2", "line 478")
 def outside_states_are_attracted_as_they_lose() -> Following:
-    """Outside R every impact takes energy and flights keep it, so that states outside are attracted to R."""
+    """Outside R every impact takes energy and flights keep it, so that states outside are attracted
+    to R."""
     return Following(ATTRACTION, beside=Assertion(loses_outside()))
 
 
 @claim("prop-1-finite", "4.2", "line 478")
 def finite_states_arrive_in_finite_time() -> Following:
-    """Every state enters R in finite time: its flights end, and its impacts outside R take an energy bounded away from zero."""
+    """Every state enters R in finite time: its flights end, and its impacts outside R take an
+    energy bounded away from zero."""
     loss = derived("delta_E_sup")
-    return Following(ATTRACTION, beside=Assertion((
-        always(energy(f1(b)) - energy(b) < loss, given=[B1_OUTSIDE(b)], label="takes-at-least"),
-        always(loss < 0, label="bounded-from-zero"),
-        always_counting(~B2(flown(n)), given=[H(b_0), n * T > worst_wait], label="flights-end"),
-    )))
+    return Following(
+        ATTRACTION,
+        beside=Assertion(
+            (
+                always(
+                    energy(f1(b)) - energy(b) < loss, given=[B1_OUTSIDE(b)], label="takes-at-least"
+                ),
+                always(loss < 0, label="bounded-from-zero"),
+                always_counting(
+                    ~B2(flown(n)), given=[H(b_0), n * T > worst_wait], label="flights-end"
+                ),
+            )
+        ),
+    )
 
 
 @claim("eq-25", "4.2", "(25)", printed=r"\tau_w := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)}.")
 def worst_time_to_impact(printed: Printed) -> list[Statement]:
-    """No ball of this energy is above the ground longer than tau_w, and one thrown up from the ground is as long as that."""
+    """No ball of this energy is above the ground longer than tau_w, and one thrown up from the
+    ground is as long as that."""
     defined = printed.formula(NAMED)
     above = height(ball_at(t, b_0))
     return [
         grounded_after(tau_w, b_0, [defined], "no-longer"),
-        always_counting(above > 0, given=[equal(beta0, 0), v0 > 0, defined, t > 0, t < tau_w], label="as-long"),
+        always_counting(
+            above > 0, given=[equal(beta0, 0), v0 > 0, defined, t > 0, t < tau_w], label="as-long"
+        ),
     ]
 
 
-@claim("s4.2-count", "4.2", "line 484",
-       printed=r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}]")
+@claim(
+    "s4.2-count",
+    "4.2",
+    "line 484",
+    printed=r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}]",
+)
 def impacts_before_the_region_is_entered(printed: Printed) -> Readings:
-    """The energy above the level of R, over the least loss, tells how many impacts lead into R: rounded down, or rounded up."""
+    """The energy above the level of R, over the least loss, tells how many impacts lead into R:
+    rounded down, or rounded up."""
     count = with_rounding(printed, NAMED)[1]
-    return Readings({"floor": impacts_suffice(floor_of(count)), "ceiling": impacts_suffice(ceiling_of(count))})
+    return Readings(
+        {"floor": impacts_suffice(floor_of(count)), "ceiling": impacts_suffice(ceiling_of(count))}
+    )
 
 
 @claim("s4.2-less-energy-shorter", "4.2", "line 484")
 def less_energy_makes_flights_shorter() -> Readings:
-    """States of less energy have shorter times between impacts: each of them, or the longest among them."""
+    """States of less energy have shorter times between impacts: each of them, or the longest among
+    them."""
     less = [H(b), H(b_0), energy(b) < energy(b_0), lands(b, t)]
-    return Readings({
-        "each-of-them": Assertion((always(t <= tau, given=[*less, lands(b_0, tau)]),)),
-        "the-longest": Assertion((always_counting(t < worst_wait, given=less),)),
-    })
+    return Readings(
+        {
+            "each-of-them": Assertion((always(t <= tau, given=[*less, lands(b_0, tau)]),)),
+            "the-longest": Assertion((always_counting(t < worst_wait, given=less),)),
+        }
+    )
 
 
 @claim("s4.2-max-time", "4.2", "line 484")
 def longest_time_between_impacts() -> list[Statement]:
-    """While an orbit is outside R its energy does not rise, and no ball of that energy or less stays up longer than tau_w."""
+    """While an orbit is outside R its energy does not rise, and no ball of that energy or less
+    stays up longer than tau_w."""
     return [
         *loses_outside(),
         grounded_after(worst_wait, b, [energy(b) <= energy(b_0)], "lands-by-then"),
@@ -162,65 +199,124 @@ def longest_time_between_impacts() -> list[Statement]:
 
 @claim("s4.2-note9-equal", "4.2", "footnote 9", printed=r"\tau_w = \tau_c(\overline{b}_0)")
 def worst_time_is_met(printed: Printed) -> Readings:
-    """From the ground in B2, with tau_w a multiple of the period, the time to collision is tau_w: that of (6), or the real one."""
+    """From the ground in B2, with tau_w a multiple of the period, the time to collision is tau_w:
+    that of (6), or the real one."""
     case = [equal(beta0, 0), B2(b_0), equal(tau_w, worst_wait), equal(tau_w, m * T)]
     real_time = printed.formula(NAMED.extended({r"\tau_c": only_at(b_0, tau)}))
     earlier = [j >= 0, t >= 0, t < T, j * T + t < tau]
-    return Readings({
-        "by-6": Assertion((always_counting(printed.formula(NAMED), given=[*case, different(v0, r)]),)),
-        "in-real-time": Assertion((
-            always_counting(strikes_in_period(m, tau - m * T), given=[*case, real_time], label="strikes-then"),
-            always_counting(~strikes_in_period(j, t), given=[*case, real_time, *earlier], label="not-before"),
-        )),
-    })
+    return Readings(
+        {
+            "by-6": Assertion(
+                (always_counting(printed.formula(NAMED), given=[*case, different(v0, r)]),)
+            ),
+            "in-real-time": Assertion(
+                (
+                    always_counting(
+                        strikes_in_period(m, tau - m * T),
+                        given=[*case, real_time],
+                        label="strikes-then",
+                    ),
+                    always_counting(
+                        ~strikes_in_period(j, t),
+                        given=[*case, real_time, *earlier],
+                        label="not-before",
+                    ),
+                )
+            ),
+        }
+    )
 
 
 @claim("s4.2-note9-otherwise", "4.2", "footnote 9", printed=r"\tau_w > \tau_c(\overline{b}_0)")
 def worst_time_is_not_met_otherwise(printed: Printed) -> Readings:
     """In all other cases the time to collision is less than tau_w: that of (6), or the real one.
 
-    In real time the ball is on or below the ground before tau_w, or, thrown from the ground, strikes the rising table.
+    In real time the ball is on or below the ground before tau_w, or, thrown from the ground,
+    strikes the rising table.
     """
     outside = [OUTSIDE(b_0), equal(tau_w, worst_wait)]
     sooner = printed.formula(NAMED.extended({r"\tau_c": only_at(b_0, tau)}))
     between = [m * T < tau_w, tau_w < (m + 1) * T]
-    return Readings({
-        "by-6": Assertion((
-            always_counting(printed.formula(NAMED), given=[*outside, beta0 > 0, different(v0, r)], label="above-the-ground"),
-            always_counting(printed.formula(NAMED), given=[*outside, equal(beta0, 0), different(v0, r)], label="on-the-ground"),
-        )),
-        "in-real-time": Assertion((
-            exists_counting(["tau"], height(ball_at(tau, b_0)) <= 0, within=[tau >= 0, sooner], given=[*outside, (beta0 > 0) | (v0 <= 0)],
-                            label="falls-before"),
-            exists_counting(["tau"], strikes_in_period(m, tau - m * T), within=[tau >= m * T, sooner],
-                            given=[equal(beta0, 0), v0 > 0, equal(tau_w, worst_wait), *between], label="strikes-before"),
-        )),
-    })
+    return Readings(
+        {
+            "by-6": Assertion(
+                (
+                    always_counting(
+                        printed.formula(NAMED),
+                        given=[*outside, beta0 > 0, different(v0, r)],
+                        label="above-the-ground",
+                    ),
+                    always_counting(
+                        printed.formula(NAMED),
+                        given=[*outside, equal(beta0, 0), different(v0, r)],
+                        label="on-the-ground",
+                    ),
+                )
+            ),
+            "in-real-time": Assertion(
+                (
+                    exists_counting(
+                        ["tau"],
+                        height(ball_at(tau, b_0)) <= 0,
+                        within=[tau >= 0, sooner],
+                        given=[*outside, (beta0 > 0) | (v0 <= 0)],
+                        label="falls-before",
+                    ),
+                    exists_counting(
+                        ["tau"],
+                        strikes_in_period(m, tau - m * T),
+                        within=[tau >= m * T, sooner],
+                        given=[equal(beta0, 0), v0 > 0, equal(tau_w, worst_wait), *between],
+                        label="strikes-before",
+                    ),
+                )
+            ),
+        }
+    )
 
 
-@claim("eq-26", "4.2", "(26)",
-       printed=r"t_{\mathcal{R}} := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)} "
-               r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}].",
-       as_it_stands=r"t_R := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)} "
-                    r"\left[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sun}} \right].")
+@claim(
+    "eq-26",
+    "4.2",
+    "(26)",
+    printed=r"t_{\mathcal{R}} := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)} "
+    r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}].",
+    as_it_stands=r"t_R := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)} "
+    r"\left[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sun}} \right].",
+)
 def longest_time_to_enter_the_region(printed: Printed) -> Readings:
-    """Within this time b_0 enters R: one worst flight for each impact, their number rounded down or up.
+    """Within this time b_0 enters R: one worst flight for each impact, their number rounded down or
+    up.
 
-    To enter can be meant in continuous time, or of the states sampled once a period: an orbit that flies for m periods is then
-    outside as long, and needs one more.
+    To enter can be meant in continuous time, or of the states sampled once a period: an orbit that
+    flies for m periods is then outside as long, and needs one more.
     """
     environment, count = with_rounding(printed, NAMED.extended({r"t_{\mathcal{R}}": t_R}))
     defined = printed.formula(environment)
 
     def continuous(rounding: Formula) -> Assertion:
-        enough = always_counting(n * worst_wait <= t_R, given=[H(b_0), rounding, defined], label="time-for-each")
+        enough = always_counting(
+            n * worst_wait <= t_R, given=[H(b_0), rounding, defined], label="time-for-each"
+        )
         waits = grounded_after(worst_wait, b, [energy(b) <= energy(b_0)], "each-wait")
         return Assertion((enough, waits, *impacts_suffice(rounding).parts))
 
-    # As alpha nears 1 more and more periods are needed, so that no one family tells the range: it stands among the givens.
+    # As alpha nears 1 more and more periods are needed, so that no one family tells the range: it
+    # stands among the givens.
     in_flight = [alpha > 0, alpha < 1, OUTSIDE(b_0), B2(b_0), m >= 1, B2(flown(m - 1))]
-    sampled = always_counting((m + 1) * T <= t_R, given=[*in_flight, ceiling_of(count), defined], in_range=[], label="enters-later")
-    return Readings({"floor": continuous(floor_of(count)), "ceiling": continuous(ceiling_of(count)), "sampled": Assertion((sampled,))})
+    sampled = always_counting(
+        (m + 1) * T <= t_R,
+        given=[*in_flight, ceiling_of(count), defined],
+        in_range=[],
+        label="enters-later",
+    )
+    return Readings(
+        {
+            "floor": continuous(floor_of(count)),
+            "ceiling": continuous(ceiling_of(count)),
+            "sampled": Assertion((sampled,)),
+        }
+    )
 
 
 @claim("s4.2-trapped", "4.2", "line 494")
@@ -231,23 +327,36 @@ def orbits_do_not_leave_the_region() -> Assertion:
 
 @claim("s4.2-highest-B1plus", "4.2", "line 494")
 def greatest_energy_that_can_gain() -> Readings:
-    """E_max is the greatest energy of the states whose impact gains energy: the least bound of their energies, or one of them.
+    """E_max is the greatest energy of the states whose impact gains energy: the least bound of
+    their energies, or one of them.
 
-    It is the least bound since a ball that comes down to the ground with less energy than that gains.
+    It is the least bound since a ball that comes down to the ground with less energy than that
+    gains.
     """
     greatest, coming_down = derived("E_max"), Vector((0, v))
-    return Readings({
-        "least-bound": Assertion((
-            always(energy(b) < greatest, given=[B1_PLUS(b)], label="bound"),
-            always(B1_PLUS(coming_down), given=[v < 0, energy(coming_down) < greatest], label="all-below"),
-        )),
-        "attained": Assertion((exists_some(["beta", "v"], equal(energy(b), greatest), within=[B1_PLUS(b)]),)),
-    })
+    return Readings(
+        {
+            "least-bound": Assertion(
+                (
+                    always(energy(b) < greatest, given=[B1_PLUS(b)], label="bound"),
+                    always(
+                        B1_PLUS(coming_down),
+                        given=[v < 0, energy(coming_down) < greatest],
+                        label="all-below",
+                    ),
+                )
+            ),
+            "attained": Assertion(
+                (exists_some(["beta", "v"], equal(energy(b), greatest), within=[B1_PLUS(b)]),)
+            ),
+        }
+    )
 
 
 @claim("s4.2-adding", "4.2", "line 494")
 def greatest_gain_does_not_lead_out() -> list[Statement]:
-    """The greatest gain, on top of the greatest energy at which an impact gains, does not lead out of R."""
+    """The greatest gain, on top of the greatest energy at which an impact gains, does not lead out
+    of R."""
     kept, gain = derived("E_max"), derived("delta_E_max")
     return [
         always(impact_energy_change(b) <= gain, given=[B1_PLUS(b)], label="gain"),
@@ -260,5 +369,3 @@ def greatest_gain_does_not_lead_out() -> list[Statement]:
 def region_is_attracting_and_invariant() -> Following:
     """R is attracting and f maps it into itself."""
     return Following(ATTRACTION, beside=stays())
-
-

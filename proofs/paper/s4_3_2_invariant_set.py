@@ -1,4 +1,5 @@
-"""Section 4.3.2: the point p, the band of states whose kinetic energy is close to that of e_1, and whether f maps it into itself."""
+"""Section 4.3.2: the point p, the band of states whose kinetic energy is close to that of e_1, and
+whether f maps it into itself."""
 
 from __future__ import annotations
 
@@ -45,36 +46,69 @@ d, p0, p1, p2, y = reals("d p0 p1 p2 y")
 JUST_AT_THE_BOUNCE = equal(term(collision_time(b)), T)  # what the line between B1 and B2 is
 
 
-@claim("eq-29", "4.3.2", "(29)",
-       printed=r"\begin{bmatrix} \overline\beta \\ \dot{\overline\beta} \end{bmatrix} = "
-               r"\begin{bmatrix} 1 \\ -\frac{1}{T} \end{bmatrix} \overline{\beta} + r_0",
-       as_it_stands=r"\frac{\dot{\overline{\beta}}}{\overline{\beta}} = "
-                    r"\begin{bmatrix} 1 \\ -\frac{1}{T} \end{bmatrix} \overline{\beta} + \dot{\rho}_0")
+@claim(
+    "eq-29",
+    "4.3.2",
+    "(29)",
+    printed=r"\begin{bmatrix} \overline\beta \\ \dot{\overline\beta} \end{bmatrix} = "
+    r"\begin{bmatrix} 1 \\ -\frac{1}{T} \end{bmatrix} \overline{\beta} + r_0",
+    as_it_stands=r"\frac{\dot{\overline{\beta}}}{\overline{\beta}} = "
+    r"\begin{bmatrix} 1 \\ -\frac{1}{T} \end{bmatrix} \overline{\beta} + \dot{\rho}_0",
+)
 def line_between_b1_and_b2(printed: Printed) -> Statement:
-    """The states that would meet the table just at its next bounce are those of this line, with the height as its parameter."""
+    """The states that would meet the table just at its next bounce are those of this line, with the
+    height as its parameter."""
     return always(iff(JUST_AT_THE_BOUNCE, printed.formula(PAPER)), given=[different(v, r)])
 
 
-@claim("eq-30", "4.3.2", "(30)",
-       printed=r"p := \begin{bmatrix} \frac{2T}{1+\alpha} \dot{\rho}_0 \\ -\frac{1-\alpha}{1+\alpha} \dot{\rho}_0 \end{bmatrix}")
+@claim(
+    "eq-30",
+    "4.3.2",
+    "(30)",
+    printed=(
+        r"p := \begin{bmatrix} \frac{2T}{1+\alpha} \dot{\rho}_0 \\ -\frac{1-\alpha}{1+\alpha}"
+        r" \dot{\rho}_0 \end{bmatrix}"
+    ),
+)
 def point_p_is_the_intersection(printed: Printed) -> Readings:
-    """p is where that line meets the states with the kinetic energy of e_1: those of its velocity, or those of its kinetic energy."""
+    """p is where that line meets the states with the kinetic energy of e_1: those of its velocity,
+    or those of its kinetic energy."""
     is_p = printed.formula(PAPER.extended({"p": b}))
     same_energy = equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
-    return Readings({
-        "of-its-velocity": Assertion((always(iff(JUST_AT_THE_BOUNCE & equal(v, speed(e_1)), is_p), given=[different(v, r)]),)),
-        "of-its-kinetic-energy": Assertion((always(iff(JUST_AT_THE_BOUNCE & same_energy, is_p), given=[different(v, r)]),)),
-    })
+    return Readings(
+        {
+            "of-its-velocity": Assertion(
+                (
+                    always(
+                        iff(JUST_AT_THE_BOUNCE & equal(v, speed(e_1)), is_p),
+                        given=[different(v, r)],
+                    ),
+                )
+            ),
+            "of-its-kinetic-energy": Assertion(
+                (always(iff(JUST_AT_THE_BOUNCE & same_energy, is_p), given=[different(v, r)]),)
+            ),
+        }
+    )
 
 
 AT_P = PAPER.extended({"p": derived("point_p")})
 
 
-@claim("eq-31a", "4.3.2", "(31), first line",
-       printed=r"E(p) = \frac{2T}{1+\alpha} \dot{\rho}_0 \gamma + \frac{1}{2} \left(-\frac{1-\alpha}{1+\alpha} \dot{\rho}_0 \right)^2")
+@claim(
+    "eq-31a",
+    "4.3.2",
+    "(31), first line",
+    printed=(
+        r"E(p) = \frac{2T}{1+\alpha} \dot{\rho}_0 \gamma + \frac{1}{2}"
+        r" \left(-\frac{1-\alpha}{1+\alpha} \dot{\rho}_0 \right)^2"
+    ),
+)
 def energy_of_the_point_p(printed: Printed) -> Statement:
     """A number is the energy of p exactly if it is what is printed."""
-    return always(iff(equal(d, derived("energy_of_p")), printed.formula(AT_P.extended({r"E(p)": d}))))
+    return always(
+        iff(equal(d, derived("energy_of_p")), printed.formula(AT_P.extended({r"E(p)": d})))
+    )
 
 
 @claim("eq-31b", "4.3.2", "(31), second line", printed=r"E(p) > E_{max} + \Delta E_{max}")
@@ -89,8 +123,11 @@ def point_p_is_outside_the_region(printed: Printed) -> Statement:
     return always(printed.formula(AT_P), in_range=RANGE_21)
 
 
-def slower_states_are_in_b1(in_range: tuple[Formula, ...] | None = RANGE_21) -> tuple[Statement, Statement]:
-    """The states of R that are slower than where R leaves B1 are in B1, and e_1 is slower than that."""
+def slower_states_are_in_b1(
+    in_range: tuple[Formula, ...] | None = RANGE_21,
+) -> tuple[Statement, Statement]:
+    """The states of R that are slower than where R leaves B1 are in B1, and e_1 is slower than
+    that."""
     return (
         always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=in_range, label="slower-in-B1"),
         always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=in_range, label="e_1-is-slower"),
@@ -99,57 +136,92 @@ def slower_states_are_in_b1(in_range: tuple[Formula, ...] | None = RANGE_21) -> 
 
 @claim("s4.3.2-near-in-B1", "4.3.2", "line 559")
 def states_near_e_1_in_kinetic_energy_are_in_b1() -> Readings:
-    """The states of R whose kinetic energy is near that of e_1 lie in B1: of the motion relative to e_1, or of the ball itself.
+    """The states of R whose kinetic energy is near that of e_1 lie in B1: of the motion relative to
+    e_1, or of the ball itself.
 
     The velocity c is the one at which the boundary of R meets the line between B1 and B2.
     """
     same_energy = equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
-    return Readings({
-        "relative": Assertion(slower_states_are_in_b1()),
-        "of-the-ball": Assertion((always(B1(b), given=[R(b), same_energy], in_range=RANGE_21),)),
-    })
+    return Readings(
+        {
+            "relative": Assertion(slower_states_are_in_b1()),
+            "of-the-ball": Assertion(
+                (always(B1(b), given=[R(b), same_energy], in_range=RANGE_21),)
+            ),
+        }
+    )
 
 
 @claim("s4.3.2-f1-applies", "4.3.2", "line 559", repeats="s4.3.2-near-in-B1")
 def map_of_an_impact_applies_there() -> Statement:
-    """f is f1, for they lie in B1, at the states of R whose velocity is nearer to that of e_1 than where R leaves B1."""
+    """f is f1, for they lie in B1, at the states of R whose velocity is nearer to that of e_1 than
+    where R leaves B1."""
     near = from_e_1(b) < from_e_1(on_the_line(c))
     return always(B1(b), given=[leaves_R_at(c), R(b), near], in_range=RANGE_21)
 
 
-@claim("eq-32", "4.3.2", "(32)",
-       printed=r"\mathcal{K} := \left\{ \overline{b} \in B_1 \middle| K(\overline{b} - e_1) \le \epsilon \right\} \cap R,")
+@claim(
+    "eq-32",
+    "4.3.2",
+    "(32)",
+    printed=(
+        r"\mathcal{K} := \left\{ \overline{b} \in B_1 \middle| K(\overline{b} - e_1) \le \epsilon"
+        r" \right\} \cap R,"
+    ),
+)
 def band_around_the_fixed_point(printed: Printed) -> list[Statement]:
-    """The set consists of the states of B1 and R whose velocity differs from that of e_1 by at most the root of 2 epsilon; e_1 is one."""
+    """The set consists of the states of B1 and R whose velocity differs from that of e_1 by at most
+    the root of 2 epsilon; e_1 is one."""
     region = printed.set_predicate(AROUND_E1, r"\mathcal{K}")
     close = (speed(e_1) - d <= v) & (v <= speed(e_1) + d)
     return [
-        always(iff(region(b), B1(b) & R(b) & close), given=[d >= 0, equal(d**2, 2 * eps)], label="band"),
+        always(
+            iff(region(b), B1(b) & R(b) & close), given=[d >= 0, equal(d**2, 2 * eps)], label="band"
+        ),
         always(region(e_1), given=[eps >= 0], label="contains-e_1"),
         always(R(b), given=[region(b)], label="inside-R"),
     ]
 
 
-@claim("s4.3.2-f1-boundary", "4.3.2", "line 565", printed=r"\overline{f}_1(\partial \mathcal{K}) \subset \mathcal{K}")
+@claim(
+    "s4.3.2-f1-boundary",
+    "4.3.2",
+    "line 565",
+    printed=r"\overline{f}_1(\partial \mathcal{K}) \subset \mathcal{K}",
+)
 def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
-    """f1 maps the boundary of the band into the band: of a band of every size, or of one so narrow that its part of R lies in B1."""
+    """f1 maps the boundary of the band into the band: of a band of every size, or of one so narrow
+    that its part of R lies in B1."""
     stays = printed.formula(AROUND_E1)
-    return Readings({
-        "every-size": Assertion((always(stays, given=[eps > 0], in_range=RANGE_21),)),
-        "near-e_1": Assertion((always(stays, given=[eps > 0, *NEAR], in_range=RANGE_21),)),
-    })
+    return Readings(
+        {
+            "every-size": Assertion((always(stays, given=[eps > 0], in_range=RANGE_21),)),
+            "near-e_1": Assertion((always(stays, given=[eps > 0, *NEAR], in_range=RANGE_21),)),
+        }
+    )
 
 
-@claim("s4.3.2-f1-boundary-R", "4.3.2", "line 565", printed=r"\overline{f}_1(\partial \mathcal{R} \cap \mathcal{B}_1) \subset \mathcal{R}",
-       as_it_stands=r"\overline{f}_1(\partial \mathcal{K} \cap \mathcal{B}_1) \subset \mathcal{K}")
+@claim(
+    "s4.3.2-f1-boundary-R",
+    "4.3.2",
+    "line 565",
+    printed=r"\overline{f}_1(\partial \mathcal{R} \cap \mathcal{B}_1) \subset \mathcal{R}",
+    as_it_stands=r"\overline{f}_1(\partial \mathcal{K} \cap \mathcal{B}_1) \subset \mathcal{K}",
+)
 def boundary_of_the_region_is_mapped_into_it(printed: Printed) -> Statement:
     """f1 maps those boundary states of R that are in B1 into R."""
     return always(printed.formula(PAPER.extended({r"\partial\mathcal{R}": BOUNDARY_OF_R})))
 
 
-@claim("s4.3.2-f-K-continuous", "4.3.2", "line 565", printed=r"\overline{f}|_{\mathcal{K}} = \overline{f}_1")
+@claim(
+    "s4.3.2-f-K-continuous",
+    "4.3.2",
+    "line 565",
+    printed=r"\overline{f}|_{\mathcal{K}} = \overline{f}_1",
+)
 def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
-    """On the band f is f1, which is continuous: images differ in each component by no more than a multiple of what the states differ by."""
+    """On the band f is f1, which is continuous: images differ in each component by no more than a
+    multiple of what the states differ by."""
     other = Vector(reals("beta0 v0"))
     change = vector(f1(b)) - vector(f1(other))
     near = (height(b - other), T * speed(b - other))
@@ -157,24 +229,37 @@ def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
     far = (height(change), T * speed(change))
     return [
         always(printed.formula(AROUND_E1), given=[next_states(b, image)], label="agrees"),
-        always((-2 * d <= far[0]) & (far[0] <= 2 * d) & (-2 * d <= far[1]) & (far[1] <= 2 * d), given=within, label="continuous"),
+        always(
+            (-2 * d <= far[0]) & (far[0] <= 2 * d) & (-2 * d <= far[1]) & (far[1] <= 2 * d),
+            given=within,
+            label="continuous",
+        ),
     ]
 
 
-@claim("s4.3.2-K-invariant", "4.3.2", "line 565", printed=r"\overline{f}(\mathcal{K}) \subseteq \mathcal{K}")
+@claim(
+    "s4.3.2-K-invariant",
+    "4.3.2",
+    "line 565",
+    printed=r"\overline{f}(\mathcal{K}) \subseteq \mathcal{K}",
+)
 def band_is_mapped_into_itself(printed: Printed) -> Argument:
-    """Since f is continuous on the band and its boundary is mapped into it, the band is mapped into itself.
+    """Since f is continuous on the band and its boundary is mapped into it, the band is mapped into
+    itself.
 
-    For continuous maps in general this does not follow: a quadratic map can keep the ends of an interval in it
-    and lead a point between them out of it.
+    For continuous maps in general this does not follow: a quadratic map can keep the ends of an
+    interval in it and lead a point between them out of it.
     """
+
     def quadratic(at: Term | int) -> Term:
         return p0 + p1 * at + p2 * at**2
 
     def inside(value: Term) -> Formula:
         return (-1 <= value) & (value <= 1)
 
-    is_enough = always(inside(quadratic(y)), given=[inside(quadratic(-1)), inside(quadratic(1)), inside(y)])
+    is_enough = always(
+        inside(quadratic(y)), given=[inside(quadratic(-1)), inside(quadratic(1)), inside(y)]
+    )
 
     def stays(f: StateFunction, given: list[Formula], label: str) -> Statement:
         stated = printed.formula(AROUND_E1.extended({r"\overline f": f}))
@@ -188,9 +273,29 @@ def band_is_mapped_into_itself(printed: Printed) -> Argument:
 
 @claim("s4.3.2-K-attracts", "4.3.2", "line 565")
 def band_attracts_the_region() -> Argument:
-    """The band attracts all of R, since on R the kinetic energy relative to e_1 decreases, at impacts and in flight, unless it is zero."""
+    """The band attracts all of R, since on R the kinetic energy relative to e_1 decreases, at
+    impacts and in flight, unless it is zero."""
     outside = [R(b), from_e_1(b) > 0]
-    return Argument(steps={
-        "falls-at-impacts": Assertion((always(from_e_1(vector(f1(b))) < from_e_1(b), given=[B1(b), *outside], in_range=RANGE_21),)),
-        "falls-in-flight": Assertion((always(from_e_1(vector(f2(b))) < from_e_1(b), given=[B2(b), *outside], in_range=RANGE_21),)),
-    }, rests_on=STABILITY)
+    return Argument(
+        steps={
+            "falls-at-impacts": Assertion(
+                (
+                    always(
+                        from_e_1(vector(f1(b))) < from_e_1(b),
+                        given=[B1(b), *outside],
+                        in_range=RANGE_21,
+                    ),
+                )
+            ),
+            "falls-in-flight": Assertion(
+                (
+                    always(
+                        from_e_1(vector(f2(b))) < from_e_1(b),
+                        given=[B2(b), *outside],
+                        in_range=RANGE_21,
+                    ),
+                )
+            ),
+        },
+        rests_on=STABILITY,
+    )

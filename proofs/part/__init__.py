@@ -1,3 +1,4 @@
-"""The part on the vibrating table: the impact of one corner, with friction, and what it guarantees, as claims."""
+"""The part on the vibrating table: the impact of one corner, with friction, and what it guarantees,
+as claims."""
 
 SECTIONS = ("products", "corner", "modes", "energy", "cases", "newton")

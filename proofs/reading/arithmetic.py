@@ -1,4 +1,5 @@
-"""Sums, products and powers of values of any kind; what does not fit is refused with what was tried."""
+"""Sums, products and powers of values of any kind; what does not fit is refused with what was
+tried."""
 
 from __future__ import annotations
 

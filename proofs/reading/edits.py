@@ -1,12 +1,22 @@
-"""Edits of a print at its tokens: the spans of arguments, scripts, names and bracket pairs, and their replacement."""
+"""Edits of a print at its tokens: the spans of arguments, scripts, names and bracket pairs, and
+their replacement."""
 
 from __future__ import annotations
 
 from proofs.reading.lexer import Token, lex
 from proofs.reading.vocabulary import BINARY, RELATIONS
 
-_CLOSING = {"{": "}", "(": ")", "[": "]", r"\{": r"\}", r"\lfloor": r"\rfloor", r"\lceil": r"\rceil"}
-_OPENS_A_TERM = RELATIONS | frozenset(("+", "-", "(", "[", "{", ",", "&", r"\{", "|", r"\lfloor", r"\lceil"))
+_CLOSING = {
+    "{": "}",
+    "(": ")",
+    "[": "]",
+    r"\{": r"\}",
+    r"\lfloor": r"\rfloor",
+    r"\lceil": r"\rceil",
+}
+_OPENS_A_TERM = RELATIONS | frozenset(
+    ("+", "-", "(", "[", "{", ",", "&", r"\{", "|", r"\lfloor", r"\lceil")
+)
 
 
 class Edits:
@@ -18,7 +28,8 @@ class Edits:
         self.words = frozenset(i for word in self._words() for i in word)
 
     def replaced(self, start: int, end: int, text: str) -> str:
-        """The print with this text in place of a span; a command is kept apart from a letter that follows."""
+        """The print with this text in place of a span; a command is kept apart from a letter that
+        follows."""
         after = self.latex[end:]
         gap = " " if text[-1:].isalpha() and "\\" in text and after[:1].isalpha() else ""
         before = self.latex[:start]
@@ -37,7 +48,11 @@ class Edits:
     def around(self, i: int, command: str) -> str:
         """The print with a command over the token."""
         token = self.tokens[i]
-        return self.replaced(token.start, token.end, f"{{{command}{{{self.latex[token.start : token.end].strip()}}}}}")
+        return self.replaced(
+            token.start,
+            token.end,
+            f"{{{command}{{{self.latex[token.start : token.end].strip()}}}}}",
+        )
 
     def inserted(self, at: int, text: str) -> str:
         """The print with a text put in."""
@@ -79,7 +94,8 @@ class Edits:
         return self.tokens[i].start, end
 
     def after_name(self, i: int) -> int:
-        """The token after the name that the letter i belongs to, with its accents, subscripts and primes."""
+        """The token after the name that the letter i belongs to, with its accents, subscripts and
+        primes."""
         j = i + 1
         start = i
         while True:
@@ -108,11 +124,19 @@ class Edits:
         """The tokens at which a term begins."""
         found = []
         for i, token in enumerate(self.tokens):
-            if token.text in BINARY or token.text in RELATIONS or token.kind in ("line", "end", "text"):
+            if (
+                token.text in BINARY
+                or token.text in RELATIONS
+                or token.kind in ("line", "end", "text")
+            ):
                 continue
             before = self.tokens[i - 1] if i else None
-            opens = before is None or before.text in _OPENS_A_TERM or before.kind in ("line", "begin")
-            if opens and not (before is not None and before.text == "{" and i > 1 and self._not_a_formula(i - 2)):
+            opens = (
+                before is None or before.text in _OPENS_A_TERM or before.kind in ("line", "begin")
+            )
+            if opens and not (
+                before is not None and before.text == "{" and i > 1 and self._not_a_formula(i - 2)
+            ):
                 found.append(i)
         return found
 
@@ -122,7 +146,11 @@ class Edits:
     def _words(self) -> list[range]:
         words = []
         for i, token in enumerate(self.tokens):
-            if token.text in ("_", "^") and i + 1 < len(self.tokens) and self.tokens[i + 1].text == "{":
+            if (
+                token.text in ("_", "^")
+                and i + 1 < len(self.tokens)
+                and self.tokens[i + 1].text == "{"
+            ):
                 closing = self.partner(i + 1)
                 inside = self.tokens[i + 2 : closing] if closing else ()
                 if len(inside) > 1 and all(

@@ -1,8 +1,9 @@
-r"""The evaluation of names, sums and products, where juxtaposition is settled as product or application.
+r"""The evaluation of names, sums and products, where juxtaposition is settled as product or
+application.
 
-A factor that is a function is applied to the bracket that follows it; everything else is a product.  A `StateFunction`
-may be marked as a factor before a scalar, so that \tau_c(\overline b) and \tau_c(\dot{\overline\beta} - \dot\rho_0)
-both say what the paper says.
+A factor that is a function is applied to the bracket that follows it; everything else is a product.
+A `StateFunction` may be marked as a factor before a scalar, so that \tau_c(\overline b) and
+\tau_c(\dot{\overline\beta} - \dot\rho_0) both say what the paper says.
 """
 
 from __future__ import annotations
@@ -55,7 +56,10 @@ class Evaluation:
         if not callable(value) or isinstance(value, Region):
             return value
         if self.environment.state is None:
-            raise PrintError(tree.at, f"{spelled(tree)} stands without its argument, and the environment has no state")
+            raise PrintError(
+                tree.at,
+                f"{spelled(tree)} stands without its argument, and the environment has no state",
+            )
         return self.at_state(applied(value, self.environment.state), tree)
 
     def triples(self, chain: t.Chain) -> list[tuple[Value, str, Value]]:
@@ -75,7 +79,8 @@ class Evaluation:
         value = self.of(tree)
         return value if self.environment.state is None else self.at_state(value, tree)
 
-    # names, and the places of arguments -------------------------------------------------------------------------------
+    # names, and the places of arguments
+    # -------------------------------------------------------------------------------
 
     def _without_meaning(self, tree: Tree) -> PrintError:
         return PrintError(tree.at, f"{spelled(tree)} has no meaning here")
@@ -85,7 +90,9 @@ class Evaluation:
         if value is not _MISSING:
             return value
         if tree.subscripts:
-            family = self.meanings.get(t.Name(tree.base, tree.accents, (HOLE,) * len(tree.subscripts), tree.primes))
+            family = self.meanings.get(
+                t.Name(tree.base, tree.accents, (HOLE,) * len(tree.subscripts), tree.primes)
+            )
             if family is not None:
                 return applied(family, *map(self.here, tree.subscripts))
         raise self._without_meaning(tree)
@@ -99,7 +106,9 @@ class Evaluation:
         if family is not None:
             return applied(family, self.here(exponent))
         if isinstance(base, t.Name) and base.subscripts:
-            family = self.meanings.get(t.Power(t.Name(base.base, base.accents, (HOLE,), base.primes), HOLE))
+            family = self.meanings.get(
+                t.Power(t.Name(base.base, base.accents, (HOLE,), base.primes), HOLE)
+            )
             if family is not None:
                 return applied(family, *map(self.here, base.subscripts), self.here(exponent))
         if isinstance(exponent, t.Mark):
@@ -114,11 +123,13 @@ class Evaluation:
         if not isinstance(exponent, int):
             raise PrintError(
                 tree.exponent.at,
-                f"the exponent of {spelled(tree.base)} is not an integer, and has no other meaning here",
+                f"the exponent of {spelled(tree.base)} is not an integer, and has no other meaning"
+                " here",
             )
         return raised(base, exponent)
 
-    # sums and products ------------------------------------------------------------------------------------------------
+    # sums and products
+    # ----------------------------------------------------------------------------------------------
 
     def number(self, tree: t.Number) -> Value:
         return tree.value
@@ -127,7 +138,11 @@ class Evaluation:
         return negate(self.here(tree.operand))
 
     def quotient(self, tree: t.Quotient) -> Value:
-        if tree.slash and isinstance(tree.bottom, t.Juxtaposition) and not self._is_application(tree.bottom):
+        if (
+            tree.slash
+            and isinstance(tree.bottom, t.Juxtaposition)
+            and not self._is_application(tree.bottom)
+        ):
             raise PrintError(tree.at, r"what / divides by is ambiguous: bracket it, or write \frac")
         top, bottom = self.here(tree.top), self.here(tree.bottom)
         if not is_scalar(bottom):
@@ -135,7 +150,11 @@ class Evaluation:
         return over(top, bottom) if is_scalar(top) else multiply(over(1, bottom), top)
 
     def _is_application(self, tree: t.Juxtaposition) -> bool:
-        return len(tree.factors) == 2 and isinstance(tree.factors[1], t.Group) and callable(self.of(tree.factors[0]))
+        return (
+            len(tree.factors) == 2
+            and isinstance(tree.factors[1], t.Group)
+            and callable(self.of(tree.factors[0]))
+        )
 
     def binary(self, tree: t.Binary) -> Value:
         sign = tree.sign
@@ -158,11 +177,16 @@ class Evaluation:
 
     def _composed(self, outer: Value, inner: Value, tree: t.Binary) -> Value:
         if not callable(outer) or isinstance(outer, Region):
-            raise PrintError(tree.left.at, f"{spelled(tree.left)} is not a function, which \\circ needs on its left")
+            raise PrintError(
+                tree.left.at,
+                f"{spelled(tree.left)} is not a function, which \\circ needs on its left",
+            )
         if not callable(inner) or isinstance(inner, Region):
             return applied(outer, inner)
         if isinstance(inner, Restricted):
-            return Restricted(lambda state: applied(outer, applied(inner.function, state)), inner.region)
+            return Restricted(
+                lambda state: applied(outer, applied(inner.function, state)), inner.region
+            )
         return StateFunction(lambda *arguments: applied(outer, applied(inner, *arguments)))
 
     def juxtaposition(self, tree: t.Juxtaposition) -> Value:
@@ -176,7 +200,11 @@ class Evaluation:
                     if applied is _MISSING:
                         break
                     last = factors[i]
-                    value = self._raised(self.at_state(applied, last), last) if isinstance(last, t.Power) else applied
+                    value = (
+                        self._raised(self.at_state(applied, last), last)
+                        if isinstance(last, t.Power)
+                        else applied
+                    )
                     i += 1
             else:
                 i += 1
@@ -201,12 +229,19 @@ class Evaluation:
         if not is_function:
             if len(arguments) == 1 and not is_scalar(arguments[0]):
                 return _MISSING
-            raise PrintError(bracket.at, f"{spelled(name)} is a vector, not a function, and a bracket follows it")
+            raise PrintError(
+                bracket.at, f"{spelled(name)} is a vector, not a function, and a bracket follows it"
+            )
         if len(arguments) > 1 and all(map(is_scalar, arguments)):
             arguments = [Vector(tuple(arguments))]
         if len(arguments) == 1 and isinstance(arguments[0], Region):
             return Image(function, arguments[0])
-        if isinstance(function, StateFunction) and function.factor and len(arguments) == 1 and is_scalar(arguments[0]):
+        if (
+            isinstance(function, StateFunction)
+            and function.factor
+            and len(arguments) == 1
+            and is_scalar(arguments[0])
+        ):
             return _MISSING
         return applied(function, *arguments)
 

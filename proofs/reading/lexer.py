@@ -1,7 +1,8 @@
-r"""LaTeX to tokens with their positions; spacing, fonts and layout are dropped, an unknown command is refused.
+r"""LaTeX to tokens with their positions; spacing, fonts and layout are dropped, an unknown command
+is refused.
 
-A line end counts as a join where the next line goes on with a relation or an infix operator (a leading minus goes on),
-and otherwise separates two parts of a display.
+A line end counts as a join where the next line goes on with a relation or an infix operator (a
+leading minus goes on), and otherwise separates two parts of a display.
 """
 
 from __future__ import annotations
@@ -11,7 +12,17 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from proofs.reading.errors import PrintError
-from proofs.reading.vocabulary import ACCENTS, BINARY, DROPPED, KNOWN, LAYOUT, LETTERS, RELATIONS, SAME, TABLES
+from proofs.reading.vocabulary import (
+    ACCENTS,
+    BINARY,
+    DROPPED,
+    KNOWN,
+    LAYOUT,
+    LETTERS,
+    RELATIONS,
+    SAME,
+    TABLES,
+)
 
 _PATTERN = re.compile(
     r"""
@@ -71,7 +82,9 @@ def _raw(latex: str) -> list[Token]:
             if text != ".":
                 tokens.append(Token("command" if text[0] == "\\" else "symbol", text, at, end))
         elif match.group("table"):
-            tokens.append(Token(match.group("edge"), _environment(match.group("environment"), at), at, end))
+            tokens.append(
+                Token(match.group("edge"), _environment(match.group("environment"), at), at, end)
+            )
         elif match.group("text"):
             tokens.append(Token("text", match.group("words").strip(), at, end))
         elif kind == "command":
@@ -106,7 +119,8 @@ def _kind_of(command: str, spelled: str, at: int) -> str:
 
 
 def _joined(tokens: list[Token]) -> list[Token]:
-    """The tokens without layout environments, alignment marks, and line ends in the middle of a formula."""
+    """The tokens without layout environments, alignment marks, and line ends in the middle of a
+    formula."""
     kept: list[Token] = []
     open_tables: list[Token] = []
     for token in tokens:
@@ -132,5 +146,7 @@ def _joined(tokens: list[Token]) -> list[Token]:
             continue
         kept.append(token)
     if open_tables:
-        raise PrintError(open_tables[-1].start, rf"\begin{{{open_tables[-1].text}}} is never closed")
+        raise PrintError(
+            open_tables[-1].start, rf"\begin{{{open_tables[-1].text}}} is never closed"
+        )
     return kept

@@ -1,4 +1,5 @@
-"""The meaning of a tree in an environment: brackets, sets, operators and relations, on top of arithmetic."""
+"""The meaning of a tree in an environment: brackets, sets, operators and relations, on top of
+arithmetic."""
 
 from __future__ import annotations
 
@@ -8,7 +9,16 @@ from certificates.terms import Formula, conjunction, implies
 from proofs.reading import tree as t
 from proofs.reading.errors import PrintError
 from proofs.reading.evaluation import Evaluation, Value
-from proofs.reading.notions import ExtremalValue, LimitValue, Piece, Piecewise, Region, Restricted, Rounded, applied
+from proofs.reading.notions import (
+    ExtremalValue,
+    LimitValue,
+    Piece,
+    Piecewise,
+    Region,
+    Restricted,
+    Rounded,
+    applied,
+)
 from proofs.reading.relations import relate
 from proofs.reading.tree import HOLE, Tree, spelled
 from proofs.reading.values import Matrix, Vector, is_scalar
@@ -17,12 +27,16 @@ from proofs.reading.values import Matrix, Vector, is_scalar
 class Meaning(Evaluation):
     """The meaning of every kind of node."""
 
-    # brackets, matrices, sets -----------------------------------------------------------------------------------------
+    # brackets, matrices, sets
+    # -----------------------------------------------------------------------------------------
 
     def group(self, tree: t.Group) -> Value:
         if tree.bracket in (r"\lfloor", r"\lceil"):
             return self._with_hole(
-                t.Group(tree.bracket, (HOLE,)), tree, *tree.items, default=lambda value: Rounded(tree.bracket, value)
+                t.Group(tree.bracket, (HOLE,)),
+                tree,
+                *tree.items,
+                default=lambda value: Rounded(tree.bracket, value),
             )
         if len(tree.items) == 1:
             return self.of(tree.items[0])
@@ -42,11 +56,17 @@ class Meaning(Evaluation):
     def component(self, tree: t.Component) -> Value:
         value, index = self.here(tree.content), self.here(tree.index)
         if not isinstance(value, Vector) or not isinstance(index, int):
-            raise PrintError(tree.at, "a component of something that is not a vector, or not numbered")
+            raise PrintError(
+                tree.at, "a component of something that is not a vector, or not numbered"
+            )
         return value.component(index)
 
     def _with_hole(
-        self, key: Tree, tree: Tree, *arguments: Tree, default: Callable[[Value], Value] | None = None
+        self,
+        key: Tree,
+        tree: Tree,
+        *arguments: Tree,
+        default: Callable[[Value], Value] | None = None,
     ) -> Value:
         call = self.meanings.get(key, default)
         if call is None:
@@ -66,25 +86,32 @@ class Meaning(Evaluation):
             base = self._region(element.rest[0][1])
             element = element.first
         if element not in self.environment.points:
-            raise PrintError(element.at, f"{spelled(element)} is not a point whose components the environment names")
+            raise PrintError(
+                element.at,
+                f"{spelled(element)} is not a point whose components the environment names",
+            )
         environment = self.environment
 
         def holds(state: Vector) -> Formula:
             inside = Meaning(environment.at(element, state))
             return conjunction(
-                ([base(state)] if base else []) + [inside.formula(condition) for condition in tree.conditions]
+                ([base(state)] if base else [])
+                + [inside.formula(condition) for condition in tree.conditions]
             )
 
         return Region(holds)
 
-    # functions, operators, relations ----------------------------------------------------------------------------------
+    # functions, operators, relations
+    # ----------------------------------------------------------------------------------
 
     def operator(self, tree: t.Operator) -> Value:
         family = self.meanings.get(t.Operator(tree.sign, tree.subscripts, HOLE))
         if family is not None:
             return applied(family, self.of(tree.operand))
         family = (
-            self.meanings.get(t.Operator(tree.sign, (HOLE,) * len(tree.subscripts), HOLE)) if tree.subscripts else None
+            self.meanings.get(t.Operator(tree.sign, (HOLE,) * len(tree.subscripts), HOLE))
+            if tree.subscripts
+            else None
         )
         if family is None:
             raise self._without_meaning(tree)
@@ -98,9 +125,13 @@ class Meaning(Evaluation):
 
     def limit(self, tree: t.Limit) -> Value:
         condition = tree.condition
-        if not isinstance(condition, t.Chain) or [sign for sign, _ in condition.rest] != [r"\rightarrow"]:
+        if not isinstance(condition, t.Chain) or [sign for sign, _ in condition.rest] != [
+            r"\rightarrow"
+        ]:
             raise PrintError(condition.at, r"the condition of a limit is written k \to \infty")
-        value = LimitValue(spelled(condition.first), spelled(condition.rest[0][1]), self.here(tree.body))
+        value = LimitValue(
+            spelled(condition.first), spelled(condition.rest[0][1]), self.here(tree.body)
+        )
         call = self.meanings.get(t.Limit(HOLE, HOLE))
         return value if call is None else applied(call, value)
 
@@ -114,7 +145,9 @@ class Meaning(Evaluation):
         function = self.of(tree.function)
         region = self._region(tree.region)
         if not callable(function) or isinstance(function, Region):
-            raise PrintError(tree.at, f"a restriction of {spelled(tree.function)}, which is not a function")
+            raise PrintError(
+                tree.at, f"a restriction of {spelled(tree.function)}, which is not a function"
+            )
         if isinstance(function, Restricted):
             return Restricted(function.function, function.region & region)
         return Restricted(function, region)
@@ -130,7 +163,9 @@ class Meaning(Evaluation):
 
     def chain(self, tree: t.Chain) -> Formula:
         state = self.environment.state
-        return conjunction([relate(left, sign, right, state) for left, sign, right in self.triples(tree)])
+        return conjunction(
+            [relate(left, sign, right, state) for left, sign, right in self.triples(tree)]
+        )
 
     def for_all(self, tree: t.ForAll) -> Formula:
         return implies(self.formula(tree.head), self.formula(tree.body))

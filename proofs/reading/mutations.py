@@ -1,7 +1,8 @@
-r"""Single changes of a print: all of them, to see that every token matters; the plausible ones, to seek a correction.
+r"""Single changes of a print: all of them, to see that every token matters; the plausible ones, to
+seek a correction.
 
-Left out, because they say the same: := for = and \equiv, \subset for \subseteq, \bar for \overline, layout, spacing,
-fonts, TeX's own braces.
+Left out, because they say the same: := for = and \equiv, \subset for \subseteq, \bar for \overline,
+layout, spacing, fonts, TeX's own braces.
 """
 
 from __future__ import annotations
@@ -99,9 +100,14 @@ def _all_changes(print_: Edits) -> Iterator[Change]:
             yield from _of_words(print_, i, where)
             continue
         yield f"{where} is deleted", print_.without(i)
-        if (token.kind in ("letter", "number", "accent") or token.text == "'") and token.text != "0":
+        if (
+            token.kind in ("letter", "number", "accent") or token.text == "'"
+        ) and token.text != "0":
             shown = print_.latex[token.start : token.end]
-            yield f"{where} is doubled", print_.instead(i, f"{shown} {shown}" if shown[0] == "\\" else shown * 2)
+            yield (
+                f"{where} is doubled",
+                print_.instead(i, f"{shown} {shown}" if shown[0] == "\\" else shown * 2),
+            )
         for other in ALTERNATIVES.get(token.text, ("x",) if token.kind == "letter" else ()):
             yield f"{where} becomes {other}", print_.instead(i, other)
         if token.kind == "letter":
@@ -132,7 +138,10 @@ def _of_digits(print_: Edits, i: int) -> Iterator[Change]:
     for at, digit in enumerate(token.text, token.start):
         if digit.isdigit():
             other = str(int(digit) + 1) if digit != "9" else "8"
-            yield f"column {at + 1}: the digit {digit} becomes {other}", print_.replaced(at, at + 1, other)
+            yield (
+                f"column {at + 1}: the digit {digit} becomes {other}",
+                print_.replaced(at, at + 1, other),
+            )
 
 
 def _of_spans(print_: Edits, i: int, where: str) -> Iterator[Change]:
@@ -143,8 +152,15 @@ def _of_spans(print_: Edits, i: int, where: str) -> Iterator[Change]:
     if partner is not None:
         closing = print_.tokens[partner]
         inner = print_.latex[token.end : closing.start]
-        yield f"{where} and its partner are dropped", print_.replaced(token.start, closing.end, f" {inner} ")
-    if token.text == r"\frac" and (top := print_.argument(i + 1)) and (bottom := print_.argument(top[1])):
+        yield (
+            f"{where} and its partner are dropped",
+            print_.replaced(token.start, closing.end, f" {inner} "),
+        )
+    if (
+        token.text == r"\frac"
+        and (top := print_.argument(i + 1))
+        and (bottom := print_.argument(top[1]))
+    ):
         spans = [(print_.tokens[a].start, print_.tokens[b - 1].end) for a, b in (top, bottom)]
         over, under = (print_.latex[a:b] for a, b in spans)
         if bottom[1] - bottom[0] > 1 or top[1] - top[0] > 1:
@@ -158,8 +174,8 @@ def _of_spans(print_: Edits, i: int, where: str) -> Iterator[Change]:
 def one_mark_changes(latex: str) -> Iterator[Change]:
     r"""Prints that differ by one mark and can still be read, the simplest marks first.
 
-    The order is dot, bar, prime, sign, exponent, half, index, strictness, letter, and in each the right of the first relation
-    before its left; each change names its kind first.
+    The order is dot, bar, prime, sign, exponent, half, index, strictness, letter, and in each the
+    right of the first relation before its left; each change names its kind first.
 
     >>> [changed for change, changed in one_mark_changes(r"a \le b") if change.startswith("strictness")]
     ['a < b']
@@ -169,7 +185,9 @@ def one_mark_changes(latex: str) -> Iterator[Change]:
     first_sign = next((token.end for token in print_.tokens if token.text in RELATIONS), 0)
     for kind, changes in _MARKS.items():
         # The right of the first relation comes before its left, which often only names something.
-        for change, changed in sorted(changes(print_), key=lambda found: not found[1].startswith(latex[:first_sign])):
+        for change, changed in sorted(
+            changes(print_), key=lambda found: not found[1].startswith(latex[:first_sign])
+        ):
             try:
                 tree = parse(changed)
             except PrintError:
@@ -186,7 +204,10 @@ def _accents(*commands: str) -> Callable[[Edits], Iterator[Change]]:
                 yield f"dropped at column {token.start + 1}", print_.without(i)
         for i, token in enumerate(print_.tokens):
             if token.kind == "letter" and i not in print_.words:
-                yield f"put over {token.text} at column {token.start + 1}", print_.around(i, commands[-1])
+                yield (
+                    f"put over {token.text} at column {token.start + 1}",
+                    print_.around(i, commands[-1]),
+                )
 
     return changes
 
@@ -197,13 +218,19 @@ def _primes(print_: Edits) -> Iterator[Change]:
             yield f"dropped at column {token.start + 1}", print_.without(i)
     for i, token in enumerate(print_.tokens):
         if token.kind == "letter" and i not in print_.words:
-            yield f"put after {token.text} at column {token.start + 1}", print_.inserted(token.end, "'")
+            yield (
+                f"put after {token.text} at column {token.start + 1}",
+                print_.inserted(token.end, "'"),
+            )
 
 
 def _signs(print_: Edits) -> Iterator[Change]:
     for i, token in enumerate(print_.tokens):
         if token.text in ("+", "-"):
-            yield f"turned at column {token.start + 1}", print_.instead(i, "-" if token.text == "+" else "+")
+            yield (
+                f"turned at column {token.start + 1}",
+                print_.instead(i, "-" if token.text == "+" else "+"),
+            )
     for i in print_.term_starts():
         start = print_.tokens[i].start
         if i and print_.tokens[i - 1].text in ("+", "-"):
@@ -215,7 +242,10 @@ def _exponents(print_: Edits) -> Iterator[Change]:
     for i, token in enumerate(print_.tokens):
         if token.text == "^" and (span := print_.script(i)):
             yield f"dropped at column {token.start + 1}", print_.replaced(*span, "")
-            yield f"brought down at column {token.start + 1}", print_.replaced(token.start, token.end, " ")
+            yield (
+                f"brought down at column {token.start + 1}",
+                print_.replaced(token.start, token.end, " "),
+            )
     for i, token in enumerate(print_.tokens):
         bracket = token.text in (")", "]")
         if bracket or token.kind == "letter" and i not in print_.words:
@@ -227,15 +257,26 @@ def _exponents(print_: Edits) -> Iterator[Change]:
 
 def _halves(print_: Edits) -> Iterator[Change]:
     for i, token in enumerate(print_.tokens):
-        if token.text == r"\frac" and (top := print_.argument(i + 1)) and (bottom := print_.argument(top[1])):
+        if (
+            token.text == r"\frac"
+            and (top := print_.argument(i + 1))
+            and (bottom := print_.argument(top[1]))
+        ):
             start, end = token.start, print_.tokens[bottom[1] - 1].end
-            if "".join(print_.latex[start:end].split()) in (r"\frac{1}{2}", r"\frac1{2}", r"\frac{1}2"):
+            if "".join(print_.latex[start:end].split()) in (
+                r"\frac{1}{2}",
+                r"\frac1{2}",
+                r"\frac{1}2",
+            ):
                 yield f"dropped at column {start + 1}", print_.replaced(start, end, "")
         if token.text == "12" and i and print_.tokens[i - 1].text == r"\frac":
             start = print_.tokens[i - 1].start
             yield f"dropped at column {start + 1}", print_.replaced(start, token.end, "")
         if token.text == "2" and i and print_.tokens[i - 1].text == "/":
-            yield f"dropped at column {token.start}", print_.replaced(print_.tokens[i - 1].start, token.end, "")
+            yield (
+                f"dropped at column {token.start}",
+                print_.replaced(print_.tokens[i - 1].start, token.end, ""),
+            )
         if token.text == "2":
             yield f"2 dropped at column {token.start + 1}", print_.without(i)
     for i in print_.term_starts():
@@ -254,7 +295,10 @@ def _indices(print_: Edits) -> Iterator[Change]:
             if digit.isdigit():
                 for other in (int(digit) - 1, int(digit) + 1):
                     if 0 <= other <= 9:
-                        yield f"{digit} to {other} at column {at + 1}", print_.replaced(at, at + 1, str(other))
+                        yield (
+                            f"{digit} to {other} at column {at + 1}",
+                            print_.replaced(at, at + 1, str(other)),
+                        )
         yield f"dropped at column {token.start + 1}", print_.replaced(*span, "")
     for i, token in enumerate(print_.tokens):
         if token.kind == "letter" and i not in print_.words:
@@ -279,7 +323,10 @@ def _letters(print_: Edits) -> Iterator[Change]:
     for i, token in enumerate(print_.tokens):
         if token.kind == "letter" and i not in print_.words:
             for other in ALTERNATIVES.get(token.text, ()):
-                yield f"{token.text} to {other} at column {token.start + 1}", print_.instead(i, other)
+                yield (
+                    f"{token.text} to {other} at column {token.start + 1}",
+                    print_.instead(i, other),
+                )
 
 
 _MARKS: dict[str, Callable[[Edits], Iterator[Change]]] = {

@@ -1,4 +1,5 @@
-"""Values that are not numbers: functions of a state, regions, restrictions, cases, limits and extrema."""
+"""Values that are not numbers: functions of a state, regions, restrictions, cases, limits and
+extrema."""
 
 from __future__ import annotations
 
@@ -23,8 +24,8 @@ def applied(function: Callable[..., Any], *arguments: Any) -> Any:
 class StateFunction:
     """A function of a state, applied to a bracketed state; a bracketed scalar after it is refused.
 
-    With `factor` set, a bracketed scalar makes a product: tau_c(b) is an application, and in tau_c (v - r) the function
-    stands for its value at the present state.
+    With `factor` set, a bracketed scalar makes a product: tau_c(b) is an application, and in tau_c
+    (v - r) the function stands for its value at the present state.
     """
 
     call: Callable[..., Any]
@@ -89,7 +90,8 @@ class Guarded:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """One line of a list of cases: a value, its condition, and what the line says besides (a chain on its left)."""
+    """One line of a list of cases: a value, its condition, and what the line says besides (a chain
+    on its left)."""
 
     value: Any
     condition: Formula

@@ -1,4 +1,5 @@
-r"""Tokens to the tree of a display, by a Pratt parser; what TeX itself would read differently is refused.
+r"""Tokens to the tree of a display, by a Pratt parser; what TeX itself would read differently is
+refused.
 
 Formulas and factors are here; names with their scripts, and tables, stand in `pieces`.
 """
@@ -31,7 +32,11 @@ from proofs.reading.tree import (
 )
 from proofs.reading.vocabulary import BINARY, BRACKETS, EXTREMA, OPERATORS, RELATIONS, SIGN
 
-_STARTS = frozenset((r"\frac", r"\sqrt", r"\lim", "(", "[", "{", r"\lfloor", r"\lceil")) | EXTREMA | OPERATORS
+_STARTS = (
+    frozenset((r"\frac", r"\sqrt", r"\lim", "(", "[", "{", r"\lfloor", r"\lceil"))
+    | EXTREMA
+    | OPERATORS
+)
 _SEPARATORS = frozenset((",", ";"))
 
 
@@ -49,7 +54,8 @@ class Parser(Pieces):
     """A reader of one print: `display` reads all of it."""
 
     def display(self) -> tuple[Tree, ...]:
-        """All parts: separated by line ends, commas, semicolons or the word `and`; a last full stop is dropped."""
+        """All parts: separated by line ends, commas, semicolons or the word `and`; a last full stop
+        is dropped."""
         parts: list[Tree] = []
         while True:
             while self.token.kind == "line" or self.token.text in _SEPARATORS and parts:
@@ -165,7 +171,11 @@ class Parser(Pieces):
         if text == r"\frac":
             self.advance()
             top, bottom = self.argument(), self.argument()
-            if isinstance(top, Operator) and isinstance(bottom, Operator) and top.sign == bottom.sign == r"\partial":
+            if (
+                isinstance(top, Operator)
+                and isinstance(bottom, Operator)
+                and top.sign == bottom.sign == r"\partial"
+            ):
                 return Derivative(top.operand, bottom.operand, at=at)
             return Quotient(top, bottom, at=at)
         if text == r"\sqrt":
@@ -229,7 +239,8 @@ class Parser(Pieces):
         return SetBuilder(element, tuple(conditions), at=start.start)
 
     def operator(self) -> Tree:
-        r"""\Delta, \partial, \nabla or D with its subscript, before the name or bracket that it acts on."""
+        r"""\Delta, \partial, \nabla or D with its subscript, before the name or bracket that it
+        acts on."""
         start = self.advance()
         subscripts: tuple[Tree, ...] = ()
         if self.token.text == "_":
@@ -240,7 +251,11 @@ class Parser(Pieces):
     def differential(self) -> Tree:
         """D before something that it can act on is the derivative; alone it is a letter."""
         after = self.tokens[self.index + 1]
-        acts = after.kind in ("letter", "accent") or after.text in OPERATORS or after.text in ("_", "(", r"\cdot")
+        acts = (
+            after.kind in ("letter", "accent")
+            or after.text in OPERATORS
+            or after.text in ("_", "(", r"\cdot")
+        )
         return self.operator() if acts else self.letter()
 
     def operand(self) -> Tree:

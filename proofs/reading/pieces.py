@@ -57,7 +57,9 @@ class Pieces:
     def numeral(self) -> Number:
         """A numeral; decimals are exact."""
         token = self.advance()
-        return Number(Fraction(token.text) if "." in token.text else int(token.text), at=token.start)
+        return Number(
+            Fraction(token.text) if "." in token.text else int(token.text), at=token.start
+        )
 
     def letter(self) -> Name:
         """A single letter."""
@@ -70,7 +72,9 @@ class Pieces:
         name = self.argument()
         if not isinstance(name, Name):
             raise PrintError(token.start, f"{token.text} stands over something that is not a name")
-        return replace(name, accents=tuple(sorted(name.accents + ACCENTS[token.text])), at=token.start)
+        return replace(
+            name, accents=tuple(sorted(name.accents + ACCENTS[token.text])), at=token.start
+        )
 
     def argument(self) -> Tree:
         """What TeX takes as one argument: a brace, one letter, one digit, one command."""
@@ -201,7 +205,8 @@ class Pieces:
         return Array(tuple(rows), at=begin.start)
 
     def cases(self, begin: Token) -> Tree:
-        """Lines `value : condition`, where &, a comma, `if` or `for` may stand for the colon or beside it."""
+        """Lines `value : condition`, where &, a comma, `if` or `for` may stand for the colon or
+        beside it."""
         pieces: list[tuple[Tree, Tree]] = []
         while True:
             while self.token.kind == "line":
@@ -210,7 +215,11 @@ class Pieces:
                 break
             value = self.enclosed(False)
             first = self.index
-            while self.token.text in ("&", ":", ",") or self.token.kind == "text" and self.token.text in ("if", "for"):
+            while (
+                self.token.text in ("&", ":", ",")
+                or self.token.kind == "text"
+                and self.token.text in ("if", "for")
+            ):
                 self.advance()
             if self.index == first:
                 self.refuse("expected a condition before")
@@ -236,7 +245,10 @@ def _word(tokens: tuple[Token, ...]) -> Tree | None:
     if (
         len(tokens) > 1
         and together
-        and all(token.kind == "letter" and token.text.islower() and len(token.text) == 1 for token in tokens)
+        and all(
+            token.kind == "letter" and token.text.islower() and len(token.text) == 1
+            for token in tokens
+        )
     ):
         return Name("".join(token.text for token in tokens), at=tokens[0].start)
     return None

@@ -41,25 +41,32 @@ class Printed:
 
     @property
     def parts(self) -> tuple[Printed, ...]:
-        """The parts of a display of several lines, each a print of its own (columns count in the whole)."""
+        """The parts of a display of several lines, each a print of its own (columns count in the
+        whole)."""
         return tuple(Printed(self.latex, (part,)) for part in self._parts)
 
     @property
     def tree(self) -> Tree:
         """The tree of a display of one part."""
         if len(self._parts) != 1:
-            raise PrintError(self._parts[1].at, f"this print has {len(self._parts)} parts; take them from .parts")
+            raise PrintError(
+                self._parts[1].at, f"this print has {len(self._parts)} parts; take them from .parts"
+            )
         return self._parts[0]
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names that occur, as LaTeX, in order of first appearance."""
-        return tuple(dict.fromkeys(spelled(name) for part in self._parts for name in _names_in(part)))
+        return tuple(
+            dict.fromkeys(spelled(name) for part in self._parts for name in _names_in(part))
+        )
 
     def relation_chain(self, environment: Environment) -> list[tuple[Any, str, Any]]:
         """(left value, relation sign, right value) for each relation of the chain, in order."""
         chain = self._chain()
-        return [(_as_term(a), sign, _as_term(b)) for a, sign, b in Meaning(environment).triples(chain)]
+        return [
+            (_as_term(a), sign, _as_term(b)) for a, sign, b in Meaning(environment).triples(chain)
+        ]
 
     def left(self, environment: Environment) -> Any:
         """The value of what stands before the first relation."""
@@ -70,10 +77,13 @@ class Printed:
         return self.relation_chain(environment)[-1][2]
 
     def definition(self, environment: Environment, of: str) -> Any:
-        """The value that the print gives to the expression `of`, which must stand before its only relation, := or =."""
+        """The value that the print gives to the expression `of`, which must stand before its only
+        relation, := or =."""
         chain = self._chain()
         if chain.first != parse_name(of):
-            raise PrintError(chain.first.at, f"{spelled(chain.first)} stands here, where {of} was expected")
+            raise PrintError(
+                chain.first.at, f"{spelled(chain.first)} stands here, where {of} was expected"
+            )
         if len(chain.rest) != 1 or chain.rest[0][0] not in (":=", "=", r"\equiv"):
             raise PrintError(chain.at, "a definition is one expression, one :=, one value")
         return _as_term(Meaning(environment).side(chain.rest[0][1]))
@@ -81,7 +91,10 @@ class Printed:
     def value(self, environment: Environment) -> Any:
         """The value of a print that is a single expression, without a relation."""
         if isinstance(self.tree, (t.Chain, t.ForAll)):
-            raise PrintError(self.tree.at, "this is a relation, not one value; take .left, .right or .relation_chain")
+            raise PrintError(
+                self.tree.at,
+                "this is a relation, not one value; take .left, .right or .relation_chain",
+            )
         return _as_term(Meaning(environment).side(self.tree))
 
     def formula(self, environment: Environment) -> Formula:
@@ -92,8 +105,8 @@ class Printed:
     def set_predicate(self, environment: Environment, of: str | None = None) -> Region:
         """The region that the print defines: state -> formula.
 
-        The head must be the name `of`, or, where none is given, a name of the environment.  Base set, element and
-        condition all go into the formula; nothing else may stand there.
+        The head must be the name `of`, or, where none is given, a name of the environment.  Base
+        set, element and condition all go into the formula; nothing else may stand there.
         """
         chain = self._chain()
         if len(chain.rest) != 1 or chain.rest[0][0] not in (":=", "="):
@@ -101,12 +114,17 @@ class Printed:
         if of is None:
             Meaning(environment).of(chain.first)
         elif chain.first != parse_name(of):
-            raise PrintError(chain.first.at, f"{spelled(chain.first)} is defined here, where {of} was expected")
+            raise PrintError(
+                chain.first.at, f"{spelled(chain.first)} is defined here, where {of} was expected"
+            )
         meaning, right = Meaning(environment), chain.rest[0][1]
         region = meaning.of(right)
         if not isinstance(region, Region):
             raise PrintError(right.at, "this is not a region")
-        for point, components in environment.points.items():  # refuse now, not when the region is first asked
+        for (
+            point,
+            components,
+        ) in environment.points.items():  # refuse now, not when the region is first asked
             if point in environment.meanings and len(components) > 1:
                 region(environment.meanings[point])
         return region

@@ -1,7 +1,8 @@
 r"""The formula that `left sign right` states, for values of every kind.
 
-A definition := and an identity \equiv state equality; vectors are equal entry by entry, regions at the present state, a
-list of cases case by case; a restricted function is spoken of inside its region only; \subset allows equality.
+A definition := and an identity \equiv state equality; vectors are equal entry by entry, regions at
+the present state, a list of cases case by case; a restricted function is spoken of inside its
+region only; \subset allows equality.
 """
 
 from __future__ import annotations
@@ -9,7 +10,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from certificates.terms import Formula, conjunction, different, disjunction, equal, iff, implies, term
+from certificates.terms import (
+    Formula,
+    conjunction,
+    different,
+    disjunction,
+    equal,
+    iff,
+    implies,
+    term,
+)
 from proofs.reading.arithmetic import kind_of
 from proofs.reading.notions import Guarded, Image, Piecewise, Region, Rounded, applied
 from proofs.reading.values import Matrix, Scalar, ShapeError, Vector, is_scalar
@@ -44,7 +54,11 @@ def relate(left: Any, sign: str, right: Any, state: Any = None) -> Formula:
         return _member(left, sign, right)
     if isinstance(left, (Region, Image)) and isinstance(right, Region):
         return _of_regions(left, sign, right, state)
-    if isinstance(left, (Vector, Matrix)) and type(left) is type(right) and (sign in EQUALITIES or sign == r"\ne"):
+    if (
+        isinstance(left, (Vector, Matrix))
+        and type(left) is type(right)
+        and (sign in EQUALITIES or sign == r"\ne")
+    ):
         pairs = _pairs(left, right)
         if sign == r"\ne":
             return disjunction([different(a, b) for a, b in pairs])
@@ -56,7 +70,11 @@ def _pairs(left: Any, right: Any) -> list[tuple[Scalar, Scalar]]:
     if isinstance(left, Matrix):
         if left.shape != right.shape:
             raise ShapeError("an equation of matrices of different shapes")
-        return [pair for rows in zip(left.rows, right.rows, strict=True) for pair in zip(*rows, strict=True)]
+        return [
+            pair
+            for rows in zip(left.rows, right.rows, strict=True)
+            for pair in zip(*rows, strict=True)
+        ]
     if len(left.entries) != len(right.entries):
         raise ShapeError("an equation of vectors of different lengths")
     return list(zip(left.entries, right.entries, strict=True))
@@ -66,7 +84,9 @@ def _by_cases(value: Any, cases: Piecewise, state: Any) -> Formula:
     stated = []
     for piece in cases.pieces:
         says = relate(value, "=", piece.value, state)
-        stated.append(implies(piece.condition, says if piece.besides is None else says & piece.besides))
+        stated.append(
+            implies(piece.condition, says if piece.besides is None else says & piece.besides)
+        )
     return conjunction(stated)
 
 

@@ -1,6 +1,8 @@
-r"""The tree of a print: plain frozen nodes that keep what stands on paper, before anything is given a meaning.
+r"""The tree of a print: plain frozen nodes that keep what stands on paper, before anything is given
+a meaning.
 
-Every node carries `at`, where it starts; two nodes are equal when they say the same, wherever they stand.
+Every node carries `at`, where it starts; two nodes are equal when they say the same, wherever they
+stand.
 """
 
 from __future__ import annotations
@@ -27,14 +29,16 @@ class Number(Tree):
 
 @dataclass(frozen=True, slots=True)
 class Mark(Tree):
-    r"""A bare sign as a script, as in \mathcal{B}_1^+; in an environment's key, \cdot is the place of an argument."""
+    r"""A bare sign as a script, as in \mathcal{B}_1^+; in an environment's key, \cdot is the place
+    of an argument."""
 
     sign: str
 
 
 @dataclass(frozen=True, slots=True)
 class Name(Tree):
-    """A letter (or a word, in a subscript) with its sorted accents, its subscripts and its primes."""
+    """A letter (or a word, in a subscript) with its sorted accents, its subscripts and its
+    primes."""
 
     base: str
     accents: tuple[str, ...] = ()
@@ -136,7 +140,8 @@ class SetBuilder(Tree):
 
 @dataclass(frozen=True, slots=True)
 class Operator(Tree):
-    r"""\Delta, \partial, \nabla or D before a name: \Delta_1 E, \partial\mathcal{B}_2, D_{\overline\beta} R."""
+    r"""\Delta, \partial, \nabla or D before a name: \Delta_1 E, \partial\mathcal{B}_2,
+    D_{\overline\beta} R."""
 
     sign: str
     subscripts: tuple[Tree, ...]
@@ -223,7 +228,9 @@ def spelled(name: Tree) -> str:
 
 def _subscript(items: tuple[Tree, ...]) -> str:
     return (
-        "_{" + ",".join("..." if spelled(item).startswith("this ") else spelled(item) for item in items) + "}"
+        "_{"
+        + ",".join("..." if spelled(item).startswith("this ") else spelled(item) for item in items)
+        + "}"
         if items
         else ""
     )

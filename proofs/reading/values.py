@@ -1,4 +1,5 @@
-"""Exact values of prints: scalars are Terms (or rational numbers), vectors and matrices are tuples of them."""
+"""Exact values of prints: scalars are Terms (or rational numbers), vectors and matrices are tuples
+of them."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ Scalar = Union[int, Fraction, Term]
 
 
 class ShapeError(ClaimError):
-    """Two values do not fit together: a vector and a scalar added, matrices of different sizes multiplied."""
+    """Two values do not fit together: a vector and a scalar added, matrices of different sizes
+    multiplied."""
 
 
 def is_scalar(value: object) -> bool:
@@ -144,13 +146,17 @@ class Matrix:
             return entries[0] if len(entries) == 1 else Vector(entries)
         if isinstance(other, Matrix):
             columns = tuple(zip(*other.rows, strict=True))
-            return Matrix(tuple(tuple(_dot(row, column) for column in columns) for row in self.rows))
+            return Matrix(
+                tuple(tuple(_dot(row, column) for column in columns) for row in self.rows)
+            )
         return self.scaled(other)
 
     def scaled(self, scalar: Scalar) -> Matrix:
         """Every entry times the scalar, which stands on its left."""
         if not is_scalar(scalar):
-            raise ShapeError("a product of a matrix with something that is neither matrix, vector nor scalar")
+            raise ShapeError(
+                "a product of a matrix with something that is neither matrix, vector nor scalar"
+            )
         return Matrix(tuple(tuple(times(scalar, entry) for entry in row) for row in self.rows))
 
     __rmul__ = scaled
@@ -192,4 +198,6 @@ class Matrix:
         if not isinstance(other, Matrix) or other.shape != self.shape:
             raise ShapeError("a sum of a matrix with something that is not a matrix of its shape")
         pairs = zip(self.rows, other.rows, strict=True)
-        return Matrix(tuple(tuple(join(a, b) for a, b in zip(*rows, strict=True)) for rows in pairs))
+        return Matrix(
+            tuple(tuple(join(a, b) for a, b in zip(*rows, strict=True)) for rows in pairs)
+        )

@@ -1,4 +1,5 @@
-"""The commands that a print may use, in tables: what is dropped, what is another spelling, what is an operator."""
+"""The commands that a print may use, in tables: what is dropped, what is another spelling, what is
+an operator."""
 
 from __future__ import annotations
 
@@ -12,7 +13,9 @@ DROPPED = frozenset(
 )
 
 # Environments that only lay lines out: their line ends and & marks are joins.
-LAYOUT = frozenset("split aligned align align* alignedat gathered gather gather* equation equation* multline".split())
+LAYOUT = frozenset(
+    "split aligned align align* alignedat gathered gather gather* equation equation* multline".split()
+)
 # Environments whose & and line ends are cells.
 TABLES = frozenset("bmatrix pmatrix matrix array cases".split())
 
@@ -40,13 +43,14 @@ SAME = {
 LETTERS = frozenset(
     rf"\{word}"
     for word in (
-        "alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi pi rho varrho "
-        "sigma tau upsilon phi varphi chi psi omega Gamma Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega "
-        "ell infty emptyset"
+        "alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu"
+        " xi pi rho varrho sigma tau upsilon phi varphi chi psi omega Gamma Theta Lambda Xi Pi"
+        " Sigma Upsilon Phi Psi Omega ell infty emptyset"
     ).split()
 )
 
-# What stands over or around a letter and makes another name of it.  Two dots are `dot` twice: \ddot x = \dot{\dot x}.
+# What stands over or around a letter and makes another name of it.  Two dots are `dot` twice: \ddot
+# x = \dot{\dot x}.
 ACCENTS = {
     r"\bar": ("bar",),
     r"\dot": ("dot",),

@@ -1,1 +1,2 @@
-"""Reports: the regenerated appendix, the theorem with its proof, errata and figures, from the claims and the derivations."""
+"""Reports: the regenerated appendix, the theorem with its proof, errata and figures, from the
+claims and the derivations."""

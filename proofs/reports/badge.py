@@ -1,4 +1,5 @@
-"""A badge for a page: what the verdicts say in a few words, as an SVG of our own that loads nothing."""
+"""A badge for a page: what the verdicts say in a few words, as an SVG of our own that loads
+nothing."""
 
 from __future__ import annotations
 
@@ -32,12 +33,16 @@ def badge(contents: Any) -> bytes:
 
 
 def told(results: Results) -> tuple[str, str]:
-    """The words and the colour: red where the theorem is not proved, something is unknown or rejected, or a verdict is not as registered."""
+    """The words and the colour: red where the theorem is not proved, something is unknown or
+    rejected, or a verdict is not as registered."""
     count, unknown = len(results.claims), results.verdicts()["unknown"]
     claims = f"{count} claim{'' if count == 1 else 's'}, {unknown} unknown"
     if results.own:
         holds = results.verdicts()["holds"]
-        return f"{holds} of {count} {'holds' if holds == 1 else 'hold'}, {unknown} unknown", BAD if results.exit else GOOD
+        return (
+            f"{holds} of {count} {'holds' if holds == 1 else 'hold'}, {unknown} unknown",
+            BAD if results.exit else GOOD,
+        )
     words = [f"theorem {'' if results.is_proved else 'NOT '}proved", claims]
     if results.changes and not results.accepted:
         words.append(f"{len(results.changes)} changed")

@@ -1,6 +1,8 @@
-"""All that reports tell, gathered once: claims with verdicts, derivations and statements; the theorem's tree; what differs from the register.
+"""All that reports tell, gathered once: claims with verdicts, derivations and statements; the
+theorem's tree; what differs from the register.
 
-Verdicts are judged again from the store, by what the checker said of these very files; nothing is taken from the register.
+Verdicts are judged again from the store, by what the checker said of these very files; nothing is
+taken from the register.
 """
 
 from __future__ import annotations
@@ -38,7 +40,8 @@ ROUTES = ("exact", "z3", "boxes")
 
 @dataclass(frozen=True)
 class Shown:
-    """A statement as reports show it: the text that the checker reads, outcome, certificate as stored, counterexample, answers of the routes."""
+    """A statement as reports show it: the text that the checker reads, outcome, certificate as
+    stored, counterexample, answers of the routes."""
 
     name: str
     text: str
@@ -50,7 +53,8 @@ class Shown:
 
 @dataclass(frozen=True)
 class Entry:
-    """One claim as reports tell it; `wrong` and `group` are as in the errata, and empty where nothing is wrong."""
+    """One claim as reports tell it; `wrong` and `group` are as in the errata, and empty where
+    nothing is wrong."""
 
     claim: Claim
     verdict: str
@@ -69,7 +73,8 @@ class Entry:
 
 @dataclass(frozen=True)
 class Rule:
-    """A node of the theorem's tree: a map rule, its premises as the checker writes them, and what it rests on."""
+    """A node of the theorem's tree: a map rule, its premises as the checker writes them, and what
+    it rests on."""
 
     name: str
     kind: str
@@ -82,7 +87,8 @@ class Rule:
 
 @dataclass(frozen=True)
 class Contents:
-    """Everything that reports tell; entries in the paper's order, derivations each after what it is made from, rules with the theorem first."""
+    """Everything that reports tell; entries in the paper's order, derivations each after what it is
+    made from, rules with the theorem first."""
 
     entries: tuple[Entry, ...]
     verdicts: Mapping[str, int]
@@ -110,9 +116,25 @@ def gather(register: Path = PATH) -> Contents:
     checked = {name: outcome for name, outcome, _ in results}
     records = Records(DEFAULT_BUDGET)
     claims = records.claims or paper_claims()
-    findings = json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8")) if (DEFAULT / FINDINGS).exists() else {}
-    options = Options(ROUTES, DEFAULT_BUDGET, store, findings, {} if records.claims else lemmas(claims, claims), checked)
-    judgements, _ = judge_with_records(claims, options, records, lambda rest, judged: judge_all(rest, judged, jobs, lambda *_: None))
+    findings = (
+        json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8"))
+        if (DEFAULT / FINDINGS).exists()
+        else {}
+    )
+    options = Options(
+        ROUTES,
+        DEFAULT_BUDGET,
+        store,
+        findings,
+        {} if records.claims else lemmas(claims, claims),
+        checked,
+    )
+    judgements, _ = judge_with_records(
+        claims,
+        options,
+        records,
+        lambda rest, judged: judge_all(rest, judged, jobs, lambda *_: None),
+    )
     records.keep(judgements, len(claims))
     settle_by_rules(judgements, checked, store.texts)
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
@@ -124,9 +146,16 @@ def gather(register: Path = PATH) -> Contents:
         told.append(_entry(claim, judgement, by_id, findings, store, tuple(steps), reading))
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
-        tuple(told), {word: sum(one.verdict.word == word for one in judgements) for word in VERDICTS}, dict(outcomes),
-        tuple(table.summary(judgements).splitlines()[2:]), tree.theorem_line(store, checked, votes), _rules(store, checked, votes),
-        tuple(derived.values()), tuple(changes(registered, by_id, partial=False)), tool_versions())
+        tuple(told),
+        {word: sum(one.verdict.word == word for one in judgements) for word in VERDICTS},
+        dict(outcomes),
+        tuple(table.summary(judgements).splitlines()[2:]),
+        tree.theorem_line(store, checked, votes),
+        _rules(store, checked, votes),
+        tuple(derived.values()),
+        tuple(changes(registered, by_id, partial=False)),
+        tool_versions(),
+    )
 
 
 def tool_versions() -> dict[str, str]:
@@ -140,43 +169,97 @@ def tool_versions() -> dict[str, str]:
     return found
 
 
-def _derivations_and_reading(claim: Claim, records: Records, store: Store) -> tuple[Sequence[Derivation], Sequence[Derivation], str]:
+def _derivations_and_reading(
+    claim: Claim, records: Records, store: Store
+) -> tuple[Sequence[Derivation], Sequence[Derivation], str]:
     try:
         record = records.by_claim[claim.id]
         body = body_of(record, store.texts)
         return (*kept_derivations(record), reading_of(body))
     except NOT_AS_KEPT:
-        source = next(one for one in paper_claims() if one.id == claim.id) if records.claims else claim
+        source = (
+            next(one for one in paper_claims() if one.id == claim.id) if records.claims else claim
+        )
         body, steps = body_and_derivations(source)
         return steps, behind(steps), reading_of(body)
 
 
-def _entry(claim: Claim, judgement: Judgement, by_id: Mapping[str, Mapping[str, Any]], findings: Mapping[str, Any], store: Store,
-           steps: tuple[Derivation, ...], reading: str) -> Entry:
+def _entry(
+    claim: Claim,
+    judgement: Judgement,
+    by_id: Mapping[str, Mapping[str, Any]],
+    findings: Mapping[str, Any],
+    store: Store,
+    steps: tuple[Derivation, ...],
+    reading: str,
+) -> Entry:
     finding = findings.get(claim.id, {})
     group = errata.group_of(claim, by_id, findings)
     return Entry(
-        claim, judgement.verdict.word, judgement.verdict.detail, table.verdict_text(claim, judgement), table.settled_by(judgement),
-        table.sharp_range(judgement), reading, tuple(errata.what_is_wrong(by_id[claim.id], finding.get("sharp", {}))) if group else (), group,
-        judgement.correction, steps,
-        tuple(_shown(name, text, judgement.outcomes[name], store.certificate(name, text), judgement.votes.get(name, ()))
-              for name, text in [*judgement.statements]), judgement.rests_on)
+        claim,
+        judgement.verdict.word,
+        judgement.verdict.detail,
+        table.verdict_text(claim, judgement),
+        table.settled_by(judgement),
+        table.sharp_range(judgement),
+        reading,
+        tuple(errata.what_is_wrong(by_id[claim.id], finding.get("sharp", {}))) if group else (),
+        group,
+        judgement.correction,
+        steps,
+        tuple(
+            _shown(
+                name,
+                text,
+                judgement.outcomes[name],
+                store.certificate(name, text),
+                judgement.votes.get(name, ()),
+            )
+            for name, text in [*judgement.statements]
+        ),
+        judgement.rests_on,
+    )
 
 
 def _shown(name: str, text: str, outcome: str, certificate: Any, votes: Sequence[Any]) -> Shown:
     refuted = certificate.get("refuted") if isinstance(certificate, dict) else None
-    return Shown(name, text, outcome, certificate, counterexample(refuted) if refuted else "", {vote.route: vote.answer for vote in votes})
+    return Shown(
+        name,
+        text,
+        outcome,
+        certificate,
+        counterexample(refuted) if refuted else "",
+        {vote.route: vote.answer for vote in votes},
+    )
 
 
-def _rules(store: Store, checked: Mapping[str, str], votes: Mapping[str, Sequence[Any]]) -> tuple[Rule, ...]:
+def _rules(
+    store: Store, checked: Mapping[str, str], votes: Mapping[str, Sequence[Any]]
+) -> tuple[Rule, ...]:
     if tree.THEOREM not in store.texts:
         return ()
     rules, told = tree.rules_of(store), []
     for name in tree.with_all_below(tree.THEOREM, rules):
-        certificate, outcome = store.certificate(name, store.texts[name]), checked.get(name, "rejected")
+        certificate, outcome = (
+            store.certificate(name, store.texts[name]),
+            checked.get(name, "rejected"),
+        )
         parts = certificate.get("certified", {}) if isinstance(certificate, dict) else {}
-        premises = tuple(_shown(premise.name, premise.text(), outcome, parts.get(label), votes.get(premise.name, ()))
-                         for label, premise in checker.premises_of(rules[name], rules).items())
-        told.append(Rule(name, rules[name].kind, store.texts[name], outcome, premises, tuple(rests_on(rules[name])),
-                         tuple(sorted(tree.lemmas(certificate)))))
+        premises = tuple(
+            _shown(
+                premise.name, premise.text(), outcome, parts.get(label), votes.get(premise.name, ())
+            )
+            for label, premise in checker.premises_of(rules[name], rules).items()
+        )
+        told.append(
+            Rule(
+                name,
+                rules[name].kind,
+                store.texts[name],
+                outcome,
+                premises,
+                tuple(rests_on(rules[name])),
+                tuple(sorted(tree.lemmas(certificate))),
+            )
+        )
     return tuple(told)

@@ -9,8 +9,12 @@ from certificates.terms import ClaimError
 
 
 def needed(module: str) -> Any:
-    """The module, imported; raises ClaimError, one line that says how to install it, where it is absent."""
+    """The module, imported; raises ClaimError, one line that says how to install it, where it is
+    absent."""
     try:
         return import_module(module)
     except ImportError:
-        raise ClaimError(f"{module.partition('.')[0]} is needed for this report; install it with pip install -e '.[report]'") from None
+        raise ClaimError(
+            f"{module.partition('.')[0]} is needed for this report; install it with pip install -e"
+            " '.[report]'"
+        ) from None

@@ -1,4 +1,5 @@
-"""The figures of a report: those that need no claims as they are, and those that show ranges and the trap with what they show."""
+"""The figures of a report: those that need no claims as they are, and those that show ranges and
+the trap with what they show."""
 
 from __future__ import annotations
 
@@ -29,20 +30,30 @@ class Saved(NamedTuple):
 
 
 def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, Figure]]:
-    """Every figure in order: slug, title, caption, alternative text and the figure; raises ClaimError where matplotlib is absent."""
+    """Every figure in order: slug, title, caption, alternative text and the figure; raises
+    ClaimError where matplotlib is absent."""
     needed("matplotlib")
     entries = (contents or gather()).entries
-    given = {"fig-ranges": lambda: (rows(entries), without_alpha(entries)), "fig-trap": what_the_trap_shows}
+    given = {
+        "fig-ranges": lambda: (rows(entries), without_alpha(entries)),
+        "fig-trap": what_the_trap_shows,
+    }
     return [(*said(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
 
 
 def said(one: Entry) -> tuple[str, str, str, str]:
     """Slug, title, caption and alternative text of a figure."""
-    return one.slug, f"Figure {one.number}. {one.title}" if one.number else one.title, one.caption, one.alt
+    return (
+        one.slug,
+        f"Figure {one.number}. {one.title}" if one.number else one.title,
+        one.caption,
+        one.alt,
+    )
 
 
 def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
-    """Every figure in order as a file of this form (svg or pdf); kept beside the records of runs, so that unchanged ones need not be drawn again.
+    """Every figure in order as a file of this form (svg or pdf); kept beside the records of runs,
+    so that unchanged ones need not be drawn again.
 
     Raises ClaimError where they must be drawn and matplotlib is absent, or for another form.
     """
@@ -50,12 +61,23 @@ def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
         raise ClaimError(f"{form!r} is no form of figures; choose from {', '.join(FORMS)}")
     contents = contents or gather()
     shown = (rows(contents.entries), without_alpha(contents.entries))
-    key = f"figures-{form}-" + cache.key(cache.version_of("matplotlib"), shown, packages=(*cache.SOURCES, "scenes")) if cache.folder() else ""
+    key = (
+        f"figures-{form}-"
+        + cache.key(cache.version_of("matplotlib"), shown, packages=(*cache.SOURCES, "scenes"))
+        if cache.folder()
+        else ""
+    )
     kept = _kept(cache.load(key)) if key else {}
     if list(kept) != [one.slug for one in TABLE]:
         kept = {slug: _file(figure, slug, form) for slug, *_, figure in figures(contents)}
         if key:
-            cache.keep(key, [{"slug": slug, "data": b64encode(data).decode("ascii")} for slug, data in kept.items()])
+            cache.keep(
+                key,
+                [
+                    {"slug": slug, "data": b64encode(data).decode("ascii")}
+                    for slug, data in kept.items()
+                ],
+            )
     return [Saved(*said(one), kept[one.slug]) for one in TABLE]
 
 
@@ -73,16 +95,22 @@ def _file(figure: Figure, slug: str, form: str) -> bytes:
 
 
 def what_the_trap_shows() -> tuple[Any, tuple[Any, Any], list[tuple[Any, bool]]]:
-    """The rank, the root that it is written with and its square, and the margins of the trap, as the theorem's definition has them."""
+    """The rank, the root that it is written with and its square, and the margins of the trap, as
+    the theorem's definition has them."""
     from proofs.theorem.definition import TO_THE_POINT, TRAP
 
     ((root, square),) = TO_THE_POINT.roots
     parts = TRAP.args if TRAP.op == "and" else (TRAP,)
-    return to_sympy(TO_THE_POINT.rank), (to_sympy(Term("var", root)), to_sympy(square)), [margin(part) for part in parts]
+    return (
+        to_sympy(TO_THE_POINT.rank),
+        (to_sympy(Term("var", root)), to_sympy(square)),
+        [margin(part) for part in parts],
+    )
 
 
 def margin(relation: Formula) -> tuple[Any, bool]:
-    """What is positive where a strict relation holds, or not negative where one that is not strict does; and whether it is strict."""
+    """What is positive where a strict relation holds, or not negative where one that is not strict
+    does; and whether it is strict."""
     less, more = relation.args if relation.op in ("<", "<=") else reversed(relation.args)
     if relation.op not in ("<", "<=", ">", ">="):
         raise ClaimError(f"{relation} has no margin; it is no inequality")
@@ -108,4 +136,9 @@ def to_sympy(expression: Term) -> Any:
     if expression.op == "^":
         return to_sympy(expression.args[0]) ** expression.args[1]
     left, right = (to_sympy(part) for part in expression.args)
-    return {"+": lambda: left + right, "-": lambda: left - right, "*": lambda: left * right, "/": lambda: left / right}[expression.op]()
+    return {
+        "+": lambda: left + right,
+        "-": lambda: left - right,
+        "*": lambda: left * right,
+        "/": lambda: left / right,
+    }[expression.op]()

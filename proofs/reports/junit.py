@@ -1,7 +1,8 @@
-"""The results as a JUnit report, which CI systems show: one test case a claim, and nothing is ever skipped.
+"""The results as a JUnit report, which CI systems show: one test case a claim, and nothing is ever
+skipped.
 
-Of the paper a verdict is a failure where it differs from the register, whatever it is; of a file of one's own where the claim does not hold.
-What is unknown, and what the checker rejects, is an error.
+Of the paper a verdict is a failure where it differs from the register, whatever it is; of a file of
+one's own where the claim does not hold. What is unknown, and what the checker rejects, is an error.
 """
 
 from __future__ import annotations
@@ -19,16 +20,44 @@ def as_junit(contents: Any) -> bytes:
     changes = results.change_of()
     suite = ElementTree.Element("testsuite")
     for one in results.claims:
-        _case(suite, f"own.{one.section}" if results.own and one.section else "own" if results.own else f"paper.{one.section}", one.id,
-              *_told(one, changes.get(one.id), results), out=said(one))
+        _case(
+            suite,
+            (
+                f"own.{one.section}"
+                if results.own and one.section
+                else "own"
+                if results.own
+                else f"paper.{one.section}"
+            ),
+            one.id,
+            *_told(one, changes.get(one.id), results),
+            out=said(one),
+        )
     judged = {one.id for one in results.claims}
     for gone in (change for change in results.changes if change.claim not in judged):
-        _case(suite, "paper.gone", gone.claim, "" if results.accepted else "failure", f"the claim is gone from the sources; {gone}")
+        _case(
+            suite,
+            "paper.gone",
+            gone.claim,
+            "" if results.accepted else "failure",
+            f"the claim is gone from the sources; {gone}",
+        )
     for name, reason in results.rejected:
         if name.split("/")[0] not in judged:
             _case(suite, "checker", name, "error", f"rejected by the checker: {reason}")
-    counted = {"tests": len(suite), "failures": len(suite.findall("testcase/failure")), "errors": len(suite.findall("testcase/error")), "skipped": 0}
-    root = ElementTree.Element("testsuites", {"name": "juggleproof", **{name: str(count) for name, count in counted.items() if name != "skipped"}})
+    counted = {
+        "tests": len(suite),
+        "failures": len(suite.findall("testcase/failure")),
+        "errors": len(suite.findall("testcase/error")),
+        "skipped": 0,
+    }
+    root = ElementTree.Element(
+        "testsuites",
+        {
+            "name": "juggleproof",
+            **{name: str(count) for name, count in counted.items() if name != "skipped"},
+        },
+    )
     suite.attrib = {"name": "juggleproof", **{name: str(count) for name, count in counted.items()}}
     root.append(suite)
     ElementTree.indent(root)
@@ -36,20 +65,31 @@ def as_junit(contents: Any) -> bytes:
     return text + b"\n"
 
 
-def _case(suite: ElementTree.Element, classname: str, name: str, kind: str, message: str, out: str = "") -> None:
+def _case(
+    suite: ElementTree.Element, classname: str, name: str, kind: str, message: str, out: str = ""
+) -> None:
     case = ElementTree.SubElement(suite, "testcase", classname=classname, name=writable(name))
     if kind:
         lines = writable(message).splitlines()
-        ElementTree.SubElement(case, kind, message="; ".join(lines[:2]), type=kind).text = "\n".join(lines)
+        ElementTree.SubElement(
+            case, kind, message="; ".join(lines[:2]), type=kind
+        ).text = "\n".join(lines)
     if out:
         ElementTree.SubElement(case, "system-out").text = out
 
 
 def _told(one: Result, change: Change | None, results: Results) -> tuple[str, str]:
-    """failure, error or nothing, and the message: what differs first, then where the claim fails."""
-    changed = "" if change is None else f"{'new' if change.before is None else 'changed'} since the register: {change}"
+    """failure, error or nothing, and the message: what differs first, then where the claim
+    fails."""
+    changed = (
+        ""
+        if change is None
+        else f"{'new' if change.before is None else 'changed'} since the register: {change}"
+    )
     if one.verdict == "unknown":
-        return "error", "unknown: " + (one.detail or "neither proved nor refuted") + (f"; {changed}" if changed else "")
+        return "error", "unknown: " + (one.detail or "neither proved nor refuted") + (
+            f"; {changed}" if changed else ""
+        )
     if results.own and one.verdict != "holds":
         return "failure", failing(one)
     if changed and not results.accepted:

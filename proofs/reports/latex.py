@@ -1,6 +1,8 @@
-r"""Terms and formulas of the statement language as LaTeX, in the paper's notation and with terms and factors in the paper's order.
+r"""Terms and formulas of the statement language as LaTeX, in the paper's notation and with terms
+and factors in the paper's order.
 
-What is printed is read from the text of the statement itself; sums and products are reordered, signs drawn together, and nothing else is changed.
+What is printed is read from the text of the statement itself; sums and products are reordered,
+signs drawn together, and nothing else is changed.
 """
 
 from __future__ import annotations
@@ -14,13 +16,26 @@ from functools import cache
 from certificates import checker
 from proofs.reports.names import ORDER, glyph
 
-RELATIONS: Mapping[type, str] = {ast.Lt: "<", ast.LtE: r"\le", ast.Gt: ">", ast.GtE: r"\ge", ast.Eq: "=", ast.NotEq: r"\ne"}
-JOINED: Mapping[str, tuple[int, str]] = {"iff": (1, r"\iff"), "implies": (2, r"\implies"), "or": (3, r"\lor"), "and": (4, r"\land")}
+RELATIONS: Mapping[type, str] = {
+    ast.Lt: "<",
+    ast.LtE: r"\le",
+    ast.Gt: ">",
+    ast.GtE: r"\ge",
+    ast.Eq: "=",
+    ast.NotEq: r"\ne",
+}
+JOINED: Mapping[str, tuple[int, str]] = {
+    "iff": (1, r"\iff"),
+    "implies": (2, r"\implies"),
+    "or": (3, r"\lor"),
+    "and": (4, r"\land"),
+}
 ALPHA = frozenset({"alpha"})
 
 
 def latex_of(text: str, like: str = "") -> str:
-    r"""A term or formula of the statement language as LaTeX; `like` is a text whose names lead the order of factors and addends.
+    r"""A term or formula of the statement language as LaTeX; `like` is a text whose names lead the
+    order of factors and addends.
 
     >>> latex_of("beta*g + v^2/2"), latex_of("r^2*(alpha + 1)/(2*(1 - alpha))")
     ('\\gamma\\bar\\beta + \\frac{1}{2}\\dot{\\bar\\beta}^2', '\\frac{1}{2}\\frac{1 + \\alpha}{1 - \\alpha}\\dot\\rho_0^2')
@@ -39,12 +54,20 @@ def _cached(text: str, like: str) -> str:
 
 def names_in_order(text: str) -> list[str]:
     """The names of a term or formula as they first occur."""
-    names = [(node.lineno, node.col_offset, node.id) for node in ast.walk(checker.parse(text)) if isinstance(node, ast.Name)]
+    names = [
+        (node.lineno, node.col_offset, node.id)
+        for node in ast.walk(checker.parse(text))
+        if isinstance(node, ast.Name)
+    ]
     return [name for *_, name in sorted(names)]
 
 
 def _is_formula(node: ast.AST) -> bool:
-    return isinstance(node, (ast.Compare, ast.BoolOp, ast.Call)) or isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)
+    return (
+        isinstance(node, (ast.Compare, ast.BoolOp, ast.Call))
+        or isinstance(node, ast.UnaryOp)
+        and isinstance(node.op, ast.Not)
+    )
 
 
 def _names(node: ast.AST) -> frozenset[str]:
@@ -61,10 +84,14 @@ class _Printer:
     def formula(self, node: ast.AST, level: int) -> str:
         if isinstance(node, ast.Compare):
             signs = [RELATIONS[type(op)] for op in node.ops]
-            return self.term(node.left) + "".join(f" {sign} {self.term(side)}" for sign, side in zip(signs, node.comparators))
+            return self.term(node.left) + "".join(
+                f" {sign} {self.term(side)}" for sign, side in zip(signs, node.comparators)
+            )
         if isinstance(node, ast.UnaryOp):
             inner = self.formula(node.operand, 6)
-            return rf"\lnot ({inner})" if isinstance(node.operand, ast.Compare) else rf"\lnot {inner}"
+            return (
+                rf"\lnot ({inner})" if isinstance(node.operand, ast.Compare) else rf"\lnot {inner}"
+            )
         if isinstance(node, ast.BoolOp):
             word, parts = "and" if isinstance(node.op, ast.And) else "or", node.values
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
@@ -84,14 +111,19 @@ class _Printer:
         return shown
 
     def addends(self, node: ast.AST) -> list[tuple[bool, str]]:
-        """The addends in the paper's order, each with whether it is taken away; zeros are left out where anything else stands."""
+        """The addends in the paper's order, each with whether it is taken away; zeros are left out
+        where anything else stands."""
         found = []
         for sign, addend in _numbers_added(_flat_sum(node, 1)):
             text, negative = self.product(addend)
             if text != "0":
                 found.append((addend, negative != (sign < 0), text))
-        if len(found) == 2 and not _names(node) - ALPHA:  # the paper writes 1 + alpha, 1 - alpha and alpha - 1
-            found.sort(key=lambda one: bool(_names(one[0])) if not one[1] else 1 + (not _names(one[0])))
+        if (
+            len(found) == 2 and not _names(node) - ALPHA
+        ):  # the paper writes 1 + alpha, 1 - alpha and alpha - 1
+            found.sort(
+                key=lambda one: bool(_names(one[0])) if not one[1] else 1 + (not _names(one[0]))
+            )
         elif self.leads:
             found.sort(key=lambda one: self.place(one[0]))
         if found and found[0][1] and not self.leads:
@@ -100,7 +132,11 @@ class _Printer:
         return [(minus, text) for _, minus, text in found] or [(False, "0")]
 
     def place(self, node: ast.AST) -> tuple[int, ...]:
-        return tuple(sorted((self.rank.get(name, len(self.rank)) for name in _names(node) - ALPHA), reverse=True))
+        return tuple(
+            sorted(
+                (self.rank.get(name, len(self.rank)) for name in _names(node) - ALPHA), reverse=True
+            )
+        )
 
     # ------------------------------------------------------------ products
 
@@ -113,7 +149,11 @@ class _Printer:
                 (below if inverted else above).append(factor)
             else:
                 number *= 1 / value if inverted else value
-        text = self.quotient(abs(number), sorted(_powers_joined(above), key=self.factor_place), sorted(_powers_joined(below), key=self.factor_place))
+        text = self.quotient(
+            abs(number),
+            sorted(_powers_joined(above), key=self.factor_place),
+            sorted(_powers_joined(below), key=self.factor_place),
+        )
         return text, number < 0
 
     def quotient(self, number: Fraction, above: Sequence[ast.AST], below: Sequence[ast.AST]) -> str:
@@ -122,13 +162,20 @@ class _Printer:
             return "0"
         if not below:
             if part == 1:
-                return self.bracketed(above[0]) if whole == 1 and len(above) == 1 and _is_sum(above[0]) else self.row(whole, above)
+                return (
+                    self.bracketed(above[0])
+                    if whole == 1 and len(above) == 1 and _is_sum(above[0])
+                    else self.row(whole, above)
+                )
             if not above or len(above) == 1 and _is_sum(above[0]):
                 return _fraction(self.row(whole, above), str(part))
             return _side_by_side([_fraction(str(whole), str(part)), *map(self.factor, above)])
         of_alpha = [factor for factor in above if _names(factor) <= ALPHA]
-        if not any(_names(factor) - ALPHA for factor in below) and of_alpha and (
-                part != 1 or any(map(_is_sum, map(_base, of_alpha)))):
+        if (
+            not any(_names(factor) - ALPHA for factor in below)
+            and of_alpha
+            and (part != 1 or any(map(_is_sum, map(_base, of_alpha))))
+        ):
             rest = [factor for factor in above if factor not in of_alpha]
             if len(rest) != 1 or not _is_sum(rest[0]) or of_alpha:
                 numeral = [_fraction(str(whole), str(part))] if part != 1 else []
@@ -140,31 +187,52 @@ class _Printer:
         """A number and factors side by side; a sum needs no brackets where it stands alone."""
         if number == 1 and len(factors) == 1:
             return self.term(factors[0]) if _is_sum(factors[0]) else self.factor(factors[0])
-        return _side_by_side([*([str(number)] if number != 1 or not factors else []), *map(self.factor, factors)])
+        return _side_by_side(
+            [*([str(number)] if number != 1 or not factors else []), *map(self.factor, factors)]
+        )
 
     def factor_place(self, node: ast.AST) -> tuple[int, int]:
         names = _names(node)
         if names <= ALPHA:
             return (0, int(_is_sum(_base(node))))
-        return (1 + max(self.rank.get(name, len(self.rank)) for name in names), int(_is_sum(_base(node))))
+        return (
+            1 + max(self.rank.get(name, len(self.rank)) for name in names),
+            int(_is_sum(_base(node))),
+        )
 
     def factor(self, node: ast.AST) -> str:
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant):
+        if (
+            isinstance(node, ast.BinOp)
+            and isinstance(node.op, ast.Pow)
+            and isinstance(node.right, ast.Constant)
+        ):
             exponent = str(node.right.value)
             if exponent == "1":
                 return self.factor(node.left)
-            base = self.factor(node.left) if isinstance(node.left, ast.Name) else self.bracketed(node.left)
+            base = (
+                self.factor(node.left)
+                if isinstance(node.left, ast.Name)
+                else self.bracketed(node.left)
+            )
             base = rf"\left({base}\right)" if base.startswith(r"\frac") else base
             return f"{base}^{exponent if len(exponent) == 1 else '{' + exponent + '}'}"
         if isinstance(node, (ast.Name, ast.Constant)):
             return glyph(node.id) if isinstance(node, ast.Name) else str(node.value)
-        if not isinstance(node, (ast.BinOp, ast.UnaryOp)) or isinstance(getattr(node, "op", None), ast.Pow):
+        if not isinstance(node, (ast.BinOp, ast.UnaryOp)) or isinstance(
+            getattr(node, "op", None), ast.Pow
+        ):
             raise TypeError(f"no term: {ast.unparse(node)}")
         return self.bracketed(node)
 
     def bracketed(self, node: ast.AST) -> str:
         text = self.term(node)
-        return text if isinstance(node, ast.Constant) or is_bracketed(text) else rf"\left({text}\right)" if r"\frac" in text else f"({text})"
+        return (
+            text
+            if isinstance(node, ast.Constant) or is_bracketed(text)
+            else rf"\left({text}\right)"
+            if r"\frac" in text
+            else f"({text})"
+        )
 
 
 def is_bracketed(text: str) -> bool:
@@ -197,7 +265,8 @@ def _integer(node: ast.AST) -> int | None:
 
 
 def _side_by_side(pieces: Sequence[str]) -> str:
-    """Factors in a row, with a space where LaTeX would run a command and a letter together, and a dot between numerals."""
+    """Factors in a row, with a space where LaTeX would run a command and a letter together, and a
+    dot between numerals."""
     shown = ""
     for piece in pieces:
         if shown and shown[-1].isdigit() and piece[:1].isdigit():
@@ -223,7 +292,11 @@ def _numbers_added(addends: list[tuple[int, ast.AST]]) -> list[tuple[int, ast.AS
         return addends
     total = sum(addends[place][0] * (_integer(addends[place][1]) or 0) for place in places)
     added = (1 if total >= 0 else -1, ast.Constant(abs(total)))
-    return [added if place == places[0] else addend for place, addend in enumerate(addends) if place not in places[1:]]
+    return [
+        added if place == places[0] else addend
+        for place, addend in enumerate(addends)
+        if place not in places[1:]
+    ]
 
 
 def _powers_joined(factors: list[ast.AST]) -> list[ast.AST]:
@@ -236,13 +309,19 @@ def _powers_joined(factors: list[ast.AST]) -> list[ast.AST]:
             found[base.id] = found.get(base.id, 0) + exponent
         else:
             others.append(factor)
-    joined = [ast.parse(f"{name}**{exponent}" if exponent != 1 else name, mode="eval").body for name, exponent in found.items()]
+    joined = [
+        ast.parse(f"{name}**{exponent}" if exponent != 1 else name, mode="eval").body
+        for name, exponent in found.items()
+    ]
     return [*joined, *others]
 
 
 def _flat_sum(node: ast.AST, sign: int) -> list[tuple[int, ast.AST]]:
     if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
-        return [*_flat_sum(node.left, sign), *_flat_sum(node.right, -sign if isinstance(node.op, ast.Sub) else sign)]
+        return [
+            *_flat_sum(node.left, sign),
+            *_flat_sum(node.right, -sign if isinstance(node.op, ast.Sub) else sign),
+        ]
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         return _flat_sum(node.operand, -sign)
     return [(sign, node)]
@@ -251,7 +330,10 @@ def _flat_sum(node: ast.AST, sign: int) -> list[tuple[int, ast.AST]]:
 def _flat_product(node: ast.AST, inverted: bool = False) -> list[tuple[ast.AST, bool]]:
     """The factors with whether they divide; a minus stands as the unary operator itself."""
     if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
-        return [*_flat_product(node.left, inverted), *_flat_product(node.right, inverted != isinstance(node.op, ast.Div))]
+        return [
+            *_flat_product(node.left, inverted),
+            *_flat_product(node.right, inverted != isinstance(node.op, ast.Div)),
+        ]
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         return [(node, False), *_flat_product(node.operand, inverted)]
     return [(node, inverted)]

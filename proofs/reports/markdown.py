@@ -1,6 +1,8 @@
-"""The results as Markdown for the summary of a CI job: what matters first, every claim folded away, under GitHub's limit of a megabyte.
+"""The results as Markdown for the summary of a CI job: what matters first, every claim folded away,
+under GitHub's limit of a megabyte.
 
-What is not known comes first, then what the checker rejects, what changed since the register, what is wrong and how it is mended.
+What is not known comes first, then what the checker rejects, what changed since the register, what
+is wrong and how it is mended.
 """
 
 from __future__ import annotations
@@ -16,7 +18,12 @@ from proofs.reports.results import Result, Results, results_of
 LIMIT = 1_000_000  # bytes; GitHub refuses a summary above 1024 * 1024
 LONGEST = 2_000  # characters of one text
 ROOM = 2_000  # bytes kept for the lines that end the file and tell what is left out
-GROUPS = {"errors": "errors", "readings": "false in one reading", "repeats": "wrong again: repeats", "transcription": "possible transcription errors"}
+GROUPS = {
+    "errors": "errors",
+    "readings": "false in one reading",
+    "repeats": "wrong again: repeats",
+    "transcription": "possible transcription errors",
+}
 
 
 def markdown(contents: Any) -> str:
@@ -26,7 +33,23 @@ def markdown(contents: Any) -> str:
     page.add([*_head(results), *_unknown(results), *_rejected(results), *_changes(results)])
     page.add(_errata(results))
     page.add(["<details><summary>Every claim</summary>", ""])
-    page.add(_table([COLUMNS, *((one.id, f"{one.section} {one.place}".strip(), _verdict(one), one.settled_by, one.sharp) for one in results.claims)]))
+    page.add(
+        _table(
+            [
+                COLUMNS,
+                *(
+                    (
+                        one.id,
+                        f"{one.section} {one.place}".strip(),
+                        _verdict(one),
+                        one.settled_by,
+                        one.sharp,
+                    )
+                    for one in results.claims
+                ),
+            ]
+        )
+    )
     page.end(["", "</details>"])
     return "\n".join(page.lines) + "\n"
 
@@ -50,7 +73,13 @@ class _Page:
     def end(self, lines: Iterable[str]) -> None:
         self.lines += lines
         if self.left_out:
-            self.lines += ["", f"**{self.left_out} lines are left out, for a summary may have a megabyte; `--json` writes everything.**"]
+            self.lines += [
+                "",
+                (
+                    f"**{self.left_out} lines are left out, for a summary may have a megabyte;"
+                    " `--json` writes everything.**"
+                ),
+            ]
 
 
 def escaped(text: str) -> str:
@@ -59,7 +88,11 @@ def escaped(text: str) -> str:
     >>> escaped("a|b <c> `d` 2*x_1 $5 [e](f)")
     'a\\\\|b \\\\<c\\\\> \\\\`d\\\\` 2\\\\*x\\\\_1 &#36;5 \\\\[e\\\\](f)'
     """
-    return re.sub(r"([\\`*_{}\[\]<>#|~!&])", r"\\\1", _one_line(text)).replace("$", "&#36;").replace("@", "&#64;")
+    return (
+        re.sub(r"([\\`*_{}\[\]<>#|~!&])", r"\\\1", _one_line(text))
+        .replace("$", "&#36;")
+        .replace("@", "&#64;")
+    )
 
 
 def code(text: str) -> str:
@@ -90,10 +123,22 @@ def _head(results: Results) -> list[str]:
     told = [" ".join(line.split()) for line in results.theorem.splitlines()]
     if not (results.own or told):
         told = ["theorem: the store does not hold it"]
-    counts, outcomes = results.verdicts(), {word: n for word, n in results.outcomes().items() if n or word != "rejected"}
-    return [f"# {_title(results)}", "", *(escaped(line) + "  " for line in told), *([""] if told else []),
-            f"{_many(len(results.claims), 'claim')}{' of a selection' if results.partial else ''}: {_counts(counts)}.  ",
-            f"{_many(sum(outcomes.values()), 'statement')}: {_counts(outcomes)}.", ""]
+    counts, outcomes = (
+        results.verdicts(),
+        {word: n for word, n in results.outcomes().items() if n or word != "rejected"},
+    )
+    return [
+        f"# {_title(results)}",
+        "",
+        *(escaped(line) + "  " for line in told),
+        *([""] if told else []),
+        (
+            f"{_many(len(results.claims), 'claim')}{' of a selection' if results.partial else ''}:"
+            f" {_counts(counts)}.  "
+        ),
+        f"{_many(sum(outcomes.values()), 'statement')}: {_counts(outcomes)}.",
+        "",
+    ]
 
 
 def _title(results: Results) -> str:
@@ -115,24 +160,41 @@ def _unknown(results: Results) -> list[str]:
     found = [one for one in results.claims if one.verdict == "unknown"]
     if not found:
         return []
-    return [f"## Unknown ({len(found)}): neither proved nor refuted", "",
-            *(f"- **{escaped(one.id)}**{_place(one)}: {escaped(one.detail or 'no certificate was found')}. {escaped(one.says)}" for one in found), ""]
+    return [
+        f"## Unknown ({len(found)}): neither proved nor refuted",
+        "",
+        *(
+            f"- **{escaped(one.id)}**{_place(one)}:"
+            f" {escaped(one.detail or 'no certificate was found')}. {escaped(one.says)}"
+            for one in found
+        ),
+        "",
+    ]
 
 
 def _rejected(results: Results) -> list[str]:
     if not results.rejected:
         return []
-    return [f"## Rejected by the checker ({len(results.rejected)})", "",
-            *(f"- **{escaped(name)}**: {escaped(reason)}" for name, reason in results.rejected), ""]
+    return [
+        f"## Rejected by the checker ({len(results.rejected)})",
+        "",
+        *(f"- **{escaped(name)}**: {escaped(reason)}" for name, reason in results.rejected),
+        "",
+    ]
 
 
 def _changes(results: Results) -> list[str]:
     if results.own:
         return []
-    heading = "## Changes of verdicts " + ("accepted into the register" if results.accepted else "since the register")
+    heading = "## Changes of verdicts " + (
+        "accepted into the register" if results.accepted else "since the register"
+    )
     if not results.changes:
         return [heading, "", "No change.", ""]
-    rows = [("claim", "", "before", "after"), *(row for change in results.changes for row in _change(change))]
+    rows = [
+        ("claim", "", "before", "after"),
+        *(row for change in results.changes for row in _change(change)),
+    ]
     return [f"{heading} ({len(results.changes)})", "", *_table(rows), ""]
 
 
@@ -141,16 +203,32 @@ def _change(change: Change) -> list[tuple[str, str, str, str]]:
     before, after = change.before, change.after
     if before is None or after is None:
         absent = "not registered" if before is None else "no longer in the sources"
-        return [(change.claim, "verdict", str((before or {}).get("verdict", absent)), str((after or {}).get("verdict", absent)))]
-    return [(change.claim, name, str(before.get(name, "none")), str(after.get(name, "none")))
-            for name in FIELDS if before.get(name) != after.get(name)]
+        return [
+            (
+                change.claim,
+                "verdict",
+                str((before or {}).get("verdict", absent)),
+                str((after or {}).get("verdict", absent)),
+            )
+        ]
+    return [
+        (change.claim, name, str(before.get(name, "none")), str(after.get(name, "none")))
+        for name in FIELDS
+        if before.get(name) != after.get(name)
+    ]
 
 
 def _errata(results: Results) -> Iterable[str]:
     wrong = [one for one in results.claims if one.group]
     if not wrong:
         return
-    yield from (f"## {'What does not hold' if results.own else 'What the paper prints wrongly'} ({len(wrong)})", "")
+    yield from (
+        (
+            f"## {'What does not hold' if results.own else 'What the paper prints wrongly'}"
+            f" ({len(wrong)})"
+        ),
+        "",
+    )
     for group, title in GROUPS.items():
         found = [one for one in wrong if one.group == group]
         if not found:
@@ -163,7 +241,10 @@ def _errata(results: Results) -> Iterable[str]:
 
 def _erratum(one: Result) -> str:
     told = [line for line in one.wrong if line != one.verdict_text] or [one.says]
-    parts = [f"- **{escaped(one.id)}**{_place(one)}: {escaped(one.verdict_text)}; {escaped('; '.join(told))}"]
+    parts = [
+        f"- **{escaped(one.id)}**{_place(one)}: {escaped(one.verdict_text)};"
+        f" {escaped('; '.join(told))}"
+    ]
     if one.correction:
         parts.append(f"corrected: {code(one.correction['text'])}")
     fails = [stated.at for stated in one.statements if stated.at]

@@ -1,4 +1,5 @@
-r"""How the names of statements are written on paper, in the notation of the paper; names that it lacks are made from their letters.
+r"""How the names of statements are written on paper, in the notation of the paper; names that it
+lacks are made from their letters.
 
 The notation table of a report is this table with its explanations.
 """
@@ -47,8 +48,31 @@ NOTATION = (
     ("change_2", r"\Delta_2 E", ""),
 )
 GLYPHS = {name: latex for name, latex, _ in NOTATION}
-# The order in which the paper writes factors, and the addends that hold them: numbers, alpha, and then these.
-ORDER = ("alpha", "eps", "K", "n", "k", "g", "T", "t", "tau", "tau_c", "r", "x", "beta", "beta0", "z1", "v", "v0", "z2", "w", "u", "s")
+# The order in which the paper writes factors, and the addends that hold them: numbers, alpha, and
+# then these.
+ORDER = (
+    "alpha",
+    "eps",
+    "K",
+    "n",
+    "k",
+    "g",
+    "T",
+    "t",
+    "tau",
+    "tau_c",
+    "r",
+    "x",
+    "beta",
+    "beta0",
+    "z1",
+    "v",
+    "v0",
+    "z2",
+    "w",
+    "u",
+    "s",
+)
 
 
 def glyph(name: str) -> str:
@@ -68,4 +92,8 @@ def glyph(name: str) -> str:
         return shown
     if below in GLYPHS or len(below) == 1:
         return f"{shown}_{GLYPHS.get(below, below)}"
-    return f"{shown}_{{{below}}}" if below.isdecimal() else rf"{shown}_{{\mathrm{{{below.replace('_', ' ')}}}}}"
+    return (
+        f"{shown}_{{{below}}}"
+        if below.isdecimal()
+        else rf"{shown}_{{\mathrm{{{below.replace('_', ' ')}}}}}"
+    )

@@ -1,4 +1,5 @@
-r"""The notation macros of the LaTeX reports, one for each of the paper's accented names and regions: an author changes them in one place."""
+r"""The notation macros of the LaTeX reports, one for each of the paper's accented names and
+regions: an author changes them in one place."""
 
 from __future__ import annotations
 
@@ -18,7 +19,9 @@ MACROS = (
     ("R", r"\mathcal{R}", r"\\mathcal(?:\{R\}|\s+R)"),
     ("state", r"\bar b", r"\\bar(?:\{\s*b\}|\s+b(?![A-Za-z]))"),
 )
-_NARROW = re.compile(r"\\overline(?=\s*(?:\{\s*(?:\\[A-Za-z]+|[A-Za-z])\s*\}|\\[A-Za-z]+|[A-Za-z]))")
+_NARROW = re.compile(
+    r"\\overline(?=\s*(?:\{\s*(?:\\[A-Za-z]+|[A-Za-z])\s*\}|\\[A-Za-z]+|[A-Za-z]))"
+)
 
 
 def narrow(latex: str) -> str:
@@ -39,8 +42,14 @@ def with_macros(latex: str) -> str:
     shown = narrow(latex)
     for name, _, pattern in MACROS:
         macro = f"\\{PREFIX}{name}"
-        shown = re.sub(pattern + r"(\s*)(?=(.?))", lambda found, macro=macro: macro + (  # type: ignore[misc]
-            " " if found.group(2).isalpha() else found.group(1)), shown, flags=re.DOTALL)
+        shown = re.sub(
+            pattern + r"(\s*)(?=(.?))",
+            lambda found, macro=macro: (
+                macro + (" " if found.group(2).isalpha() else found.group(1))  # type: ignore[misc]
+            ),
+            shown,
+            flags=re.DOTALL,
+        )
     return shown
 
 

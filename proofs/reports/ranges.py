@@ -21,9 +21,14 @@ _WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
 
 
 def rows(entries: Iterable[Any]) -> list[Row]:
-    """A row for each range of each claim that speaks of alpha; entries as `contents` gathers them."""
-    return [(f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
-            for entry in entries if entry.sharp != WITHOUT_ALPHA for label, intervals in read(entry.sharp)]
+    """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
+    them."""
+    return [
+        (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
+        for entry in entries
+        if entry.sharp != WITHOUT_ALPHA
+        for label, intervals in read(entry.sharp)
+    ]
 
 
 def without_alpha(entries: Iterable[Any]) -> int:
@@ -32,7 +37,8 @@ def without_alpha(entries: Iterable[Any]) -> int:
 
 
 def read(text: str) -> list[tuple[str, list[Interval] | None]]:
-    """Each reading's intervals, with its label; one for each number put for K or n; None where the range cannot be drawn.
+    """Each reading's intervals, with its label; one for each number put for K or n; None where the
+    range cannot be drawn.
 
     >>> read("0 < alpha < 1/3")
     [('', [(Fraction(0, 1), Fraction(1, 3), False, False)])]
@@ -48,16 +54,24 @@ def read(text: str) -> list[tuple[str, list[Interval] | None]]:
             told[-1][2][end[1]] = Fraction(end[2])
         else:
             told.append((reading[1], reading[2], {}) if reading else ("", piece, {}))
-    return [(", ".join(part for part in (label, name) if part), intervals)
-            for label, said, ends in told for name, intervals in _for_each_number(said, ends)]
+    return [
+        (", ".join(part for part in (label, name) if part), intervals)
+        for label, said, ends in told
+        for name, intervals in _for_each_number(said, ends)
+    ]
 
 
-def _for_each_number(said: str, ends: Mapping[str, Fraction]) -> list[tuple[str, list[Interval] | None]]:
+def _for_each_number(
+    said: str, ends: Mapping[str, Fraction]
+) -> list[tuple[str, list[Interval] | None]]:
     stated = _WHOLE_NUMBER.fullmatch(said)
     said, number = (stated[1], stated[2]) if stated else (said, "K")
     if not re.search(rf"\b{number}\b", said):
         return [("", _intervals(said, ends))]
-    return [(f"{number} = {one}", _intervals(said, {**ends, number: Fraction(one)})) for one in NUMBERS_SHOWN]
+    return [
+        (f"{number} = {one}", _intervals(said, {**ends, number: Fraction(one)}))
+        for one in NUMBERS_SHOWN
+    ]
 
 
 def _intervals(said: str, values: Mapping[str, Fraction]) -> list[Interval] | None:
@@ -71,7 +85,14 @@ def _intervals(said: str, values: Mapping[str, Fraction]) -> list[Interval] | No
                 number = _value(point[1], values)
                 found.append((number, number, True, True))
             elif between:
-                found.append((_value(between[1], values), _value(between[4], values), between[2] == "<=", between[3] == "<="))
+                found.append(
+                    (
+                        _value(between[1], values),
+                        _value(between[4], values),
+                        between[2] == "<=",
+                        between[3] == "<=",
+                    )
+                )
             else:
                 return None
         except (SyntaxError, LookupError, ZeroDivisionError):
@@ -80,7 +101,8 @@ def _intervals(said: str, values: Mapping[str, Fraction]) -> list[Interval] | No
 
 
 def _value(text: str, values: Mapping[str, Fraction]) -> Fraction:
-    """The value of an end: whole numbers, names, + - * / and parentheses, walked as a tree; LookupError for anything else."""
+    """The value of an end: whole numbers, names, + - * / and parentheses, walked as a tree;
+    LookupError for anything else."""
     return _walk(ast.parse(text, mode="eval").body, values)
 
 
@@ -94,5 +116,15 @@ def _walk(node: ast.expr, values: Mapping[str, Fraction]) -> Fraction:
     if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub, ast.Mult, ast.Div)):
         left, right = _walk(node.left, values), _walk(node.right, values)
         kind = type(node.op)
-        return left + right if kind is ast.Add else left - right if kind is ast.Sub else left * right if kind is ast.Mult else left / right
+        return (
+            left + right
+            if kind is ast.Add
+            else (
+                left - right
+                if kind is ast.Sub
+                else left * right
+                if kind is ast.Mult
+                else left / right
+            )
+        )
     raise LookupError(ast.dump(node))

@@ -1,6 +1,8 @@
-"""What a run found, as plain text and data: the one thing that JSON, JUnit, Markdown and the badge are made of.
+"""What a run found, as plain text and data: the one thing that JSON, JUnit, Markdown and the badge
+are made of.
 
-It is gathered from a run in hand (`certify`, pytest) or from the contents of a report, and is the same for both.
+It is gathered from a run in hand (`certify`, pytest) or from the contents of a report, and is the
+same for both.
 """
 
 from __future__ import annotations
@@ -27,7 +29,8 @@ Entries = Mapping[str, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Stated:
-    """A statement of a claim: the text that the checker reads, its outcome, the votes by route, and where it fails."""
+    """A statement of a claim: the text that the checker reads, its outcome, the votes by route, and
+    where it fails."""
 
     name: str
     text: str
@@ -38,7 +41,8 @@ class Stated:
 
 @dataclass(frozen=True)
 class Result:
-    """A claim as it was judged; `wrong` and `group` tell what is not simply true, as `errata` does."""
+    """A claim as it was judged; `wrong` and `group` tell what is not simply true, as `errata`
+    does."""
 
     id: str
     section: str
@@ -59,10 +63,13 @@ class Result:
 
     def registered(self) -> dict[str, Any]:
         """What the register keeps of it."""
-        return registered(self.verdict, self.detail, self.correction, "" if self.sharp == NO_RANGE else self.sharp)
+        return registered(
+            self.verdict, self.detail, self.correction, "" if self.sharp == NO_RANGE else self.sharp
+        )
 
     def sharp_by_reading(self) -> dict[str, str]:
-        """The sharp range of every reading or step; under no name where the claim has one reading only."""
+        """The sharp range of every reading or step; under no name where the claim has one reading
+        only."""
         parts = re.split(r"(?:^|; )([\w.\-]+): ", self.sharp)
         if self.sharp == NO_RANGE:
             return {}
@@ -71,9 +78,11 @@ class Result:
 
 @dataclass(frozen=True)
 class Results:
-    """All results of a run; `own` where they are about files of the user's, which no register knows.
+    """All results of a run; `own` where they are about files of the user's, which no register
+    knows.
 
-    `rejected` are statements that the checker rejects, with its reason; `accepted` says that the changes are in the register now.
+    `rejected` are statements that the checker rejects, with its reason; `accepted` says that the
+    changes are in the register now.
     """
 
     claims: tuple[Result, ...]
@@ -92,10 +101,15 @@ class Results:
 
     @property
     def exit(self) -> int:
-        """What `certify` exits with: 0 where all verdicts are as registered, or all claims of one's own hold, and nothing is rejected."""
+        """What `certify` exits with: 0 where all verdicts are as registered, or all claims of one's
+        own hold, and nothing is rejected."""
         if self.rejected:
             return 1
-        return int(any(one.verdict != "holds" for one in self.claims) if self.own else bool(self.changes) and not self.accepted)
+        return int(
+            any(one.verdict != "holds" for one in self.claims)
+            if self.own
+            else bool(self.changes) and not self.accepted
+        )
 
     def verdicts(self) -> dict[str, int]:
         """How many claims have each verdict."""
@@ -112,8 +126,16 @@ class Results:
         return {change.claim: change for change in self.changes}
 
 
-def results_of_run(claims: Sequence[Claim], judgements: Sequence[Judgement], register: Entries | None, *, theorem: str = "",
-                   rejected: Sequence[tuple[str, str]] = (), partial: bool = False, accepted: bool = False) -> Results:
+def results_of_run(
+    claims: Sequence[Claim],
+    judgements: Sequence[Judgement],
+    register: Entries | None,
+    *,
+    theorem: str = "",
+    rejected: Sequence[tuple[str, str]] = (),
+    partial: bool = False,
+    accepted: bool = False,
+) -> Results:
     """The results of a run in hand; without a register they are about the user's own claims."""
     from proofs.command import table
     from proofs.command.errata import group_of, what_is_wrong
@@ -121,26 +143,72 @@ def results_of_run(claims: Sequence[Claim], judgements: Sequence[Judgement], reg
     findings = {one.id: one.finding() for one in judgements}
     found = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
     entries = {**(register or {}), **{one.id: one.registered() for one in found}}
-    told = [replace(one, group=group_of(claim, entries, findings),
-                    wrong=() if one.verdict in ("holds", "unknown") else tuple(what_is_wrong(entries[one.id], findings[one.id]["sharp"])))
-            for claim, one in zip(claims, found)]
-    return _results(told, register, rejected, Results((), theorem, tuple(table.summary(judgements).splitlines()[2:]), own=register is None,
-                                                      partial=partial, accepted=accepted))
+    told = [
+        replace(
+            one,
+            group=group_of(claim, entries, findings),
+            wrong=(
+                ()
+                if one.verdict in ("holds", "unknown")
+                else tuple(what_is_wrong(entries[one.id], findings[one.id]["sharp"]))
+            ),
+        )
+        for claim, one in zip(claims, found)
+    ]
+    return _results(
+        told,
+        register,
+        rejected,
+        Results(
+            (),
+            theorem,
+            tuple(table.summary(judgements).splitlines()[2:]),
+            own=register is None,
+            partial=partial,
+            accepted=accepted,
+        ),
+    )
 
 
 def results_of(contents: Any, register: Entries | None = None) -> Results:
-    """The results that reports are built from: results as they are, and contents of a report as results."""
+    """The results that reports are built from: results as they are, and contents of a report as
+    results."""
     if isinstance(contents, Results):
         return contents
     if register is None:
         from proofs.register import load_register
 
         register = load_register()
-    found = [Result(
-        one.claim.id, one.claim.section, one.claim.place, one.claim.says, one.claim.printed, one.claim.as_it_stands, one.claim.repeats, one.verdict,
-        one.detail, one.verdict_text, one.settled_by, one.sharp or NO_RANGE, one.correction, tuple(one.wrong), one.group,
-        tuple(Stated(shown.name, shown.text, shown.outcome, dict(shown.votes), _where(shown.outcome, shown.at)) for shown in one.statements),
-    ) for one in contents.entries]
+    found = [
+        Result(
+            one.claim.id,
+            one.claim.section,
+            one.claim.place,
+            one.claim.says,
+            one.claim.printed,
+            one.claim.as_it_stands,
+            one.claim.repeats,
+            one.verdict,
+            one.detail,
+            one.verdict_text,
+            one.settled_by,
+            one.sharp or NO_RANGE,
+            one.correction,
+            tuple(one.wrong),
+            one.group,
+            tuple(
+                Stated(
+                    shown.name,
+                    shown.text,
+                    shown.outcome,
+                    dict(shown.votes),
+                    _where(shown.outcome, shown.at),
+                )
+                for shown in one.statements
+            ),
+        )
+        for one in contents.entries
+    ]
     return _results(found, register, (), Results((), contents.theorem, tuple(contents.votes)))
 
 
@@ -153,37 +221,85 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         return counterexample(certificate["refuted"]) if judged.outcomes[name] == "refuted" else ""
 
     statements = tuple(
-        Stated(name, text, judged.outcomes[name], {vote.route: vote.answer for vote in judged.votes.get(name, ())},
-               _where(judged.outcomes[name], at(name))) for name, text in judged.statements)
-    return Result(claim.id, claim.section, claim.place, claim.says, claim.printed, claim.as_it_stands, claim.repeats, judged.verdict.word,
-                  judged.verdict.detail, table.verdict_text(claim, judged), table.settled_by(judged), table.sharp_range(judged), judged.correction,
-                  (), "", statements)
+        Stated(
+            name,
+            text,
+            judged.outcomes[name],
+            {vote.route: vote.answer for vote in judged.votes.get(name, ())},
+            _where(judged.outcomes[name], at(name)),
+        )
+        for name, text in judged.statements
+    )
+    return Result(
+        claim.id,
+        claim.section,
+        claim.place,
+        claim.says,
+        claim.printed,
+        claim.as_it_stands,
+        claim.repeats,
+        judged.verdict.word,
+        judged.verdict.detail,
+        table.verdict_text(claim, judged),
+        table.settled_by(judged),
+        table.sharp_range(judged),
+        judged.correction,
+        (),
+        "",
+        statements,
+    )
 
 
 def _where(outcome: str, at: str) -> str:
     return (at or NO_VALUES) if outcome == "refuted" else ""
 
 
-def _results(found: Sequence[Result], register: Entries | None, rejected: Sequence[tuple[str, str]], about: Results) -> Results:
-    """Takes what the checker rejected back, compares with the register, and leaves out what no file can hold."""
+def _results(
+    found: Sequence[Result],
+    register: Entries | None,
+    rejected: Sequence[tuple[str, str]],
+    about: Results,
+) -> Results:
+    """Takes what the checker rejected back, compares with the register, and leaves out what no file
+    can hold."""
     reasons = dict(rejected)
     claims = tuple(_written(_without(one, reasons)) for one in found)
-    changes = () if register is None else tuple(differences(register, {one.id: one.registered() for one in claims}, about.partial))
+    changes = (
+        ()
+        if register is None
+        else tuple(
+            differences(register, {one.id: one.registered() for one in claims}, about.partial)
+        )
+    )
     return replace(about, claims=claims, changes=changes, rejected=tuple(reasons.items()))
 
 
 def _without(one: Result, reasons: Mapping[str, str]) -> Result:
-    """The result where statements of the claim are rejected: such a claim is not settled, whatever was thought of it."""
+    """The result where statements of the claim are rejected: such a claim is not settled, whatever
+    was thought of it."""
     lost = [stated.name for stated in one.statements if stated.name in reasons]
     if not lost:
         return one
-    statements = tuple(replace(stated, outcome="rejected", at="") if stated.name in reasons else stated for stated in one.statements)
-    return replace(one, verdict="unknown", verdict_text="unknown", detail=f"the checker rejects {lost[0]}: {reasons[lost[0]]}",
-                   correction=None, sharp=NO_RANGE, wrong=(), group="", statements=statements)
+    statements = tuple(
+        replace(stated, outcome="rejected", at="") if stated.name in reasons else stated
+        for stated in one.statements
+    )
+    return replace(
+        one,
+        verdict="unknown",
+        verdict_text="unknown",
+        detail=f"the checker rejects {lost[0]}: {reasons[lost[0]]}",
+        correction=None,
+        sharp=NO_RANGE,
+        wrong=(),
+        group="",
+        statements=statements,
+    )
 
 
 def _written(one: Result) -> Result:
-    """The result with characters replaced that neither XML nor UTF-8 can hold: a docstring may have any."""
+    """The result with characters replaced that neither XML nor UTF-8 can hold: a docstring may have
+    any."""
     told = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
     return replace(one, **told)  # type: ignore[arg-type]
 

@@ -9,14 +9,44 @@ from proofs.reports.latex import latex_of
 from proofs.reports.names import glyph
 
 WORDS = {
-    "forall": "for all", "integer": "whole numbers", "range": "given", "given": "given", "have": "so that", "let": "where", "root": "where",
-    "exists": "there are", "with": "with", "show": "then", "iterates": "the map", "after": "after", "over": "for all",
+    "forall": "for all",
+    "integer": "whole numbers",
+    "range": "given",
+    "given": "given",
+    "have": "so that",
+    "let": "where",
+    "root": "where",
+    "exists": "there are",
+    "with": "with",
+    "show": "then",
+    "iterates": "the map",
+    "after": "after",
+    "over": "for all",
     "domain": "given",
-    "holds": "exactly if", "number": "where", "state": "of the state", "space": "in", "piece": "the map", "rank": "rank", "stage": "stage",
+    "holds": "exactly if",
+    "number": "where",
+    "state": "of the state",
+    "space": "in",
+    "piece": "the map",
+    "rank": "rank",
+    "stage": "stage",
     "on": "on",
-    "point": "point", "weights": "weights", "rate": "rate", "radius": "radius", "size": "size", "start": "start",
+    "point": "point",
+    "weights": "weights",
+    "rate": "rate",
+    "radius": "radius",
+    "size": "size",
+    "start": "start",
 }
-NAMES = {"sharp", "map", "descent", "contraction", "attraction", "escape", "word"}  # lines that name statements, or pieces by number
+NAMES = {
+    "sharp",
+    "map",
+    "descent",
+    "contraction",
+    "attraction",
+    "escape",
+    "word",
+}  # lines that name statements, or pieces by number
 
 
 def lines_of(text: str) -> list[tuple[str, str, str]]:
@@ -47,12 +77,18 @@ def _content(keyword: str, said: str) -> str:
             return rf"{glyph(name)} = \sqrt{{{latex_of(rooted.group(2))}}}"
         polynomial, low, high = parts_of(rooted.group(2))
         held = rf"{latex_of(low)} \le {glyph(name)} \le {latex_of(high)}"
-        return rf"{glyph(name)}\ \text{{is the root of}}\ {latex_of(polynomial)}\ \text{{with}}\ {held}"
+        return (
+            rf"{glyph(name)}\ \text{{is the root"
+            rf" of}}\ {latex_of(polynomial)}\ \text{{with}}\ {held}"
+        )
     if keyword in ("iterates", "piece") and "->" in said:
         source, _, image = said.partition(" -> ")
         if keyword == "piece":
             return rf"{latex_of(source)} \;\mapsto\; ({', '.join(map(latex_of, parts_of(image)))})"
-        return rf"({', '.join(map(latex_of, parts_of(_bare(source))))}) \mapsto ({', '.join(map(latex_of, parts_of(_bare(image))))})"
+        return (
+            rf"({', '.join(map(latex_of, parts_of(_bare(source))))}) \mapsto"
+            rf" ({', '.join(map(latex_of, parts_of(_bare(image))))})"
+        )
     if keyword == "after":
         count, _, image = said.partition(" -> ")
         return rf"{glyph(count)}:\ ({', '.join(map(latex_of, parts_of(_bare(image))))})"
@@ -82,7 +118,12 @@ def _merged(lines: list[tuple[str, str, str]]) -> Iterator[tuple[str, str, str]]
     while place < len(lines):
         word, kind, content = lines[place]
         held = [content]
-        while word != "then" and kind == "math" and place + 1 < len(lines) and lines[place + 1][:2] == (word, kind):
+        while (
+            word != "then"
+            and kind == "math"
+            and place + 1 < len(lines)
+            and lines[place + 1][:2] == (word, kind)
+        ):
             place += 1
             held.append(lines[place][2])
         if held[:2] == [r"\alpha > 0", r"\alpha < 1"]:
@@ -95,7 +136,22 @@ def formulas_of(text: str) -> Iterator[tuple[str, str]]:
     """Every formula of a statement with its LaTeX, for comparison."""
     for line in text.splitlines()[1:]:
         keyword, _, said = line.partition(" ")
-        if keyword in ("range", "given", "have", "with", "show", "domain", "holds", "space", "rank", "stage", "on", "rate", "radius", "size"):
+        if keyword in (
+            "range",
+            "given",
+            "have",
+            "with",
+            "show",
+            "domain",
+            "holds",
+            "space",
+            "rank",
+            "stage",
+            "on",
+            "rate",
+            "radius",
+            "size",
+        ):
             yield said, latex_of(said)
         elif keyword in ("point", "weights", "start"):
             yield from ((part, latex_of(part)) for part in parts_of(said))
@@ -106,7 +162,8 @@ def formulas_of(text: str) -> Iterator[tuple[str, str]]:
                 yield part, latex_of(part)
         elif keyword in ("piece", "iterates", "after") and "->" in said:
             source, _, image = said.partition(" -> ")
-            for part in [*(parts_of(_bare(source)) if keyword != "after" else []), *parts_of(_bare(image))]:
+            for part in [
+                *(parts_of(_bare(source)) if keyword != "after" else []),
+                *parts_of(_bare(image)),
+            ]:
                 yield part, latex_of(part)
-
-

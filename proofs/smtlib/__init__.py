@@ -1,1 +1,2 @@
-"""Problems written as SMT-LIB 2 scripts: read as statements, answered with certificates and exact models."""
+"""Problems written as SMT-LIB 2 scripts: read as statements, answered with certificates and exact
+models."""

@@ -1,4 +1,5 @@
-"""Answers problems: unsat by a certificate that the checker accepted, sat by an exact model that it accepted, else unknown.
+"""Answers problems: unsat by a certificate that the checker accepted, sat by an exact model that it
+accepted, else unknown.
 
 A question and its answer are plain text and data, so that they pass between processes and machines.
 """
@@ -25,7 +26,8 @@ WORDS = {"certified": "unsat", "refuted": "sat"}
 
 @dataclass(frozen=True)
 class Question:
-    """A statement that is certified where a problem has no solution; where it has givens, also that these contradict one another.
+    """A statement that is certified where a problem has no solution; where it has givens, also that
+    these contradict one another.
 
     `stored` holds certificates of an earlier run, by the text of the statement.
     """
@@ -57,13 +59,19 @@ class Answer:
 
     @property
     def numbers(self) -> tuple[str, ...]:
-        """The algebraic numbers that the model speaks of, each as the root of a polynomial between two bounds."""
+        """The algebraic numbers that the model speaks of, each as the root of a polynomial between
+        two bounds."""
         entries = self.certificate["refuted"][1] if self.word == "sat" else []
-        return tuple(f"{low} <= {name} <= {high}, {poly} = 0" for name, poly, low, high, *_ in entries)
+        return tuple(
+            f"{low} <= {name} <= {high}, {poly} = 0" for name, poly, low, high, *_ in entries
+        )
 
 
-def question(problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None) -> Question:
-    """The question that a problem comes to; raises ClaimError, one line, for a division by what may vanish."""
+def question(
+    problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None
+) -> Question:
+    """The question that a problem comes to; raises ClaimError, one line, for a division by what may
+    vanish."""
     whole = statement_of(problem, name)
     parts = [whole, denial(problem, name, givens(whole))] if givens(whole) else [whole]
     texts = tuple(part.text() for part in parts)
@@ -87,7 +95,11 @@ def answer(asked: Question) -> Answer:
         word = settled(asked.name, text, certificate)
         if word == "unsat" or word == "sat" and text == asked.texts[0]:
             return Answer(asked.name, word, text, certificate)
-        told = certificate if "unknown" in certificate else {"unknown": "the checker rejects what was found"}
+        told = (
+            certificate
+            if "unknown" in certificate
+            else {"unknown": "the checker rejects what was found"}
+        )
         first = first or Answer(asked.name, "unknown", text, told)
     return first or Answer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
 
@@ -100,17 +112,22 @@ def settled(name: str, text: str, certificate: Any) -> str:
 
 def _searched(name: str, text: str, budget: int) -> dict[str, Any]:
     try:
-        return search_certificate(checker.read_statements(text)[name], {}, Budget(budget), attempts=SQUARES_FIRST)
+        return search_certificate(
+            checker.read_statements(text)[name], {}, Budget(budget), attempts=SQUARES_FIRST
+        )
     except Exhausted:
         return {"unknown": f"the budget of {budget} units ran out"}
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise
-        return {"unknown": "its numbers grow too long for the search"}  # beyond floats, or beyond what Python writes
+        return {
+            "unknown": "its numbers grow too long for the search"
+        }  # beyond floats, or beyond what Python writes
 
 
 def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
-    """The model in the script's own symbols, in its order; a variable that no assertion mentions is 0.
+    """The model in the script's own symbols, in its order; a variable that no assertion mentions is
+    0.
 
     A Bool is told by the sign of the real that stands for it, where that is a number.
     """
@@ -118,7 +135,12 @@ def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
     for variable in problem.variables:
         value = values.get(variable.name, "0")
         if variable.sort == "Bool":
-            value = f"{value} > 0" if re.search("[A-Za-z]", value) else "true" if Fraction(value) > 0 else "false"
+            value = (
+                f"{value} > 0"
+                if re.search("[A-Za-z]", value)
+                else "true"
+                if Fraction(value) > 0
+                else "false"
+            )
         told.append((variable.symbol, value))
     return told
-

@@ -1,4 +1,5 @@
-"""Names of an SMT-LIB script in our language: the same where they can be, else made from their letters."""
+"""Names of an SMT-LIB script in our language: the same where they can be, else made from their
+letters."""
 
 from __future__ import annotations
 
@@ -7,7 +8,11 @@ from collections.abc import Collection
 
 from certificates.terms import NAME, RESERVED
 
-OURS = RESERVED | {"alpha", "r", "g"}  # the search gives these favoured values, as the paper's parameter and units have them
+OURS = RESERVED | {
+    "alpha",
+    "r",
+    "g",
+}  # the search gives these favoured values, as the paper's parameter and units have them
 
 
 def our_name(symbol: str, taken: Collection[str]) -> str:

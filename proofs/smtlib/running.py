@@ -1,4 +1,5 @@
-"""Answers all problems of some scripts, by any executor, and keeps statements and certificates beside each script."""
+"""Answers all problems of some scripts, by any executor, and keeps statements and certificates
+beside each script."""
 
 from __future__ import annotations
 
@@ -18,12 +19,16 @@ from proofs.running import one_at_a_time, spread
 from .answering import BUDGET, Answer, Question, answer, question
 from .script import Problem, problems_of_file
 
-TITLE = "What the problems of {} come to: certified says unsat, refuted says sat; certificates/checker.py reads this file and believes nothing else."
+TITLE = (
+    "What the problems of {} come to: certified says unsat, refuted says sat;"
+    " certificates/checker.py reads this file and believes nothing else."
+)
 
 
 @dataclass(frozen=True)
 class Answered:
-    """One problem of a script with its answer; `rejected` is why the checker, reading the stored file, rejects its certificate."""
+    """One problem of a script with its answer; `rejected` is why the checker, reading the stored
+    file, rejects its certificate."""
 
     path: Path
     problem: Problem
@@ -38,7 +43,11 @@ class Answered:
     @property
     def contradicts(self) -> bool:
         """Whether the script states another answer."""
-        return self.answer.word != "unknown" and self.problem.status not in ("", "unknown", self.answer.word)
+        return self.answer.word != "unknown" and self.problem.status not in (
+            "",
+            "unknown",
+            self.answer.word,
+        )
 
     @property
     def settled(self) -> bool:
@@ -60,9 +69,17 @@ def folder_of(path: Path, store: Path | None) -> Path:
     return store or path.with_suffix(".certificates")
 
 
-def answer_files(paths: Sequence[Path], *, budget: int = BUDGET, store: Path | None = None, fresh: bool = False, executor: Executor | None = None,
-                 progress: Callable[[Answer], None] = lambda answered: None) -> list[Answered]:
-    """Every problem of the scripts with its answer, in order; statements and certificates are written, and the checker reads them again.
+def answer_files(
+    paths: Sequence[Path],
+    *,
+    budget: int = BUDGET,
+    store: Path | None = None,
+    fresh: bool = False,
+    executor: Executor | None = None,
+    progress: Callable[[Answer], None] = lambda answered: None,
+) -> list[Answered]:
+    """Every problem of the scripts with its answer, in order; statements and certificates are
+    written, and the checker reads them again.
 
     Raises ClaimError, one line, for what is no script of QF_NRA.
     """
@@ -70,18 +87,47 @@ def answer_files(paths: Sequence[Path], *, budget: int = BUDGET, store: Path | N
     ids = [id_of(path) for path in paths]
     folders = [folder_of(path, store) for path in paths]
     for k, (path, _) in enumerate(read):
-        same = next((other for other in range(k) if folders[other] == folders[k] and ids[other] == ids[k]), None)
+        same = next(
+            (other for other in range(k) if folders[other] == folders[k] and ids[other] == ids[k]),
+            None,
+        )
         if same is not None:
-            raise ClaimError(f"{path}: its statements would have the names of those of {paths[same]}; rename one")
+            raise ClaimError(
+                f"{path}: its statements would have the names of those of {paths[same]}; rename one"
+            )
     asked: list[Question] = []
     for (_, problems), name, folder in zip(read, ids, folders):
         stored = Store(Path(os.devnull) if fresh else folder)
         for problem in problems:
-            asked.append(question(problem, f"{name}/check" + (f"-{problem.number}" if len(problems) > 1 else ""), budget, stored))
-    answers = iter(spread(partial(one_at_a_time, answer), asked, executor, lambda _, answered: progress(answered)))
-    answered = [Answered(path, problem, next(answers)) for path, problems in read for problem in problems]
-    rejected = {folder: _kept(folder, [one for one in answered if folder_of(one.path, store) == folder]) for folder in dict.fromkeys(folders)}
-    return [Answered(one.path, one.problem, one.answer, rejected[folder_of(one.path, store)].get(one.answer.name, "")) for one in answered]
+            asked.append(
+                question(
+                    problem,
+                    f"{name}/check" + (f"-{problem.number}" if len(problems) > 1 else ""),
+                    budget,
+                    stored,
+                )
+            )
+    answers = iter(
+        spread(
+            partial(one_at_a_time, answer), asked, executor, lambda _, answered: progress(answered)
+        )
+    )
+    answered = [
+        Answered(path, problem, next(answers)) for path, problems in read for problem in problems
+    ]
+    rejected = {
+        folder: _kept(folder, [one for one in answered if folder_of(one.path, store) == folder])
+        for folder in dict.fromkeys(folders)
+    }
+    return [
+        Answered(
+            one.path,
+            one.problem,
+            one.answer,
+            rejected[folder_of(one.path, store)].get(one.answer.name, ""),
+        )
+        for one in answered
+    ]
 
 
 def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
@@ -90,8 +136,18 @@ def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
     blocks = [f"# {TITLE.format(scripts)}"]
     certificates: dict[str, dict[str, object]] = {}
     for one in answered:
-        renamed = [f"{variable.name} is {ascii(variable.symbol)[1:-1]}" for variable in one.problem.variables if variable.name != variable.symbol]
+        renamed = [
+            f"{variable.name} is {ascii(variable.symbol)[1:-1]}"
+            for variable in one.problem.variables
+            if variable.name != variable.symbol
+        ]
         blocks.append((f"# {', '.join(renamed)}\n" if renamed else "") + one.answer.text)
-        certificates.setdefault(one.answer.name.split("/")[0], {})[one.answer.name] = one.answer.certificate
+        certificates.setdefault(one.answer.name.split("/")[0], {})[one.answer.name] = (
+            one.answer.certificate
+        )
     write_store(folder, "\n\n".join(blocks) + "\n", certificates)
-    return {name: reason for name, outcome, reason in checker.check_folder(str(folder)) if outcome == "rejected"}
+    return {
+        name: reason
+        for name, outcome, reason in checker.check_folder(str(folder))
+        if outcome == "rejected"
+    }

@@ -1,7 +1,8 @@
-"""Reads a whole SMT-LIB 2 script: each `check-sat` becomes a problem, the assertions that stand at it.
+"""Reads a whole SMT-LIB 2 script: each `check-sat` becomes a problem, the assertions that stand at
+it.
 
-Formula: the assertions F1, .., Fn have no solution <=> for all reals: not (F1 and .. and Fn), which is the statement of the problem.
-Source: SMT-LIB 2.6, logics QF_NRA and QF_LRA.
+Formula: the assertions F1, .., Fn have no solution <=> for all reals: not (F1 and .. and Fn), which
+is the statement of the problem. Source: SMT-LIB 2.6, logics QF_NRA and QF_LRA.
 """
 
 from __future__ import annotations
@@ -19,14 +20,27 @@ from .sexpr import Expression, Node, Script, Word
 from .values import Value, plain
 
 LOGICS = ("QF_NRA", "QF_LRA")
-IDLE = frozenset({"echo", "get-model", "get-value", "get-info", "get-option", "get-assertions", "get-assignment", "get-proof", "get-unsat-core",
-                  "get-unsat-assumptions"})  # they ask for what is shown, and change nothing
+IDLE = frozenset(
+    {
+        "echo",
+        "get-model",
+        "get-value",
+        "get-info",
+        "get-option",
+        "get-assertions",
+        "get-assignment",
+        "get-proof",
+        "get-unsat-core",
+        "get-unsat-assumptions",
+    }
+)  # they ask for what is shown, and change nothing
 STATUSES = ("sat", "unsat", "unknown")
 
 
 @dataclass(frozen=True)
 class Variable:
-    """A constant of the script: its symbol there, its name in our language, its sort; a Bool b is the reals' b > 0."""
+    """A constant of the script: its symbol there, its name in our language, its sort; a Bool b is
+    the reals' b > 0."""
 
     symbol: str
     name: str
@@ -35,7 +49,8 @@ class Variable:
 
 @dataclass(frozen=True)
 class Problem:
-    """What one `check-sat` asks: whether all of the assertions can hold at once; `status` is what the script says of it.
+    """What one `check-sat` asks: whether all of the assertions can hold at once; `status` is what
+    the script says of it.
 
     Each assertion stands with its line.
     """
@@ -72,35 +87,61 @@ class Session:
 
     def obey(self, command: Expression) -> None:
         """Carries out one command."""
-        if not isinstance(command, Node) or not command.items or not isinstance(command.items[0], Word):
-            self.script.fail(command, f"{brief(command)} is no command", "write commands as (assert ..)")
+        if (
+            not isinstance(command, Node)
+            or not command.items
+            or not isinstance(command.items[0], Word)
+        ):
+            self.script.fail(
+                command, f"{brief(command)} is no command", "write commands as (assert ..)"
+            )
         name = command.items[0].text
         doer = getattr(self, "_" + name.replace("-", "_"), None) if name in COMMANDS else None
         if doer is None and name not in IDLE:
-            self.script.fail(command, f"{name}: an unknown command", "use declare-const, define-fun, assert, check-sat, push, pop, reset")
+            self.script.fail(
+                command,
+                f"{name}: an unknown command",
+                "use declare-const, define-fun, assert, check-sat, push, pop, reset",
+            )
         if doer is not None:
             least, most = COMMANDS[name]
             if not least <= len(command.items) - 1 <= most:
-                self.script.fail(command, f"{name} takes {least if least == most else f'{least} to {most}'} arguments, not {len(command.items) - 1}",
-                                 "mend the command")
+                self.script.fail(
+                    command,
+                    f"{name} takes {least if least == most else f'{least} to {most}'} arguments,"
+                    f" not {len(command.items) - 1}",
+                    "mend the command",
+                )
             doer(command, *command.items[1:])
 
     # ------------------------------------------------------------ settings
 
     def _set_logic(self, command: Node, logic: Expression) -> None:
         if str(logic) not in LOGICS:
-            self.script.fail(command, f"the logic {logic} is not taken on", f"use {' or '.join(LOGICS)}")
+            self.script.fail(
+                command, f"the logic {logic} is not taken on", f"use {' or '.join(LOGICS)}"
+            )
         self.logic = str(logic)
 
-    def _set_info(self, command: Node, keyword: Expression, value: Expression | None = None) -> None:
+    def _set_info(
+        self, command: Node, keyword: Expression, value: Expression | None = None
+    ) -> None:
         if str(keyword) == ":status":
             if str(value) not in STATUSES:
-                self.script.fail(command, f"the status {value} is none", f"write one of {', '.join(STATUSES)}")
+                self.script.fail(
+                    command, f"the status {value} is none", f"write one of {', '.join(STATUSES)}"
+                )
             self.status = str(value)
 
-    def _set_option(self, command: Node, keyword: Expression, value: Expression | None = None) -> None:
+    def _set_option(
+        self, command: Node, keyword: Expression, value: Expression | None = None
+    ) -> None:
         if str(keyword) == ":global-declarations" and str(value) != "false":
-            self.script.fail(command, "declarations that outlive their (pop) are not taken on", "declare before (push)")
+            self.script.fail(
+                command,
+                "declarations that outlive their (pop) are not taken on",
+                "declare before (push)",
+            )
 
     def _exit(self, command: Node) -> None:
         self.ended = True
@@ -111,44 +152,75 @@ class Session:
         if not isinstance(word, Word) or word.kind != "symbol":
             self.script.fail(word, f"{brief(word)} is no symbol", "name what is declared")
         if word.text in RESERVED or word.text in self.scope:
-            self.script.fail(word, f"{word.text} is declared already, or is reserved", "choose another name")
+            self.script.fail(
+                word, f"{word.text} is declared already, or is reserved", "choose another name"
+            )
         return word.text
 
     def _sort(self, node: Expression) -> str:
         if str(node) not in SORTS:
-            self.script.fail(node, f"the sort {brief(node)} is not taken on", f"use {' or '.join(SORTS)}")
+            self.script.fail(
+                node, f"the sort {brief(node)} is not taken on", f"use {' or '.join(SORTS)}"
+            )
         return str(node)
 
     def _declare_const(self, command: Node, word: Expression, sort: Expression) -> None:
-        variable = Variable(symbol := self._symbol(word), our_name(symbol, self.names()), self._sort(sort))
+        variable = Variable(
+            symbol := self._symbol(word), our_name(symbol, self.names()), self._sort(sort)
+        )
         self.frames[-1].variables.append(variable)
-        self.frames[-1].scope[symbol] = plain(real(variable.name)) if variable.sort == "Real" else real(variable.name) > 0
+        self.frames[-1].scope[symbol] = (
+            plain(real(variable.name)) if variable.sort == "Real" else real(variable.name) > 0
+        )
 
     def names(self) -> set[str]:
         """The names that the variables bear in our language."""
         return {variable.name for frame in self.frames for variable in frame.variables}
 
-    def _declare_fun(self, command: Node, word: Expression, parameters: Expression, sort: Expression) -> None:
+    def _declare_fun(
+        self, command: Node, word: Expression, parameters: Expression, sort: Expression
+    ) -> None:
         if not isinstance(parameters, Node) or parameters.items:
-            self.script.fail(command, f"{brief(word)} is declared with parameters: uninterpreted functions are not taken on",
-                             "define it by define-fun")
+            self.script.fail(
+                command,
+                f"{brief(word)} is declared with parameters: uninterpreted functions are not"
+                " taken on",
+                "define it by define-fun",
+            )
         self._declare_const(command, word, sort)
 
-    def _define_fun(self, command: Node, word: Expression, parameters: Expression, sort: Expression, body: Expression) -> None:
+    def _define_fun(
+        self,
+        command: Node,
+        word: Expression,
+        parameters: Expression,
+        sort: Expression,
+        body: Expression,
+    ) -> None:
         symbol, sort_name = self._symbol(word), self._sort(sort)
         pairs = self.reader.pairs(parameters, "define-fun name")
         if not isinstance(parameters, Node):
-            self.script.fail(command, f"{brief(parameters)} is no list of parameters", "write ((x Real) ..)")
-        function = Function(tuple((name, self._sort(own)) for name, own in pairs), sort_name, body, self.scope)
-        # read once with parameters that stand for anything, so that a fault is told where it is written
-        inner = {name: plain(real("any")) if own == "Real" else real("any") > 0 for name, own in function.parameters}
+            self.script.fail(
+                command, f"{brief(parameters)} is no list of parameters", "write ((x Real) ..)"
+            )
+        function = Function(
+            tuple((name, self._sort(own)) for name, own in pairs), sort_name, body, self.scope
+        )
+        # read once with parameters that stand for anything, so that a fault is told where it is
+        # written
+        inner = {
+            name: plain(real("any")) if own == "Real" else real("any") > 0
+            for name, own in function.parameters
+        }
         value = self._of_sort(sort_name, body, {**function.scope, **inner})
         self.frames[-1].scope[symbol] = function if function.parameters else value
 
     def _of_sort(self, sort: str, body: Expression, scope: Mapping[str, Any]) -> Value:
         return self.reader.real(body, scope) if sort == "Real" else self.reader.formula(body, scope)
 
-    def _define_const(self, command: Node, word: Expression, sort: Expression, body: Expression) -> None:
+    def _define_const(
+        self, command: Node, word: Expression, sort: Expression, body: Expression
+    ) -> None:
         self._define_fun(command, word, Node((), command.line), sort, body)
 
     # ------------------------------------------------------------ assertions
@@ -159,7 +231,16 @@ class Session:
     def _check_sat(self, command: Node) -> None:
         variables = tuple(variable for frame in self.frames for variable in frame.variables)
         assertions = tuple(pair for frame in self.frames for pair in frame.assertions)
-        self.problems.append(Problem(self.script.file, command.line, len(self.problems) + 1, variables, assertions, self.status))
+        self.problems.append(
+            Problem(
+                self.script.file,
+                command.line,
+                len(self.problems) + 1,
+                variables,
+                assertions,
+                self.status,
+            )
+        )
         self.status = ""
 
     def _push(self, command: Node, count: Expression | None = None) -> None:
@@ -169,11 +250,15 @@ class Session:
         levels = self._levels(command, count)
         if levels >= len(self.frames):
             self.script.fail(command, f"(pop {levels}) without that many (push)", "mend the count")
-        del self.frames[len(self.frames) - levels:]
+        del self.frames[len(self.frames) - levels :]
 
     def _levels(self, command: Node, count: Expression | None) -> int:
-        if count is not None and (not isinstance(count, Word) or count.kind != "numeral" or len(count.text) > 3):
-            self.script.fail(command, f"{brief(count)} is no number of levels", "write a numeral up to 999")
+        if count is not None and (
+            not isinstance(count, Word) or count.kind != "numeral" or len(count.text) > 3
+        ):
+            self.script.fail(
+                command, f"{brief(count)} is no number of levels", "write a numeral up to 999"
+            )
         return 1 if count is None else int(str(count))
 
     def _reset(self, command: Node) -> None:
@@ -183,9 +268,22 @@ class Session:
         self.frames = [Frame()]
 
 
-COMMANDS = {"set-logic": (1, 1), "set-info": (1, 2), "set-option": (1, 2), "exit": (0, 0), "declare-const": (2, 2), "declare-fun": (3, 3),
-            "define-fun": (4, 4), "define-const": (3, 3), "assert": (1, 1), "check-sat": (0, 0), "push": (0, 1), "pop": (0, 1), "reset": (0, 0),
-            "reset-assertions": (0, 0)}
+COMMANDS = {
+    "set-logic": (1, 1),
+    "set-info": (1, 2),
+    "set-option": (1, 2),
+    "exit": (0, 0),
+    "declare-const": (2, 2),
+    "declare-fun": (3, 3),
+    "define-fun": (4, 4),
+    "define-const": (3, 3),
+    "assert": (1, 1),
+    "check-sat": (0, 0),
+    "push": (0, 1),
+    "pop": (0, 1),
+    "reset": (0, 0),
+    "reset-assertions": (0, 0),
+}
 
 
 def read_problems(text: str, file: str) -> list[Problem]:
@@ -194,7 +292,8 @@ def read_problems(text: str, file: str) -> list[Problem]:
     >>> [one.assertions for one in read_problems("(declare-const x Real)(assert (< (* x x) 0))(check-sat)", "f")]
     [((1, Formula('x*x < 0')),)]
 
-    Raises ClaimError, one line with file and line, for what is no script of QF_NRA, or holds no check-sat.
+    Raises ClaimError, one line with file and line, for what is no script of QF_NRA, or holds no
+    check-sat.
     """
     session = Session(Script(text, file))
     for command in session.script.expressions():
@@ -212,4 +311,6 @@ def problems_of_file(path: Path) -> list[Problem]:
     try:
         return read_problems(path.read_text(encoding="utf-8"), str(path))
     except (OSError, UnicodeDecodeError) as error:
-        raise ClaimError(f"{path}: cannot be read ({type(error).__name__}); name a text file") from None
+        raise ClaimError(
+            f"{path}: cannot be read ({type(error).__name__}); name a text file"
+        ) from None

@@ -11,14 +11,17 @@ from certificates.terms import ClaimError
 
 DEEPEST = 200
 TOKEN = re.compile(
-    r'(?P<space>[ \t\r\n]+|;[^\n]*)|(?P<paren>[()])|(?P<string>"(?:[^"]|"")*")|(?P<quoted>\|[^|\\]*\|)'
+    r"(?P<space>["
+    r' \t\r\n]+|;[^\n]*)|(?P<paren>[()])|(?P<string>"(?:[^"]|"")*")|(?P<quoted>\|[^|\\]*\|)'
     r"|(?P<decimal>(?:0|[1-9][0-9]*)\.[0-9]+(?![^\s();\"|]))|(?P<numeral>(?:0|[1-9][0-9]*)(?![^\s();\"|]))"
-    r"|(?P<keyword>:[A-Za-z0-9~!@$%^&*_+=<>.?/-]+)|(?P<symbol>[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*)")
+    r"|(?P<keyword>:[A-Za-z0-9~!@$%^&*_+=<>.?/-]+)|(?P<symbol>[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*)"
+)
 
 
 @dataclass(frozen=True)
 class Word:
-    """A symbol, numeral, decimal, keyword or string; a symbol written |so| is the same as one written so."""
+    """A symbol, numeral, decimal, keyword or string; a symbol written |so| is the same as one
+    written so."""
 
     text: str
     kind: str
@@ -51,7 +54,9 @@ class Script:
     def fail(self, at: Expression | int, problem: str, mend: str) -> NoReturn:
         """Raises ClaimError, one line: file, line, what is wrong and how to mend it."""
         line = at if isinstance(at, int) else at.line
-        raise ClaimError(f"{self.file}:{line}: {' '.join(problem.split())}; {' '.join(mend.split())}")
+        raise ClaimError(
+            f"{self.file}:{line}: {' '.join(problem.split())}; {' '.join(mend.split())}"
+        )
 
     def expressions(self) -> Iterator[Expression]:
         """The expressions at top level, in order.
@@ -63,7 +68,11 @@ class Script:
         for kind, text, line in self._tokens():
             if text == "(" and kind == "paren":
                 if len(opened) >= DEEPEST:
-                    self.fail(line, f"parentheses nested more than {DEEPEST} deep", "define parts by define-fun or let")
+                    self.fail(
+                        line,
+                        f"parentheses nested more than {DEEPEST} deep",
+                        "define parts by define-fun or let",
+                    )
                 opened.append((line, []))
                 continue
             if kind == "paren":
@@ -85,7 +94,11 @@ class Script:
         while at < len(self.text):
             found = TOKEN.match(self.text, at)
             if found is None:
-                self.fail(line, f"{self.text[at:at + 20].split()[0]!r} is no part of SMT-LIB", "mend or remove it")
+                self.fail(
+                    line,
+                    f"{self.text[at : at + 20].split()[0]!r} is no part of SMT-LIB",
+                    "mend or remove it",
+                )
             kind, text = str(found.lastgroup), found[0]
             if kind == "quoted":
                 yield "symbol", text[1:-1], line

@@ -1,7 +1,8 @@
 """States a problem in our language: for all reals, not all of the assertions hold.
 
-Where the script divides, what keeps a divisor from 0 has to come first: the assertions without divisions are then givens, and a divisor that
-none of them licenses gets a `have` line, which the certificate proves.  SMT-LIB lets x/0 be anything, so a divisor that may vanish is refused.
+Where the script divides, what keeps a divisor from 0 has to come first: the assertions without
+divisions are then givens, and a divisor that none of them licenses gets a `have` line, which the
+certificate proves.  SMT-LIB lets x/0 be anything, so a divisor that may vanish is refused.
 """
 
 from __future__ import annotations
@@ -32,7 +33,11 @@ def statement_of(problem: Problem, name: str) -> Statement:
 
     Raises ClaimError, one line, for a division by what may vanish.
     """
-    parts = [(line, part) for line, formula in problem.assertions for part in (formula.args if formula.op == "and" else (formula,))]
+    parts = [
+        (line, part)
+        for line, formula in problem.assertions
+        for part in (formula.args if formula.op == "and" else (formula,))
+    ]
     divided = [(line, part) for line, part in parts if next(divisors(part), None) is not None]
     whole = [part for _, part in parts if next(divisors(part), None) is None]
     if not divided:
@@ -42,7 +47,9 @@ def statement_of(problem: Problem, name: str) -> Statement:
     for line, part in divided:
         for below in divisors(part):
             lines += _licence(problem, line, Statement(name, forall, tuple(lines)), below)
-    return Statement(name, forall, tuple(lines), Formula("not", conjunction(part for _, part in divided)))
+    return Statement(
+        name, forall, tuple(lines), Formula("not", conjunction(part for _, part in divided))
+    )
 
 
 def denial(problem: Problem, name: str, formulas: Sequence[Formula]) -> Statement:
@@ -52,7 +59,11 @@ def denial(problem: Problem, name: str, formulas: Sequence[Formula]) -> Statemen
 
 def givens(statement: Statement) -> list[Formula]:
     """What the statement assumes."""
-    return [said for keyword, said in statement.lines if keyword == "given" and isinstance(said, Formula)]
+    return [
+        said
+        for keyword, said in statement.lines
+        if keyword == "given" and isinstance(said, Formula)
+    ]
 
 
 def used(problem: Problem, formulas: Sequence[Formula]) -> tuple[str, ...]:
@@ -82,7 +93,10 @@ def _licence(problem: Problem, line: int, before: Statement, below: Term) -> lis
         said = Statement(before.name, before.forall, before.lines, sign)
         if search_proof(_read(said), {}, Budget(SIDE_BUDGET), effort=1) is not None:
             return [("have", sign)]
-    raise ClaimError(f"{problem.file}:{line}: division by {below}, which may vanish; assert before it that this is not 0, or multiply it out")
+    raise ClaimError(
+        f"{problem.file}:{line}: division by {below}, which may vanish; assert before it that this"
+        " is not 0, or multiply it out"
+    )
 
 
 def _read(statement: Statement) -> checker.Statement:

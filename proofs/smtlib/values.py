@@ -1,4 +1,5 @@
-"""What an SMT-LIB term means in our language: a formula, or a real term in cases (an `ite` between reals is told apart by its condition)."""
+"""What an SMT-LIB term means in our language: a formula, or a real term in cases (an `ite` between
+reals is told apart by its condition)."""
 
 from __future__ import annotations
 
@@ -16,12 +17,14 @@ Guards = tuple[tuple[Formula, bool], ...]
 
 
 class TooLarge(Exception):
-    """An expression has more cases, or more symbols when definitions are put in, than we take on."""
+    """An expression has more cases, or more symbols when definitions are put in, than we take
+    on."""
 
 
 @dataclass(frozen=True)
 class Real:
-    """A real term: in each case its value under the conditions of the case, of which exactly one applies."""
+    """A real term: in each case its value under the conditions of the case, of which exactly one
+    applies."""
 
     cases: tuple[tuple[Guards, Term], ...]
 
@@ -59,7 +62,10 @@ def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
         return [(guards, (value,)) for guards, value in values[0].cases]
     found: list[tuple[Guards, tuple[Term, ...]]] = [((), ())]
     for value in values:
-        pairs = [(merged((guards, more)), (*terms, last)) for (guards, terms), (more, last) in product(found, value.cases)]
+        pairs = [
+            (merged((guards, more)), (*terms, last))
+            for (guards, terms), (more, last) in product(found, value.cases)
+        ]
         found = [(guards, terms) for guards, terms in pairs if guards is not None]
         if len(found) > MOST_CASES:
             raise TooLarge(f"an atom with more than {MOST_CASES} cases of ite")
@@ -67,7 +73,8 @@ def together(values: Sequence[Real]) -> list[tuple[Guards, tuple[Term, ...]]]:
 
 
 def relation(values: Sequence[Real], make: Callable[[Sequence[Term]], Formula]) -> Formula:
-    """The formula about the values: in one of the cases, its conditions and what is said there hold.
+    """The formula about the values: in one of the cases, its conditions and what is said there
+    hold.
 
     >>> from certificates.terms import reals
     >>> x, y = reals("x y")
@@ -75,7 +82,9 @@ def relation(values: Sequence[Real], make: Callable[[Sequence[Term]], Formula]) 
     >>> str(relation([larger], lambda terms: terms[0] >= 0))
     'x > y and x >= 0 or not x > y and y >= 0'
     """
-    return disjunction([conjunction([*map(said, guards), make(terms)]) for guards, terms in together(values)])
+    return disjunction(
+        [conjunction([*map(said, guards), make(terms)]) for guards, terms in together(values)]
+    )
 
 
 def said(guard: tuple[Formula, bool]) -> Formula:
@@ -85,7 +94,11 @@ def said(guard: tuple[Formula, bool]) -> Formula:
 
 def choice(condition: Formula, first: Real, second: Real) -> Real:
     """The first value where the condition holds, else the second."""
-    pairs = [(merged((((condition, truth),), guards)), value) for truth, one in ((True, first), (False, second)) for guards, value in one.cases]
+    pairs = [
+        (merged((((condition, truth),), guards)), value)
+        for truth, one in ((True, first), (False, second))
+        for guards, value in one.cases
+    ]
     cases = tuple((guards, value) for guards, value in pairs if guards is not None)
     if len(cases) > MOST_CASES:
         raise TooLarge(f"a term with more than {MOST_CASES} cases of ite")
@@ -93,7 +106,8 @@ def choice(condition: Formula, first: Real, second: Real) -> Real:
 
 
 class Sizes:
-    """The number of symbols of terms and formulas written out, and how deep they are; parts that are shared are looked at once."""
+    """The number of symbols of terms and formulas written out, and how deep they are; parts that
+    are shared are looked at once."""
 
     def __init__(self) -> None:
         self.known: dict[int, tuple[object, int, int]] = {}
@@ -102,11 +116,17 @@ class Sizes:
         """The size and the depth; raises TooLarge where they are beyond what we take on."""
         if id(thing) not in self.known:
             parts = [self.of(part) for part in thing.args if isinstance(part, (Term, Formula))]
-            size, depth = 1 + sum(size for size, _ in parts), 1 + max((depth for _, depth in parts), default=0)
+            size, depth = (
+                1 + sum(size for size, _ in parts),
+                1 + max((depth for _, depth in parts), default=0),
+            )
             self.known[id(thing)] = thing, size, depth
         _, size, depth = self.known[id(thing)]
         if size > MOST_NODES or depth > DEEPEST:
-            raise TooLarge(f"an expression of more than {MOST_NODES} symbols, or {DEEPEST} levels, when its definitions are put in")
+            raise TooLarge(
+                f"an expression of more than {MOST_NODES} symbols, or {DEEPEST} levels, when its"
+                " definitions are put in"
+            )
         return size, depth
 
     def check(self, value: Value) -> Value:

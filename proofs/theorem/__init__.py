@@ -1,3 +1,15 @@
-"""The theorem, that e_1 is globally asymptotically stable exactly for alpha < 1/3, as claims whose premises the checker writes."""
+"""The theorem, that e_1 is globally asymptotically stable exactly for alpha < 1/3, as claims whose
+premises the checker writes."""
 
-SECTIONS = ("roots", "stability", "by_hand", "one_third", "region", "flights", "ends", "sharper", "closed_form", "counts")
+SECTIONS = (
+    "roots",
+    "stability",
+    "by_hand",
+    "one_third",
+    "region",
+    "flights",
+    "ends",
+    "sharper",
+    "closed_form",
+    "counts",
+)

@@ -1,6 +1,8 @@
-"""Orbits in the trap in closed form: f^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q), so that distances fall to (1 + n) alpha^n times the first.
+"""Orbits in the trap in closed form: f^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q), so that
+distances fall to (1 + n) alpha^n times the first.
 
-There every period has an impact (`theorem/contracts`), and the impact map is affine: it turns the shear (p, q) -> (p - q, q) about e_1 by -alpha.
+There every period has an impact (`theorem/contracts`), and the impact map is affine: it turns the
+shear (p, q) -> (p - q, q) about e_1 by -alpha.
 """
 
 from __future__ import annotations
@@ -20,7 +22,8 @@ p, q, n, c = reals("p q n c")
 COUNTED = replace(STANDING, integers=frozenset({"n"}), givens={**STANDING.givens, "n": (n >= 0,)})
 always = partial(forms.always, vocabulary=COUNTED)
 SHEARED = (p - n * q, q)
-RATE = alpha  # the distance after n periods, from where it is at most 1, is at most GROWTH times RATE to the n
+# the distance after n periods, from where it is at most 1, is at most GROWTH times RATE to the n
+RATE = alpha
 GROWTH = 1 + n
 
 
@@ -36,9 +39,11 @@ def within(most: Term) -> Formula:
 
 @claim("theorem-closed-form", "theorem", "orbits in the trap")
 def orbits_in_the_trap_in_closed_form() -> list[AnyStatement]:
-    """In the trap f^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q), at most (1 + n) alpha^n from e_1 if (p, q) is at most 1.
+    """In the trap f^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q), at most (1 + n) alpha^n from
+    e_1 if (p, q) is at most 1.
 
-    The step is an induction: c stands for (-alpha)^n, which is 1 for n = 0, and -alpha c for the next power.
+    The step is an induction: c stands for (-alpha)^n, which is 1 for n = 0, and -alpha c for the
+    next power.
     """
     here = from_the_fixed_point(c, SHEARED)
     after = at(derived("normal_f1"), {"x": term(here.entries[0]), "w": term(here.entries[1])})

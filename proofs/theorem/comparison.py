@@ -1,8 +1,9 @@
 """The paper's bounds and ours beside the worst of a stated finite set of exact orbits.
 
-The set, for one alpha and one u (u^2 twice the energy in units of r^2): the flights that end with closing speed w = u - 1 + j/8, j = 1 .. 16, each
-from its first state.  j = 16 strikes on the ground at u, as if thrown up from the ground.  Times are in periods; a flight that has
-all the energy of u lasts u periods, which is tau_w of (25).
+The set, for one alpha and one u (u^2 twice the energy in units of r^2): the flights that end with
+closing speed w = u - 1 + j/8, j = 1 .. 16, each from its first state.  j = 16 strikes on the ground
+at u, as if thrown up from the ground.  Times are in periods; a flight that has all the energy of u
+lasts u periods, which is tau_w of (25).
 """
 
 from __future__ import annotations
@@ -39,12 +40,20 @@ def root_square(alpha: Fraction) -> Fraction:
 
 
 def first_states(alpha: Fraction, u: Fraction) -> list[State]:
-    """The states of the set: at the impact by energy and closing speed, then as many periods back as there are."""
+    """The states of the set: at the impact by energy and closing speed, then as many periods back
+    as there are."""
     found = []
     for j in range(1, PHASES + 1):
         w = u - 1 + Fraction(2 * j, PHASES)
         at_impact = State(alpha, (u**2 - (w - 1) ** 2) / 4, w)
-        found.append(flown(at_impact, -least_integer(lambda k, at_impact=at_impact: not flown(at_impact, -k - 1).is_in(SPACE))))  # type: ignore[misc]
+        found.append(
+            flown(
+                at_impact,
+                -least_integer(
+                    lambda k, at_impact=at_impact: not flown(at_impact, -k - 1).is_in(SPACE)
+                ),
+            )
+        )  # type: ignore[misc]
     return found
 
 
@@ -74,7 +83,8 @@ def entry_into_core(start: State) -> int:
 
 
 def bracket(loss: Term, alpha: Fraction, u: Fraction) -> tuple[int, int]:
-    """The bracket of (26) with this least loss, which is linear in s: rounded down, and rounded up."""
+    """The bracket of (26) with this least loss, which is linear in s: rounded down, and rounded
+    up."""
     constant, slope = linear_in(loss, "s", {"alpha": alpha})
     above, square = u**2 / 2 - value_of(LEVEL_OF_R, {"alpha": alpha}), root_square(alpha)
 
@@ -92,13 +102,22 @@ def worst_flight(u: Fraction) -> Fraction:
 
 
 def periods_to_region(state: State) -> int:
-    """The number of periods that `theorem-region` tells: the least integer not below its rank, in which s and u are roots."""
+    """The number of periods that `theorem-region` tells: the least integer not below its rank, in
+    which s and u are roots."""
     here, square = state.point(), root_square(state.alpha)
     c0, c1, c2 = (value_of(FACTOR, {**here, "s": Fraction(k)}) for k in (0, 1, 2))
     curve = (c2 - 2 * c1 + c0) / 2
-    constant, slope = c0 + curve * square, c1 - c0 - curve  # FACTOR is a square in s, and s^2 a number
-    rest = value_of(TO_THE_REGION.rank - FACTOR * real("u"), {**here, "u": Fraction(0), "s": Fraction(0)})
-    one, other = (constant**2 + slope**2 * square) * state.speed_squared, 2 * constant * slope * state.speed_squared
+    constant, slope = (
+        c0 + curve * square,
+        c1 - c0 - curve,
+    )  # FACTOR is a square in s, and s^2 a number
+    rest = value_of(
+        TO_THE_REGION.rank - FACTOR * real("u"), {**here, "u": Fraction(0), "s": Fraction(0)}
+    )
+    one, other = (
+        (constant**2 + slope**2 * square) * state.speed_squared,
+        2 * constant * slope * state.speed_squared,
+    )
 
     def enough(n: int) -> bool:
         return n >= rest and sign_with_root((n - rest) ** 2 - one, -other, square) >= 0
@@ -125,14 +144,23 @@ def into_region(alpha: Fraction, u: Fraction) -> IntoRegion:
     """The row of this alpha and energy, which lies outside R."""
     starts = first_states(alpha, u)
     entries = [entry_into_region(start) for start in starts]
-    return IntoRegion(alpha, u, bracket(TRUE_LOSS, alpha, u), bracket(PRINTED_LOSS, alpha, u), worst_flight(u),
-                      max(entries, key=lambda entry: entry.impacts), max(entries, key=lambda entry: entry.time),
-                      max(entries, key=lambda entry: entry.sample), max(map(periods_to_region, starts)))
+    return IntoRegion(
+        alpha,
+        u,
+        bracket(TRUE_LOSS, alpha, u),
+        bracket(PRINTED_LOSS, alpha, u),
+        worst_flight(u),
+        max(entries, key=lambda entry: entry.impacts),
+        max(entries, key=lambda entry: entry.time),
+        max(entries, key=lambda entry: entry.sample),
+        max(map(periods_to_region, starts)),
+    )
 
 
 @dataclass(frozen=True)
 class IntoCore:
-    """One row: certified periods until the trap and within 1 of e_1, by the theorem's rank and by the sharper one, and the worst of the set."""
+    """One row: certified periods until the trap and within 1 of e_1, by the theorem's rank and by
+    the sharper one, and the worst of the set."""
 
     alpha: Fraction
     u: Fraction
@@ -144,15 +172,30 @@ class IntoCore:
 def into_core(alpha: Fraction, u: Fraction) -> IntoCore:
     """The row of this alpha below 1/3 and this energy."""
     starts = first_states(alpha, u)
-    return IntoCore(alpha, u, max(quantities.by_the_theorem(start).core for start in starts),
-                    max(quantities.best_way(start).bound.core for start in starts), max(map(entry_into_core, starts)))
+    return IntoCore(
+        alpha,
+        u,
+        max(quantities.by_the_theorem(start).core for start in starts),
+        max(quantities.best_way(start).bound.core for start in starts),
+        max(map(entry_into_core, starts)),
+    )
 
 
 def energies(alpha: Fraction) -> list[Fraction]:
-    """u outside R: the greatest in 16ths for which the bracket is 1, with either loss, and 10 and 100 times the least integer there."""
+    """u outside R: the greatest in 16ths for which the bracket is 1, with either loss, and 10 and
+    100 times the least integer there."""
     level = 2 * value_of(LEVEL_OF_R, {"alpha": alpha})
     least = least_integer(lambda u: u * u > level)
     first = least_integer(lambda k: k * k > level * PHASES**2)
-    ones = [least_integer(lambda k, loss=loss: bracket(loss, alpha, Fraction(k, PHASES))[1] > 1, first) - 1  # type: ignore[misc]
-            for loss in (TRUE_LOSS, PRINTED_LOSS)]
-    return sorted({*(Fraction(k, PHASES) for k in ones if k >= first), Fraction(10 * least), Fraction(100 * least)})
+    ones = [
+        least_integer(lambda k, loss=loss: bracket(loss, alpha, Fraction(k, PHASES))[1] > 1, first)
+        - 1  # type: ignore[misc]
+        for loss in (TRUE_LOSS, PRINTED_LOSS)
+    ]
+    return sorted(
+        {
+            *(Fraction(k, PHASES) for k in ones if k >= first),
+            Fraction(10 * least),
+            Fraction(100 * least),
+        }
+    )

@@ -15,7 +15,8 @@ Lets = Sequence[tuple[str, str]]
 
 @dataclass(frozen=True)
 class Scope:
-    """What a definition may speak of: parameters, the two coordinates of a state, and names for terms."""
+    """What a definition may speak of: parameters, the two coordinates of a state, and names for
+    terms."""
 
     parameters: tuple[str, ...]
     state: tuple[str, ...] = ()
@@ -29,15 +30,22 @@ class Scope:
             if name in used:
                 used |= names_in(value)
                 lets.insert(0, f"let {name} := {coq_value(value)} in ")
-        entries = [f"let {name} := {part} s in " for name, part in zip(self.state, ("fst", "snd")) if name in used]
+        entries = [
+            f"let {name} := {part} s in "
+            for name, part in zip(self.state, ("fst", "snd"))
+            if name in used
+        ]
         unknown = used - {*self.parameters, *self.state, *dict(self.names)}
         if unknown:
             raise ClaimError(f"{', '.join(sorted(unknown))}: not known in {texts}")
         arguments = [f"({name} : R)" for name in self.parameters if name in used]
-        return " ".join([*arguments, *(["(s : R * R)"] if self.state else [])]), "".join(entries + lets) + ("\n  " if entries + lets else "")
+        return " ".join([*arguments, *(["(s : R * R)"] if self.state else [])]), "".join(
+            entries + lets
+        ) + ("\n  " if entries + lets else "")
 
     def applied(self, name: str, *texts: str) -> str:
-        """The definition applied to the parameters that its texts need: what is left is a function of the state."""
+        """The definition applied to the parameters that its texts need: what is left is a function
+        of the state."""
         heading, _ = self.heading(*texts)
         used = [p for p in self.parameters if f"({p} : R)" in heading]
         return f"({name} {' '.join(used)})" if used else name
@@ -72,7 +80,8 @@ def pair(scope: Scope, name: str, texts: Sequence[str]) -> str:
 
 
 def piecewise(scope: Scope, name: str, pieces: Sequence[Piece]) -> str:
-    """A map of two pieces: that of the first where its strict inequality holds, that of the second elsewhere."""
+    """A map of two pieces: that of the first where its strict inequality holds, that of the second
+    elsewhere."""
     first, second = pieces
     left, sign, right = first.region.partition(" < ")
     if not sign or any(mark in left + right for mark in "<>="):

@@ -1,6 +1,8 @@
-"""The theorem as texts for Coq, in the syntax that the checker reads: the choices of proofs/theorem/definition.py, and what is derived.
+"""The theorem as texts for Coq, in the syntax that the checker reads: the choices of
+proofs/theorem/definition.py, and what is derived.
 
-Rank, stages, weights and rates are the very ones that the checker is given; maps, regions, points and energies come from `symbolic`.
+Rank, stages, weights and rates are the very ones that the checker is given; maps, regions, points
+and energies come from `symbolic`.
 """
 
 from __future__ import annotations
@@ -31,7 +33,8 @@ class Piece:
 
 @dataclass(frozen=True)
 class Contraction:
-    """A weighted sup norm around the point that the map contracts by a rate, within a radius (times the weights)."""
+    """A weighted sup norm around the point that the map contracts by a rate, within a radius (times
+    the weights)."""
 
     weights: tuple[str, ...]
     rate: str
@@ -42,8 +45,9 @@ class Contraction:
 class Attraction:
     """Every orbit in the space reaches the last stage and from there on approaches the point.
 
-    Outside the stages the rank falls by 1 a step; each stage leads to the next, the last to itself; on the last stage, where the point is at
-    most `size` away, the map contracts; all states of the space within the radius of the point are in the last stage.
+    Outside the stages the rank falls by 1 a step; each stage leads to the next, the last to itself;
+    on the last stage, where the point is at most `size` away, the map contracts; all states of the
+    space within the radius of the point are in the last stage.
     """
 
     parameters: tuple[str, ...]
@@ -90,7 +94,9 @@ def _pieces(setting: Setting) -> tuple[Piece, ...]:
 
 
 def _told(contraction: chosen.Contraction) -> Contraction:
-    return Contraction(tuple(map(str, contraction.weights)), str(contraction.rate), str(contraction.radius))
+    return Contraction(
+        tuple(map(str, contraction.weights)), str(contraction.rate), str(contraction.radius)
+    )
 
 
 @cache
@@ -107,7 +113,8 @@ NEIGHBOURHOOD = _told(chosen.NEARBY)
 
 @dataclass(frozen=True)
 class Periodic:
-    """A periodic orbit that stays away from the point: a state of it, as far as it is in the space, and its period."""
+    """A periodic orbit that stays away from the point: a state of it, as far as it is in the space,
+    and its period."""
 
     given: str
     state: tuple[str, ...]
@@ -116,13 +123,17 @@ class Periodic:
 
 @cache
 def other_orbit() -> Periodic:
-    """For 1/3 <= alpha < 1: the orbit of e_2, a flight that lasts two periods, from where its impact comes."""
-    return Periodic(given=f"{threshold()} <= alpha and alpha < 1", state=tuple(map(str, chosen.OTHER)), period=2)
+    """For 1/3 <= alpha < 1: the orbit of e_2, a flight that lasts two periods, from where its
+    impact comes."""
+    return Periodic(
+        given=f"{threshold()} <= alpha and alpha < 1", state=tuple(map(str, chosen.OTHER)), period=2
+    )
 
 
 @cache
 def boundary_speed() -> str:
-    """The bound on u that belongs to the energy E_max, u^2 being twice the energy in units of r^2: (alpha + 1)/(1 - alpha)."""
+    """The bound on u that belongs to the energy E_max, u^2 being twice the energy in units of r^2:
+    (alpha + 1)/(1 - alpha)."""
     bound = (1 + alpha) / (1 - alpha)
     if lowest_terms(bound**2 - 2 * E_max() / r**2) != 0:
         raise DerivationError(f"not the square root of twice {E_max()}")
@@ -131,7 +142,8 @@ def boundary_speed() -> str:
 
 @dataclass(frozen=True)
 class Physical:
-    """The same map in the paper's own units, and the change of coordinates (with the unit of each) that makes it the normal form."""
+    """The same map in the paper's own units, and the change of coordinates (with the unit of each)
+    that makes it the normal form."""
 
     parameters: tuple[str, ...]
     given: str
@@ -147,7 +159,8 @@ class Physical:
 
 @cache
 def physical() -> Physical:
-    """The ball's map on heights beta >= 0 and velocities v, for a table launched at r under gravity g."""
+    """The ball's map on heights beta >= 0 and velocities v, for a table launched at r under gravity
+    g."""
     return Physical(
         parameters=("alpha", "r", "g"),
         given="0 < r and 0 < g",

@@ -1,4 +1,5 @@
-"""The parts of Statements.v that do not depend on the data of the theorem, and its theorems with the data left open."""
+"""The parts of Statements.v that do not depend on the data of the theorem, and its theorems with
+the data left open."""
 
 from __future__ import annotations
 

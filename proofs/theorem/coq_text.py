@@ -8,8 +8,20 @@ from certificates import checker
 from certificates.terms import ClaimError
 
 SUM, PRODUCT, SIGN, POWER, ATOM = 1, 2, 3, 4, 5
-OPERATORS: dict[type, tuple[str, int]] = {ast.Add: (" + ", SUM), ast.Sub: (" - ", SUM), ast.Mult: (" * ", PRODUCT), ast.Div: (" / ", PRODUCT)}
-RELATIONS: dict[type, str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "<>"}
+OPERATORS: dict[type, tuple[str, int]] = {
+    ast.Add: (" + ", SUM),
+    ast.Sub: (" - ", SUM),
+    ast.Mult: (" * ", PRODUCT),
+    ast.Div: (" / ", PRODUCT),
+}
+RELATIONS: dict[type, str] = {
+    ast.Lt: "<",
+    ast.LtE: "<=",
+    ast.Gt: ">",
+    ast.GtE: ">=",
+    ast.Eq: "=",
+    ast.NotEq: "<>",
+}
 
 
 def coq_term(text: str) -> str:
@@ -31,14 +43,19 @@ def coq_formula(text: str) -> str:
 
 
 def term_of(node: ast.expr, level: int) -> str:
-    """The Coq term of a syntax tree, in parentheses where what is around it binds tighter than `level` allows."""
+    """The Coq term of a syntax tree, in parentheses where what is around it binds tighter than
+    `level` allows."""
     if isinstance(node, ast.Constant) and type(node.value) is int:
         return str(node.value)
     if isinstance(node, ast.Name):
         return node.id
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         return _enclosed(f"- {term_of(node.operand, POWER)}", SUM, level)
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant):
+    if (
+        isinstance(node, ast.BinOp)
+        and isinstance(node.op, ast.Pow)
+        and isinstance(node.right, ast.Constant)
+    ):
         return _enclosed(f"{term_of(node.left, ATOM)} ^ {term_of(node.right, ATOM)}", POWER, level)
     if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
         sign, own = OPERATORS[type(node.op)]
@@ -47,19 +64,30 @@ def term_of(node: ast.expr, level: int) -> str:
 
 
 def formula_of(node: ast.expr, level: int) -> str:
-    """The Coq proposition of a syntax tree; 0, 1, 2, 3: inside an implication, a disjunction, a conjunction, a negation."""
+    """The Coq proposition of a syntax tree; 0, 1, 2, 3: inside an implication, a disjunction, a
+    conjunction, a negation."""
     if isinstance(node, ast.Compare) and all(type(op) in RELATIONS for op in node.ops):
         sides = [term_of(side, 0) for side in (node.left, *node.comparators)]
-        atoms = [f"{left} {RELATIONS[type(op)]} {right}" for left, op, right in zip(sides, node.ops, sides[1:])]
+        atoms = [
+            f"{left} {RELATIONS[type(op)]} {right}"
+            for left, op, right in zip(sides, node.ops, sides[1:])
+        ]
         return _enclosed(" /\\ ".join(atoms), 3 if len(atoms) == 1 else 2, level)
     if isinstance(node, ast.BoolOp):
         own, sign = (2, " /\\ ") if isinstance(node.op, ast.And) else (1, " \\/ ")
         return _enclosed(sign.join(formula_of(part, own + 1) for part in node.values), own, level)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
         return _enclosed(f"~ {formula_of(node.operand, 3)}", 3, level)
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("implies", "iff") and len(node.args) == 2:
+    if (
+        isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and node.func.id in ("implies", "iff")
+        and len(node.args) == 2
+    ):
         sign = " -> " if node.func.id == "implies" else " <-> "
-        return _enclosed(formula_of(node.args[0], 1) + sign + formula_of(node.args[1], 1), 0, level + 1)
+        return _enclosed(
+            formula_of(node.args[0], 1) + sign + formula_of(node.args[1], 1), 0, level + 1
+        )
     raise ClaimError(f"no Coq proposition for {ast.unparse(node)}")
 
 
@@ -69,6 +97,6 @@ def _enclosed(text: str, own: int, level: int) -> str:
 
 def names_in(text: str) -> set[str]:
     """The names that occur in a text; `sqrt` is none."""
-    return {node.id for node in ast.walk(checker.parse(text)) if isinstance(node, ast.Name)} - {"sqrt"}
-
-
+    return {node.id for node in ast.walk(checker.parse(text)) if isinstance(node, ast.Name)} - {
+        "sqrt"
+    }

@@ -1,7 +1,9 @@
-"""Where stability ends: e_K at the least alpha for which it exists, and the energy that no orbit exceeds.
+"""Where stability ends: e_K at the least alpha for which it exists, and the energy that no orbit
+exceeds.
 
-At alpha = (K - 1)/(K + 1), K >= 2, the orbit of e_K meets the table just at a bounce, one period before its impact.  However little the ball starts
-higher, it strikes a period early, and after K periods is far from where it started: e_K comes back after K periods, and is not stable.
+At alpha = (K - 1)/(K + 1), K >= 2, the orbit of e_K meets the table just at a bounce, one period
+before its impact.  However little the ball starts higher, it strikes a period early, and after K
+periods is far from where it started: e_K comes back after K periods, and is not stable.
 """
 
 from __future__ import annotations
@@ -33,18 +35,38 @@ def after_impact(periods: Term, start: Vector) -> Vector:
 
 @claim("theorem-ends", "theorem", "alpha = (K - 1)/(K + 1)", parameters=())
 def fixed_points_are_not_stable_where_they_begin() -> list[AnyStatement]:
-    """At alpha = (K - 1)/(K + 1), K >= 2, e_K comes back after K periods, and states however near it are far from it after K periods."""
+    """At alpha = (K - 1)/(K + 1), K >= 2, e_K comes back after K periods, and states however near
+    it are far from it after K periods."""
     struck = after_impact(K - 2, HIGHER)
-    back = Vector(tuple(at(entry, {"x": term(struck.entries[0]), "w": term(struck.entries[1])}) for entry in derived("normal_f1").entries))
+    back = Vector(
+        tuple(
+            at(entry, {"x": term(struck.entries[0]), "w": term(struck.entries[1])})
+            for entry in derived("normal_f1").entries
+        )
+    )
     raised = [d > 0, d < 1]
     return [
         always(equals(derived("normal_impact_fixed_point"), E_K), in_range=AT_THE_END, label="e_K"),
-        always(strikes(E_K) & equals(next_impact(K, E_K), E_K), in_range=AT_THE_END, label="comes-back"),
-        always(~strikes(after_impact(n, E_K)), given=[n >= 0, n <= K - 2], in_range=AT_THE_END, label="in-flight-between"),
+        always(
+            strikes(E_K) & equals(next_impact(K, E_K), E_K), in_range=AT_THE_END, label="comes-back"
+        ),
+        always(
+            ~strikes(after_impact(n, E_K)),
+            given=[n >= 0, n <= K - 2],
+            in_range=AT_THE_END,
+            label="in-flight-between",
+        ),
         always(strikes(HIGHER), given=raised, in_range=AT_THE_END, label="higher-strikes"),
-        always(~strikes(after_impact(n, HIGHER)), given=[*raised, n >= 0, n <= K - 3], in_range=AT_THE_END, label="higher-flies"),
+        always(
+            ~strikes(after_impact(n, HIGHER)),
+            given=[*raised, n >= 0, n <= K - 3],
+            in_range=AT_THE_END,
+            label="higher-flies",
+        ),
         always(strikes(struck), given=raised, in_range=AT_THE_END, label="strikes-a-period-early"),
-        always(term(back.entries[1]) <= K, given=raised, in_range=AT_THE_END, label="is-far-after-K"),
+        always(
+            term(back.entries[1]) <= K, given=raised, in_range=AT_THE_END, label="is-far-after-K"
+        ),
     ]
 
 
@@ -53,6 +75,10 @@ def orbits_of_little_energy_keep_to_it() -> list[AnyStatement]:
     """The states of energy at most E_max are mapped into themselves, for every 0 < alpha < 1."""
     little = derived("E_max")
     return [
-        always_real(energy(f1(b)) <= little, given=[B1(b), energy(b) <= little], label="with-impact"),
-        always_real(energy(f2(b)) <= little, given=[B2(b), energy(b) <= little], label="without-impact"),
+        always_real(
+            energy(f1(b)) <= little, given=[B1(b), energy(b) <= little], label="with-impact"
+        ),
+        always_real(
+            energy(f2(b)) <= little, given=[B2(b), energy(b) <= little], label="without-impact"
+        ),
     ]

@@ -1,4 +1,5 @@
-"""Terms and formulas at exact rational points, and exact comparison of integers with numbers that have square roots in them."""
+"""Terms and formulas at exact rational points, and exact comparison of integers with numbers that
+have square roots in them."""
 
 from __future__ import annotations
 
@@ -12,9 +13,21 @@ from certificates.terms import ClaimError, Formula, Term
 
 Point = Mapping[str, Fraction]
 _ARITHMETIC: dict[str, Callable[..., Any]] = {
-    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "neg": operator.neg, "^": operator.pow}
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "neg": operator.neg,
+    "^": operator.pow,
+}
 _RELATIONS: dict[str, Callable[..., bool]] = {
-    "<": operator.lt, "<=": operator.le, "=": operator.eq, "!=": operator.ne, ">=": operator.ge, ">": operator.gt}
+    "<": operator.lt,
+    "<=": operator.le,
+    "=": operator.eq,
+    "!=": operator.ne,
+    ">=": operator.ge,
+    ">": operator.gt,
+}
 
 
 def value_of(expression: Term, point: Point) -> Fraction:
@@ -36,7 +49,8 @@ def value_of(expression: Term, point: Point) -> Fraction:
 
 
 def holds_at(formula: Formula, point: Point) -> bool:
-    """Whether a formula of `and`, `or` and `not` over relations holds where its variables have these values."""
+    """Whether a formula of `and`, `or` and `not` over relations holds where its variables have
+    these values."""
     if formula.op in _RELATIONS:
         return _RELATIONS[formula.op](*(value_of(side, point) for side in formula.args))
     parts = (holds_at(part, point) for part in formula.args)
@@ -48,7 +62,8 @@ def holds_at(formula: Formula, point: Point) -> bool:
 
 
 def linear_in(expression: Term, name: str, point: Point) -> tuple[Fraction, Fraction]:
-    """(constant, slope) of a term that is linear in the named variable, at a point of its other variables."""
+    """(constant, slope) of a term that is linear in the named variable, at a point of its other
+    variables."""
     values = [value_of(expression, {**point, name: Fraction(k)}) for k in range(3)]
     if values[2] - values[1] != values[1] - values[0]:
         raise ClaimError(f"{expression} is not linear in {name}")
@@ -68,7 +83,8 @@ def sign_with_root(p: Fraction, q: Fraction, square: Fraction) -> int:
 
 
 def least_integer(enough: Callable[[int], bool], start: int = 0) -> int:
-    """The least integer from `start` on for which `enough` holds, which stays true from there on."""
+    """The least integer from `start` on for which `enough` holds, which stays true from there
+    on."""
     if enough(start):
         return start
     width = 1

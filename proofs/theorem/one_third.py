@@ -1,7 +1,8 @@
 """At alpha = 1/3 the orbits that do not tend to e_1: three states and no others.
 
-(0, 3) and (1, 1) are the orbit of e_2, an impact and a flight by turns, and (0, -1) flies to it, in units of r T and r.  No other state
-leads to them, and from every other state the proof for alpha < 1/3 goes through: the stage after an impact holds (1, 1) on its border only.
+(0, 3) and (1, 1) are the orbit of e_2, an impact and a flight by turns, and (0, -1) flies to it, in
+units of r T and r.  No other state leads to them, and from every other state the proof for alpha <
+1/3 goes through: the stage after an impact holds (1, 1) on its border only.
 """
 
 from __future__ import annotations
@@ -23,22 +24,35 @@ EXCEPTIONS = (Vector((0, 3)), Vector((1, 1)), Vector((0, -1)))
 
 def is_none_of(*states: Vector) -> Formula:
     """The state (x, w) is none of these: its distance to each is positive."""
-    return conjunction([(x - term(state.entries[0])) ** 2 + (w - term(state.entries[1])) ** 2 > 0 for state in states])
+    return conjunction(
+        [
+            (x - term(state.entries[0])) ** 2 + (w - term(state.entries[1])) ** 2 > 0
+            for state in states
+        ]
+    )
 
 
 def goes_to(start: Vector, end: Vector, label: str) -> Statement:
     """One period leads from the one state to the other."""
     there = {"x": start.entries[0], "w": start.entries[1]}
     steps = [(at(guard, there), equals(at(image, there), end)) for guard, image in NORMAL.pieces]
-    return always(conjunction([~guard | arrives for guard, arrives in steps]), in_range=[THIRD], label=label)
+    return always(
+        conjunction([~guard | arrives for guard, arrives in steps]), in_range=[THIRD], label=label
+    )
 
 
 OTHERS = replace(NORMAL, space=NORMAL.space & is_none_of(*EXCEPTIONS))
 
 
-@claim("theorem-one-third", "theorem", "alpha = 1/3", hints={"uses": (LEMMA,), "premises": {"falls-1": compared(AT_IMPACTS, NORMAL)}})
+@claim(
+    "theorem-one-third",
+    "theorem",
+    "alpha = 1/3",
+    hints={"uses": (LEMMA,), "premises": {"falls-1": compared(AT_IMPACTS, NORMAL)}},
+)
 def three_states_do_not_tend_to_the_fixed_point() -> list[AnyStatement]:
-    """At alpha = 1/3 every orbit tends to e_1 but those of (0, 3), (1, 1) and (0, -1), and e_1 is stable."""
+    """At alpha = 1/3 every orbit tends to e_1 but those of (0, 3), (1, 1) and (0, -1), and e_1 is
+    stable."""
     falling, period_two, rising = EXCEPTIONS
     return [
         the_map("map", NORMAL, THIRD),

@@ -1,4 +1,5 @@
-"""Orbits in exact numbers with what the theorem's terms and formulas say of their states; the map itself is that of `scenes.juggler.exact`."""
+"""Orbits in exact numbers with what the theorem's terms and formulas say of their states; the map
+itself is that of `scenes.juggler.exact`."""
 
 from __future__ import annotations
 
@@ -26,7 +27,12 @@ class State:
 
     def point(self, **more: Fraction | int) -> dict[str, Fraction]:
         """The values of the names in terms and formulas of the normal form."""
-        return {"alpha": self.alpha, "x": self.x, "w": self.w, **{name: Fraction(value) for name, value in more.items()}}
+        return {
+            "alpha": self.alpha,
+            "x": self.x,
+            "w": self.w,
+            **{name: Fraction(value) for name, value in more.items()},
+        }
 
     def is_in(self, region: Formula) -> bool:
         """Whether the state belongs to the region."""
@@ -56,7 +62,11 @@ class State:
     @property
     def size(self) -> int:
         """The length of the longest numerator or denominator in bits."""
-        return max(part.bit_length() for number in (self.x, self.w) for part in (number.numerator, number.denominator))
+        return max(
+            part.bit_length()
+            for number in (self.x, self.w)
+            for part in (number.numerator, number.denominator)
+        )
 
 
 def a_state(alpha: Fraction, x: Fraction, w: Fraction) -> State:
@@ -98,7 +108,8 @@ class Move:
 
 
 def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
-    """The orbit, flights at once, up to so many impacts or until its numbers are too long; at its end comes an impact."""
+    """The orbit, flights at once, up to so many impacts or until its numbers are too long; at its
+    end comes an impact."""
     count = 0
     for _ in range(impacts):
         periods = flight_length(state)

@@ -1,7 +1,9 @@
-"""What the theorem certifies of one state, in exact numbers: steps into the trap and to within 1 of e_1, and distances from there on.
+"""What the theorem certifies of one state, in exact numbers: steps into the trap and to within 1 of
+e_1, and distances from there on.
 
-By the rule `descends` the k-th stage is reached at every integer N >= rank + k - 1.  By `theorem-sharper`, for any W, the energies u <= W - 1 are
-reached at every integer N >= a rank with a smaller factor, and from there the theorem's rank is at most 5 (W - 1)/2.
+By the rule `descends` the k-th stage is reached at every integer N >= rank + k - 1.  By
+`theorem-sharper`, for any W, the energies u <= W - 1 are reached at every integer N >= a rank with
+a smaller factor, and from there the theorem's rank is at most 5 (W - 1)/2.
 """
 
 from __future__ import annotations
@@ -12,17 +14,27 @@ from fractions import Fraction
 from certificates.terms import ClaimError, Term
 from proofs.theorem.closed_form import GROWTH, RATE
 from proofs.theorem.definition import BELOW_A_THIRD, CORE, IN_THE_TRAP, NEARBY, TO_THE_POINT, TRAP
-from proofs.theorem.exact import ceiling, holds_at, least_integer, linear_in, sign_with_root, value_of
+from proofs.theorem.exact import (
+    ceiling,
+    holds_at,
+    least_integer,
+    linear_in,
+    sign_with_root,
+    value_of,
+)
 from proofs.theorem.one_third import EXCEPTIONS, OTHERS, THIRD
 from proofs.theorem.orbits import State
 from proofs.theorem.sharper import LITTLE, RANK_THERE, TO_LITTLE_ENERGY, WITH_W
 
-TO_TRAP, TO_CORE = (TO_THE_POINT.stages.index(stage) for stage in (TRAP, CORE))  # steps after the rank is used up
+TO_TRAP, TO_CORE = (
+    TO_THE_POINT.stages.index(stage) for stage in (TRAP, CORE)
+)  # steps after the rank is used up
 
 
 @dataclass(frozen=True)
 class Bound:
-    """Counts of steps after which the state is certainly in the trap, and in the trap within 1 of e_1."""
+    """Counts of steps after which the state is certainly in the trap, and in the trap within 1 of
+    e_1."""
 
     trap: int
     core: int
@@ -30,7 +42,8 @@ class Bound:
 
 @dataclass(frozen=True)
 class Sharper:
-    """The same by way of little energy: u <= W - 1 after `to_little` steps, and the theorem's rank at most `then` there."""
+    """The same by way of little energy: u <= W - 1 after `to_little` steps, and the theorem's rank
+    at most `then` there."""
 
     W: int
     to_little: int
@@ -54,13 +67,16 @@ def attracted(alpha: Fraction) -> bool:
 
 
 def converges(state: State) -> bool:
-    """Whether a descent to e_1 is certified from this state: for alpha < 1/3, and for alpha = 1/3 from all states but three."""
+    """Whether a descent to e_1 is certified from this state: for alpha < 1/3, and for alpha = 1/3
+    from all states but three."""
     return attracted(state.alpha) or holds_at(THIRD, state.point()) and state.is_in(OTHERS.space)
 
 
 def is_exception(state: State) -> bool:
     """Whether alpha = 1/3 and the state is one of the three that do not tend to e_1."""
-    return holds_at(THIRD, state.point()) and any((state.x, state.w) == (e.entries[0], e.entries[1]) for e in EXCEPTIONS)
+    return holds_at(THIRD, state.point()) and any(
+        (state.x, state.w) == (e.entries[0], e.entries[1]) for e in EXCEPTIONS
+    )
 
 
 def by_the_theorem(state: State) -> Bound:
@@ -73,19 +89,26 @@ def via_little_energy(state: State, W: int) -> Sharper:
     """The counts by way of u <= W - 1, for an integer W that the claim allows."""
     here = state.point(W=W)
     if not all(holds_at(allowed, here) for allowed in WITH_W.positive):
-        raise ClaimError(f"W = {W} is too small for alpha = {state.alpha}: W > 2/(1 - alpha) is needed")
+        raise ClaimError(
+            f"W = {W} is too small for alpha = {state.alpha}: W > 2/(1 - alpha) is needed"
+        )
     already = holds_at(LITTLE, here)
     to_little = 0 if already else steps_by_rank(TO_LITTLE_ENERGY.rank, state, W=W)
     return Sharper(W, to_little, ceiling(value_of(RANK_THERE, here), Fraction(0), Fraction(0)))
 
 
 def best_way(state: State) -> Sharper:
-    """The integer W with the least sum of both ranks; the sum is convex in W, so that its first rise tells."""
-    first = least_integer(lambda W: all(holds_at(allowed, state.point(W=W)) for allowed in WITH_W.positive))
+    """The integer W with the least sum of both ranks; the sum is convex in W, so that its first
+    rise tells."""
+    first = least_integer(
+        lambda W: all(holds_at(allowed, state.point(W=W)) for allowed in WITH_W.positive)
+    )
 
     def rises(W: int) -> bool:
         """Whether rank + 5 (W - 1)/2 is at least as great at W + 1."""
-        (c0, f0), (c1, f1) = (linear_in(TO_LITTLE_ENERGY.rank, "u", state.point(W=k)) for k in (W, W + 1))
+        (c0, f0), (c1, f1) = (
+            linear_in(TO_LITTLE_ENERGY.rank, "u", state.point(W=k)) for k in (W, W + 1)
+        )
         gain = value_of(RANK_THERE, state.point(W=W + 1)) - value_of(RANK_THERE, state.point(W=W))
         return sign_with_root(c1 - c0 + gain, f1 - f0, state.speed_squared) >= 0
 

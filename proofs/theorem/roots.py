@@ -24,7 +24,12 @@ def a_number_is_at_most_another_if_its_square_is() -> Statement:
 
 def compared(pairs: Sequence[tuple[Term, Term]], setting: Setting) -> Hints:
     """The lemma for these pairs of a smaller and a greater term of the normal form."""
-    return Hints(tuple((LEMMA, {"low": str(setting.here(less)), "high": str(setting.here(more))}) for less, more in pairs))
+    return Hints(
+        tuple(
+            (LEMMA, {"low": str(setting.here(less)), "high": str(setting.here(more))})
+            for less, more in pairs
+        )
+    )
 
 
 # After an impact the root u of the energy is at most 1 + alpha w, and before it at least w - 1.

@@ -1,4 +1,5 @@
-"""Statements under the checker's map rules, written from the definition, in normal form or in the paper's units."""
+"""Statements under the checker's map rules, written from the definition, in normal form or in the
+paper's units."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ from symbolic.collision import collision_margin
 
 @dataclass(frozen=True)
 class Setting:
-    """The map in some coordinates: parameters, state, pieces and fixed points, and what the x, w and units of the normal form are in them."""
+    """The map in some coordinates: parameters, state, pieces and fixed points, and what the x, w
+    and units of the normal form are in them."""
 
     parameters: tuple[Term, ...]
     positive: tuple[Formula, ...]
@@ -66,8 +68,16 @@ def listed(items: Iterable[object]) -> str:
 def the_map(name: str, setting: Setting, of_alpha: Formula = WHOLE) -> MapRule:
     """f maps the space into itself, by one of its pieces at each state."""
     pieces = [("piece", f"{guard} -> {listed(images)}") for guard, images in setting.pieces]
-    return MapRule(name, (("over", spaced(setting.parameters)), ("domain", setting.domain(of_alpha)), ("state", spaced(setting.state)),
-                          ("space", str(setting.space)), *pieces))
+    return MapRule(
+        name,
+        (
+            ("over", spaced(setting.parameters)),
+            ("domain", setting.domain(of_alpha)),
+            ("state", spaced(setting.state)),
+            ("space", str(setting.space)),
+            *pieces,
+        ),
+    )
 
 
 def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[str, str]]:
@@ -77,16 +87,39 @@ def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[st
 def descends(name: str, of: str, setting: Setting, of_alpha: Formula, descent: Descent) -> MapRule:
     """Every orbit is led to the last stage by the fall of the rank."""
     stages = [("stage", str(setting.here(stage))) for stage in descent.stages]
-    return MapRule(name, (("map", of), ("domain", setting.domain(of_alpha)), *_roots(descent.roots, setting),
-                          ("rank", str(setting.here(descent.rank))), *stages))
+    return MapRule(
+        name,
+        (
+            ("map", of),
+            ("domain", setting.domain(of_alpha)),
+            *_roots(descent.roots, setting),
+            ("rank", str(setting.here(descent.rank))),
+            *stages,
+        ),
+    )
 
 
-def contracts(name: str, of: str, setting: Setting, of_alpha: Formula, contraction: Contraction) -> MapRule:
+def contracts(
+    name: str, of: str, setting: Setting, of_alpha: Formula, contraction: Contraction
+) -> MapRule:
     """The set is mapped into itself and brought closer to the fixed point."""
-    weights = [unit if weight == term(1) else weight if unit == 1 else weight * unit for weight, unit in zip(contraction.weights, setting.units)]
-    return MapRule(name, (("map", of), ("domain", setting.domain(of_alpha)), ("on", str(setting.here(contraction.on))),
-                          ("point", listed(setting.fixed)), ("weights", listed(weights)), ("rate", str(contraction.rate)),
-                          ("radius", str(contraction.radius)), ("size", str(contraction.size))))
+    weights = [
+        unit if weight == term(1) else weight if unit == 1 else weight * unit
+        for weight, unit in zip(contraction.weights, setting.units)
+    ]
+    return MapRule(
+        name,
+        (
+            ("map", of),
+            ("domain", setting.domain(of_alpha)),
+            ("on", str(setting.here(contraction.on))),
+            ("point", listed(setting.fixed)),
+            ("weights", listed(weights)),
+            ("rate", str(contraction.rate)),
+            ("radius", str(contraction.radius)),
+            ("size", str(contraction.size)),
+        ),
+    )
 
 
 def attracts(name: str, descent: str, contraction: str) -> MapRule:
@@ -96,8 +129,16 @@ def attracts(name: str, descent: str, contraction: str) -> MapRule:
 
 def escapes(name: str, of: str, setting: Setting, of_alpha: Formula) -> MapRule:
     """The orbit of e_2, an impact and a flight by turns, does not tend to the fixed point."""
-    return MapRule(name, (("map", of), ("domain", setting.domain(of_alpha)), ("point", listed(setting.fixed)), ("start", listed(setting.other)),
-                          ("word", "1 2")))
+    return MapRule(
+        name,
+        (
+            ("map", of),
+            ("domain", setting.domain(of_alpha)),
+            ("point", listed(setting.fixed)),
+            ("start", listed(setting.other)),
+            ("word", "1 2"),
+        ),
+    )
 
 
 def exactly(name: str, attraction: str, escape: str) -> MapRule:

@@ -1,4 +1,5 @@
-"""Derived SymPy expressions as texts that the checker reads: one fraction, what is added before what is taken away."""
+"""Derived SymPy expressions as texts that the checker reads: one fraction, what is added before
+what is taken away."""
 
 from __future__ import annotations
 
@@ -37,14 +38,19 @@ def written(expression: Expr) -> str:
 
 
 def tidy(expression: Expr) -> Term:
-    """The expression in lowest terms: an expanded numerator, positive terms first, over a factored denominator."""
+    """The expression in lowest terms: an expanded numerator, positive terms first, over a factored
+    denominator."""
     above, below = fraction(lowest_terms(expression))
     if not _by_sign(above)[0]:
         above, below = -above, -below
     numerator, factored = _difference(above), factor(below)
     if below == 1:
         return numerator
-    return numerator / (_difference(below) if below.is_Add and not (factored.is_Mul or factored.is_Pow) else from_sympy(factored))
+    return numerator / (
+        _difference(below)
+        if below.is_Add and not (factored.is_Mul or factored.is_Pow)
+        else from_sympy(factored)
+    )
 
 
 def positive(margin: Expr) -> Formula:

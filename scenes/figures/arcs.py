@@ -1,4 +1,5 @@
-"""Curves of the figures as what they are, arcs of parabolas: from derived expressions, and taken by the map f, cut where it jumps."""
+"""Curves of the figures as what they are, arcs of parabolas: from derived expressions, and taken by
+the map f, cut where it jumps."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ Quadratic = tuple[float, float, float]  # coefficients from the constant up
 
 
 def polynomial(expression: Any, parameter: Any, **values: Any) -> Quadratic:
-    """The coefficients, from the constant up, of an expression that is at most quadratic in the parameter.
+    """The coefficients, from the constant up, of an expression that is at most quadratic in the
+    parameter.
 
     >>> from symbolic.symbols import v
     >>> polynomial(3 * v**2 + v / 2, v)
@@ -57,7 +59,8 @@ def _zeros(constant: float, slope: float, square: float) -> list[float]:
 
 @dataclass(frozen=True)
 class Arc:
-    """An arc of a parabola: two quadratics of one parameter (coefficients from the constant up), from its start to its stop."""
+    """An arc of a parabola: two quadratics of one parameter (coefficients from the constant up),
+    from its start to its stop."""
 
     across: Quadratic
     up: Quadratic
@@ -101,7 +104,12 @@ def _slope(quadratic: Quadratic, s: float) -> float:
 
 def curve(height: Any, speed: Any, parameter: Any, start: float, stop: float, **values: Any) -> Arc:
     """The states (height, speed) of a parameter."""
-    return Arc(polynomial(height, parameter, **values), polynomial(speed, parameter, **values), float(start), float(stop))
+    return Arc(
+        polynomial(height, parameter, **values),
+        polynomial(speed, parameter, **values),
+        float(start),
+        float(stop),
+    )
 
 
 def straight(start: tuple[Any, Any], stop: tuple[Any, Any]) -> Arc:
@@ -112,30 +120,44 @@ def straight(start: tuple[Any, Any], stop: tuple[Any, Any]) -> Arc:
 
 @cache
 def _affine(strikes: bool) -> tuple[Quadratic, Quadratic]:
-    """f1 or f2 at the setting: for each entry its coefficient of the height, that of the speed, and its constant."""
+    """f1 or f2 at the setting: for each entry its coefficient of the height, that of the speed, and
+    its constant."""
     mapping = f1() if strikes else f2()
     (c, d), (c1, d1), (c2, d2) = (column(mapping, beta=h, v=s) for h, s in ((0, 0), (1, 0), (0, 1)))
     return (float(c1 - c), float(c2 - c), float(c)), (float(d1 - d), float(d2 - d), float(d))
 
 
 def cut_at_the_bounce(arc: Arc) -> Iterator[tuple[Arc, bool]]:
-    """The arc's parts on either side of the line between B1 and B2, each with whether it lies in B1."""
+    """The arc's parts on either side of the line between B1 and B2, each with whether it lies in
+    B1."""
     c, h, s = (float(margin(*at)) for at in ((0, 0), (1, 0), (0, 1)))
     h, s = h - c, s - c
     constant, slope, square = (h * across + s * up for across, up in zip(arc.across, arc.up))
-    inside = [one for one in _zeros(constant + c, slope, square) if min(arc.start, arc.stop) < one < max(arc.start, arc.stop)]
+    inside = [
+        one
+        for one in _zeros(constant + c, slope, square)
+        if min(arc.start, arc.stop) < one < max(arc.start, arc.stop)
+    ]
     ends = [arc.start, *sorted(inside, reverse=arc.stop < arc.start), arc.stop]
     for start, stop in zip(ends, ends[1:]):
         yield arc.part(start, stop), _at((constant + c, slope, square), (start + stop) / 2) > 0
 
 
 def images(arcs: Sequence[Arc]) -> list[Arc]:
-    """The image under f: each arc is cut where f jumps, and each part taken by the branch that holds there."""
+    """The image under f: each arc is cut where f jumps, and each part taken by the branch that
+    holds there."""
     found = []
     for arc in arcs:
         for part, strikes in cut_at_the_bounce(arc):
             (a, b, c), (d, e, k) = _affine(strikes)
             across = tuple(a * one + b * two for one, two in zip(part.across, part.up))
             up = tuple(d * one + e * two for one, two in zip(part.across, part.up))
-            found.append(Arc((across[0] + c, across[1], across[2]), (up[0] + k, up[1], up[2]), part.start, part.stop))
+            found.append(
+                Arc(
+                    (across[0] + c, across[1], across[2]),
+                    (up[0] + k, up[1], up[2]),
+                    part.start,
+                    part.stop,
+                )
+            )
     return found

@@ -1,4 +1,5 @@
-"""Figures 12, 13 and 14: the region R, the point p that must lie outside it, and the band around e_1 in it."""
+"""Figures 12, 13 and 14: the region R, the point p that must lie outside it, and the band around
+e_1 in it."""
 
 from __future__ import annotations
 
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
 BOX = (0.135, 0.15, 0.84, 0.82)
 ACROSS, UP = (0.0, 1.9), (-2.6, 2.6)
 BEYOND = (-4.0, 4.0)  # beyond the lower and upper edges of the axes
-EPSILON = Fraction(1, 32)  # of the band, in units of the square of the launch speed: a band of half width 1/4
+EPSILON = Fraction(
+    1, 32
+)  # of the band, in units of the square of the launch speed: a band of half width 1/4
 
 
 @styled
@@ -46,7 +49,9 @@ def intersections() -> Figure:
     plane = states.StatePlane(figure, BOX, ACROSS, UP)
     through_p = states.level(float(value(energy_of_p())))
     speed = states.speed_of_e_1()
-    plane.draw([straight((0, speed), (8.0, speed))], "speed-of-e-1", linewidth=0.9, linestyle=(0, (4, 2)))
+    plane.draw(
+        [straight((0, speed), (8.0, speed))], "speed-of-e-1", linewidth=0.9, linestyle=(0, (4, 2))
+    )
     plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.1)
     plane.draw([states.kept()], "B10", KEPT, linewidth=1.6)
     plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
@@ -62,7 +67,8 @@ def intersections() -> Figure:
 
 
 def outline_band(half_width: float) -> tuple[Arc, ...]:
-    """The states of R whose velocity differs from that of e_1 by no more than this; ValueError where they are not all in B1."""
+    """The states of R whose velocity differs from that of e_1 by no more than this; ValueError
+    where they are not all in B1."""
     low, high = states.speed_of_e_1() - half_width, states.speed_of_e_1() + half_width
     outside = states.region_boundary().part(high, low)
     line = states.bounce_line(low)

@@ -1,4 +1,5 @@
-"""How figures look and are saved: one palette for the regions, one ink, and bytes that are the same from run to run."""
+"""How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
+from run to run."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ INK = "#222222"  # text, axes and whatever is no region; a page may put its own 
 
 @dataclass(frozen=True)
 class Look:
-    """How a region or its boundary is told: by colour (of Okabe and Ito), by hatch and by dashes, so that none of them is needed alone."""
+    """How a region or its boundary is told: by colour (of Okabe and Ito), by hatch and by dashes,
+    so that none of them is needed alone."""
 
     colour: str
     hatch: str
@@ -37,13 +39,23 @@ LOSS = Look("#56B4E9", "///", (3, 1), tint=0.4, hatched=0.6)
 KEPT = Look("#D55E00", "", (4, 1.5, 1, 1.5))
 BAND = Look("#CC79A7", "|||", (2, 2), tint=0.4)
 PALETTE = {"B1": B1, "B2": B2, "R": R, "B1+": GAIN, "B1-": LOSS, "B10": KEPT, "K": BAND}
-PLAIN = Look(INK, "////", tint=0.1, hatched=0.18)  # what is no region of the paper, or all of it: the table, H
+PLAIN = Look(
+    INK, "////", tint=0.1, hatched=0.18
+)  # what is no region of the paper, or all of it: the table, H
 TRAP = Look(INK, "|||", (3, 2), tint=0.16, hatched=0.15)
 
 STYLE = {
-    "font.family": "STIXGeneral", "mathtext.fontset": "stix", "font.size": 10, "text.color": INK, "lines.color": INK,
-    "figure.facecolor": "none", "savefig.facecolor": "none", "hatch.linewidth": 0.5,
-    "svg.fonttype": "path", "pdf.fonttype": 3, "path.simplify": False,
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 10,
+    "text.color": INK,
+    "lines.color": INK,
+    "figure.facecolor": "none",
+    "savefig.facecolor": "none",
+    "hatch.linewidth": 0.5,
+    "svg.fonttype": "path",
+    "pdf.fonttype": 3,
+    "path.simplify": False,
 }
 
 
@@ -75,28 +87,44 @@ def blank(width: float, height: float) -> Figure:
 
 
 def svg(figure: Figure, slug: str) -> bytes:
-    """The figure as an SVG file in which every id begins with the slug, so that several can stand in one page."""
+    """The figure as an SVG file in which every id begins with the slug, so that several can stand
+    in one page."""
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     text = io.StringIO()
     with style(**{"svg.hashsalt": slug}):
-        FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None, "Creator": None, "Type": None, "Format": None})
+        FigureCanvasSVG(figure).print_svg(
+            text, metadata={"Date": None, "Creator": None, "Type": None, "Format": None}
+        )
     return _with_own_ids(text.getvalue(), slug).encode("utf-8")
 
 
 def _with_own_ids(text: str, slug: str) -> str:
-    """The same file in fewer bytes, ids told apart from those of other figures; glyphs, which it uses most, have the shortest ids."""
-    text = text.replace("xlink:href=", "href=").replace(' xmlns:xlink="http://www.w3.org/1999/xlink"', "")
+    """The same file in fewer bytes, ids told apart from those of other figures; glyphs, which it
+    uses most, have the shortest ids."""
+    text = text.replace("xlink:href=", "href=").replace(
+        ' xmlns:xlink="http://www.w3.org/1999/xlink"', ""
+    )
     glyphs = list(dict.fromkeys(re.findall(r'<use href="#([^"]*)"', text)))
     short = {glyph: f"{slug}-{count:x}" for count, glyph in enumerate(glyphs)}
     text = re.sub(r"<!--.*?-->|<!DOCTYPE[^>]*>", "", text, flags=re.DOTALL)
-    text = re.sub(r'(\sid="|href="#|url\(#)([^")]*)', lambda found: found[1] + short.get(found[2], f"{slug}-{found[2]}"), text)
+    text = re.sub(
+        r'(\sid="|href="#|url\(#)([^")]*)',
+        lambda found: found[1] + short.get(found[2], f"{slug}-{found[2]}"),
+        text,
+    )
     text = re.sub(r'(<use [^>]*?)transform="translate\(([-\d.]+) ([-\d.]+)\)"', _placed, text)
-    return re.sub(r">\s+<", "><", re.sub(r"\s*\n\s*", " ", text)).replace(' "/>', '"/>').strip() + "\n"
+    return (
+        re.sub(r">\s+<", "><", re.sub(r"\s*\n\s*", " ", text)).replace(' "/>', '"/>').strip() + "\n"
+    )
 
 
 def _placed(use: re.Match[str]) -> str:
-    return use[1] + " ".join(f'{name}="{round(float(at), 1):g}"' for name, at in (("x", use[2]), ("y", use[3])) if float(at))
+    return use[1] + " ".join(
+        f'{name}="{round(float(at), 1):g}"'
+        for name, at in (("x", use[2]), ("y", use[3]))
+        if float(at)
+    )
 
 
 def pdf(figure: Figure) -> bytes:
@@ -105,12 +133,15 @@ def pdf(figure: Figure) -> bytes:
 
     data = io.BytesIO()
     with style():
-        FigureCanvasPdf(figure).print_pdf(data, metadata={"CreationDate": None, "Creator": None, "Producer": None})
+        FigureCanvasPdf(figure).print_pdf(
+            data, metadata={"CreationDate": None, "Creator": None, "Producer": None}
+        )
     return data.getvalue()
 
 
 def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
-    """An SVG file of `svg` as an element of an HTML page: named for readers who do not see it, its ink the page's text colour."""
+    """An SVG file of `svg` as an element of an HTML page: named for readers who do not see it, its
+    ink the page's text colour."""
     text = data.decode("utf-8") if isinstance(data, bytes) else data
     box = re.search(r'<svg[^>]*\sviewBox="([^"]*)"', text)
     body = re.search(r"<svg[^>]*>(.*)</svg>", text, re.DOTALL)
@@ -118,6 +149,9 @@ def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
         raise ValueError(f"not an SVG file: {slug}")
     inner = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", body.group(1), flags=re.DOTALL)
     inner = inner.replace(INK, "currentColor").replace("*{", f"#{slug} *{{").strip()
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" id="{slug}" viewBox="{box.group(1)}" width="100%" role="img" '
-            f'aria-labelledby="{slug}-title {slug}-desc"><title id="{slug}-title">{escape(title)}</title>'
-            f'<desc id="{slug}-desc">{escape(alt)}</desc>{inner}</svg>')
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" id="{slug}" viewBox="{box.group(1)}" width="100%"'
+        f' role="img" aria-labelledby="{slug}-title {slug}-desc"><title'
+        f' id="{slug}-title">{escape(title)}</title><desc'
+        f' id="{slug}-desc">{escape(alt)}</desc>{inner}</svg>'
+    )

@@ -18,11 +18,15 @@ if TYPE_CHECKING:
 
 TIME = r"$t\,/\,T$"
 HEIGHT, VELOCITY = r"$\rho\,/\,(\dot\rho_0 T)$", r"$\dot\rho\,/\,\dot\rho_0$"  # of the table
-START = (Fraction(9, 5), Fraction(3, 5))  # height and velocity as the ball starts, the table being at its lowest
+START = (
+    Fraction(9, 5),
+    Fraction(3, 5),
+)  # height and velocity as the ball starts, the table being at its lowest
 
 
 def against_time(height: Any, shift: Any, stop: Any, **values: Any) -> Arc:
-    """A height that is a quadratic in t, from time 0 to stop, as drawn: time in periods, from the shift on, height in units of r T."""
+    """A height that is a quadratic in t, from time 0 to stop, as drawn: time in periods, from the
+    shift on, height in units of r T."""
     one = curve(t, height, t, 0.0, stop, **values)
     unit, length = states.units()[0], float(value(period()))
     across = (float(shift) / length, 1 / length, 0.0)
@@ -35,8 +39,11 @@ def table_path(periods: int) -> list[Arc]:
     return [against_time(table_at()[0], k * length, length) for k in range(periods)]
 
 
-def ball_path(height: Fraction, speed: Fraction, shift: Fraction) -> tuple[list[Arc], tuple[float, float] | None]:
-    """The ball's height over the period that starts at this time in this state, and where the table strikes it, if it does."""
+def ball_path(
+    height: Fraction, speed: Fraction, shift: Fraction
+) -> tuple[list[Arc], tuple[float, float] | None]:
+    """The ball's height over the period that starts at this time in this state, and where the table
+    strikes it, if it does."""
     length = value(period())
     if margin(height, speed) <= 0:
         return [against_time(flight_map()[0], shift, length, beta=height, v=speed)], None
@@ -50,7 +57,13 @@ def ball_path(height: Fraction, speed: Fraction, shift: Fraction) -> tuple[list[
 def time_plane(figure: Figure, box: Box, periods: int, top: float, label: str) -> Plane:
     """Axes of time in periods and height in units of r T."""
     plane = Plane(figure, box, (0, periods), (-0.02 * top, top))
-    plane.frame(ticks(range(periods + 1)), ticks(k / 10 for k in range(0, int(10 * top) + 1, 2 if top > 1 else 1)), TIME, label, 26)
+    plane.frame(
+        ticks(range(periods + 1)),
+        ticks(k / 10 for k in range(0, int(10 * top) + 1, 2 if top > 1 else 1)),
+        TIME,
+        label,
+        26,
+    )
     return plane
 
 
@@ -66,7 +79,9 @@ def coupled_motion() -> Figure:
     """Figure 9: ball and table against time; the ball is sampled whenever the table is lowest."""
     periods, top = 6, 1.12
     figure = blank(5.4, 3.2)
-    plane = time_plane(figure, (0.105, 0.155, 0.875, 0.8), periods, top, r"height$\,/\,(\dot\rho_0 T)$")
+    plane = time_plane(
+        figure, (0.105, 0.155, 0.875, 0.8), periods, top, r"height$\,/\,(\dot\rho_0 T)$"
+    )
     draw_table(plane, periods)
     length = value(period())
     samples = orbit(START, periods)
@@ -78,10 +93,22 @@ def coupled_motion() -> Figure:
         plane.text((k + 0.5, 1.06), rf"$\bar b_{k} \in \mathcal{{B}}_{1 if strike else 2}$")
     plane.dots(strikes, "strikes", 6, filled=False, colour=B1.colour)
     heights = [(k, float(height) / states.units()[0]) for k, (height, _) in enumerate(samples)]
-    plane.line([straight((k, 0), (k, top)) for k, _ in heights[1:]], "sampling", linewidth=0.5, linestyle=(0, (2, 2)), zorder=0.4)
+    plane.line(
+        [straight((k, 0), (k, top)) for k, _ in heights[1:]],
+        "sampling",
+        linewidth=0.5,
+        linestyle=(0, (2, 2)),
+        zorder=0.4,
+    )
     plane.dots(heights, "samples", 4)
     for k, place in enumerate(heights[:-1]):
-        plane.text(place, rf"$\bar\beta_{k}$", (5, 3) if k else (6, -3), ha="left", va="bottom" if k else "top")
+        plane.text(
+            place,
+            rf"$\bar\beta_{k}$",
+            (5, 3) if k else (6, -3),
+            ha="left",
+            va="bottom" if k else "top",
+        )
     plane.text((0.5, 0.1), "table")
     plane.text((0.42, 0.78), "ball")
     plane.line([straight((1.49, 0.7), strikes[0])], "pointer", linewidth=0.6)

@@ -1,4 +1,5 @@
-"""Derived expressions as numbers, exact or floating, at one setting: alpha = 1/4, r = g = 1; states and orbits of the map."""
+"""Derived expressions as numbers, exact or floating, at one setting: alpha = 1/4, r = g = 1; states
+and orbits of the map."""
 
 from __future__ import annotations
 
@@ -13,16 +14,26 @@ SETTING: Mapping[str, Fraction] = {"alpha": ALPHA, "r": Fraction(1), "g": Fracti
 
 
 def value(expression: Any, **values: Any) -> Any:
-    """The value of an expression, symbols being named; alpha, r and g are those of the setting unless given.
+    """The value of an expression, symbols being named; alpha, r and g are those of the setting
+    unless given.
 
-    Exact where the given values are whole numbers or fractions and no root occurs, else a float, or an array.
+    Exact where the given values are whole numbers or fractions and no root occurs, else a float, or
+    an array.
 
     >>> from symbolic.symbols import beta, v
     >>> value(period()), value(beta / 2 + v, beta=Fraction(1, 3), v=1), value(v**2 + 1, v=0.5)
     (Fraction(2, 1), Fraction(7, 6), 1.25)
     """
     exact = all(isinstance(one, (int, Fraction)) for one in values.values())
-    return _walk(expression, {**SETTING, **values} if exact else {**{k: float(one) for k, one in SETTING.items()}, **values}, exact)
+    return _walk(
+        expression,
+        (
+            {**SETTING, **values}
+            if exact
+            else {**{k: float(one) for k, one in SETTING.items()}, **values}
+        ),
+        exact,
+    )
 
 
 def _walk(expression: Any, values: Mapping[str, Any], exact: bool) -> Any:
@@ -43,7 +54,13 @@ def _walk(expression: Any, values: Mapping[str, Any], exact: bool) -> Any:
     elif expression.is_Pow:
         power = parts[1]
         whole = expression.exp.is_Integer
-        total = total ** int(expression.exp) if whole else float(total) ** float(power) if exact else total**power
+        total = (
+            total ** int(expression.exp)
+            if whole
+            else float(total) ** float(power)
+            if exact
+            else total**power
+        )
     else:
         raise ValueError(f"cannot be drawn: {expression}")
     return total

@@ -1,4 +1,5 @@
-"""Figures 5 and 6: the half plane H of the states, and what the table does to them: B1 (it strikes within the period) and B2 (it does not)."""
+"""Figures 5 and 6: the half plane H of the states, and what the table does to them: B1 (it strikes
+within the period) and B2 (it does not)."""
 
 from __future__ import annotations
 
@@ -42,5 +43,10 @@ def strikes_and_flights() -> Figure:
     plane.text((1.55, 1.2), r"$\mathcal{B}_2$", fontsize=18)
     plane.text((1.55, 0.8), "not struck\nwithin the period", va="top", linespacing=1.0)
     plane.name(states.bounce_line(BEYOND[0]), -0.4, r"$\tau_c = T$")
-    plane.name(states.bounce_line(BEYOND[0]), -0.75, r"$\partial\mathcal{B}_2 \subset \mathcal{B}_2$", above=False)
+    plane.name(
+        states.bounce_line(BEYOND[0]),
+        -0.75,
+        r"$\partial\mathcal{B}_2 \subset \mathcal{B}_2$",
+        above=False,
+    )
     return figure

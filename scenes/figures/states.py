@@ -1,4 +1,5 @@
-"""The plane of the sampled states: height across in units of r T, velocity up in units of r; its curves, and the outlines of its regions."""
+"""The plane of the sampled states: height across in units of r T, velocity up in units of r; its
+curves, and the outlines of its regions."""
 
 from __future__ import annotations
 
@@ -10,7 +11,15 @@ from scenes.figures.arcs import Arc, Point, curve, straight, zeros
 from scenes.figures.drawing import Look
 from scenes.figures.numbers import SETTING, column, value
 from scenes.figures.plane import Box, Plane, Sides, ticks
-from symbolic import boundary_height, e_1, period, region_energy, root_of, total_energy, zero_change_height
+from symbolic import (
+    boundary_height,
+    e_1,
+    period,
+    region_energy,
+    root_of,
+    total_energy,
+    zero_change_height,
+)
 from symbolic.symbols import E0, beta, v
 
 if TYPE_CHECKING:
@@ -29,8 +38,11 @@ def units() -> tuple[float, float]:
 def drawn(arcs: Sequence[Arc]) -> list[Arc]:
     """Arcs of states (beta, v) in the units of the axes."""
     h, s = units()
-    return [Arc((a / h, b / h, c / h), (d / s, e / s, k / s), arc.start, arc.stop)
-            for arc in arcs for (a, b, c), (d, e, k) in [(arc.across, arc.up)]]
+    return [
+        Arc((a / h, b / h, c / h), (d / s, e / s, k / s), arc.start, arc.stop)
+        for arc in arcs
+        for (a, b, c), (d, e, k) in [(arc.across, arc.up)]
+    ]
 
 
 def at(state: Any) -> Point:
@@ -40,16 +52,31 @@ def at(state: Any) -> Point:
 
 
 class StatePlane(Plane):
-    """The plane of the states; what is drawn are states (beta, v), what is written stands at places in the units of the axes."""
+    """The plane of the states; what is drawn are states (beta, v), what is written stands at places
+    in the units of the axes."""
 
-    def __init__(self, figure: Figure, box: Box, across: Sides, up: Sides, labels: tuple[str, str] = (HEIGHT, VELOCITY),
-                 numbered: bool = True) -> None:
+    def __init__(
+        self,
+        figure: Figure,
+        box: Box,
+        across: Sides,
+        up: Sides,
+        labels: tuple[str, str] = (HEIGHT, VELOCITY),
+        numbered: bool = True,
+    ) -> None:
         super().__init__(figure, box, across, up)
         part = 1 if up[1] - up[0] > 2 else 2
         velocities = ticks(k / part for k in range(-int(-part * up[0]), int(part * up[1]) + 1))
         heights = ticks(k / 2 for k in range(int(2 * across[1]) + 1))
-        self.frame(heights, velocities if numbered else dict.fromkeys(velocities, ""), *labels, 20 if part == 1 else 27)
-        self.line([straight((across[0], 0), (across[1], 0))], None, linewidth=0.4, alpha=0.6, zorder=0.8)
+        self.frame(
+            heights,
+            velocities if numbered else dict.fromkeys(velocities, ""),
+            *labels,
+            20 if part == 1 else 27,
+        )
+        self.line(
+            [straight((across[0], 0), (across[1], 0))], None, linewidth=0.4, alpha=0.6, zorder=0.8
+        )
         if across[0] < 0:
             self.line([straight((0, up[0]), (0, up[1]))], None, linewidth=1.2, zorder=2)
 
@@ -65,7 +92,9 @@ class StatePlane(Plane):
         """Writes along a curve of states, at this velocity."""
         self.along(drawn([arc])[0], speed, said, **more)
 
-    def mark(self, state: Any, name: str, label: str = "", shift: Point = (5, 4), **more: Any) -> None:
+    def mark(
+        self, state: Any, name: str, label: str = "", shift: Point = (5, 4), **more: Any
+    ) -> None:
         """Marks a derived state, with its name beside it."""
         self.dots([at(state)], name)
         if label:
@@ -128,7 +157,9 @@ def outline_b2(reach: float, up: Sides) -> list[Arc]:
     """B2 as far as the axes show it; the speeds reach down to where the line has left the axes."""
     arc = bounce_line(up[0])
     corner = max(reach, arc.at(arc.stop)[0])
-    return chain(arc, straight((corner, up[0]), (corner, up[1])), straight((0, up[1]), arc.at(arc.start)))
+    return chain(
+        arc, straight((corner, up[0]), (corner, up[1])), straight((0, up[1]), arc.at(arc.start))
+    )
 
 
 def outline_r() -> list[Arc]:

@@ -1,4 +1,5 @@
-"""The trap, the levels of the rank and orbits that fall into the trap, in the normal form (x, w)."""
+"""The trap, the levels of the rank and orbits that fall into the trap, in the normal form (x,
+w)."""
 
 from __future__ import annotations
 
@@ -20,11 +21,16 @@ if TYPE_CHECKING:
 
 HEIGHT, CLOSING = r"$x = \bar\beta\,/\,(\dot\rho_0 T)$", r"$w = 1 - \dot{\bar\beta}\,/\,\dot\rho_0$"
 ACROSS, UP = (-0.75, 8.2), (-4.3, 7.3)
-STARTS = tuple((Fraction(a), Fraction(b)) for a, b in ((3, -3), (5, 0), (2, 6), (Fraction(1, 2), Fraction(-5, 2))))  # of the orbits
+STARTS = tuple(
+    (Fraction(a), Fraction(b))
+    for a, b in ((3, -3), (5, 0), (2, 6), (Fraction(1, 2), Fraction(-5, 2)))
+)  # of the orbits
 LEVELS = range(1, 13)
 Point = tuple[Fraction, Fraction]
 Side = tuple[Point, Point, bool]  # its ends, and whether it is left out of the region
-Margin = tuple[Any, bool]  # an expression in x and w that is positive inside, and whether it is so on the boundary too
+Margin = tuple[
+    Any, bool
+]  # an expression in x and w that is positive inside, and whether it is so on the boundary too
 
 
 def normal_step(height: Fraction, closing: Fraction) -> Point:
@@ -33,11 +39,14 @@ def normal_step(height: Fraction, closing: Fraction) -> Point:
     >>> normal_step(Fraction(3), Fraction(-3))
     (Fraction(6, 1), Fraction(-1, 1))
     """
-    return impact(ALPHA, height, closing) if strikes(height, closing) else flight(height, closing, 1)
+    return (
+        impact(ALPHA, height, closing) if strikes(height, closing) else flight(height, closing, 1)
+    )
 
 
 def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Point]:
-    """The orbit from the start until it is in the trap; ValueError where that takes more steps than allowed."""
+    """The orbit from the start until it is in the trap; ValueError where that takes more steps than
+    allowed."""
     states = [start]
     while not inside(trap, *states[-1]):
         if len(states) > most:
@@ -48,11 +57,17 @@ def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Poi
 
 def inside(trap: Sequence[Margin], height: Fraction, closing: Fraction) -> bool:
     """Whether a state is in the trap: every margin is positive, or zero where that is allowed."""
-    return all(here > 0 or (here == 0 and not strict) for here, strict in ((value(margin, x=height, w=closing), strict) for margin, strict in trap))
+    return all(
+        here > 0 or (here == 0 and not strict)
+        for here, strict in (
+            (value(margin, x=height, w=closing), strict) for margin, strict in trap
+        )
+    )
 
 
 def sides(trap: Sequence[Margin]) -> list[Side]:
-    """The sides of the trap, whose margins are linear, as far as the axes show it: ends, and whether the side is left out."""
+    """The sides of the trap, whose margins are linear, as far as the axes show it: ends, and
+    whether the side is left out."""
     edge = [(Fraction(a), Fraction(b)) for a, b in ((-50, -50), (50, -50), (50, 50), (-50, 50))]
     polygon = [(start, stop, True) for start, stop in zip(edge, [*edge[1:], edge[0]])]
     for margin, strict in trap:
@@ -67,7 +82,10 @@ def _clipped(polygon: list[Side], margin: Any, strict: bool) -> list[Side]:
         here, there = (value(margin, x=point[0], w=point[1]) for point in (start, stop))
         if here * there < 0:
             share = here / (here - there)
-            crossing = (start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1]))
+            crossing = (
+                start[0] + share * (stop[0] - start[0]),
+                start[1] + share * (stop[1] - start[1]),
+            )
             crossings.append(crossing)
             start, stop = (start, crossing) if here > 0 else (crossing, stop)
         if here > 0 or there > 0:
@@ -83,13 +101,15 @@ def _clipped(polygon: list[Side], margin: Any, strict: bool) -> list[Side]:
 
 @cache
 def heights_of_rank(rank: Any, root: Any, square: Any) -> tuple[Any, Any]:
-    """The height x at which w has the rank n, and the root there; the rank is linear in the root, whose square is linear in x."""
+    """The height x at which w has the rank n, and the root there; the rank is linear in the root,
+    whose square is linear in x."""
     root_there = root_of(rank - n, root)
     return root_of(square - root_there**2, x), root_there
 
 
 def rank_level(rank: Any, root: Any, square: Any, level: int) -> Arc:
-    """The states x >= 0 of this rank, an arc of a parabola; ValueError where the root would be negative."""
+    """The states x >= 0 of this rank, an arc of a parabola; ValueError where the root would be
+    negative."""
     height, root_there = heights_of_rank(rank, root, square)
     low, high = zeros(height, w, n=level)
     if min(value(root_there, w=low, n=level), value(root_there, w=high, n=level)) < 0:
@@ -99,16 +119,24 @@ def rank_level(rank: Any, root: Any, square: Any, level: int) -> Arc:
 
 @styled
 def trap_and_rank(rank: Any, root: tuple[Any, Any], trap: Sequence[Margin]) -> Figure:
-    """The trap (its margins, and whether each is strict), orbits that fall into it, and levels of the rank (its root, and the square of that)."""
+    """The trap (its margins, and whether each is strict), orbits that fall into it, and levels of
+    the rank (its root, and the square of that)."""
     plane = Plane(blank(5.2, 4.4), (0.1, 0.115, 0.88, 0.865), ACROSS, UP)
-    plane.frame(ticks(range(int(ACROSS[1]) + 1)), ticks(range(-int(-UP[0]), int(UP[1]) + 1)), HEIGHT, CLOSING)
+    plane.frame(
+        ticks(range(int(ACROSS[1]) + 1)),
+        ticks(range(-int(-UP[0]), int(UP[1]) + 1)),
+        HEIGHT,
+        CLOSING,
+    )
     plane.line([straight((0, UP[0]), (0, UP[1]))], None, linewidth=1.2)
     draw_levels(plane, rank, root)
     draw_trap(plane, trap)
     for count, start in enumerate(STARTS):
         orbit = orbit_into(trap, start)
         for here, there in zip(orbit, orbit[1:]):
-            plane.arrow(shown(here), shown(there), B1.colour if strikes(*here) else B2.colour, 1.2, short=3)
+            plane.arrow(
+                shown(here), shown(there), B1.colour if strikes(*here) else B2.colour, 1.2, short=3
+            )
         plane.dots(map(shown, orbit), f"orbit-{count}", 3.2)
     point = shown(column(normal_e_1()))
     plane.dots([point], "e-1", 7, "+")
@@ -140,4 +168,10 @@ def draw_trap(plane: Plane, trap: Sequence[Margin]) -> None:
     trap_sides = sides(trap)
     plane.area([straight(start, stop) for start, stop, _ in trap_sides], "trap", TRAP)
     for index, (start, stop, left_out) in enumerate(trap_sides):
-        plane.line([straight(start, stop)], f"trap-side-{index}", TRAP if left_out else None, linewidth=1.6, zorder=1.5)
+        plane.line(
+            [straight(start, stop)],
+            f"trap-side-{index}",
+            TRAP if left_out else None,
+            linewidth=1.6,
+            zorder=1.5,
+        )

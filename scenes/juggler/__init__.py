@@ -1,4 +1,5 @@
-"""The juggler: orbits of the paper's map in four arithmetics, from a scene; periodic orbits; the motion between samples.
+"""The juggler: orbits of the paper's map in four arithmetics, from a scene; periodic orbits; the
+motion between samples.
 
     from scenes.juggler import orbit, point, scene
 
@@ -15,7 +16,9 @@ from typing import Any
 _NAMES = {
     "scenes.errors": "SceneError",
     "scenes.juggler.setting": "Goal Scene scene",
-    "scenes.juggler.starts": "arrays boundary grid listed physical physical_box physical_grid point random",
+    "scenes.juggler.starts": (
+        "arrays boundary grid listed physical physical_box physical_grid point random"
+    ),
     "scenes.juggler.orbits": "ARITHMETICS Orbits Row orbit prepare",
 }
 _PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}

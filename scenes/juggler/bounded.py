@@ -1,19 +1,28 @@
-"""Arrays of float64 with a proved bound on their distance to the exact numbers (running error analysis).
+"""Arrays of float64 with a proved bound on their distance to the exact numbers (running error
+analysis).
 
-A `Bounded` is an array v of floats and an array e >= 0 of floats with |exact - v| <= e, entry by entry.  Let u = 2^-53 be the unit roundoff, fl a
-rounded result (IEEE 754 binary64, to nearest, with gradual underflow), and X = x + dx, Y = y + dy the exact numbers, |dx| <= e_x, |dy| <= e_y.
+A `Bounded` is an array v of floats and an array e >= 0 of floats with |exact - v| <= e, entry by
+entry.  Let u = 2^-53 be the unit roundoff, fl a rounded result (IEEE 754 binary64, to nearest, with
+gradual underflow), and X = x + dx, Y = y + dy the exact numbers, |dx| <= e_x, |dy| <= e_y.
 
-- Sum, z = fl(x + y): |fl(a) - a| <= u |fl(a)|, and sums do not underflow inexactly.  So |X + Y - z| <= e_x + e_y + u |z|.
-- Product, z = fl(x y): the same, and 2^-1075 more where it underflows.  So |X Y - z| <= |x| e_y + |y| e_x + e_x e_y + u |z| + 2^-1075.
-- Quotient, z = fl(x/y), where |y| > e_y: X/Y - x/y = (dx - (x/y) dy)/Y and |x/y| <= |z| (1 + 2 u) + 2^-1074.
-  So |X/Y - z| <= (e_x + (|z| (1 + 2 u) + 2^-1074) e_y)/(|y| - e_y) + u |z| + 2^-1075; infinite elsewhere.
-- The bounds are themselves computed in floats: sums, products and quotients of numbers >= 0, at most 9 roundings deep, so that what is computed is at
-  least (1 - u)^9 times the bound less what underflows; |y| - e_y is first lowered by 4 u |y|, which is more than its rounding, and
-  2^-1065 is added to what is divided by it.  Each bound is
-  multiplied by 1 + 2^-49 = 1 + 16 u and 2^-1065 is added: more than (1 - u)^-10, and more than all underflows (each at most 2^-1075, fewer than 8).
+- Sum, z = fl(x + y): |fl(a) - a| <= u |fl(a)|, and sums do not underflow inexactly.  So |X + Y - z|
+<= e_x + e_y + u |z|.
+- Product, z = fl(x y): the same, and 2^-1075 more where it underflows.  So |X Y - z| <= |x| e_y +
+|y| e_x + e_x e_y + u |z| + 2^-1075.
+- Quotient, z = fl(x/y), where |y| > e_y: X/Y - x/y = (dx - (x/y) dy)/Y and |x/y| <= |z| (1 + 2 u) +
+2^-1074.
+  So |X/Y - z| <= (e_x + (|z| (1 + 2 u) + 2^-1074) e_y)/(|y| - e_y) + u |z| + 2^-1075; infinite
+  elsewhere.
+- The bounds are themselves computed in floats: sums, products and quotients of numbers >= 0, at
+most 9 roundings deep, so that what is computed is at
+  least (1 - u)^9 times the bound less what underflows; |y| - e_y is first lowered by 4 u |y|, which
+  is more than its rounding, and 2^-1065 is added to what is divided by it.  Each bound is
+  multiplied by 1 + 2^-49 = 1 + 16 u and 2^-1065 is added: more than (1 - u)^-10, and more than all
+  underflows (each at most 2^-1075, fewer than 8).
 
-An overflow makes v infinite or not a number, and e too: no comparison then holds, and the sign is not decided.  Numbers that come in are whole
-numbers below 2^53, which are exact, or have their distance to the exact number as their bound.
+An overflow makes v infinite or not a number, and e too: no comparison then holds, and the sign is
+not decided.  Numbers that come in are whole numbers below 2^53, which are exact, or have their
+distance to the exact number as their bound.
 """
 
 from __future__ import annotations
@@ -72,7 +81,9 @@ class Bounded:
     def __mul__(self, other: Bounded | int | Any) -> Bounded:
         two = _bounded(other)
         z = self.v * two.v
-        return Bounded(z, _raised(abs(self.v) * two.e + abs(two.v) * self.e + self.e * two.e + U * abs(z)))
+        return Bounded(
+            z, _raised(abs(self.v) * two.e + abs(two.v) * self.e + self.e * two.e + U * abs(z))
+        )
 
     __rmul__ = __mul__
 
@@ -81,7 +92,11 @@ class Bounded:
         z = self.v / two.v
         size = abs(two.v)
         least = (size - two.e) - 4 * U * size
-        bound = _raised((self.e + (abs(z) * (1 + 2 * U) + TINY) * two.e + TINY) / np.where(least > 0, least, np.nan) + U * abs(z))
+        bound = _raised(
+            (self.e + (abs(z) * (1 + 2 * U) + TINY) * two.e + TINY)
+            / np.where(least > 0, least, np.nan)
+            + U * abs(z)
+        )
         return Bounded(z, np.where(least > 0, bound, np.inf))
 
     def is_positive(self) -> Booleans:

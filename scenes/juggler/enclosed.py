@@ -1,9 +1,11 @@
-"""Orbits in balls that are proved to hold the exact state, at a precision that is raised until every branch is decided.
+"""Orbits in balls that are proved to hold the exact state, at a precision that is raised until
+every branch is decided.
 
-Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses.  The margin w - x of a ball that holds 0 is settled
-by the exact orbit from the rational start, as long as that stays about as short as the balls; otherwise the orbit begins again with twice the bits.
-So a state is said to lie on x = w only where that is proved, and nothing is guessed.  In the trap the closed form holds for any number of periods
-at once.
+Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses.  The
+margin w - x of a ball that holds 0 is settled by the exact orbit from the rational start, as long
+as that stays about as short as the balls; otherwise the orbit begins again with twice the bits. So
+a state is said to lie on x = w only where that is proved, and nothing is guessed.  In the trap the
+closed form holds for any number of periods at once.
 """
 
 from __future__ import annotations
@@ -54,10 +56,16 @@ class Enclosed:
         """Nothing has to stop: a ball that has grown too wide fails at the next sign."""
 
     def settle(self, track: Track) -> int:
-        """The sign of the margin by the exact orbit, which is followed to this period; the ball is taken anew from there."""
+        """The sign of the margin by the exact orbit, which is followed to this period; the ball is
+        taken anew from there."""
         exact = Exact(self.alpha, EXACT_SHARE * self.bits)
         try:
-            advance(self.checkpoint, exact, Goal(track.here.periods), formulas().fixed(lifted(self.alpha)))
+            advance(
+                self.checkpoint,
+                exact,
+                Goal(track.here.periods),
+                formulas().fixed(lifted(self.alpha)),
+            )
         except Stop:
             raise _Again("undecided") from None
         here = self.checkpoint.here
@@ -74,12 +82,24 @@ def radius_of(ball: Any) -> Fraction:
 def _wide(track: Track, radius: Fraction) -> bool:
     samples = track.samples if track.samples is not None else [track.here]
     most = lifted(radius)
-    return not all(part.is_finite() and part.rad().fmpq() <= most for one in samples for part in (one.x, one.w))
+    return not all(
+        part.is_finite() and part.rad().fmpq() <= most for one in samples for part in (one.x, one.w)
+    )
 
 
-def follow(alpha: Fraction, start: tuple[Fraction, Fraction], goal: Goal, keep: bool, bits: int, radius: Fraction, most_bits: int,
-           show: Callable[[Track], None], report: Callable[[Track], None] | None = None) -> None:
-    """Follows the orbit; `show` is given every track that is begun, the last of which holds the result."""
+def follow(
+    alpha: Fraction,
+    start: tuple[Fraction, Fraction],
+    goal: Goal,
+    keep: bool,
+    bits: int,
+    radius: Fraction,
+    most_bits: int,
+    show: Callable[[Track], None],
+    report: Callable[[Track], None] | None = None,
+) -> None:
+    """Follows the orbit; `show` is given every track that is begun, the last of which holds the
+    result."""
     first = Sample(0, 0, *start)
     checkpoint = begin(Exact(alpha), alpha, first, False)
     before = ctx.prec
@@ -91,7 +111,13 @@ def follow(alpha: Fraction, start: tuple[Fraction, Fraction], goal: Goal, keep: 
             track.edges = checkpoint.edges
             show(track)
             try:
-                advance(track, arithmetic, goal, tuple(map(arithmetic.lift, formulas().fixed(alpha))), report)
+                advance(
+                    track,
+                    arithmetic,
+                    goal,
+                    tuple(map(arithmetic.lift, formulas().fixed(alpha))),
+                    report,
+                )
                 if not _wide(track, radius):
                     return
             except Stop:

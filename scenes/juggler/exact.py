@@ -1,8 +1,9 @@
 """Orbits in exact rationals.
 
-Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction, and from a few hundred on `Ratio`s, which are faster
-still; results are told as Fraction.  They grow by the length of alpha with every impact, also in the trap, where the closed form is exact too.  They
-stay within a stated length, or the orbit ends there.
+Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction, and from
+a few hundred on `Ratio`s, which are faster still; results are told as Fraction.  They grow by the
+length of alpha with every impact, also in the trap, where the closed form is exact too.  They stay
+within a stated length, or the orbit ends there.
 """
 
 from __future__ import annotations
@@ -20,7 +21,10 @@ from scenes.juggler.ratios import Powers, Ratio, lowest, shortened
 from scenes.juggler.track import Sample, Stop, Track
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
-FEW_BITS, MANY_BITS = 2**10, 2**16  # from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
+FEW_BITS, MANY_BITS = (
+    2**10,
+    2**16,
+)  # from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
 PLACES = 64  # binary, of what only guesses are made from
 
 
@@ -40,8 +44,11 @@ def told(value: Any) -> Fraction:
 
 
 def _of_coprime() -> Callable[[int, int], Fraction]:
-    """Fraction without its greatest common divisor, which takes seconds for a million digits and is 1 here: fmpq is in lowest terms."""
-    quick: Callable[[int, int], Fraction] | None = getattr(Fraction, "_from_coprime_ints", None)  # from Python 3.12 on
+    """Fraction without its greatest common divisor, which takes seconds for a million digits and is
+    1 here: fmpq is in lowest terms."""
+    quick: Callable[[int, int], Fraction] | None = getattr(
+        Fraction, "_from_coprime_ints", None
+    )  # from Python 3.12 on
     if quick is not None:
         return quick
     whole: Any = Fraction
@@ -71,7 +78,9 @@ class Exact:
 
     def middle(self, value: Any) -> Any:
         """The number cut off after 64 binary places, which takes no greatest common divisor."""
-        top, bottom = (value.top, value.bottom()) if isinstance(value, Ratio) else (value.p, value.q)
+        top, bottom = (
+            (value.top, value.bottom()) if isinstance(value, Ratio) else (value.p, value.q)
+        )
         return fmpq((top << PLACES) // bottom, fmpz(1) << PLACES)
 
     def power(self, value: Any, exponent: int) -> Any:
@@ -87,14 +96,24 @@ class Exact:
             self._shorten(track)
             bits = _bits(track)
             self.due = max(2 * bits, FEW_BITS)
-        if bits > self.most_bits and max(lowest(part).height_bits() for part in track.here[2:]) > self.most_bits:
+        if (
+            bits > self.most_bits
+            and max(lowest(part).height_bits() for part in track.here[2:]) > self.most_bits
+        ):
             raise Stop("too long")
 
     def _shorten(self, track: Track) -> None:
-        """Makes long numbers `Ratio`s, takes out what they have in common with q, and makes those fmpq that are short then."""
-        x, w = (shortened(part if isinstance(part, Ratio) else Ratio.of(part, self.powers)) for part in track.here[2:])
+        """Makes long numbers `Ratio`s, takes out what they have in common with q, and makes those
+        fmpq that are short then."""
+        x, w = (
+            shortened(part if isinstance(part, Ratio) else Ratio.of(part, self.powers))
+            for part in track.here[2:]
+        )
         if max(x.bits(), w.bits()) > FEW_BITS // 2:
-            track.here, track.alpha = track.here._replace(x=x, w=w), Ratio.of(self.alpha, self.powers)
+            track.here, track.alpha = (
+                track.here._replace(x=x, w=w),
+                Ratio.of(self.alpha, self.powers),
+            )
         else:
             track.here, track.alpha = track.here._replace(x=lowest(x), w=lowest(w)), self.alpha
 
@@ -103,7 +122,9 @@ class Exact:
 
 
 def _bits(track: Track) -> int:
-    return max(part.bits() if isinstance(part, Ratio) else part.height_bits() for part in track.here[2:])
+    return max(
+        part.bits() if isinstance(part, Ratio) else part.height_bits() for part in track.here[2:]
+    )
 
 
 def finished(sample: Sample) -> Sample:
@@ -149,7 +170,9 @@ def flight_length(x: Fraction, w: Fraction) -> int:
     if strikes(x, w):
         return 0
     b, square = formulas().end_of_flight(x, w)
-    length = max((isqrt(square // 1) - b) // 2 + 1, 1)  # not above the length, and at most one below
+    length = max(
+        (isqrt(square // 1) - b) // 2 + 1, 1
+    )  # not above the length, and at most one below
     while not strikes(*flight(x, w, length)):
         length += 1
     if length > 1 and strikes(*flight(x, w, length - 1)):
@@ -158,10 +181,13 @@ def flight_length(x: Fraction, w: Fraction) -> int:
 
 
 def later(alpha: Fraction, x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
-    """f1 so many times: f1^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q); an orbit of f from a state of the trap.
+    """f1 so many times: f1^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q); an orbit of f from a
+    state of the trap.
 
     >>> later(Fraction(1, 2), Fraction(0), Fraction(1), 2) == impact(Fraction(1, 2), *impact(Fraction(1, 2), Fraction(0), Fraction(1)))
     True
     """
-    there: tuple[Fraction, Fraction] = formulas().later(x, w, *formulas().fixed(alpha), periods, (-alpha) ** periods)
+    there: tuple[Fraction, Fraction] = formulas().later(
+        x, w, *formulas().fixed(alpha), periods, (-alpha) ** periods
+    )
     return there

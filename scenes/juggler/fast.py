@@ -1,8 +1,11 @@
-"""Millions of orbits at once in float64, each with a proved bound on its error; what the bound cannot decide is listed, not guessed.
+"""Millions of orbits at once in float64, each with a proved bound on its error; what the bound
+cannot decide is listed, not guessed.
 
-The states of a chunk move together: a whole flight and an impact a round, the closed form once they are in the trap.  Every number is a `Bounded`,
-so that the bound of each state accounts for what its start's conversion missed, for alpha's, and for every operation.  A branch is taken only where
-the margin w - x is further from 0 than its bound; a state where it is not is left there, with the period at which that happened.
+The states of a chunk move together: a whole flight and an impact a round, the closed form once they
+are in the trap.  Every number is a `Bounded`, so that the bound of each state accounts for what its
+start's conversion missed, for alpha's, and for every operation.  A branch is taken only where the
+margin w - x is further from 0 than its bound; a state where it is not is left there, with the
+period at which that happened.
 """
 
 from __future__ import annotations
@@ -29,7 +32,8 @@ ENDS = ("", "reached", "trap", "undecided", "too long")  # the last in exact ari
 
 @dataclass
 class Ensemble:
-    """Where each orbit stands: arrays of shape (n,), in normal form; `history` has shape (n, steps + 1, 4): x, w and their bounds, or is absent."""
+    """Where each orbit stands: arrays of shape (n,), in normal form; `history` has shape (n, steps
+    + 1, 4): x, w and their bounds, or is absent."""
 
     x: Floats
     w: Floats
@@ -43,17 +47,31 @@ class Ensemble:
 
     @staticmethod
     def empty(count: int, goal: Goal, keep: bool) -> Ensemble:
-        """Room for so many orbits; SceneError where all states of all orbits would take too much."""
+        """Room for so many orbits; SceneError where all states of all orbits would take too
+        much."""
         if keep and bytes_needed(count, goal.steps, True) > HISTORY_MEMORY:
             room = f"more than {HISTORY_MEMORY >> 20} MB"
-            raise SceneError(f"all states of {count} orbits of {goal.steps} steps take {room}; keep the ends only, or ask for fewer")
+            raise SceneError(
+                f"all states of {count} orbits of {goal.steps} steps take {room}; keep the ends"
+                " only, or ask for fewer"
+            )
         history = np.full((count, goal.steps + 1, 4), np.nan) if keep else None
         x, w, error_x, error_w = (np.empty(count) for _ in range(4))
-        return Ensemble(x, w, error_x, error_w, np.zeros(count, np.int64), np.zeros(count, np.int64), np.zeros(count, np.uint8), history)
+        return Ensemble(
+            x,
+            w,
+            error_x,
+            error_w,
+            np.zeros(count, np.int64),
+            np.zeros(count, np.int64),
+            np.zeros(count, np.uint8),
+            history,
+        )
 
 
 def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
-    """What `follow` holds at most, beside the program itself: 49 bytes a state, one chunk's temporaries, and the history if asked for.
+    """What `follow` holds at most, beside the program itself: 49 bytes a state, one chunk's
+    temporaries, and the history if asked for.
 
     >>> bytes_needed(10**6, 10**9) < 60_000_000
     True
@@ -61,16 +79,31 @@ def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
     return 49 * count + ROUND_MEMORY + (32 * count * (steps + 1) if keep else 0)
 
 
-def follow(scene: Scene, goal: Goal, ensemble: Ensemble, report: Callable[[int, int], None] | None = None, chunk: int = CHUNK) -> None:
+def follow(
+    scene: Scene,
+    goal: Goal,
+    ensemble: Ensemble,
+    report: Callable[[int, int], None] | None = None,
+    chunk: int = CHUNK,
+) -> None:
     """Follows all orbits of the scene, chunk by chunk, in place."""
     if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
-        raise SceneError("this processor is set to flush small floats to 0, under which no bound holds")
+        raise SceneError(
+            "this processor is set to flush small floats to 0, under which no bound holds"
+        )
     count = scene.starts.count
     fixed = [Bounded.of(part) for part in formulas().fixed(scene.alpha)]
     with np.errstate(all="ignore"):
         for low in range(0, count, chunk):
             high = min(low + chunk, count)
-            _Chunk(scene.alpha, goal, ensemble, low, scene.starts.block(low, high), (fixed[0], fixed[1])).run()
+            _Chunk(
+                scene.alpha,
+                goal,
+                ensemble,
+                low,
+                scene.starts.block(low, high),
+                (fixed[0], fixed[1]),
+            ).run()
             ensemble.done = high
             if report is not None:
                 report(high, count)
@@ -79,8 +112,15 @@ def follow(scene: Scene, goal: Goal, ensemble: Ensemble, report: Callable[[int, 
 class _Chunk:
     """The orbits from number `low` on, those that are not at their end: `at` are their numbers."""
 
-    def __init__(self, alpha: Fraction, goal: Goal, ensemble: Ensemble, low: int, block: tuple[Floats, Floats, Floats, Floats],
-                 fixed: tuple[Bounded, Bounded]) -> None:
+    def __init__(
+        self,
+        alpha: Fraction,
+        goal: Goal,
+        ensemble: Ensemble,
+        low: int,
+        block: tuple[Floats, Floats, Floats, Floats],
+        fixed: tuple[Bounded, Bounded],
+    ) -> None:
         self.alpha, self.goal, self.all, self.fixed = Bounded.of(alpha), goal, ensemble, fixed
         x, w, error_x, error_w = block
         self.x, self.w = Bounded(x, error_x), Bounded(w, error_w)
@@ -98,7 +138,8 @@ class _Chunk:
         return self.goal.steps - (self.periods if self.goal.unit == "periods" else self.impacts)
 
     def _round(self) -> None:
-        """One round: who is at the end, leaves; who strikes, is struck; who flies, flies to its next impact as far as that is certain."""
+        """One round: who is at the end, leaves; who strikes, is struck; who flies, flies to its
+        next impact as far as that is certain."""
         map_ = formulas()
         margin = map_.margin(self.x, self.w)
         strikes, flies = margin.is_positive(), margin.is_negative()
@@ -123,7 +164,9 @@ class _Chunk:
             return
         x, w, left = self.x.at(who), self.w.at(who), self.left[who]
         power = powers(-self.alpha, left)
-        number = Bounded(left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52))  # whole floats are exact below 2^53
+        number = Bounded(
+            left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52)
+        )  # whole floats are exact below 2^53
         x, w = formulas().later(x, w, *self.fixed, number, power)
         self.x.put(who, x)
         self.w.put(who, w)
@@ -134,8 +177,15 @@ class _Chunk:
         if stays.all():
             return
         gone, to = ~stays, self.at[~stays]
-        for whole, part in ((self.all.x, self.x.v), (self.all.w, self.w.v), (self.all.error_x, self.x.e), (self.all.error_w, self.w.e),
-                            (self.all.periods, self.periods), (self.all.impacts, self.impacts), (self.all.end, end)):
+        for whole, part in (
+            (self.all.x, self.x.v),
+            (self.all.w, self.w.v),
+            (self.all.error_x, self.x.e),
+            (self.all.error_w, self.w.e),
+            (self.all.periods, self.periods),
+            (self.all.impacts, self.impacts),
+            (self.all.end, end),
+        ):
             whole[to] = part[gone]
         self.x, self.w, self.at = self.x.at(stays), self.w.at(stays), self.at[stays]
         self.periods, self.impacts = self.periods[stays], self.impacts[stays]
@@ -175,16 +225,22 @@ class _Chunk:
 
 
 def certain_flights(x: Bounded, w: Bounded) -> NDArray[np.int64]:
-    """For states that are proved to fly on: a number K >= 1 of periods that certainly have no impact, the whole flight where the bound can tell.
+    """For states that are proved to fly on: a number K >= 1 of periods that certainly have no
+    impact, the whole flight where the bound can tell.
 
-    The margin after k periods is a convex parabola in k, negative at k = 0: where it is proved not to be positive at K - 1, it is not between.
+    The margin after k periods is a convex parabola in k, negative at k = 0: where it is proved not
+    to be positive at K - 1, it is not between.
     """
     map_ = formulas()
     b, square = map_.end_of_flight(x, w)
     guess = np.floor((np.sqrt(np.maximum(square.v, 0)) - b.v) / 2) + 1
     guess = np.fmax(np.fmin(guess, MOST_PERIODS / 4), 1)  # 1 where it is not a number
     length = np.ones(len(guess))
-    for wish in (np.floor(guess * (1 - 2.0**-20)), guess - 1, guess):  # the last that is certain stays
+    for wish in (
+        np.floor(guess * (1 - 2.0**-20)),
+        guess - 1,
+        guess,
+    ):  # the last that is certain stays
         wish = np.maximum(wish, 1)
         sure = map_.margin(*map_.flight(x, w, Bounded(wish - 1, 0.0))).is_negative()
         length = np.where(sure & (wish > length), wish, length)

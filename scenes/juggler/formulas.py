@@ -1,7 +1,9 @@
-"""The map, its flights and its closed form as plain arithmetic, written out from the expressions that the proofs are about.
+"""The map, its flights and its closed form as plain arithmetic, written out from the expressions
+that the proofs are about.
 
-Each function is the source text of a derived expression in normal form, compiled: it takes any numbers that add, multiply and divide (rationals,
-balls, floats, arrays). Only sums, products and one division by a whole number or a polynomial occur; powers are written as products.
+Each function is the source text of a derived expression in normal form, compiled: it takes any
+numbers that add, multiply and divide (rationals, balls, floats, arrays). Only sums, products and
+one division by a whole number or a polynomial occur; powers are written as products.
 """
 
 from __future__ import annotations
@@ -34,13 +36,17 @@ p_e, q_e, power = symbols("e_x e_w power")  # the fixed point, and (-alpha)^n
 
 
 def plain(expression: Expr, first: Symbol) -> str:
-    """The text of a rational expression: a Horner form in the symbol `first`, whole coefficients, no powers, at most one division.
+    """The text of a rational expression: a Horner form in the symbol `first`, whole coefficients,
+    no powers, at most one division.
 
     >>> plain(normal_f1()[0], alpha), plain(normal_flight_power()[0], K), plain(normal_energy(), w)
     ('(alpha*(w - x))', '((K*(1 - K - w)) + x)', '((4*x) + (w*(w - 2)) + 1)/2')
     """
     top, bottom = lowest_terms(expression).as_numer_denom()
-    texts = [_written(horner(part, wrt=first) if part.has(first) else part) for part in (expand(top), expand(bottom))]
+    texts = [
+        _written(horner(part, wrt=first) if part.has(first) else part)
+        for part in (expand(top), expand(bottom))
+    ]
     return texts[0] if bottom == 1 else f"{texts[0]}/{texts[1]}"
 
 
@@ -50,11 +56,30 @@ def _written(expression: Expr) -> str:
     if expression.is_Integer:
         return str(int(expression))
     if expression.is_Add:
-        terms = sorted(expression.args, key=lambda part: (_is_negative(part), bool(part.is_number), str(part)))
-        added = "".join((" - " if _is_negative(part) else " + ") + _written(-part if _is_negative(part) else part) for part in terms)
-        return "(" + added.removeprefix(" + ").replace(" - ", "-", 1 if added.startswith(" - ") else 0) + ")"
+        terms = sorted(
+            expression.args, key=lambda part: (_is_negative(part), bool(part.is_number), str(part))
+        )
+        added = "".join(
+            (" - " if _is_negative(part) else " + ")
+            + _written(-part if _is_negative(part) else part)
+            for part in terms
+        )
+        return (
+            "("
+            + added.removeprefix(" + ").replace(" - ", "-", 1 if added.startswith(" - ") else 0)
+            + ")"
+        )
     if expression.is_Mul:
-        return "(" + "*".join(_written(part) for part in sorted(expression.args, key=lambda part: (not part.is_number, part.is_Add, str(part)))) + ")"
+        return (
+            "("
+            + "*".join(
+                _written(part)
+                for part in sorted(
+                    expression.args, key=lambda part: (not part.is_number, part.is_Add, str(part))
+                )
+            )
+            + ")"
+        )
     if expression.is_Pow and expression.exp.is_Integer and int(expression.exp) > 0:
         return "(" + "*".join([_written(expression.base)] * int(expression.exp)) + ")"
     raise DerivationError(f"cannot be written as plain arithmetic: {expression}")
@@ -75,7 +100,9 @@ def compiled(name: str, names: str, *expressions: Expr, first: Symbol = alpha) -
     for expression in expressions:
         if {str(symbol) for symbol in expression.free_symbols} - allowed:
             raise DerivationError(f"{name}: {expression} has other symbols than {names}")
-    source = f"lambda {', '.join(names.split())}: " + (f"({', '.join(found)})" if len(found) > 1 else found[0])
+    source = f"lambda {', '.join(names.split())}: " + (
+        f"({', '.join(found)})" if len(found) > 1 else found[0]
+    )
     function: Compiled = eval(compile(source, f"<{name}>", "eval"), {"__builtins__": {}})
     function.__doc__, function.__name__ = source, name
     return function
@@ -88,10 +115,14 @@ class Formulas:
     margin: Compiled  # (x, w) -> positive exactly where the period has an impact
     impact: Compiled  # (alpha, x, w) -> f1
     flight: Compiled  # (x, w, K) -> K periods without an impact
-    end_of_flight: Compiled  # (x, w) -> b, d: the margin after K periods is K^2 + b K + c, of discriminant d
+    end_of_flight: (
+        Compiled  # (x, w) -> b, d: the margin after K periods is K^2 + b K + c, of discriminant d
+    )
     fixed: Compiled  # (alpha) -> e_1
     later: Compiled  # (x, w, e_x, e_w, n, power) -> f1^n, power being (-alpha)^n
-    kept: Compiled  # (alpha, w) -> two numbers, positive exactly where alpha w < 1 at the state and after its impact
+    # (alpha, w) -> two numbers, positive exactly where alpha w < 1 at the state and after its
+    # impact
+    kept: Compiled
     energy: Compiled  # (x, w) -> energy in units of r^2
     scaled: Compiled  # (beta, v, r, g) -> (x, w)
     unscaled: Compiled  # (x, w, r, g) -> (beta, v)
@@ -106,7 +137,10 @@ def formulas() -> Formulas:
     >>> f.impact(Fraction(1, 3), Fraction(0), Fraction(3)), f.flight(1, 1, 1), f.fixed(Fraction(1, 3))
     ((Fraction(1, 1), Fraction(1, 1)), (0, 3), (Fraction(3, 8), Fraction(3, 2)))
     """
-    if any(lowest_terms(one - two) != 0 for one, two in zip(normal_flight_power().xreplace({K: 1}), normal_f2())):
+    if any(
+        lowest_terms(one - two) != 0
+        for one, two in zip(normal_flight_power().xreplace({K: 1}), normal_f2())
+    ):
         raise DerivationError("one period of flight is not f2")
     flown = normal_flight_power()
     after = Poly(normal_margin().xreplace({x: flown[0], w: flown[1]}), K)
@@ -117,7 +151,9 @@ def formulas() -> Formulas:
         margin=compiled("margin", "x w", normal_margin()),
         impact=compiled("impact", "alpha x w", *struck),
         flight=compiled("flight", "x w K", *flown, first=K),
-        end_of_flight=compiled("end_of_flight", "x w", after.nth(1), after.nth(1) ** 2 - 4 * after.nth(0), first=w),
+        end_of_flight=compiled(
+            "end_of_flight", "x w", after.nth(1), after.nth(1) ** 2 - 4 * after.nth(0), first=w
+        ),
         fixed=compiled("fixed", "alpha", *normal_e_1()),
         later=compiled("later", "x w e_x e_w n power", *_closed_form(), first=power),
         kept=compiled("kept", "alpha w", 1 - alpha * w, 1 - alpha * struck[1]),
@@ -129,7 +165,8 @@ def formulas() -> Formulas:
 
 @cache
 def region() -> Compiled:
-    """(alpha) -> the greatest energy of R, in units of r^2 (23); by itself, since its derivation takes longest.
+    """(alpha) -> the greatest energy of R, in units of r^2 (23); by itself, since its derivation
+    takes longest.
 
     >>> region().__doc__
     'lambda alpha: (alpha + 1)/((alpha*(alpha - 2)) + 1)'
@@ -138,7 +175,8 @@ def region() -> Compiled:
 
 
 def _closed_form() -> tuple[Expr, Expr]:
-    """f1^n(x, w) = e + (-alpha)^n M^n ((x, w) - e), M the unipotent matrix with f1 = e - alpha M (. - e); `power` stands for (-alpha)^n."""
+    """f1^n(x, w) = e + (-alpha)^n M^n ((x, w) - e), M the unipotent matrix with f1 = e - alpha M (.
+    - e); `power` stands for (-alpha)^n."""
     struck = normal_f1()
     matrix = ImmutableMatrix(struck.jacobian([x, w]) / -alpha).applyfunc(lowest_terms)
     shear = unipotent_power(matrix, n)

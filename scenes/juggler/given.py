@@ -1,4 +1,5 @@
-"""Numbers as they are given: taken exactly and within their ranges, or refused in one line with the value and what is allowed."""
+"""Numbers as they are given: taken exactly and within their ranges, or refused in one line with the
+value and what is allowed."""
 
 from __future__ import annotations
 
@@ -12,8 +13,12 @@ import numpy as np
 from scenes.errors import SceneError
 
 Number: TypeAlias = int | float | str | Fraction  # a float means the binary number that it is
-BITS = 14000  # of a numerator or denominator that is given; Python writes numbers of up to 4300 digits
-_LONG_POWER = re.compile(r"e[+-]?[\d_]{6,}", re.IGNORECASE)  # Fraction would write all its digits out
+BITS = (
+    14000  # of a numerator or denominator that is given; Python writes numbers of up to 4300 digits
+)
+_LONG_POWER = re.compile(
+    r"e[+-]?[\d_]{6,}", re.IGNORECASE
+)  # Fraction would write all its digits out
 _FINITE = "is no finite number; give an integer, a fraction or a finite float"
 
 
@@ -51,7 +56,9 @@ def positive(value: Number, name: str) -> Fraction:
     """The launch speed r or gravity g, which are greater than 0."""
     found = rational(value, name)
     if found <= 0:
-        raise SceneError(f"{name} = {brief(found)} is not positive; the launch speed r and gravity g are")
+        raise SceneError(
+            f"{name} = {brief(found)} is not positive; the launch speed r and gravity g are"
+        )
     return found
 
 
@@ -59,13 +66,19 @@ def restitution(alpha: Number) -> Fraction:
     """The restitution, strictly between 0 and 1."""
     found = rational(alpha, "alpha")
     if not 0 < found < 1:
-        raise SceneError(f"alpha = {brief(found)} is not between 0 and 1; the restitution has 0 < alpha < 1")
+        raise SceneError(
+            f"alpha = {brief(found)} is not between 0 and 1; the restitution has 0 < alpha < 1"
+        )
     return found
 
 
 def counted(value: int, name: str, least: int, most: int) -> int:
     """A whole number within its bounds."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, (int, np.integer))
+        or not least <= value <= most
+    ):
         raise SceneError(f"{name} = {brief(value)} is not a whole number from {least} to {most}")
     return int(value)
 
@@ -83,7 +96,8 @@ def brief(value: object) -> str:
 
 
 def nearest(value: Fraction) -> tuple[float, float]:
-    """A float next to the number, and a bound on their difference, itself rounded up; infinities for what is beyond the floats.
+    """A float next to the number, and a bound on their difference, itself rounded up; infinities
+    for what is beyond the floats.
 
     >>> nearest(Fraction(1, 2)), 0 < nearest(Fraction(1, 3))[1] < 2**-54
     ((0.5, 0.0), True)

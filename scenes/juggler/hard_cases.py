@@ -1,4 +1,5 @@
-"""The cases at which floats go wrong or might, each followed in plain float64, exactly, in bounded float64 and in balls."""
+"""The cases at which floats go wrong or might, each followed in plain float64, exactly, in bounded
+float64 and in balls."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ FLIGHT = 1000  # periods that plain floats are followed for where a case counts 
 
 @dataclass(frozen=True)
 class Case:
-    """An exact start, followed for so many periods (or impacts); in exact numbers up to so many bits."""
+    """An exact start, followed for so many periods (or impacts); in exact numbers up to so many
+    bits."""
 
     name: str
     alpha: Fraction
@@ -37,7 +39,8 @@ class Case:
 
 
 class Finding(NamedTuple):
-    """What each arithmetic comes to: where plain floats first took a wrong branch (None: nowhere), and the rows of exact, fast and enclosed."""
+    """What each arithmetic comes to: where plain floats first took a wrong branch (None: nowhere),
+    and the rows of exact, fast and enclosed."""
 
     case: Case
     floats: tuple[float, float]
@@ -48,7 +51,9 @@ class Finding(NamedTuple):
     edges: int  # states proved to lie on x = w
 
 
-def _case(name: str, alpha: Fraction | str, x: Fraction | str, w: Fraction | str, steps: int, *more: Any) -> Case:
+def _case(
+    name: str, alpha: Fraction | str, x: Fraction | str, w: Fraction | str, steps: int, *more: Any
+) -> Case:
     return Case(name, Fraction(alpha), Fraction(x), Fraction(w), steps, *more)
 
 
@@ -78,10 +83,11 @@ CASES = (
 
 
 def plain_floats(case: Case, most: int = 10**5) -> tuple[tuple[float, float], int | None]:
-    """The orbit of plain float64, period by period up to so many, and the first period whose branch is not that of the exact orbit.
+    """The orbit of plain float64, period by period up to so many, and the first period whose branch
+    is not that of the exact orbit.
 
-    Floats are followed without an eye on their error: alpha and start are rounded, a state strikes where x < w as floats.  The exact orbit is
-    followed beside them up to numbers of 5000 bits.
+    Floats are followed without an eye on their error: alpha and start are rounded, a state strikes
+    where x < w as floats.  The exact orbit is followed beside them up to numbers of 5000 bits.
 
     >>> plain_floats(_case("", "3/7", "4/3", "3", 50))[1]
     1
@@ -113,5 +119,14 @@ def finding(case: Case) -> Finding:
     """All that is found of a case."""
     floats, wrong = plain_floats(case)
     balls = orbit(case.scene, "enclosed", case.steps, impacts=case.impacts)
-    return Finding(case, floats, wrong, orbit(case.scene, "exact", case.steps, impacts=case.impacts, most_bits=case.most_bits).row(0),
-                   orbit(case.scene, "fast", case.steps, impacts=case.impacts).row(0), balls.row(0), balls.tracks[0].edges)
+    return Finding(
+        case,
+        floats,
+        wrong,
+        orbit(case.scene, "exact", case.steps, impacts=case.impacts, most_bits=case.most_bits).row(
+            0
+        ),
+        orbit(case.scene, "fast", case.steps, impacts=case.impacts).row(0),
+        balls.row(0),
+        balls.tracks[0].edges,
+    )

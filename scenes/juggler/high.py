@@ -1,6 +1,7 @@
 """Orbits in mpmath numbers of so many digits: fast to ask for any precision, and nothing is proved.
 
-Branches are decided by the rounded state.  The length of a flight is that of the rounded state exactly, by whole square roots.
+Branches are decided by the rounded state.  The length of a flight is that of the rounded state
+exactly, by whole square roots.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ class HighPrecision:
         """The rounded number as a rational, which it is."""
         sign, mantissa, exponent, _ = value._mpf_
         top = fmpz(-mantissa if sign else mantissa)
-        return fmpq(top * fmpz(2) ** exponent, 1) if exponent >= 0 else fmpq(top, fmpz(2) ** -exponent)
+        return (
+            fmpq(top * fmpz(2) ** exponent, 1) if exponent >= 0 else fmpq(top, fmpz(2) ** -exponent)
+        )
 
     def power(self, value: Any, exponent: int) -> Any:
         return value**exponent

@@ -1,4 +1,5 @@
-"""The motion between samples: heights of ball and table at any times, exactly, by the flights, impacts and parabolas that the map is derived from."""
+"""The motion between samples: heights of ball and table at any times, exactly, by the flights,
+impacts and parabolas that the map is derived from."""
 
 from __future__ import annotations
 
@@ -29,17 +30,24 @@ class Heights(NamedTuple):
 
 @cache
 def _formulas() -> tuple[Compiled, Compiled, Compiled, Compiled, Compiled]:
-    """Period, time of collision, height of the table, of the ball before and after the collision, in the paper's units."""
+    """Period, time of collision, height of the table, of the ball before and after the collision,
+    in the paper's units."""
     after = fly(ball_after_collision(), t - collision_time())
-    return (compiled("period", "r g", period(), first=r), compiled("collision_time", "beta v r g", collision_time(), first=beta),
-            compiled("table", "t r g", table_at()[0], first=t), compiled("before", "t beta v r g", fly(state(beta, v), t)[0], first=t),
-            compiled("after", "t alpha beta v r g", after[0], first=alpha))
+    return (
+        compiled("period", "r g", period(), first=r),
+        compiled("collision_time", "beta v r g", collision_time(), first=beta),
+        compiled("table", "t r g", table_at()[0], first=t),
+        compiled("before", "t beta v r g", fly(state(beta, v), t)[0], first=t),
+        compiled("after", "t alpha beta v r g", after[0], first=alpha),
+    )
 
 
 def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heights]:
-    """The heights of ball and table at times >= 0, in the units of r and g, for the start of this number.
+    """The heights of ball and table at times >= 0, in the units of r and g, for the start of this
+    number.
 
-    The table is at its lowest at time 0, as at every sample.  Source: (1), the table's launch of section 3.1, (6) and (8).
+    The table is at its lowest at time 0, as at every sample.  Source: (1), the table's launch of
+    section 3.1, (6) and (8).
 
     >>> from scenes.juggler import point, scene
     >>> [str(one.ball) for one in heights(scene("1/3", point(0, 3), r=1, g=2), (0, "1/2", 1, "3/2", 2))]
@@ -62,11 +70,18 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
             else:
                 passed, (x, w), struck = passed + 1, impact(scene.alpha, x, w), struck + 1
                 if struck > MOST_IMPACTS:
-                    raise SceneError(f"time {brief(time)} comes after more than {MOST_IMPACTS} impacts; choose an earlier one")
+                    raise SceneError(
+                        f"time {brief(time)} comes after more than {MOST_IMPACTS} impacts; choose"
+                        " an earlier one"
+                    )
         height, speed = formulas().unscaled(x, w, scene.r, scene.g)
         within = time - now * whole
         hit = formulas().margin(x, w) > 0 and within > struck_at(height, speed, scene.r, scene.g)
-        ball = after(within, scene.alpha, height, speed, scene.r, scene.g) if hit else before(within, height, speed, scene.r, scene.g)
+        ball = (
+            after(within, scene.alpha, height, speed, scene.r, scene.g)
+            if hit
+            else before(within, height, speed, scene.r, scene.g)
+        )
         found[time] = Heights(time, ball, table(within, scene.r, scene.g))
     return [found[_time(one)] for one in times]
 

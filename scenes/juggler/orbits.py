@@ -1,4 +1,5 @@
-"""`orbit`: the orbits of a scene in the arithmetic of one's choice; its result is filled as it goes: an interrupted run keeps what is done."""
+"""`orbit`: the orbits of a scene in the arithmetic of one's choice; its result is filled as it
+goes: an interrupted run keeps what is done."""
 
 from __future__ import annotations
 
@@ -22,11 +23,13 @@ Report = Callable[[int, int], None]  # how many states are done, of how many
 
 
 class Row(NamedTuple):
-    """Where one orbit stands: its start's number, periods and impacts passed, the state in numbers of the arithmetic, a bound on its error, its end.
+    """Where one orbit stands: its start's number, periods and impacts passed, the state in numbers
+    of the arithmetic, a bound on its error, its end.
 
-    `error` is what the true x and w differ from the told ones by at most; None where nothing is proved (mp).  `end` is "reached" (the steps asked
-    for), "trap" (only with until_trap), "undecided" (the branch at the state told), "too long" (the exact numbers), or "" (not followed to its
-    end).
+    `error` is what the true x and w differ from the told ones by at most; None where nothing is
+    proved (mp).  `end` is "reached" (the steps asked for), "trap" (only with until_trap),
+    "undecided" (the branch at the state told), "too long" (the exact numbers), or "" (not followed
+    to its end).
     """
 
     start: int
@@ -40,7 +43,8 @@ class Row(NamedTuple):
 
 @dataclass
 class Orbits:
-    """The orbits of a scene as far as they are followed: by `tracks`, or in fast arithmetic by an `ensemble` of arrays."""
+    """The orbits of a scene as far as they are followed: by `tracks`, or in fast arithmetic by an
+    `ensemble` of arrays."""
 
     scene: Scene
     arithmetic: str
@@ -79,14 +83,36 @@ class Orbits:
     def _reporter(self, index: int, report: Report | None) -> Callable[[Track], None] | None:
         if report is None or len(self) > 1:
             return None
-        return lambda track: report(self.goal.steps - max(self.goal.left(track.here.periods, track.here.impacts), 0), self.goal.steps)
+        return lambda track: report(
+            self.goal.steps - max(self.goal.left(track.here.periods, track.here.impacts), 0),
+            self.goal.steps,
+        )
 
-    def _follow(self, start: tuple[Fraction, Fraction], show: Callable[[Track], None], report: Callable[[Track], None] | None) -> None:
+    def _follow(
+        self,
+        start: tuple[Fraction, Fraction],
+        show: Callable[[Track], None],
+        report: Callable[[Track], None] | None,
+    ) -> None:
         alpha = self.scene.alpha
         if self.arithmetic == "enclosed":
-            enclosed.follow(alpha, start, self.goal, self.keep, self.precision, self.radius, self.most_bits, show, report)
+            enclosed.follow(
+                alpha,
+                start,
+                self.goal,
+                self.keep,
+                self.precision,
+                self.radius,
+                self.most_bits,
+                show,
+                report,
+            )
             return
-        numbers: Arithmetic = exact.Exact(alpha, self.most_bits) if self.arithmetic == "exact" else high.HighPrecision(self.precision)
+        numbers: Arithmetic = (
+            exact.Exact(alpha, self.most_bits)
+            if self.arithmetic == "exact"
+            else high.HighPrecision(self.precision)
+        )
         track = begin(numbers, alpha, Sample(0, 0, *start), self.keep)
         show(track)
         try:
@@ -99,12 +125,25 @@ class Orbits:
 
     def row(self, index: int) -> Row:
         """Where the orbit of this number stands."""
-        if isinstance(index, bool) or not isinstance(index, (int, np.integer)) or not 0 <= index < self.followed:
-            raise SceneError(f"orbit {brief(index)} is not among the {self.followed} that were followed")
+        if (
+            isinstance(index, bool)
+            or not isinstance(index, (int, np.integer))
+            or not 0 <= index < self.followed
+        ):
+            raise SceneError(
+                f"orbit {brief(index)} is not among the {self.followed} that were followed"
+            )
         if self.ensemble is not None:
             e = self.ensemble
-            return Row(index, int(e.periods[index]), int(e.impacts[index]), float(e.x[index]), float(e.w[index]),
-                       (float(e.error_x[index]), float(e.error_w[index])), fast.ENDS[e.end[index]])
+            return Row(
+                index,
+                int(e.periods[index]),
+                int(e.impacts[index]),
+                float(e.x[index]),
+                float(e.w[index]),
+                (float(e.error_x[index]), float(e.error_w[index])),
+                fast.ENDS[e.end[index]],
+            )
         return self._row(index, self.tracks[index].here, self.tracks[index].end)
 
     def _row(self, index: int, here: Sample, end: str) -> Row:
@@ -116,7 +155,8 @@ class Orbits:
         return Row(index, here.periods, here.impacts, x, w, error, end)
 
     def history(self, index: int) -> list[Row]:
-        """All states of the orbit of this number that were kept: one a period, or one after each impact.
+        """All states of the orbit of this number that were kept: one a period, or one after each
+        impact.
 
         In fast arithmetic only that one is counted, and the other count is -1.
         """
@@ -126,7 +166,9 @@ class Orbits:
         if self.ensemble is None:
             return [self._row(index, sample, "") for sample in self.tracks[index].samples or []]
         rows = []
-        for step, (x, w, error_x, error_w) in enumerate([] if self.ensemble.history is None else self.ensemble.history[index].tolist()):
+        for step, (x, w, error_x, error_w) in enumerate(
+            [] if self.ensemble.history is None else self.ensemble.history[index].tolist()
+        ):
             if x == x:  # what was not reached is not a number
                 periods, impacts = (step, -1) if self.goal.unit == "periods" else (-1, step)
                 rows.append(Row(index, periods, impacts, x, w, (error_x, error_w), ""))
@@ -134,67 +176,127 @@ class Orbits:
 
     @property
     def undecided(self) -> list[tuple[int, int]]:
-        """The number of each orbit with a state whose branch was not decided, and the period of that state."""
+        """The number of each orbit with a state whose branch was not decided, and the period of
+        that state."""
         return list(self.each_undecided())
 
     def each_undecided(self) -> Iterator[tuple[int, int]]:
         """The same, one by one."""
         if self.ensemble is not None:
-            found = (self.ensemble.end[:self.followed] == fast.UNDECIDED).nonzero()[0]
+            found = (self.ensemble.end[: self.followed] == fast.UNDECIDED).nonzero()[0]
             yield from ((int(index), int(self.ensemble.periods[index])) for index in found)
-        yield from ((index, track.here.periods) for index, track in enumerate(self.tracks) if track.end == "undecided")
+        yield from (
+            (index, track.here.periods)
+            for index, track in enumerate(self.tracks)
+            if track.end == "undecided"
+        )
 
     def counts(self) -> dict[str, int]:
         """How many orbits have each end."""
         if self.ensemble is not None:
-            found = {name: int((self.ensemble.end[:self.followed] == code).sum()) for code, name in enumerate(fast.ENDS)}
+            found = {
+                name: int((self.ensemble.end[: self.followed] == code).sum())
+                for code, name in enumerate(fast.ENDS)
+            }
         else:
             found = {name: sum(track.end == name for track in self.tracks) for name in fast.ENDS}
         return {name: found[name] for name in (*fast.ENDS[1:], "") if found[name]}
 
 
 def told(value: Any, arithmetic: str) -> Any:
-    """A number as it is told: Fraction of exact numbers; the ball of an enclosure and the mpf of mp as they are."""
+    """A number as it is told: Fraction of exact numbers; the ball of an enclosure and the mpf of mp
+    as they are."""
     return exact.told(value) if arithmetic == "exact" and not isinstance(value, Fraction) else value
 
 
 def _refuse_many(count: int, arithmetic: str, steps: int, keep: bool) -> None:
-    """SceneError for more orbits or kept states than can be held as single numbers; fast arithmetic has limits of its own."""
+    """SceneError for more orbits or kept states than can be held as single numbers; fast arithmetic
+    has limits of its own."""
     if arithmetic == "fast":
         return
     if count > MOST_TRACKS:
-        raise SceneError(f"{count} starts in {arithmetic} arithmetic; at most {MOST_TRACKS} can be held, and fast arithmetic takes more")
+        raise SceneError(
+            f"{count} starts in {arithmetic} arithmetic; at most {MOST_TRACKS} can be held, and"
+            " fast arithmetic takes more"
+        )
     if keep and count * (counted(steps, "steps", 0, MOST_STEPS) + 1) > MOST_KEPT:
-        raise SceneError(f"all states of {count} orbits of {steps} steps are more than {MOST_KEPT}; keep the ends only, or ask for fewer")
+        raise SceneError(
+            f"all states of {count} orbits of {steps} steps are more than {MOST_KEPT}; keep the"
+            " ends only, or ask for fewer"
+        )
 
 
-def prepare(scene: Scene, arithmetic: str = "exact", steps: int = 100, *, impacts: bool = False, until_trap: bool = False, keep: bool = False,
-            precision: int | None = None, radius: Number = enclosed.RADIUS, most_bits: int | None = None) -> Orbits:
-    """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what cannot be."""
+def prepare(
+    scene: Scene,
+    arithmetic: str = "exact",
+    steps: int = 100,
+    *,
+    impacts: bool = False,
+    until_trap: bool = False,
+    keep: bool = False,
+    precision: int | None = None,
+    radius: Number = enclosed.RADIUS,
+    most_bits: int | None = None,
+) -> Orbits:
+    """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what
+    cannot be."""
     if not isinstance(scene, Scene):
         raise SceneError(f"scene = {brief(scene)} is no scene; give scene(alpha, starts)")
     if arithmetic not in ARITHMETICS:
-        raise SceneError(f"arithmetic = {brief(arithmetic)!r} is not one of {', '.join(ARITHMETICS)}")
+        raise SceneError(
+            f"arithmetic = {brief(arithmetic)!r} is not one of {', '.join(ARITHMETICS)}"
+        )
     if precision is not None and arithmetic in ("exact", "fast"):
-        raise SceneError(f"precision = {brief(precision)} has no meaning in {arithmetic} arithmetic; it goes with enclosed (bits) and mp (digits)")
+        raise SceneError(
+            f"precision = {brief(precision)} has no meaning in {arithmetic} arithmetic; it goes"
+            " with enclosed (bits) and mp (digits)"
+        )
     _refuse_many(scene.starts.count, arithmetic, steps, keep)
     digits = {"enclosed": enclosed.BITS, "mp": high.DIGITS}.get(arithmetic, 2)
     width = rational(radius, "radius")
     if width <= 0:
-        raise SceneError(f"radius = {brief(width)} is not positive; an enclosure has a positive radius")
-    most = most_bits if most_bits is not None else exact.MOST_BITS if arithmetic == "exact" else enclosed.MOST_BITS
-    return Orbits(scene, arithmetic, goal(steps, impacts, until_trap), keep,
-                  counted(digits if precision is None else precision, "precision", 2, 10**6), width, counted(most, "most_bits", 2, 2**32))
+        raise SceneError(
+            f"radius = {brief(width)} is not positive; an enclosure has a positive radius"
+        )
+    most = (
+        most_bits
+        if most_bits is not None
+        else exact.MOST_BITS
+        if arithmetic == "exact"
+        else enclosed.MOST_BITS
+    )
+    return Orbits(
+        scene,
+        arithmetic,
+        goal(steps, impacts, until_trap),
+        keep,
+        counted(digits if precision is None else precision, "precision", 2, 10**6),
+        width,
+        counted(most, "most_bits", 2, 2**32),
+    )
 
 
-def orbit(scene: Scene, arithmetic: str = "exact", steps: int = 100, *, impacts: bool = False, until_trap: bool = False, keep: bool = False,
-          precision: int | None = None, radius: Number = enclosed.RADIUS, most_bits: int | None = None, report: Report | None = None) -> Orbits:
+def orbit(
+    scene: Scene,
+    arithmetic: str = "exact",
+    steps: int = 100,
+    *,
+    impacts: bool = False,
+    until_trap: bool = False,
+    keep: bool = False,
+    precision: int | None = None,
+    radius: Number = enclosed.RADIUS,
+    most_bits: int | None = None,
+    report: Report | None = None,
+) -> Orbits:
     """The orbits of all states of a scene under f (10, 12): f1 where x < w (7), f2 elsewhere.
 
-    arithmetic "exact": rationals.  "enclosed": balls that hold the exact state, of at most `radius`, from `precision` bits up to `most_bits`.
-    "mp": mpmath with `precision` digits, nothing proved.  "fast": float64 with a proved bound for each state, undecided states listed.
-    steps: periods, or impacts if `impacts`; with `until_trap` an orbit ends in the trap, if that comes first.  keep: all states, not the ends only.
-    States are (x, w), in units of r T and r.  Errors: SceneError (a ValueError), one line with the value and the allowed range.
+    arithmetic "exact": rationals.  "enclosed": balls that hold the exact state, of at most
+    `radius`, from `precision` bits up to `most_bits`. "mp": mpmath with `precision` digits, nothing
+    proved.  "fast": float64 with a proved bound for each state, undecided states listed. steps:
+    periods, or impacts if `impacts`; with `until_trap` an orbit ends in the trap, if that comes
+    first.  keep: all states, not the ends only. States are (x, w), in units of r T and r.  Errors:
+    SceneError (a ValueError), one line with the value and the allowed range.
 
     >>> from scenes.juggler import point, scene
     >>> row = orbit(scene("1/3", point(0, 3)), steps=3).row(0)
@@ -203,5 +305,14 @@ def orbit(scene: Scene, arithmetic: str = "exact", steps: int = 100, *, impacts:
     >>> orbit(scene("1/3", point(0, 3)), "fast", steps=3).undecided  # (1, 1) lies on x = w, which no float bound can tell
     [(0, 1)]
     """
-    return prepare(scene, arithmetic, steps, impacts=impacts, until_trap=until_trap, keep=keep, precision=precision, radius=radius,
-                   most_bits=most_bits).run(report)
+    return prepare(
+        scene,
+        arithmetic,
+        steps,
+        impacts=impacts,
+        until_trap=until_trap,
+        keep=keep,
+        precision=precision,
+        radius=radius,
+        most_bits=most_bits,
+    ).run(report)

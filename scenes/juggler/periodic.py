@@ -1,13 +1,18 @@
-"""Periodic orbits by the lengths of their flights: where they are, for which alpha they exist, and whether they attract.
+"""Periodic orbits by the lengths of their flights: where they are, for which alpha they exist, and
+whether they attract.
 
-A word (K_1, .., K_m) means: an impact, then K_1 - 1 periods without one, an impact, and so on, m impacts in K_1 + .. + K_m periods, and the state
-is back. From impact to impact the map is affine with the matrix -alpha A^K, A unipotent; so the word's matrix is (-alpha)^m A^(K_1 + .. + K_m),
-with the eigenvalue (-alpha)^m twice, and for every alpha < 1 exactly one state comes back.  It is an orbit of f where it is one of the word: each x
->= 0, each impact at x < w, each period between at x >= w.  Along a flight w - x is a convex parabola of time: first and last period suffice. Inside
-(no state on x = w) f is that affine map near the orbit, whose spectral radius is alpha^m < 1: the orbit attracts a neighbourhood.
+A word (K_1, .., K_m) means: an impact, then K_1 - 1 periods without one, an impact, and so on, m
+impacts in K_1 + .. + K_m periods, and the state is back. From impact to impact the map is affine
+with the matrix -alpha A^K, A unipotent; so the word's matrix is (-alpha)^m A^(K_1 + .. + K_m), with
+the eigenvalue (-alpha)^m twice, and for every alpha < 1 exactly one state comes back.  It is an
+orbit of f where it is one of the word: each x >= 0, each impact at x < w, each period between at x
+>= w.  Along a flight w - x is a convex parabola of time: first and last period suffice. Inside (no
+state on x = w) f is that affine map near the orbit, whose spectral radius is alpha^m < 1: the orbit
+attracts a neighbourhood.
 
-Words that exist have no flight longer than (1 + alpha)/(1 - alpha): the flight K' after a flight K has K' - 1 <= alpha (K + 1) (claim
-`theorem-flights`), and the longest of a word follows one that is not longer.  So for one alpha and one number of impacts the search is complete.
+Words that exist have no flight longer than (1 + alpha)/(1 - alpha): the flight K' after a flight K
+has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one that is
+not longer.  So for one alpha and one number of impacts the search is complete.
 """
 
 from __future__ import annotations
@@ -35,7 +40,8 @@ LONGEST_WORD, LONGEST_FLIGHT, MOST_WORDS = 12, 10**6, 10**5
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit at one alpha: its states at the impacts, one for each flight of its word; whether no state lies on x = w."""
+    """A periodic orbit at one alpha: its states at the impacts, one for each flight of its word;
+    whether no state lies on x = w."""
 
     word: Word
     alpha: Fraction
@@ -44,7 +50,8 @@ class Orbit:
 
     @property
     def attracts(self) -> bool | None:
-        """True where it attracts a neighbourhood; None where it lies on x = w, where the affine map does not tell."""
+        """True where it attracts a neighbourhood; None where it lies on x = w, where the affine map
+        does not tell."""
         return True if self.inside else None
 
     @property
@@ -69,7 +76,8 @@ def _onwards(alpha_: Any, place: tuple[Any, Any], periods: int) -> tuple[Any, An
 
 
 def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
-    """The orbit with this word at this alpha, or None where the state that comes back is no orbit of f.
+    """The orbit with this word at this alpha, or None where the state that comes back is no orbit
+    of f.
 
     >>> orbit_of((2,), Fraction(1, 2)).impacts
     ((Fraction(4, 9), Fraction(8, 3)),)
@@ -97,6 +105,7 @@ def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
 
 def _back_again(at: Fraction, word: Word) -> Place:
     """The only state that the word's affine map keeps, by the images of three states."""
+
     def image(place: Place) -> Place:
         for periods in word:
             place = _onwards(at, place, periods)
@@ -104,7 +113,11 @@ def _back_again(at: Fraction, word: Word) -> Place:
 
     zero, one = Fraction(0), Fraction(1)
     (c, d), (a, _), (b, e) = (image(place) for place in ((zero, zero), (one, zero), (zero, one)))
-    a, b, e = a - c, b - c, e - d  # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
+    a, b, e = (
+        a - c,
+        b - c,
+        e - d,
+    )  # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
     speed = d / (1 - e)
     return (b * speed + c) / (1 - a), speed
 
@@ -122,7 +135,10 @@ def family(word: Sequence[int]) -> tuple[tuple[Expr, Expr], ...]:
 def _family(word: Word) -> tuple[tuple[Expr, Expr], ...]:
     def onwards(place: tuple[Expr, Expr], periods: int) -> tuple[Expr, Expr]:
         struck = [part.xreplace({x: place[0], w: place[1]}) for part in normal_f1()]
-        flown = [part.xreplace({K: periods - 1}).xreplace({x: struck[0], w: struck[1]}) for part in normal_flight_power()]
+        flown = [
+            part.xreplace({K: periods - 1}).xreplace({x: struck[0], w: struck[1]})
+            for part in normal_flight_power()
+        ]
         return cancel(flown[0]), cancel(flown[1])
 
     end = (x, w)
@@ -146,7 +162,8 @@ def exists_for(word: Sequence[int]) -> tuple[Range, ...]:
 
 
 def attracts_for(word: Sequence[int]) -> tuple[Range, ...]:
-    """All alpha in (0, 1) for which the orbit of the word exists with no state on x = w: there it attracts a neighbourhood.
+    """All alpha in (0, 1) for which the orbit of the word exists with no state on x = w: there it
+    attracts a neighbourhood.
 
     >>> [str(one) for one in attracts_for((1,))], [str(one) for one in attracts_for((2,))]
     (['0 < alpha < 1'], ['1/3 < alpha < 1'])
@@ -157,7 +174,8 @@ def attracts_for(word: Sequence[int]) -> tuple[Range, ...]:
 
 @cache
 def _conditions(word: Word) -> tuple[list[Expr], list[Expr], list[Expr]]:
-    """Polynomials in alpha: heights, which are to be >= 0; margins at impacts, to be > 0; and their negatives at the ends of flights, to be >= 0."""
+    """Polynomials in alpha: heights, which are to be >= 0; margins at impacts, to be > 0; and their
+    negatives at the ends of flights, to be >= 0."""
     heights, margins, gaps = [], [], []
     for place, periods in zip(_family(word), word):
         at = {x: place[0], w: place[1]}
@@ -165,7 +183,10 @@ def _conditions(word: Word) -> tuple[list[Expr], list[Expr], list[Expr]]:
         margins.append(_sign_of(normal_margin().xreplace(at)))
         struck = [part.xreplace(at) for part in normal_f1()]
         for k in {0, periods - 2} if periods > 1 else ():
-            here = [part.xreplace({K: k}).xreplace({x: struck[0], w: struck[1]}) for part in normal_flight_power()]
+            here = [
+                part.xreplace({K: k}).xreplace({x: struck[0], w: struck[1]})
+                for part in normal_flight_power()
+            ]
             gaps.append(_sign_of(-normal_margin().xreplace({x: here[0], w: here[1]})))
     return heights, margins, gaps
 
@@ -177,7 +198,8 @@ def _sign_of(expression: Expr) -> Expr:
 
 
 def words(longest: int, most: int) -> Iterator[Word]:
-    """The words of up to so many flights of up to so many periods, one of each cycle, no repetition of a shorter one.
+    """The words of up to so many flights of up to so many periods, one of each cycle, no repetition
+    of a shorter one.
 
     >>> list(words(2, 2)), len(list(words(4, 3)))
     ([(1,), (2,), (1, 2)], 32)
@@ -198,16 +220,22 @@ def longest_flight(at: Fraction) -> int:
 
 
 def search_words(alpha: Number, longest: int, flight: int | None = None) -> list[Orbit]:
-    """All periodic orbits at this alpha with at most so many impacts; flights of up to so many periods, or as long as they can be.
+    """All periodic orbits at this alpha with at most so many impacts; flights of up to so many
+    periods, or as long as they can be.
 
     >>> [orbit.word for orbit in search_words(Fraction(1, 4), 4)], [orbit.word for orbit in search_words(Fraction(1, 2), 2)]
     ([(1,)], [(1,), (2,), (3,)])
     """
     at = restitution(alpha)
     counted(longest, "longest", 1, LONGEST_WORD)
-    most = longest_flight(at) if flight is None else min(counted(flight, "flight", 1, LONGEST_FLIGHT), longest_flight(at))
+    most = (
+        longest_flight(at)
+        if flight is None
+        else min(counted(flight, "flight", 1, LONGEST_FLIGHT), longest_flight(at))
+    )
     if sum(most**length for length in range(1, longest + 1)) > MOST_WORDS:
-        raise SceneError(f"up to {longest} flights of up to {most} periods are more than {MOST_WORDS} words; give a smaller --longest or --flight")
+        raise SceneError(
+            f"up to {longest} flights of up to {most} periods are more than {MOST_WORDS} words;"
+            " give a smaller --longest or --flight"
+        )
     return [found for word in words(longest, most) if (found := orbit_of(word, at)) is not None]
-
-

@@ -1,4 +1,5 @@
-"""Pictures of orbits: ball and table against time, or the states of many orbits in the plane of x and w."""
+"""Pictures of orbits: ball and table against time, or the states of many orbits in the plane of x
+and w."""
 
 from __future__ import annotations
 
@@ -25,9 +26,12 @@ MOST_PERIODS, A_PERIOD, MOST_DOTS = 40, 32, 5000
 
 
 def picture(orbits: Orbits, file: BinaryIO) -> None:
-    """Writes a picture.  One start: ball and table over the periods asked for, 40 at most.  Several: where they stand, or all that was kept; SVG."""
+    """Writes a picture.  One start: ball and table over the periods asked for, 40 at most.
+    Several: where they stand, or all that was kept; SVG."""
     if len(orbits) == 1:
-        file.write(svg(against_time(orbits.scene, max(1, min(MOST_PERIODS, orbits.goal.steps))), "orbit"))
+        file.write(
+            svg(against_time(orbits.scene, max(1, min(MOST_PERIODS, orbits.goal.steps))), "orbit")
+        )
     else:
         file.write(svg(in_the_plane(orbits), "orbits"))
 
@@ -39,8 +43,14 @@ def spaced(low: float, high: float) -> list[float]:
     ([0.0, 10.0, 20.0, 30.0, 40.0], [-0.2, 0.0, 0.2, 0.4, 0.6, 0.8])
     """
     power = floor(log10(high - low)) - 1
-    step = next(part for part in (1, 2, 5, 10, 20) if (high - low) / (part * 10.0**power) <= 7) * 10.0**power
-    return [round(k * step, max(0, -power)) for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
+    step = (
+        next(part for part in (1, 2, 5, 10, 20) if (high - low) / (part * 10.0**power) <= 7)
+        * 10.0**power
+    )
+    return [
+        round(k * step, max(0, -power))
+        for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)
+    ]
 
 
 @styled
@@ -51,9 +61,18 @@ def against_time(scene: Scene, periods: int) -> Figure:
     top = 1.05 * max(max(float(one.ball) for one in found), 0.25)
     figure = blank(6.4, 3.2)
     plane = Plane(figure, (0.1, 0.16, 0.87, 0.8), (0, periods), (-0.02 * top, top))
-    plane.frame(ticks(spaced(0, periods)), ticks(spaced(0, top)), r"$t\,/\,T$", r"height$\,/\,(\dot\rho_0 T)$", 26)
+    plane.frame(
+        ticks(spaced(0, periods)),
+        ticks(spaced(0, top)),
+        r"$t\,/\,T$",
+        r"height$\,/\,(\dot\rho_0 T)$",
+        26,
+    )
     times = [float(one.time) for one in found]
-    for name, values, look in (("table", [float(one.table) for one in found], None), ("ball", [float(one.ball) for one in found], B1)):
+    for name, values, look in (
+        ("table", [float(one.table) for one in found], None),
+        ("ball", [float(one.ball) for one in found], B1),
+    ):
         points = list(zip(times, values))
         plane.line([straight(a, b) for a, b in zip(points, points[1:])], name, look, linewidth=1.2)
     return figure
@@ -63,10 +82,16 @@ def against_time(scene: Scene, periods: int) -> Figure:
 def in_the_plane(orbits: Orbits) -> Figure:
     """The states in normal form, undecided ones marked apart; 5000 at most, taken evenly."""
     arrays = as_arrays(orbits)
-    undecided = np.broadcast_to((arrays["end"] == ENDS.index("undecided")).reshape(-1, *[1] * (arrays["x"].ndim - 1)), arrays["x"].shape)
+    undecided = np.broadcast_to(
+        (arrays["end"] == ENDS.index("undecided")).reshape(-1, *[1] * (arrays["x"].ndim - 1)),
+        arrays["x"].shape,
+    )
     near = np.flatnonzero(np.abs(arrays["x"]) + np.abs(arrays["w"]) < 1e300)
     drawn = np.unravel_index(near[:: -(-len(near) // MOST_DOTS) or 1], arrays["x"].shape)
-    states = [(float(x), float(w), bool(odd)) for x, w, odd in zip(arrays["x"][drawn], arrays["w"][drawn], undecided[drawn])]
+    states = [
+        (float(x), float(w), bool(odd))
+        for x, w, odd in zip(arrays["x"][drawn], arrays["w"][drawn], undecided[drawn])
+    ]
     if not states:
         raise SceneError("no state is near enough to be drawn; choose a table instead")
     known = [(x, w) for x, w, _ in states]

@@ -1,7 +1,9 @@
-"""Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of alpha.
+"""Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of
+alpha.
 
-An impact multiplies by alpha, so that on an orbit only k grows: sums and products of such numbers need no greatest common divisor, which would
-take most of the time where the numbers have thousands of digits.  What has piled up of q above and below is taken out now and then.
+An impact multiplies by alpha, so that on an orbit only k grows: sums and products of such numbers
+need no greatest common divisor, which would take most of the time where the numbers have thousands
+of digits.  What has piled up of q above and below is taken out now and then.
 """
 
 from __future__ import annotations
@@ -31,7 +33,8 @@ class Powers:
 
 
 class Ratio:
-    """top / (rest q^k), rest > 0; adds, subtracts and multiplies with its like and with whole numbers, and with fmpq as an fmpq.
+    """top / (rest q^k), rest > 0; adds, subtracts and multiplies with its like and with whole
+    numbers, and with fmpq as an fmpq.
 
     >>> some = Ratio.of(fmpq(3, 56), Powers(10))
     >>> some.top, some.rest, some.k, lowest(3 - some * some - 1)
@@ -47,7 +50,9 @@ class Ratio:
     def of(value: Any, powers: Powers) -> Ratio:
         """The fmpq over as small a power of q as there is, and what has no factor of q."""
         common = value.q.gcd(pow(powers.q, value.q.bit_length(), value.q))
-        k = bisect_left(range(common.bit_length()), True, key=lambda k: not pow(powers.q, k, common))
+        k = bisect_left(
+            range(common.bit_length()), True, key=lambda k: not pow(powers.q, k, common)
+        )
         return Ratio(value.p * (powers[k] // common), value.q // common, k, powers)
 
     def bottom(self) -> Any:
@@ -56,7 +61,9 @@ class Ratio:
 
     def bits(self) -> int:
         """The bits of top or of bottom, whichever has more."""
-        return int(max(self.top.height_bits(), self.rest.height_bits() + self.powers[self.k].height_bits()))
+        return int(
+            max(self.top.height_bits(), self.rest.height_bits() + self.powers[self.k].height_bits())
+        )
 
     def _plus(self, other: Any, sign: int) -> Any:
         if isinstance(other, int):

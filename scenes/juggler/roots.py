@@ -1,4 +1,5 @@
-"""For which alpha in (0, 1) polynomial conditions hold, exactly: isolated real roots, and signs between and at them."""
+"""For which alpha in (0, 1) polynomial conditions hold, exactly: isolated real roots, and signs
+between and at them."""
 
 from __future__ import annotations
 
@@ -25,7 +26,12 @@ class Root:
         """The same root between closer ends."""
         if self.high - self.low <= width:
             return self
-        ends = refine_root(self.polynomial.as_expr(), _rational(self.low), _rational(self.high), eps=_rational(width))
+        ends = refine_root(
+            self.polynomial.as_expr(),
+            _rational(self.low),
+            _rational(self.high),
+            eps=_rational(width),
+        )
         return Root(self.polynomial, *(Fraction(int(end.p), int(end.q)) for end in ends))
 
     def __str__(self) -> str:
@@ -47,7 +53,10 @@ class Range:
     def __str__(self) -> str:
         if self.low == self.high:
             return f"alpha = {self.low}"
-        return f"{self.low} {'<=' if self.low_in else '<'} alpha {'<=' if self.high_in else '<'} {self.high}"
+        return (
+            f"{self.low} {'<=' if self.low_in else '<'} alpha {'<=' if self.high_in else '<'}"
+            f" {self.high}"
+        )
 
 
 def _rational(value: Fraction) -> Any:
@@ -56,12 +65,17 @@ def _rational(value: Fraction) -> Any:
 
 def irreducible(polynomials: Sequence[Any]) -> list[Any]:
     """The irreducible factors of the polynomials, each once."""
-    found = {Poly(factor, alpha).monic(): None for one in polynomials for factor, _ in factor_list(one, alpha)[1]}
+    found = {
+        Poly(factor, alpha).monic(): None
+        for one in polynomials
+        for factor, _ in factor_list(one, alpha)[1]
+    }
     return [Poly(one.clear_denoms()[1], alpha) for one in found]
 
 
 def roots_between(polynomials: Sequence[Any]) -> list[Root]:
-    """The real roots of the polynomials strictly between 0 and 1, in order, between ends that hold no other root, and apart from each other.
+    """The real roots of the polynomials strictly between 0 and 1, in order, between ends that hold
+    no other root, and apart from each other.
 
     >>> [str(root) for root in roots_between([3 * alpha - 1, alpha**2 - 2, 2 * alpha**2 - 1])]
     ['1/3', '0.707107 (root of 2*alpha^2 - 1)']
@@ -75,7 +89,11 @@ def roots_between(polynomials: Sequence[Any]) -> list[Root]:
         if factor.degree() == 1:  # a rational root, told as it is
             ends = [-factor.nth(0) / factor.nth(1)] * 2
         found.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
-    return [root for root in found if root.low >= 0 and root.high <= 1 and root.polynomial.as_expr() not in (alpha, alpha - 1)]
+    return [
+        root
+        for root in found
+        if root.low >= 0 and root.high <= 1 and root.polynomial.as_expr() not in (alpha, alpha - 1)
+    ]
 
 
 def _sign_at(polynomial: Any, at: Fraction) -> int:
@@ -103,17 +121,26 @@ def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Rang
     >>> [str(one) for one in where([-((2 * alpha - 1) ** 2)])], [str(one) for one in where([], [(2 * alpha - 1) ** 2])]
     (['alpha = 1/2'], ['0 < alpha < 1/2', '1/2 < alpha < 1'])
     """
-    zero, one = Root(Poly(alpha, alpha), Fraction(0), Fraction(0)), Root(Poly(alpha - 1, alpha), Fraction(1), Fraction(1))
+    zero, one = (
+        Root(Poly(alpha, alpha), Fraction(0), Fraction(0)),
+        Root(Poly(alpha - 1, alpha), Fraction(1), Fraction(1)),
+    )
     roots = [zero, *roots_between([*nonnegative, *positive]), one]
-    conditions = [(Poly(part, alpha), False) for part in nonnegative] + [(Poly(part, alpha), True) for part in positive]
+    conditions = [(Poly(part, alpha), False) for part in nonnegative] + [
+        (Poly(part, alpha), True) for part in positive
+    ]
 
     def holds(signs: Sequence[int]) -> bool:
-        return all(sign > 0 or (sign == 0 and not strict) for sign, (_, strict) in zip(signs, conditions))
+        return all(
+            sign > 0 or (sign == 0 and not strict) for sign, (_, strict) in zip(signs, conditions)
+        )
 
     # Cells in order: root, between, root, ...; 0 and 1 do not belong to the domain.
     cells = []
     for left, right in zip(roots, roots[1:]):
-        cells.append(left not in (zero, one) and holds([sign_at_root(part, left) for part, _ in conditions]))
+        cells.append(
+            left not in (zero, one) and holds([sign_at_root(part, left) for part, _ in conditions])
+        )
         cells.append(holds([_sign_at(part, (left.high + right.low) / 2) for part, _ in conditions]))
     cells.append(False)
     found, begun = [], None
@@ -122,6 +149,8 @@ def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Rang
             begun = place
         elif not inside and begun is not None:
             low, last = begun, place - 1
-            found.append(Range(roots[low // 2], roots[(last + 1) // 2], low % 2 == 0, last % 2 == 0))
+            found.append(
+                Range(roots[low // 2], roots[(last + 1) // 2], low % 2 == 0, last % 2 == 0)
+            )
             begun = None
     return found

@@ -1,7 +1,8 @@
-"""Starting states by number: listed, on a grid, on the boundary of R, random, in arrays; each an exact rational state, told as floats on demand.
+"""Starting states by number: listed, on a grid, on the boundary of R, random, in arrays; each an
+exact rational state, told as floats on demand.
 
-All in normal form: x the height in units of r T, w the closing speed in units of r; x >= 0.  Whatever the number of states, only those asked for
-are made.
+All in normal form: x the height in units of r T, w the closing speed in units of r; x >= 0.
+Whatever the number of states, only those asked for are made.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ class Starts(Protocol):
         """x, w as floats and bounds on what their rounding missed, each of shape (high - low,)."""
 
 
-def _converted(states: Sequence[tuple[Fraction, Fraction]]) -> tuple[Floats, Floats, Floats, Floats]:
+def _converted(
+    states: Sequence[tuple[Fraction, Fraction]],
+) -> tuple[Floats, Floats, Floats, Floats]:
     pairs = [(*nearest(one), *nearest(two)) for one, two in states]
     found = np.array(pairs, dtype=np.float64).reshape(-1, 4)
     return found[:, 0].copy(), found[:, 2].copy(), found[:, 1].copy(), found[:, 3].copy()
@@ -60,7 +63,8 @@ class Listed:
 
 @dataclass(frozen=True)
 class Even:
-    """So many numbers from the first to the last, equally far apart, each made when it is asked for."""
+    """So many numbers from the first to the last, equally far apart, each made when it is asked
+    for."""
 
     first: Fraction
     last: Fraction
@@ -105,7 +109,8 @@ class Grid:
 
 @dataclass(frozen=True)
 class OnBoundary:
-    """States on the boundary of R, each made when it is asked for: first those on the energy level, 1 +/- reach at most in w, then those at x = 0.
+    """States on the boundary of R, each made when it is asked for: first those on the energy level,
+    1 +/- reach at most in w, then those at x = 0.
 
     The energy is linear in x, and one unit of height adds `added` to it.
     """
@@ -131,7 +136,8 @@ class OnBoundary:
 
 @dataclass(frozen=True)
 class Drawn:
-    """Floats of a seeded generator, uniform over a box; state i comes of draws 2 i and 2 i + 1, whatever block it is asked in."""
+    """Floats of a seeded generator, uniform over a box; state i comes of draws 2 i and 2 i + 1,
+    whatever block it is asked in."""
 
     count: int
     seed: int
@@ -165,4 +171,9 @@ class Array:
         return Fraction(float(self.x[index])), Fraction(float(self.w[index]))
 
     def block(self, low: int, high: int) -> tuple[Floats, Floats, Floats, Floats]:
-        return self.x[low:high].copy(), self.w[low:high].copy(), np.zeros(high - low), np.zeros(high - low)
+        return (
+            self.x[low:high].copy(),
+            self.w[low:high].copy(),
+            np.zeros(high - low),
+            np.zeros(high - low),
+        )

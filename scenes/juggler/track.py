@@ -1,10 +1,13 @@
-"""One orbit in any arithmetic: flights as wholes by the power of f2, impacts one by one, and the closed form once it is in the trap.
+"""One orbit in any arithmetic: flights as wholes by the power of f2, impacts one by one, and the
+closed form once it is in the trap.
 
-The trap is the set of states with 0 <= x < w, alpha w < 1 and alpha (2 - alpha w) < 1: the next two impacts leave closing speeds below 1/alpha. It
-is invariant and has only impacts, for every 0 < alpha < 1.  For let (x', w') = (alpha (w - x), 2 - alpha w).  Then 0 < x' <= alpha w < 1 < w', so
-that (x', w') has an impact; alpha w' < 1 is the third condition at (x, w); and alpha (2 - alpha w') < 1 means alpha^2 w' > 2 alpha - 1, that is
-alpha^3 w < 2 alpha^2 - 2 alpha + 1 = alpha^2 + (1 - alpha)^2, which follows from alpha w < 1.  For alpha <= 1/2 the third condition follows from w
-> 0, and the set is the trap of the theorem; for alpha > 1/2 that one is not invariant.
+The trap is the set of states with 0 <= x < w, alpha w < 1 and alpha (2 - alpha w) < 1: the next two
+impacts leave closing speeds below 1/alpha. It is invariant and has only impacts, for every 0 <
+alpha < 1.  For let (x', w') = (alpha (w - x), 2 - alpha w).  Then 0 < x' <= alpha w < 1 < w', so
+that (x', w') has an impact; alpha w' < 1 is the third condition at (x, w); and alpha (2 - alpha w')
+< 1 means alpha^2 w' > 2 alpha - 1, that is alpha^3 w < 2 alpha^2 - 2 alpha + 1 = alpha^2 + (1 -
+alpha)^2, which follows from alpha w < 1.  For alpha <= 1/2 the third condition follows from w > 0,
+and the set is the trap of the theorem; for alpha > 1/2 that one is not invariant.
 """
 
 from __future__ import annotations
@@ -37,10 +40,12 @@ class Arithmetic(Protocol):
         """A power of the number; raises Stop where it would be too long."""
 
     def check(self, track: Track) -> None:
-        """Called before every move; raises Stop where the arithmetic has to give up or begin again."""
+        """Called before every move; raises Stop where the arithmetic has to give up or begin
+        again."""
 
     def settle(self, track: Track) -> int:
-        """The sign of the margin where `sign` cannot tell it, by other means; raises Stop where there are none."""
+        """The sign of the margin where `sign` cannot tell it, by other means; raises Stop where
+        there are none."""
 
 
 class Stop(Exception):
@@ -78,15 +83,25 @@ class Track:
 
 def begin(arithmetic: Arithmetic, alpha: Fraction, start: Sample, keep: bool) -> Track:
     """The track of an exact start."""
-    track = Track(arithmetic.lift(alpha), Sample(start.periods, start.impacts, arithmetic.lift(start.x), arithmetic.lift(start.w)))
+    track = Track(
+        arithmetic.lift(alpha),
+        Sample(start.periods, start.impacts, arithmetic.lift(start.x), arithmetic.lift(start.w)),
+    )
     if keep:
         track.samples = []
         track.keep()
     return track
 
 
-def advance(track: Track, arithmetic: Arithmetic, goal: Goal, fixed: tuple[Any, Any], report: Callable[[Track], None] | None = None) -> None:
-    """Follows the track until the goal; `fixed` is e_1 in the arithmetic.  Raises Stop with the track at the last state that is certain."""
+def advance(
+    track: Track,
+    arithmetic: Arithmetic,
+    goal: Goal,
+    fixed: tuple[Any, Any],
+    report: Callable[[Track], None] | None = None,
+) -> None:
+    """Follows the track until the goal; `fixed` is e_1 in the arithmetic.  Raises Stop with the
+    track at the last state that is certain."""
     map_ = formulas()
     while True:
         arithmetic.check(track)
@@ -111,7 +126,9 @@ def advance(track: Track, arithmetic: Arithmetic, goal: Goal, fixed: tuple[Any, 
             report(track)
         if caught and track.samples is None:
             power = arithmetic.power(-track.alpha, left)
-            track.here = Sample(periods + left, impacts + left, *map_.later(x, w, *fixed, left, power))
+            track.here = Sample(
+                periods + left, impacts + left, *map_.later(x, w, *fixed, left, power)
+            )
         elif sign > 0:
             track.here = Sample(periods + 1, impacts + 1, *map_.impact(track.alpha, x, w))
             track.keep()
@@ -120,7 +137,8 @@ def advance(track: Track, arithmetic: Arithmetic, goal: Goal, fixed: tuple[Any, 
 
 
 def _fly(track: Track, arithmetic: Arithmetic, most: int | None) -> None:
-    """Flies on: as many periods as are certain to have no impact, at most so many; one, where only the present is certain."""
+    """Flies on: as many periods as are certain to have no impact, at most so many; one, where only
+    the present is certain."""
     map_ = formulas()
     periods, impacts, x, w = track.here
     length = certain_flight(arithmetic, x, w)
@@ -134,9 +152,11 @@ def _fly(track: Track, arithmetic: Arithmetic, most: int | None) -> None:
 
 
 def certain_flight(arithmetic: Arithmetic, x: Any, w: Any) -> int:
-    """A number K >= 1 of periods without an impact from a state whose margin is not positive; the whole flight where the arithmetic can tell it.
+    """A number K >= 1 of periods without an impact from a state whose margin is not positive; the
+    whole flight where the arithmetic can tell it.
 
-    The margin after k periods is a convex parabola in k, not positive at k = 0: where it is not positive at K - 1 it is not between.
+    The margin after k periods is a convex parabola in k, not positive at k = 0: where it is not
+    positive at K - 1 it is not between.
     """
     map_ = formulas()
     if arithmetic.sign(map_.margin(*map_.flight(x, w, 1))) == 1:
@@ -152,7 +172,8 @@ def certain_flight(arithmetic: Arithmetic, x: Any, w: Any) -> int:
 
 
 def near_end(middle: Callable[[Any], Any], x: Any, w: Any) -> int:
-    """A whole number near the length of the flight: 1 + floor((u - 1 - w)/2), or up to one less, u^2 = 4 x + (w - 1)^2, at the rational middles."""
+    """A whole number near the length of the flight: 1 + floor((u - 1 - w)/2), or up to one less,
+    u^2 = 4 x + (w - 1)^2, at the rational middles."""
     b, square = (middle(part) for part in formulas().end_of_flight(x, w))
     floor = int(((isqrt(max(int(square.floor()), 0)) - b) / 2).floor())
     return max(floor + 1, 1)

@@ -1,6 +1,8 @@
-"""The blocks in motion, as one HTML file that fetches nothing: a canvas with play, pause, a slider of time, speeds and keys.
+"""The blocks in motion, as one HTML file that fetches nothing: a canvas with play, pause, a slider
+of time, speeds and keys.
 
-States stand in it at 60 frames a second of model time, rounded to 1e-5 m and 1e-4 rad, each as its change since the last frame.
+States stand in it at 60 frames a second of model time, rounded to 1e-5 m and 1e-4 rad, each as its
+change since the last frame.
 """
 
 from __future__ import annotations
@@ -32,23 +34,45 @@ MOST_FRAMES = 3600
 HORIZON = 3.0
 
 
-def animation(setting: Scene, angles: Sequence[float] | Array, horizon: float, file: BinaryIO, executor: Executor | None = None) -> None:
-    """Writes blocks that start at these angles, in radians, up to the horizon, in seconds; the same to the byte for the same states."""
+def animation(
+    setting: Scene,
+    angles: Sequence[float] | Array,
+    horizon: float,
+    file: BinaryIO,
+    executor: Executor | None = None,
+) -> None:
+    """Writes blocks that start at these angles, in radians, up to the horizon, in seconds; the same
+    to the byte for the same states."""
     rows(len(angles))
     if not 0 < horizon <= MOST_FRAMES / RATE:
-        raise SceneError(f"horizon = {horizon:.6g} s is outside 0 .. {MOST_FRAMES / RATE:g}, which is what a file has room for")
-    seen = frames(setting, angles, np.arange(math.floor(horizon * RATE + 1e-9) + 1) / RATE, executor)
+        raise SceneError(
+            f"horizon = {horizon:.6g} s is outside 0 .. {MOST_FRAMES / RATE:g}, which is what a"
+            " file has room for"
+        )
+    seen = frames(
+        setting, angles, np.arange(math.floor(horizon * RATE + 1e-9) + 1) / RATE, executor
+    )
     file.write(page(setting, seen))
 
 
 def page(setting: Scene, seen: Array) -> bytes:
     """The file, of states at 60 frames a second, shape (frames, n, 10)."""
-    style, script = ((HERE / f"animation.{kind}").read_text(encoding="utf-8") for kind in ("css", "js"))
+    style, script = (
+        (HERE / f"animation.{kind}").read_text(encoding="utf-8") for kind in ("css", "js")
+    )
     said = vibration(setting)
     shown = {
-        "title": f"{seen.shape[1]} blocks on the vibrating table", "vibration": escape(said[:1].upper() + said[1:]),
-        "alt": escape(alt(setting, seen)), "horizon": repr((len(seen) - 1) / RATE), "step": repr(1 / RATE), "rate": str(RATE),
-        "style": style, "script": script, "style_hash": digest(style), "script_hash": digest(script), "states": packed(setting, seen),
+        "title": f"{seen.shape[1]} blocks on the vibrating table",
+        "vibration": escape(said[:1].upper() + said[1:]),
+        "alt": escape(alt(setting, seen)),
+        "horizon": repr((len(seen) - 1) / RATE),
+        "step": repr(1 / RATE),
+        "rate": str(RATE),
+        "style": style,
+        "script": script,
+        "style_hash": digest(style),
+        "script_hash": digest(script),
+        "states": packed(setting, seen),
     }
     text = (HERE / "animation.html").read_text(encoding="utf-8")
     return re.sub(r"\{(\w+)\}", lambda name: shown[name[1]], text).encode()
@@ -62,23 +86,49 @@ def digest(text: str) -> str:
 def alt(setting: Scene, seen: Array) -> str:
     """What is said to readers who do not see the picture."""
     first, last = (int((~lying(setting, one)).sum()) for one in (seen[0], seen[-1]))
-    return (f"{seen.shape[1]} rectangles in rows bounce and turn on a table that vibrates: {first} nearer to upright at the start,"
-            f" {last} after {(len(seen) - 1) / RATE:.3g} s; all others are nearer to lying.")
+    return (
+        f"{seen.shape[1]} rectangles in rows bounce and turn on a table that vibrates: {first}"
+        f" nearer to upright at the start, {last} after {(len(seen) - 1) / RATE:.3g} s; all others"
+        " are nearer to lying."
+    )
 
 
 def packed(setting: Scene, seen: Array) -> str:
     """All that the script draws, as JSON."""
-    places = [np.rint(seen[:, :, column] / unit).astype(np.int64) for column, unit in ((body.X, LENGTH), (body.Y, LENGTH), (body.THETA, ANGLE))]
-    X, Y, theta = (b64encode(varied(np.diff(place, axis=0, prepend=0).ravel().tolist())).decode() for place in places)
-    return json.dumps({
-        "blocks": seen.shape[1], "frames": len(seen), "rate": RATE, "columns": COLUMNS, "pitch": round(pitch(setting), 6),
-        "a": setting.a, "b": setting.b, "length": LENGTH, "angle": ANGLE, "X": X, "Y": Y, "theta": theta,
-        "table": {"x": [setting.A_x, setting.f_x, setting.phase_x], "y": [setting.A_y, setting.f_y, setting.phase_y]},
-    }, separators=(",", ":"))
+    places = [
+        np.rint(seen[:, :, column] / unit).astype(np.int64)
+        for column, unit in ((body.X, LENGTH), (body.Y, LENGTH), (body.THETA, ANGLE))
+    ]
+    X, Y, theta = (
+        b64encode(varied(np.diff(place, axis=0, prepend=0).ravel().tolist())).decode()
+        for place in places
+    )
+    return json.dumps(
+        {
+            "blocks": seen.shape[1],
+            "frames": len(seen),
+            "rate": RATE,
+            "columns": COLUMNS,
+            "pitch": round(pitch(setting), 6),
+            "a": setting.a,
+            "b": setting.b,
+            "length": LENGTH,
+            "angle": ANGLE,
+            "X": X,
+            "Y": Y,
+            "theta": theta,
+            "table": {
+                "x": [setting.A_x, setting.f_x, setting.phase_x],
+                "y": [setting.A_y, setting.f_y, setting.phase_y],
+            },
+        },
+        separators=(",", ":"),
+    )
 
 
 def varied(numbers: Iterable[int]) -> bytes:
-    """Whole numbers in as few bytes as each needs: seven bits a byte, the low ones first; n >= 0 stands as 2 n, n < 0 as -2 n - 1.
+    """Whole numbers in as few bytes as each needs: seven bits a byte, the low ones first; n >= 0
+    stands as 2 n, n < 0 as -2 n - 1.
 
     >>> varied([0, -1, 64, -64]).hex()
     '000180017f'

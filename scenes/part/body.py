@@ -1,7 +1,9 @@
-"""The block and the table as numbers for the kernels: what their parameters, states and counts are called, and where corners and table are.
+"""The block and the table as numbers for the kernels: what their parameters, states and counts are
+called, and where corners and table are.
 
-Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  theta = 0 is upright, with the long sides vertical, and
-grows counterclockwise.  A state is (t, X, Y, theta, V_X, V_Y, omega) of the centre of mass in the resting frame, then how the block is in contact.
+Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  theta = 0
+is upright, with the long sides vertical, and grows counterclockwise.  A state is (t, X, Y, theta,
+V_X, V_Y, omega) of the centre of mass in the resting frame, then how the block is in contact.
 """
 
 from __future__ import annotations
@@ -20,7 +22,24 @@ class Floats(Protocol):
 
 
 # the parameters of a scene
-G, A_X, W_X, PHASE_X, A_Y, W_Y, PHASE_Y, HALF_SHORT, HALF_LONG, GYRATION, RESTITUTION, FRICTION, TOLERANCE, REST_SPEED, STEP, SPLIT = range(16)
+(
+    G,
+    A_X,
+    W_X,
+    PHASE_X,
+    A_Y,
+    W_Y,
+    PHASE_Y,
+    HALF_SHORT,
+    HALF_LONG,
+    GYRATION,
+    RESTITUTION,
+    FRICTION,
+    TOLERANCE,
+    REST_SPEED,
+    STEP,
+    SPLIT,
+) = range(16)
 PARAMETERS = 16
 
 # a state; for the last two see `contact`
@@ -29,8 +48,24 @@ STATE = 10
 FLIGHT, PIVOT, FACE = 0.0, 1.0, 2.0
 
 # what is counted or noted of an orbit
-(IMPACTS, STEPS, CONTACTS, LAST_UPRIGHT, LAST_LYING, FALLS, RISES, LEAST_GAP, PULLS, CONES, GAINS, CLOSINGS, LARGEST_REMOVED, IMPULSES, SINCE,
- ENERGY_BY_REST) = range(16)
+(
+    IMPACTS,
+    STEPS,
+    CONTACTS,
+    LAST_UPRIGHT,
+    LAST_LYING,
+    FALLS,
+    RISES,
+    LEAST_GAP,
+    PULLS,
+    CONES,
+    GAINS,
+    CLOSINGS,
+    LARGEST_REMOVED,
+    IMPULSES,
+    SINCE,
+    ENERGY_BY_REST,
+) = range(16)
 NOTES = 16
 
 # how a run ended
@@ -41,7 +76,8 @@ QUARTER = pi / 2
 
 @compiled
 def corner_x(p: Floats, i: int, c: float, s: float) -> float:
-    """How far corner i is to the right of the centre, where c and s are cosine and sine of theta; corners 0 to 3 go around counterclockwise."""
+    """How far corner i is to the right of the centre, where c and s are cosine and sine of theta;
+    corners 0 to 3 go around counterclockwise."""
     a, b = p[HALF_SHORT], p[HALF_LONG]
     if i == 0:
         return -a * c + b * s

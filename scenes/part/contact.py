@@ -1,7 +1,9 @@
-"""What holds a block that stays on the table: the force at one corner, which sticks or slides, and when it lets go.
+"""What holds a block that stays on the table: the force at one corner, which sticks or slides, and
+when it lets go.
 
-The corner's acceleration is (B1 F - B3 N - omega^2 x, B2 N - B3 F - g - omega^2 y), as impulses change its velocity (`symbolic.contact`); the
-table's is subtracted.  SLIDE of a state is the direction of sliding, 0 where the corner or face sticks; CORNER the corner, or the number of quarter
+The corner's acceleration is (B1 F - B3 N - omega^2 x, B2 N - B3 F - g - omega^2 y), as impulses
+change its velocity (`symbolic.contact`); the table's is subtracted.  SLIDE of a state is the
+direction of sliding, 0 where the corner or face sticks; CORNER the corner, or the number of quarter
 turns of the face.
 """
 
@@ -9,13 +11,26 @@ from __future__ import annotations
 
 from math import cos, floor, sin
 
-from scenes.part.body import FRICTION, GYRATION, QUARTER, Floats, G, corner_x, corner_y, table_lift, table_push
+from scenes.part.body import (
+    FRICTION,
+    GYRATION,
+    QUARTER,
+    Floats,
+    G,
+    corner_x,
+    corner_y,
+    table_lift,
+    table_push,
+)
 from scenes.part.compiling import compiled
 
 
 @compiled
-def hold(p: Floats, t: float, theta: float, omega: float, i: int, slide: float) -> tuple[float, float, float]:
-    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the direction `slide`, or sticking where that is 0.
+def hold(
+    p: Floats, t: float, theta: float, omega: float, i: int, slide: float
+) -> tuple[float, float, float]:
+    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the
+    direction `slide`, or sticking where that is 0.
 
     Third, the angular acceleration by this force.
     """
@@ -36,6 +51,7 @@ def hold(p: Floats, t: float, theta: float, omega: float, i: int, slide: float) 
 
 @compiled
 def first_turn(i: int, theta: float) -> float:
-    """The number of quarter turns, near theta, from which on corner i is the lowest, for one quarter turn."""
+    """The number of quarter turns, near theta, from which on corner i is the lowest, for one
+    quarter turn."""
     start = (4 - i) % 4
     return start + 4 * floor((theta - QUARTER * start - QUARTER / 2) / (4 * QUARTER) + 0.5)

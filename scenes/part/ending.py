@@ -1,13 +1,24 @@
-"""The steps of a block that pivots on one corner, and the moment at which its phase ends: by Runge and Kutta, and by a safeguarded secant.
+"""The steps of a block that pivots on one corner, and the moment at which its phase ends: by Runge
+and Kutta, and by a safeguarded secant.
 
-A phase ends where a margin falls to 0: the angle to the table of the next corner, the normal force, the friction left, the speed of sliding.
+A phase ends where a margin falls to 0: the angle to the table of the next corner, the normal force,
+the friction left, the speed of sliding.
 """
 
 from __future__ import annotations
 
 from math import cos, sin
 
-from scenes.part.body import FRICTION, GYRATION, QUARTER, Floats, corner_x, corner_y, table_glide, table_place
+from scenes.part.body import (
+    FRICTION,
+    GYRATION,
+    QUARTER,
+    Floats,
+    corner_x,
+    corner_y,
+    table_glide,
+    table_place,
+)
 from scenes.part.compiling import compiled
 from scenes.part.contact import hold
 
@@ -20,7 +31,17 @@ FLAT = 1e-14  # radians
 
 
 @compiled
-def pivoted(p: Floats, t: float, x: float, vx: float, theta: float, omega: float, i: int, slide: float, h: float) -> Moved:
+def pivoted(
+    p: Floats,
+    t: float,
+    x: float,
+    vx: float,
+    theta: float,
+    omega: float,
+    i: int,
+    slide: float,
+    h: float,
+) -> Moved:
     """(X, V_X, theta, omega) after a step of h, of fourth order."""
     f1, _, a1 = hold(p, t, theta, omega, i, slide)
     theta2, omega2 = theta + h / 2 * omega, omega + h / 2 * a1
@@ -32,15 +53,28 @@ def pivoted(p: Floats, t: float, x: float, vx: float, theta: float, omega: float
     after = theta + h * (omega + h / 6 * (a1 + a2 + a3))
     spin = omega + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
     if slide != 0:
-        return x + h * (vx + h / 6 * (f1 + f2 + f3)), vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4), after, spin
+        return (
+            x + h * (vx + h / 6 * (f1 + f2 + f3)),
+            vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4),
+            after,
+            spin,
+        )
     c, s = cos(after), sin(after)
-    foot = x + corner_x(p, i, cos(theta), sin(theta)) - table_place(p, t)  # where the corner sticks on the table
-    return foot + table_place(p, t + h) - corner_x(p, i, c, s), table_glide(p, t + h) + spin * corner_y(p, i, c, s), after, spin
+    foot = (
+        x + corner_x(p, i, cos(theta), sin(theta)) - table_place(p, t)
+    )  # where the corner sticks on the table
+    return (
+        foot + table_place(p, t + h) - corner_x(p, i, c, s),
+        table_glide(p, t + h) + spin * corner_y(p, i, c, s),
+        after,
+        spin,
+    )
 
 
 @compiled
 def pace(p: Floats, theta: float, i: int, slide: float) -> float:
-    """The part of the usual step that is right here: near jamming the force at a sliding corner changes as fast as 1/(B2 +- mu B3) is large."""
+    """The part of the usual step that is right here: near jamming the force at a sliding corner
+    changes as fast as 1/(B2 +- mu B3) is large."""
     if slide == 0:
         return 1.0
     c, s = cos(theta), sin(theta)
@@ -49,8 +83,19 @@ def pace(p: Floats, theta: float, i: int, slide: float) -> float:
 
 
 @compiled
-def margin(p: Floats, ended: int, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: float) -> float:
-    """How far a phase is from ending in this way; `turn` is the number of quarter turns from which on corner i is the lowest."""
+def margin(
+    p: Floats,
+    ended: int,
+    t: float,
+    vx: float,
+    theta: float,
+    omega: float,
+    i: int,
+    slide: float,
+    turn: float,
+) -> float:
+    """How far a phase is from ending in this way; `turn` is the number of quarter turns from which
+    on corner i is the lowest."""
     if ended == LANDS:
         return min(theta - turn * QUARTER, (turn + 1) * QUARTER - theta) + FLAT
     if ended == STOPS:
@@ -60,7 +105,9 @@ def margin(p: Floats, ended: int, t: float, vx: float, theta: float, omega: floa
 
 
 @compiled
-def ending(p: Floats, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: float) -> int:
+def ending(
+    p: Floats, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: float
+) -> int:
     """What no longer holds of the phase: LASTS where everything does."""
     if margin(p, LANDS, t, vx, theta, omega, i, slide, turn) < 0:
         return LANDS
@@ -72,12 +119,23 @@ def ending(p: Floats, t: float, vx: float, theta: float, omega: float, i: int, s
 
 @compiled
 def end_of(
-    p: Floats, t: float, x: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: float, h: float, ended: int,
+    p: Floats,
+    t: float,
+    x: float,
+    vx: float,
+    theta: float,
+    omega: float,
+    i: int,
+    slide: float,
+    turn: float,
+    h: float,
+    ended: int,
 ) -> tuple[float, float, int]:
-    """Two lengths of a step, NEAR apart, between which the phase first ends, the first 0 where it ends at once; and how it ends.
+    """Two lengths of a step, NEAR apart, between which the phase first ends, the first 0 where it
+    ends at once; and how it ends.
 
-    Of a step of h, after which it has ended.  Guesses by the Illinois method; halves instead where the bracket is longer than a third as many
-    halvings would have left it.
+    Of a step of h, after which it has ended.  Guesses by the Illinois method; halves instead where
+    the bracket is longer than a third as many halvings would have left it.
     """
     early, late, allowed, side = 0.0, h, 8 * h, 0
     above = margin(p, ended, t, vx, theta, omega, i, slide, turn)

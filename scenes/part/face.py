@@ -1,6 +1,8 @@
-"""A block whose face lies on the table: it sticks or slides, until the table falls away, friction fails, sliding stops, or the block tips.
+"""A block whose face lies on the table: it sticks or slides, until the table falls away, friction
+fails, sliding stops, or the block tips.
 
-All in closed form but for the times at which friction fails or sliding stops; these come, like the end of a flight, from below.
+All in closed form but for the times at which friction fails or sliding stops; these come, like the
+end of a flight, from below.
 """
 
 from __future__ import annotations
@@ -67,16 +69,20 @@ def lift_off(p: Floats, t: float) -> float:
 
 @compiled
 def margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, float]:
-    """How far friction `grip` N is from what sticking needs against a push to the side `way`, and how fast that changes."""
+    """How far friction `grip` N is from what sticking needs against a push to the side `way`, and
+    how fast that changes."""
     wy, wx = p[W_Y], p[W_X]
     value = grip * (p[G] + table_lift(p, t)) - way * table_push(p, t)
-    rate = -grip * p[A_Y] * wy**3 * cos(wy * t + p[PHASE_Y]) + way * p[A_X] * wx**3 * cos(wx * t + p[PHASE_X])
+    rate = -grip * p[A_Y] * wy**3 * cos(wy * t + p[PHASE_Y]) + way * p[A_X] * wx**3 * cos(
+        wx * t + p[PHASE_X]
+    )
     return value, rate
 
 
 @compiled
 def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
-    """The first time up to `end` at which sticking needs more than `grip` times the normal force; `end` where there is none."""
+    """The first time up to `end` at which sticking needs more than `grip` times the normal force;
+    `end` where there is none."""
     fall = grip * abs(p[A_Y]) * p[W_Y] ** 4 + abs(p[A_X]) * p[W_X] ** 4 + LEAST_FALL
     first = True
     for _ in range(MOST_STEPS):
@@ -97,13 +103,16 @@ def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
 
 @compiled
 def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
-    """The first time up to `end` at which a face that slides at S stops; `end` where there is none."""
+    """The first time up to `end` at which a face that slides at S stops; `end` where there is
+    none."""
     mu, wy, wx = p[FRICTION], p[W_Y], p[W_X]
     fall = mu * abs(p[A_Y]) * wy**3 + abs(p[A_X]) * wx**3 + LEAST_FALL
     start, rise, glide = t, table_rise(p, t), table_glide(p, t)
     first = True
     for _ in range(MOST_STEPS):
-        speed = slide * (S - table_glide(p, t) + glide) - mu * (p[G] * (t - start) + table_rise(p, t) - rise)
+        speed = slide * (S - table_glide(p, t) + glide) - mu * (
+            p[G] * (t - start) + table_rise(p, t) - rise
+        )
         rate = -slide * table_push(p, t) - mu * (p[G] + table_lift(p, t))
         if speed <= SPEED_NEAR and rate < 0 and not first:
             return t
@@ -148,13 +157,21 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
             if after < 0:
                 break
             h, rise = after - t, table_rise(p, t)
-            x += vx * h - slide * mu * (p[G] * h * h / 2 + table_height(p, after) - table_height(p, t) - rise * h)
+            x += vx * h - slide * mu * (
+                p[G] * h * h / 2 + table_height(p, after) - table_height(p, t) - rise * h
+            )
             vx -= slide * mu * (p[G] * h + table_rise(p, after) - rise)
             t = after
             if t < end:
                 push = table_push(p, t)
                 vx = table_glide(p, t)
-                slide = 0.0 if abs(push) <= mu * (p[G] + table_lift(p, t)) else -1.0 if push > 0 else 1.0
+                slide = (
+                    0.0
+                    if abs(push) <= mu * (p[G] + table_lift(p, t))
+                    else -1.0
+                    if push > 0
+                    else 1.0
+                )
         if t >= end or tipped:
             code = DONE
             break
@@ -170,7 +187,8 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 
 @compiled
 def tip(p: Floats, z: Floats, push: float) -> None:
-    """Stands a block that tips on its corner: the left one where friction pushes it to the right."""
+    """Stands a block that tips on its corner: the left one where friction pushes it to the
+    right."""
     c, s = cos(z[THETA]), sin(z[THETA])
     for i in range(4):
         if corner_y(p, i, c, s) < 0 and corner_x(p, i, c, s) * push < 0:

@@ -1,10 +1,14 @@
-"""Free flight, and the first corner that meets the table: conservative advancement, which cannot step over a meeting.
+"""Free flight, and the first corner that meets the table: conservative advancement, which cannot
+step over a meeting.
 
-The gap of a corner at time s of a flight is at least gap + rate s - M s^2/2, where M = g + A_y W_y^2 + omega^2 rho bounds how fast its rate can fall.
-Each step goes to the first root of that parabola, raised by 9/10 of the tolerance, over all four corners; so no gap falls below the tolerance's
-negative, rounding included.  From there one step of Newton's puts the corner on the table, to second order in the tolerance, where it comes down fast
-enough for that.  Where it does not, it is below the height from which it set out, if that was in the table, or below 0: the flight ends where it came
-through that, so that a corner that rattles, with hops below the tolerance, does not sink with every one of them.
+The gap of a corner at time s of a flight is at least gap + rate s - M s^2/2, where M = g + A_y
+W_y^2 + omega^2 rho bounds how fast its rate can fall. Each step goes to the first root of that
+parabola, raised by 9/10 of the tolerance, over all four corners; so no gap falls below the
+tolerance's negative, rounding included.  From there one step of Newton's puts the corner on the
+table, to second order in the tolerance, where it comes down fast enough for that.  Where it does
+not, it is below the height from which it set out, if that was in the table, or below 0: the flight
+ends where it came through that, so that a corner that rattles, with hops below the tolerance, does
+not sink with every one of them.
 """
 
 from __future__ import annotations
@@ -37,9 +41,14 @@ from scenes.part.compiling import compiled
 
 MOST_STEPS = 1_000_000  # of one flight
 NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton's
-NEAR = 1e-15  # metres: roots this near one another are all computed, so that the order of the corners does not matter
+# metres: roots this near one another are all computed, so that the order of the corners does not
+# matter
+NEAR = 1e-15
 LEAST_FLIGHT = 1e-10  # seconds: how long a flight takes that would end at once
-MOST_GUESSES, NEAR_TIME = 100, 1e-14  # of the time at which a corner comes down to a height, and the seconds to which it is found
+MOST_GUESSES, NEAR_TIME = (
+    100,
+    1e-14,
+)  # of the time at which a corner comes down to a height, and the seconds to which it is found
 
 
 @compiled
@@ -57,19 +66,25 @@ def safe_step(value: float, rate: float, fall: float) -> float:
 
 @compiled
 def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
-    """A time of the flight from which on corner i is below the table, or where it set out if that was in the table; at most `late`, by which it is.
+    """A time of the flight from which on corner i is below the table, or where it set out if that
+    was in the table; at most `late`, by which it is.
 
-    By Newton's steps from the later end of a bracket, which for a gap that is concave stay on that side; half of the bracket where one leaves it.
+    By Newton's steps from the later end of a bracket, which for a gap that is concave stay on that
+    side; half of the bracket where one leaves it.
     """
     a, b = p[HALF_SHORT], p[HALF_LONG]
     sx, sy = -1.0 if i == 0 or i == 3 else 1.0, -1.0 if i < 2 else 1.0
-    height = min(z[Y] + (sx * a * sin(z[THETA]) + sy * b * cos(z[THETA])) - table_height(p, z[TIME]), 0.0)
+    height = min(
+        z[Y] + (sx * a * sin(z[THETA]) + sy * b * cos(z[THETA])) - table_height(p, z[TIME]), 0.0
+    )
     early, s = 0.0, late
     for _ in range(MOST_GUESSES):
         angle, phase = z[THETA] + z[OMEGA] * s, p[W_Y] * (z[TIME] + s) + p[PHASE_Y]
         c, d = cos(angle), sin(angle)
         gap = z[Y] + (z[V_Y] - p[G] / 2 * s) * s - p[A_Y] * sin(phase) + (sx * a * d + sy * b * c)
-        rate = z[V_Y] - p[G] * s - p[A_Y] * p[W_Y] * cos(phase) + z[OMEGA] * (sx * a * c - sy * b * d)
+        rate = (
+            z[V_Y] - p[G] * s - p[A_Y] * p[W_Y] * cos(phase) + z[OMEGA] * (sx * a * c - sy * b * d)
+        )
         if gap < height:
             late = s
         else:
@@ -85,9 +100,11 @@ def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
 
 @compiled
 def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves a flying block on until a corner meets the table, or to the time `until`; DONE, or why it gave up.
+    """Moves a flying block on until a corner meets the table, or to the time `until`; DONE, or why
+    it gave up.
 
-    The first step is taken even where a corner touches: the corner has been told to leave, and the gap cannot fall below the tolerance's negative.
+    The first step is taken even where a corner touches: the corner has been told to leave, and the
+    gap cannot fall below the tolerance's negative.
     """
     t, y, theta, rise, omega = z[TIME], z[Y], z[THETA], z[V_Y], z[OMEGA]
     a, b, tolerance = p[HALF_SHORT], p[HALF_LONG], p[TOLERANCE]

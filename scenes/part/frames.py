@@ -25,25 +25,46 @@ class Job(NamedTuple):
     times: Array
 
 
-def frames(setting: Scene, angles: Sequence[float] | Array, times: Sequence[float] | Array, executor: Executor | None = None) -> Array:
-    """The states of blocks that start at these angles, in radians, at these times, in seconds, which do not fall: shape (len(times), n, 10).
+def frames(
+    setting: Scene,
+    angles: Sequence[float] | Array,
+    times: Sequence[float] | Array,
+    executor: Executor | None = None,
+) -> Array:
+    """The states of blocks that start at these angles, in radians, at these times, in seconds,
+    which do not fall: shape (len(times), n, 10).
 
-    Each orbit is, to the last bit, the one that `run` follows to the last of the times; a run to an earlier one may round its last event otherwise.
-    Without an executor threads share the chunks.
+    Each orbit is, to the last bit, the one that `run` follows to the last of the times; a run to an
+    earlier one may round its last event otherwise. Without an executor threads share the chunks.
     """
     looked = np.asarray(times, dtype=float)
-    if looked.ndim != 1 or not len(looked) or not np.isfinite(looked).all() or (np.diff(looked) < 0).any():
+    if (
+        looked.ndim != 1
+        or not len(looked)
+        or not np.isfinite(looked).all()
+        or (np.diff(looked) < 0).any()
+    ):
         raise SceneError("times: one row of finite numbers that do not fall is needed")
     if looked[0] < 0 or looked[-1] > LONGEST:
-        raise SceneError(f"times from {looked[0]:.6g} to {looked[-1]:.6g} s are not within 0 .. {LONGEST:g}")
+        raise SceneError(
+            f"times from {looked[0]:.6g} to {looked[-1]:.6g} s are not within 0 .. {LONGEST:g}"
+        )
     states = standing(setting, angles)
     if len(states) * len(looked) > MOST_STATES:
-        raise SceneError(f"{len(states)} blocks at {len(looked)} times are more than {MOST_STATES} states; choose fewer times")
-    jobs = [Job(setting.parameters(), states[k : k + CHUNK], looked) for k in range(0, len(states), CHUNK)]
+        raise SceneError(
+            f"{len(states)} blocks at {len(looked)} times are more than {MOST_STATES} states;"
+            " choose fewer times"
+        )
+    jobs = [
+        Job(setting.parameters(), states[k : k + CHUNK], looked)
+        for k in range(0, len(states), CHUNK)
+    ]
     if len(jobs) == 1 and executor is None:
         return watched(jobs[0])
     if executor is not None:
-        return np.concatenate([future.result() for future in [executor.submit(watched, job) for job in jobs]], axis=1)
+        return np.concatenate(
+            [future.result() for future in [executor.submit(watched, job) for job in jobs]], axis=1
+        )
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         return np.concatenate(list(threads.map(watched, jobs)), axis=1)
 
@@ -56,5 +77,8 @@ def watched(job: Job) -> Array:
     seen = np.zeros((len(states), len(job.times), body.STATE))
     codes = watch_all(job.parameters, states, job.times, fresh_notes(len(states)), seen)
     for k in np.flatnonzero(codes):
-        raise SceneError(f"block {k}, at t = {states[k, body.TIME]:.6g} s and theta = {states[k, body.THETA]:.6g}: {WHY[int(codes[k])]}")
+        raise SceneError(
+            f"block {k}, at t = {states[k, body.TIME]:.6g} s and theta ="
+            f" {states[k, body.THETA]:.6g}: {WHY[int(codes[k])]}"
+        )
     return np.ascontiguousarray(seen.transpose(1, 0, 2))

@@ -1,7 +1,9 @@
-"""How 91 blocks are laid out in a picture: rows of ten from front to back, as in figure 2; and which of them are nearer to lying.
+"""How 91 blocks are laid out in a picture: rows of ten from front to back, as in figure 2; and
+which of them are nearer to lying.
 
-Blocks move in parallel planes and do not meet, so each is shown at its own place of a grid, at its true angle and height above the table.  How far it
-has drifted along the table, some centimetres a second, is left out of figure 2.
+Blocks move in parallel planes and do not meet, so each is shown at its own place of a grid, at its
+true angle and height above the table.  How far it has drifted along the table, some centimetres a
+second, is left out of figure 2.
 """
 
 from __future__ import annotations
@@ -35,17 +37,21 @@ def rows(count: int) -> int:
     """
     found = -(-count // COLUMNS)
     if not 1 <= found <= MOST_ROWS:
-        raise SceneError(f"{count} blocks are outside 1 .. {MOST_ROWS * COLUMNS}, which is what a picture shows")
+        raise SceneError(
+            f"{count} blocks are outside 1 .. {MOST_ROWS * COLUMNS}, which is what a picture shows"
+        )
     return found
 
 
 def pitch(setting: Scene) -> float:
-    """How far apart the places are, in metres: a block that turns does not reach its neighbours'."""
+    """How far apart the places are, in metres: a block that turns does not reach its
+    neighbours'."""
     return PITCH * float(np.hypot(setting.a, setting.b))
 
 
 def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
-    """Which blocks are nearer to lying than to upright, as table I tells them apart (`scenes.part.turns`)."""
+    """Which blocks are nearer to lying than to upright, as table I tells them apart
+    (`scenes.part.turns`)."""
     split = np.arctan2(setting.a, setting.b)
     found: NDArray[np.bool_] = np.abs(np.sin(states[..., body.THETA])) > np.sin(split)
     return found

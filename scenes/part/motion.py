@@ -19,7 +19,8 @@ MOST_AT_ONCE = 10_000  # events that do not move time on
 
 @compiled
 def go_on(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves one block on by one event, a flight with its impacts or a phase of contact, or to the time `until`; DONE, or why it gave up."""
+    """Moves one block on by one event, a flight with its impacts or a phase of contact, or to the
+    time `until`; DONE, or why it gave up."""
     if z[MODE] == FACE:
         return lie(p, z, until, notes)
     if z[MODE] == PIVOT:
@@ -34,7 +35,8 @@ def go_on(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 
 @compiled
 def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves one block on to the time `until`, its state z and notes in place; DONE, or why it gave up."""
+    """Moves one block on to the time `until`, its state z and notes in place; DONE, or why it gave
+    up."""
     still = 0
     for _ in range(MOST_EVENTS):
         before = z[TIME]
@@ -50,7 +52,9 @@ def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 
 
 @compiled
-def follow_all(p: Floats, states: NDArray[np.float64], until: float, notes: NDArray[np.float64]) -> NDArray[np.float64]:
+def follow_all(
+    p: Floats, states: NDArray[np.float64], until: float, notes: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Moves blocks on, a row of `states` and of `notes` each; how each run ended."""
     codes = np.zeros(len(states))
     for k in range(len(states)):

@@ -1,4 +1,5 @@
-"""Figure 2: where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by side."""
+"""Figure 2: where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by
+side."""
 
 from __future__ import annotations
 
@@ -35,7 +36,8 @@ def as_in_figure_two(setting: Scene) -> Scene:
 
 
 def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
-    """Writes figure 2 for a scene as it is, as SVG or as PDF; `as_in_figure_two` gives the paper's vibration."""
+    """Writes figure 2 for a scene as it is, as SVG or as PDF; `as_in_figure_two` gives the paper's
+    vibration."""
     if form not in FORMS:
         raise SceneError(f"form = {form[:40]!r}: choose from {', '.join(FORMS)}")
     file.write(FORMS[form](drawn(setting, frames(setting, ANGLES, TIMES))))
@@ -43,17 +45,30 @@ def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
 
 def caption(setting: Scene, seen: Array) -> str:
     """What stands below the figure."""
-    told = "; ".join(f"after {one[0, body.TIME]:g} s, {int(lying(setting, one).sum())} of {len(one)} are nearer to lying" for one in seen[1:])
-    return ("The foremost row starts at 0 to 9 degrees from left to right, each row behind it ten degrees further, the last block at 90 degrees."
-            " Rectangles are drawn at their true angles and heights above the table, each at its own place: how far a block has drifted along"
-            f" the table is left out. Here, {told}. The paper's figure shows all of them lying after 3 s.")
+    told = "; ".join(
+        f"after {one[0, body.TIME]:g} s, {int(lying(setting, one).sum())} of {len(one)} are nearer"
+        " to lying"
+        for one in seen[1:]
+    )
+    return (
+        "The foremost row starts at 0 to 9 degrees from left to right, each row behind it ten"
+        " degrees further, the last block at 90 degrees. Rectangles are drawn at their true angles"
+        " and heights above the table, each at its own place: how far a block has drifted along"
+        f" the table is left out. Here, {told}. The paper's figure shows all of them lying after"
+        " 3 s."
+    )
 
 
 def alt(setting: Scene, seen: Array) -> str:
     """What is said to readers who do not see the figure."""
-    told = ", ".join(f"{int((~lying(setting, states)).sum())} at {states[0, body.TIME]:g} s" for states in seen)
-    return (f"{len(seen)} grids of {len(seen[0])} rectangles, one for each time. At the start the rectangles lean ever more to the left, from the"
-            f" upright one at the lower left to the one that lies in the back row. Nearer to upright are {told}; all others are nearer to lying.")
+    told = ", ".join(
+        f"{int((~lying(setting, states)).sum())} at {states[0, body.TIME]:g} s" for states in seen
+    )
+    return (
+        f"{len(seen)} grids of {len(seen[0])} rectangles, one for each time. At the start the"
+        " rectangles lean ever more to the left, from the upright one at the lower left to the one"
+        f" that lies in the back row. Nearer to upright are {told}; all others are nearer to lying."
+    )
 
 
 def vibration(setting: Scene) -> str:
@@ -63,8 +78,10 @@ def vibration(setting: Scene) -> str:
     >>> vibration(as_in_figure_two(scene(e=0.7, mu=0.08)))
     'table: 60 Hz 0.2 mm up and down, 30 Hz 1 mm along; e = 0.7, mu = 0.08'
     """
-    return (f"table: {setting.f_y:g} Hz {1e3 * setting.A_y:g} mm up and down, {setting.f_x:g} Hz {1e3 * setting.A_x:g} mm along;"
-            f" e = {setting.e:g}, mu = {setting.mu:g}")
+    return (
+        f"table: {setting.f_y:g} Hz {1e3 * setting.A_y:g} mm up and down, {setting.f_x:g} Hz"
+        f" {1e3 * setting.A_x:g} mm along; e = {setting.e:g}, mu = {setting.mu:g}"
+    )
 
 
 @styled
@@ -77,17 +94,45 @@ def drawn(setting: Scene, seen: Array) -> Figure:
     height = TOP + high + BOTTOM
     figure = blank(WIDTH, height)
     for k, states in enumerate(seen):
-        plane = Plane(figure, ((LEFT + (wide + GAP) * k) / WIDTH, BOTTOM / height, wide / WIDTH, high / height), across, up)
+        plane = Plane(
+            figure,
+            ((LEFT + (wide + GAP) * k) / WIDTH, BOTTOM / height, wide / WIDTH, high / height),
+            across,
+            up,
+        )
         table(plane, setting, len(states), f"table-{k}")
-        for look, name, some in ((LYING, "lying", lying(setting, states)), (UPRIGHT, "upright", ~lying(setting, states))):
-            fill(plane, [outline(setting, states[block], int(block)) for block in some.nonzero()[0]], f"{name}-{k}", look)
+        for look, name, some in (
+            (LYING, "lying", lying(setting, states)),
+            (UPRIGHT, "upright", ~lying(setting, states)),
+        ):
+            fill(
+                plane,
+                [outline(setting, states[block], int(block)) for block in some.nonzero()[0]],
+                f"{name}-{k}",
+                look,
+            )
         middle = plane.left + plane.width / 2
-        plane.words((middle, plane.bottom + plane.height), rf"$t$ = {states[0, body.TIME]:g} s", (0, 4), va="bottom", fontsize=11)
+        plane.words(
+            (middle, plane.bottom + plane.height),
+            rf"$t$ = {states[0, body.TIME]:g} s",
+            (0, 4),
+            va="bottom",
+            fontsize=11,
+        )
         if k == 0:
             for row in range(count):
-                plane.text((across[0], row * step), f"{10 * row}°", (-3, 0), ha="right", va="bottom", fontsize=7.5)
+                plane.text(
+                    (across[0], row * step),
+                    f"{10 * row}°",
+                    (-3, 0),
+                    ha="right",
+                    va="bottom",
+                    fontsize=7.5,
+                )
     said = vibration(setting).replace("mu", r"$\mu$").replace("; e", r"; $e$")
-    plane.words((72 * WIDTH / 2, 72 * height), said[:1].upper() + said[1:], (0, -4), va="top", fontsize=10)
+    plane.words(
+        (72 * WIDTH / 2, 72 * height), said[:1].upper() + said[1:], (0, -4), va="top", fontsize=10
+    )
     legend(figure, height)
     return figure
 
@@ -95,8 +140,18 @@ def drawn(setting: Scene, seen: Array) -> Figure:
 def table(plane: Plane, setting: Scene, count: int, name: str) -> None:
     """The table under each row that has blocks."""
     step = pitch(setting)
-    plane.line([straight((-0.6 * step, row * step), ((min(COLUMNS, count - COLUMNS * row) - 0.4) * step, row * step)) for row in range(rows(count))],
-               name, linewidth=0.5, zorder=0.4)
+    plane.line(
+        [
+            straight(
+                (-0.6 * step, row * step),
+                ((min(COLUMNS, count - COLUMNS * row) - 0.4) * step, row * step),
+            )
+            for row in range(rows(count))
+        ],
+        name,
+        linewidth=0.5,
+        zorder=0.4,
+    )
 
 
 def outline(setting: Scene, state: Array, block: int) -> list[Point]:
@@ -111,17 +166,43 @@ def outline(setting: Scene, state: Array, block: int) -> list[Point]:
 def legend(figure: Figure, height: float) -> None:
     """What the two colours say."""
     plane = Plane(figure, (0, 0, 1, 1), (0, 72 * WIDTH), (0, 72 * height))
-    for x, look, said, (wide, high) in ((170.0, UPRIGHT, "nearer to upright", (6.0, 12.0)), (320.0, LYING, "nearer to lying", (12.0, 6.0))):
-        fill(plane, [[(x - wide / 2, 6.0), (x + wide / 2, 6.0), (x + wide / 2, 6 + high), (x - wide / 2, 6 + high)]], None, look)
+    for x, look, said, (wide, high) in (
+        (170.0, UPRIGHT, "nearer to upright", (6.0, 12.0)),
+        (320.0, LYING, "nearer to lying", (12.0, 6.0)),
+    ):
+        fill(
+            plane,
+            [
+                [
+                    (x - wide / 2, 6.0),
+                    (x + wide / 2, 6.0),
+                    (x + wide / 2, 6 + high),
+                    (x - wide / 2, 6 + high),
+                ]
+            ],
+            None,
+            look,
+        )
         plane.text((x, 6.0), said, (12, 0), ha="left", va="bottom", fontsize=10)
 
 
 def fill(plane: Plane, polygons: Sequence[Sequence[Point]], name: str | None, look: Look) -> None:
-    """Fills polygons with the tint of a look, and draws their sides in ink, which is light on a dark page."""
+    """Fills polygons with the tint of a look, and draws their sides in ink, which is light on a
+    dark page."""
     from matplotlib.colors import to_rgba
     from matplotlib.patches import PathPatch
 
     if polygons:
         outline = polylines([[*corners, corners[0]] for corners in polygons])
-        plane.figure.add_artist(PathPatch(outline, gid=name, transform=plane.own, facecolor=to_rgba(look.colour, look.tint), edgecolor=INK,
-                                          linewidth=0.5, capstyle="projecting"), clip=False)
+        plane.figure.add_artist(
+            PathPatch(
+                outline,
+                gid=name,
+                transform=plane.own,
+                facecolor=to_rgba(look.colour, look.tint),
+                edgecolor=INK,
+                linewidth=0.5,
+                capstyle="projecting",
+            ),
+            clip=False,
+        )

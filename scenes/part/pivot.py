@@ -1,8 +1,10 @@
-"""A block that pivots on one corner, which sticks or slides: steps in (X, V_X, theta, omega), from one phase to the next.
+"""A block that pivots on one corner, which sticks or slides: steps in (X, V_X, theta, omega), from
+one phase to the next.
 
-Height and vertical speed follow from the corner's height over the table, which stays what it was, at most two tolerances: to put it at 0 could add
-energy, and keep a block that rattles from coming to rest.  What ends a phase (the table falls away, friction fails, sliding stops, the
-next corner comes down) is looked for at the end of every step and then bracketed.
+Height and vertical speed follow from the corner's height over the table, which stays what it was,
+at most two tolerances: to put it at 0 could add energy, and keep a block that rattles from coming
+to rest.  What ends a phase (the table falls away, friction fails, sliding stops, the next corner
+comes down) is looked for at the end of every step and then bracketed.
 """
 
 from __future__ import annotations
@@ -47,7 +49,8 @@ LEAST_STEP = 1e-10  # seconds: how long a phase lasts that would end at once
 
 @compiled
 def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves a pivoting block on until it leaves its corner or the next one strikes, or to the time `until`."""
+    """Moves a pivoting block on until it leaves its corner or the next one strikes, or to the time
+    `until`."""
     i, slide = int(z[CORNER]), z[SLIDE]
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]
     turn = first_turn(i, theta)
@@ -88,7 +91,10 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
         gap = max(gap, -p[TOLERANCE] / 2)  # see `strike`
     c, s = cos(theta), sin(theta)
     z[TIME], z[X], z[V_X], z[THETA], z[OMEGA] = t, x, vx, theta, omega
-    z[Y], z[V_Y] = table_height(p, t) + gap - corner_y(p, i, c, s), table_rise(p, t) - omega * corner_x(p, i, c, s)
+    z[Y], z[V_Y] = (
+        table_height(p, t) + gap - corner_y(p, i, c, s),
+        table_rise(p, t) - omega * corner_x(p, i, c, s),
+    )
     z[SLIDE] = slide
     if ended == LETS_GO or ended == LANDS:
         z[MODE] = FLIGHT

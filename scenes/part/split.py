@@ -1,7 +1,9 @@
-"""Blocks on a still table: on which face each comes to rest, and at which starting angle the two are parted.
+"""Blocks on a still table: on which face each comes to rest, and at which starting angle the two
+are parted.
 
-Both are decided by geometry: a block that starts at rest on a corner falls to the side on which its centre is, and that is parted at atan(a/b).
-The paper says that 0 to 26 degrees go to 0 and 27 to 90 degrees to 90; so the sides that it shows are as 1 to 2.
+Both are decided by geometry: a block that starts at rest on a corner falls to the side on which its
+centre is, and that is parted at atan(a/b). The paper says that 0 to 26 degrees go to 0 and 27 to 90
+degrees to 90; so the sides that it shows are as 1 to 2.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ LONGEST = 64.0  # seconds until all are at rest
 
 @dataclass(frozen=True)
 class Split:
-    """Where blocks end that start at 0 to 90 degrees; starting angles, in degrees, that end at 0 and at 90; and atan(a/b), which parts them."""
+    """Where blocks end that start at 0 to 90 degrees; starting angles, in degrees, that end at 0
+    and at 90; and atan(a/b), which parts them."""
 
     ends: tuple[int, ...]
     upright: float
@@ -38,7 +41,8 @@ class Split:
 
 
 def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
-    """The split of a scene's block on a still table, bisected to 1e-9 degrees between the two neighbours that end apart.
+    """The split of a scene's block on a still table, bisected to 1e-9 degrees between the two
+    neighbours that end apart.
 
     >>> found = no_vibration(Scene(0.01, 0.02, 0.5, 0.3, 0, 0, 0, 0, 0, 0, 9.81, 1e-12, 1e-3, "rest"))
     >>> found.as_printed(), found.upright < found.exact < found.lying, round(found.lying, 6)
@@ -48,7 +52,10 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
     ends = ends_of(still, DEGREES, executor)
     first = ends.count(0)
     if ends != [0] * first + [90] * (len(ends) - first) or first in (0, len(ends)):
-        raise SceneError(f"the blocks from 0 to 90 degrees are not parted once: {first} end upright, {len(ends) - first} lying")
+        raise SceneError(
+            f"the blocks from 0 to 90 degrees are not parted once: {first} end upright,"
+            f" {len(ends) - first} lying"
+        )
     low, high = float(first - 1), float(first)
     for _ in range(MOST_HALVINGS):
         if high - low <= WIDTH:
@@ -62,7 +69,8 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
 
 
 def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = None) -> list[int]:
-    """The angle, 0 or 90 degrees, at which blocks come to rest that start at these angles, in degrees; SceneError where one does not."""
+    """The angle, 0 or 90 degrees, at which blocks come to rest that start at these angles, in
+    degrees; SceneError where one does not."""
     states, notes, until = standing(still, [radians(start) for start in starts]), None, 1.0
     while until <= LONGEST:
         done = run(still, states, until, notes=notes, executor=executor)
@@ -70,7 +78,10 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
         if (states[:, body.MODE] == body.FACE).all():
             return [90 * (floor(turns + 0.5) % 2) for turns in states[:, body.THETA] / body.QUARTER]
     moving = next(start for start, mode in zip(starts, states[:, body.MODE]) if mode != body.FACE)
-    raise SceneError(f"the block that starts at {moving:g} degrees is not at rest after {LONGEST:g} s; e = {still.e:g} is too near to 1")
+    raise SceneError(
+        f"the block that starts at {moving:g} degrees is not at rest after {LONGEST:g} s; e ="
+        f" {still.e:g} is too near to 1"
+    )
 
 
 def in_words(found: Split) -> str:
@@ -81,6 +92,11 @@ def in_words(found: Split) -> str:
     between 26.5600000000 and 26.5700000000 degrees; atan(a/b) is 26.5650000000 degrees.
     """
     up, count = found.ends.index(90), len(found.ends)
-    printed = "as the paper says" if found.as_printed() else "where the paper says 0 to 26 and 27 to 90"
-    return (f"Without vibration {up} blocks, 0 to {up - 1} degrees, end upright, and {count - up}, {up} to {count - 1} degrees, lie, {printed}."
-            f" The two part between {found.upright:.10f} and {found.lying:.10f} degrees; atan(a/b) is {found.exact:.10f} degrees.")
+    printed = (
+        "as the paper says" if found.as_printed() else "where the paper says 0 to 26 and 27 to 90"
+    )
+    return (
+        f"Without vibration {up} blocks, 0 to {up - 1} degrees, end upright, and {count - up}, {up}"
+        f" to {count - 1} degrees, lie, {printed}. The two part between {found.upright:.10f} and"
+        f" {found.lying:.10f} degrees; atan(a/b) is {found.exact:.10f} degrees."
+    )

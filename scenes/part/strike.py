@@ -1,9 +1,12 @@
-"""What happens where corners meet the table: impacts, one after another, until no corner that touches approaches; then how the block goes on.
+"""What happens where corners meet the table: impacts, one after another, until no corner that
+touches approaches; then how the block goes on.
 
-The corner that approaches fastest is struck first.  Where two approach alike, as when a face lands flat, one impulse acts midway between them, so
-that the mirror image of an orbit is an orbit.  A corner slower than the rest speed v is struck without restitution and stays.  A face whose two
-corners are slower than v comes to lie: turning and closing are taken away, and sliding if it is slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic
-energy, w half its length; none is added.  Coming to rest moves a corner by at most two tolerances.
+The corner that approaches fastest is struck first.  Where two approach alike, as when a face lands
+flat, one impulse acts midway between them, so that the mirror image of an orbit is an orbit.  A
+corner slower than the rest speed v is struck without restitution and stays.  A face whose two
+corners are slower than v comes to lie: turning and closing are taken away, and sliding if it is
+slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length; none is added.
+Coming to rest moves a corner by at most two tolerances.
 """
 
 from __future__ import annotations
@@ -55,7 +58,10 @@ from scenes.part.impact import JAMMING, first_slide, impulse, mode_of
 
 MOST_IMPACTS = 10_000  # at one time
 STILL = 1e-12  # metres a second: closing speeds below are rounding
-SLACK, ROUNDING = 1e-12, 1e-14  # relative rounding that the guarantees are counted with, and that of a difference of speeds
+SLACK, ROUNDING = (
+    1e-12,
+    1e-14,
+)  # relative rounding that the guarantees are counted with, and that of a difference of speeds
 
 
 @compiled
@@ -66,8 +72,11 @@ def energy(p: Floats, z: Floats, glide: float, rise: float) -> float:
 
 
 @compiled
-def strike_at(p: Floats, z: Floats, x: float, y: float, glide: float, rise: float, notes: Floats) -> int:
-    """One impact at a place of the block; DONE, or JAMMED.  Counts what the impact law excludes: it must stay 0."""
+def strike_at(
+    p: Floats, z: Floats, x: float, y: float, glide: float, rise: float, notes: Floats
+) -> int:
+    """One impact at a place of the block; DONE, or JAMMED.  Counts what the impact law excludes: it
+    must stay 0."""
     k2, mu = p[GYRATION], p[FRICTION]
     S0, C0 = z[V_X] - z[OMEGA] * y - glide, z[V_Y] + z[OMEGA] * x - rise
     B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
@@ -76,7 +85,10 @@ def strike_at(p: Floats, z: Floats, x: float, y: float, glide: float, rise: floa
     mode = mode_of(S0, C0, B1, B2, B3, e, mu, sigma)
     if mode == JAMMING:
         return JAMMED
-    before, terms = energy(p, z, glide, rise), abs(S0) - C0 + abs(rise) + abs(z[V_Y]) + abs(z[OMEGA] * x)
+    before, terms = (
+        energy(p, z, glide, rise),
+        abs(S0) - C0 + abs(rise) + abs(z[V_Y]) + abs(z[OMEGA] * x),
+    )
     rounded = ROUNDING * (abs(z[V_X]) + abs(glide) + abs(z[V_Y]) + abs(rise)) * sqrt(before)
     P_x, P_y = impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)
     z[V_X] += P_x
@@ -92,7 +104,8 @@ def strike_at(p: Floats, z: Floats, x: float, y: float, glide: float, rise: floa
 
 @compiled
 def strike(p: Floats, z: Floats, notes: Floats) -> int:
-    """Impacts at all corners that touch, until none approaches; then flight, a pivot or a face at rest.  DONE, or why it gave up."""
+    """Impacts at all corners that touch, until none approaches; then flight, a pivot or a face at
+    rest.  DONE, or why it gave up."""
     t, theta = z[TIME], z[THETA]
     c, s = cos(theta), sin(theta)
     glide, rise = table_glide(p, t), table_rise(p, t)
@@ -122,7 +135,9 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
             if resting >= 0:
                 stay(p, z, resting)
                 if z[MODE] == FLIGHT:
-                    z[Y] += max(-p[TOLERANCE] / 2 - lowest, 0.0)  # a corner without speed, any deeper, would end the next flight at once
+                    z[Y] += max(
+                        -p[TOLERANCE] / 2 - lowest, 0.0
+                    )  # a corner without speed, any deeper, would end the next flight at once
             return DONE
         x, y = corner_x(p, first, c, s), corner_y(p, first, c, s)
         if second >= 0:
@@ -155,9 +170,12 @@ def slide_of(S: float) -> float:
 
 @compiled
 def stay(p: Floats, z: Floats, i: int) -> None:
-    """Corner i, which touches and does not close, stays on the table where a force holds it there; else the block flies."""
+    """Corner i, which touches and does not close, stays on the table where a force holds it there;
+    else the block flies."""
     turn = first_turn(i, z[THETA])
-    z[THETA] = min(max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER)  # two corners touch, and this one is not quite the lowest
+    z[THETA] = min(
+        max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER
+    )  # two corners touch, and this one is not quite the lowest
     t, theta, omega = z[TIME], z[THETA], z[OMEGA]
     slide = slide_of(z[V_X] - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
     along, normal, _ = hold(p, t, theta, omega, i, slide)

@@ -1,4 +1,5 @@
-"""Table I over a grid of restitution and friction, which the paper does not give; and the choice of one pair for all rows, by a stated rule."""
+"""Table I over a grid of restitution and friction, which the paper does not give; and the choice of
+one pair for all rows, by a stated rule."""
 
 from __future__ import annotations
 
@@ -17,12 +18,15 @@ from scenes.part.setting import Scene, changed
 RECORD = Path(__file__).with_name("sweep.json")
 WORST = 1.0  # of a row: as if its onset were off by a factor e
 MOST_POINTS = 10_000
-SCATTER = 0.1  # misfits this near one another are not told apart: two sweeps of 16 ensembles that differ in rounding alone differ by up to 0.12
+# misfits this near one another are not told apart: two sweeps of 16 ensembles that differ in
+# rounding alone differ by up to 0.12
+SCATTER = 0.1
 
 
 @dataclass(frozen=True)
 class Point:
-    """Table I at one (e, mu): each row's median onset in seconds, None where it is censored or chaotic; the chaotic parts; and the misfit."""
+    """Table I at one (e, mu): each row's median onset in seconds, None where it is censored or
+    chaotic; the chaotic parts; and the misfit."""
 
     e: float
     mu: float
@@ -36,7 +40,10 @@ def misfit(table: Table) -> float:
 
     A row that the paper calls chaotic counts the part of its ensembles that are not.
     """
-    return sum(_row_misfit(row.paper, row.quantile(0.5), sum(row.chaotic) / len(row.chaotic)) for row in table.rows) / len(table.rows)
+    return sum(
+        _row_misfit(row.paper, row.quantile(0.5), sum(row.chaotic) / len(row.chaotic))
+        for row in table.rows
+    ) / len(table.rows)
 
 
 def _row_misfit(paper: float | None, median: float, chaotic: float) -> float:
@@ -46,8 +53,16 @@ def _row_misfit(paper: float | None, median: float, chaotic: float) -> float:
 
 
 def sweep(
-    setting: Scene, es: Sequence[float], mus: Sequence[float], *, ensembles: int, horizon: float, seed: int, peak: float = 1.0,
-    executor: Executor | None = None, tell: Callable[[Point], None] | None = None,
+    setting: Scene,
+    es: Sequence[float],
+    mus: Sequence[float],
+    *,
+    ensembles: int,
+    horizon: float,
+    seed: int,
+    peak: float = 1.0,
+    executor: Executor | None = None,
+    tell: Callable[[Point], None] | None = None,
 ) -> list[Point]:
     """Table I at every pair of the grid, in its order; `tell` hears of each point as it is done."""
     if not 0 < len(es) * len(mus) <= MOST_POINTS:
@@ -55,10 +70,24 @@ def sweep(
     points = []
     for e in es:
         for mu in mus:
-            table = table_one(changed(setting, e=e, mu=mu), ensembles=ensembles, horizon=horizon, seed=seed, peak=peak, executor=executor)
+            table = table_one(
+                changed(setting, e=e, mu=mu),
+                ensembles=ensembles,
+                horizon=horizon,
+                seed=seed,
+                peak=peak,
+                executor=executor,
+            )
             medians = [row.quantile(0.5) for row in table.rows]
-            points.append(Point(e, mu, tuple(None if math.isinf(m) else round(m, 6) for m in medians),
-                                tuple(sum(row.chaotic) for row in table.rows), round(misfit(table), 6)))
+            points.append(
+                Point(
+                    e,
+                    mu,
+                    tuple(None if math.isinf(m) else round(m, 6) for m in medians),
+                    tuple(sum(row.chaotic) for row in table.rows),
+                    round(misfit(table), 6),
+                )
+            )
             if tell:
                 tell(points[-1])
     return points
@@ -85,7 +114,18 @@ def as_good(points: Sequence[Point]) -> list[Point]:
 
 def as_json(points: Sequence[Point], ensembles: int, horizon: float, seed: int) -> str:
     """A record of a sweep."""
-    return json.dumps({"ensembles": ensembles, "horizon": horizon, "seed": seed, "points": [asdict(point) for point in points]}, indent=1) + "\n"
+    return (
+        json.dumps(
+            {
+                "ensembles": ensembles,
+                "horizon": horizon,
+                "seed": seed,
+                "points": [asdict(point) for point in points],
+            },
+            indent=1,
+        )
+        + "\n"
+    )
 
 
 @cache
@@ -97,6 +137,12 @@ def recorded() -> tuple[Point, ...]:
     """
     try:
         found = json.loads(RECORD.read_text(encoding="utf-8"))["points"]
-        return tuple(Point(p["e"], p["mu"], tuple(p["medians"]), tuple(p["chaotic"]), p["misfit"]) for p in found)
+        return tuple(
+            Point(p["e"], p["mu"], tuple(p["medians"]), tuple(p["chaotic"]), p["misfit"])
+            for p in found
+        )
     except (OSError, ValueError, KeyError, TypeError) as fault:
-        raise SceneError(f"{RECORD.name}: the stored sweep cannot be read ({fault}); give --e and --mu, or write it anew by a sweep") from None
+        raise SceneError(
+            f"{RECORD.name}: the stored sweep cannot be read ({fault}); give --e and --mu, or write"
+            " it anew by a sweep"
+        ) from None

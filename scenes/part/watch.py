@@ -1,4 +1,5 @@
-"""Where blocks are at given times of an orbit that is not stopped there: a stop rounds, and chaos soon makes another orbit of that."""
+"""Where blocks are at given times of an orbit that is not stopped there: a stop rounds, and chaos
+soon makes another orbit of that."""
 
 from __future__ import annotations
 
@@ -11,10 +12,14 @@ from scenes.part.motion import MOST_AT_ONCE, MOST_EVENTS, follow, go_on
 
 
 @compiled
-def watch(p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, seen: NDArray[np.float64]) -> int:
-    """One block at times that do not fall, a row of `seen` each, while it is moved on, event by event, to the last; DONE, or why it gave up.
+def watch(
+    p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, seen: NDArray[np.float64]
+) -> int:
+    """One block at times that do not fall, a row of `seen` each, while it is moved on, event by
+    event, to the last; DONE, or why it gave up.
 
-    Between two events the block is where a copy comes to that sets out from the earlier one; the block itself does not stop.
+    Between two events the block is where a copy comes to that sets out from the earlier one; the
+    block itself does not stop.
     """
     aside, scratch = z.copy(), np.zeros(NOTES)
     last, k, still = len(seen) - 1, 0, 0
@@ -39,8 +44,15 @@ def watch(p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, seen:
 
 
 @compiled
-def watch_all(p: Floats, states: NDArray[np.float64], times: Floats, notes: NDArray[np.float64], seen: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The same for many blocks, one after another; `seen` has the shape (blocks, times, 10).  How each ended."""
+def watch_all(
+    p: Floats,
+    states: NDArray[np.float64],
+    times: Floats,
+    notes: NDArray[np.float64],
+    seen: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """The same for many blocks, one after another; `seen` has the shape (blocks, times, 10).  How
+    each ended."""
     codes = np.zeros(len(states))
     for k in range(len(states)):
         codes[k] = watch(p, states[k], times, notes[k], seen[k])

@@ -14,13 +14,22 @@ SCRIPTS = [step for step in ACTION["runs"]["steps"] if "run" in step]
 
 
 class Runner:
-    """A folder that looks to a script as a runner of GitHub does; network and installation are stood in for."""
+    """A folder that looks to a script as a runner of GitHub does; network and installation are
+    stood in for."""
 
     def __init__(self, folder: Path) -> None:
-        self.temp, self.work, self.tools = folder / "temp dir", folder / "work dir", folder / "tools"
+        self.temp, self.work, self.tools = (
+            folder / "temp dir",
+            folder / "work dir",
+            folder / "tools",
+        )
         for one in (self.temp, self.work, self.tools):
             one.mkdir()
-        self.calls, self.output, self.summary = folder / "calls", folder / "output", folder / "summary"
+        self.calls, self.output, self.summary = (
+            folder / "calls",
+            folder / "output",
+            folder / "summary",
+        )
         self.venv = self.temp / "juggleproof-venv" / "bin"
         self.output.touch()
         self.summary.touch()
@@ -37,21 +46,49 @@ class Runner:
     def installed(self) -> None:
         """The command as it would be after the installation, from this tree."""
         self.tool("python", f"exec '{sys.executable}' \"$@\"", self.venv)
-        self.tool("juggleproof", f"PYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m proofs.command.main \"$@\"", self.venv)
+        self.tool(
+            "juggleproof",
+            f"PYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m proofs.command.main \"$@\"",
+            self.venv,
+        )
 
-    def run(self, name: str, path: str = "/usr/bin:/bin", **environment: str) -> subprocess.CompletedProcess[str]:
+    def run(
+        self, name: str, path: str = "/usr/bin:/bin", **environment: str
+    ) -> subprocess.CompletedProcess[str]:
         step = next(step for step in SCRIPTS if step["name"] == name)
-        given = {key: ACTION["inputs"].get(key.lower(), {}).get("default", "") for key in step.get("env", {})}
+        given = {
+            key: ACTION["inputs"].get(key.lower(), {}).get("default", "")
+            for key in step.get("env", {})
+        }
         script = self.work.parent / "script.sh"
         script.write_text(step["run"], encoding="utf-8")
-        of_github = {"RUNNER_TEMP": self.temp, "GITHUB_OUTPUT": self.output, "GITHUB_STEP_SUMMARY": self.summary, "GITHUB_ACTION_PATH": ROOT,
-                     "HOME": self.work}
-        return subprocess.run(["bash", "--noprofile", "--norc", "-e", "-o", "pipefail", str(script)], cwd=self.work, capture_output=True, text=True,
-                              timeout=240, check=False, env={**given, "JUGGLEPROOF_CACHE": "off", "PATH": f"{self.tools}:{path}",
-                                                             **{name: str(value) for name, value in of_github.items()}, **environment})
+        of_github = {
+            "RUNNER_TEMP": self.temp,
+            "GITHUB_OUTPUT": self.output,
+            "GITHUB_STEP_SUMMARY": self.summary,
+            "GITHUB_ACTION_PATH": ROOT,
+            "HOME": self.work,
+        }
+        return subprocess.run(
+            ["bash", "--noprofile", "--norc", "-e", "-o", "pipefail", str(script)],
+            cwd=self.work,
+            capture_output=True,
+            text=True,
+            timeout=240,
+            check=False,
+            env={
+                **given,
+                "JUGGLEPROOF_CACHE": "off",
+                "PATH": f"{self.tools}:{path}",
+                **{name: str(value) for name, value in of_github.items()},
+                **environment,
+            },
+        )
 
     def outputs(self) -> dict[str, str]:
-        return dict(line.split("=", 1) for line in self.output.read_text(encoding="utf-8").splitlines())
+        return dict(
+            line.split("=", 1) for line in self.output.read_text(encoding="utf-8").splitlines()
+        )
 
     def called(self) -> list[str]:
         return self.calls.read_text(encoding="utf-8").splitlines() if self.calls.exists() else []

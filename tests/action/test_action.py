@@ -1,4 +1,5 @@
-"""The action is safe for forks, and its shell steps do what they say, here with a made up environment of GitHub."""
+"""The action is safe for forks, and its shell steps do what they say, here with a made up
+environment of GitHub."""
 
 from __future__ import annotations
 
@@ -21,7 +22,16 @@ from tests.reports.runs import FALSE, HOLDS, file_with
 
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 PINNED = r"[\w.\-]+/[\w.\-/]+@(v\d+|[0-9a-f]{40})"
-FORBIDDEN = ("secrets", "pull_request_target", "workflow_run", "github.event", "github.head_ref", "github.token", "GITHUB_TOKEN", "actions/cache")
+FORBIDDEN = (
+    "secrets",
+    "pull_request_target",
+    "workflow_run",
+    "github.event",
+    "github.head_ref",
+    "github.token",
+    "GITHUB_TOKEN",
+    "actions/cache",
+)
 EXPRESSIONS = r"inputs\.[\w\-]+|steps\.certify\.outputs\.\w+|runner\.temp"
 
 
@@ -30,10 +40,17 @@ def names() -> list[str]:
 
 
 def test_action_is_composite_and_every_input_and_output_is_described_holds() -> None:
-    assert ACTION["runs"]["using"] == "composite" and {"files", "budget", "formats", "pdf"} <= set(ACTION["inputs"])
+    assert ACTION["runs"]["using"] == "composite" and {"files", "budget", "formats", "pdf"} <= set(
+        ACTION["inputs"]
+    )
     assert set(VERDICTS) | {"exit", "theorem", "claims", "changes"} == set(ACTION["outputs"])
-    assert all(isinstance(name, str) and one["description"] for name, one in [*ACTION["inputs"].items(), *ACTION["outputs"].items()])
-    assert all(one["default"] is not None and not one.get("required") for one in ACTION["inputs"].values())
+    assert all(
+        isinstance(name, str) and one["description"]
+        for name, one in [*ACTION["inputs"].items(), *ACTION["outputs"].items()]
+    )
+    assert all(
+        one["default"] is not None and not one.get("required") for one in ACTION["inputs"].values()
+    )
 
 
 @pytest.mark.parametrize("step", SCRIPTS, ids=names())
@@ -87,12 +104,20 @@ def runner(tmp_path: Path) -> Runner:
 
 def test_installation_takes_the_lock_only_holds(runner: Runner) -> None:
     runner.tool("of-the-venv", runner.recorded("venv python"))
-    runner.tool("python", runner.recorded("python", f'mkdir -p "$3/bin" && cp "{runner.tools}/of-the-venv" "$3/bin/python"'))
+    runner.tool(
+        "python",
+        runner.recorded(
+            "python", f'mkdir -p "$3/bin" && cp "{runner.tools}/of-the-venv" "$3/bin/python"'
+        ),
+    )
     done = runner.run("Install from the lock")
     assert done.returncode == 0, done.stderr
     made, lock, own = runner.called()
     assert made == f"python -m venv {runner.temp / 'juggleproof-venv'}"
-    assert lock.endswith(f"--requirement {ROOT}/requirements.lock") and "--no-deps --no-build-isolation" in own
+    assert (
+        lock.endswith(f"--requirement {ROOT}/requirements.lock")
+        and "--no-deps --no-build-isolation" in own
+    )
 
 
 def test_false_claim_of_ones_own_fails_and_is_in_the_summary_holds(runner: Runner) -> None:
@@ -101,11 +126,23 @@ def test_false_claim_of_ones_own_fails_and_is_in_the_summary_holds(runner: Runne
     done = runner.run("Certify", FILES="\nmine.py\n")
     assert done.returncode == 0, done.stderr
     counts = {**dict.fromkeys(VERDICTS, "0"), "holds": "1", "false": "2"}
-    assert runner.outputs() == {"exit": "1", "theorem": "none", "claims": "3", "changes": "0", **counts}
+    assert runner.outputs() == {
+        "exit": "1",
+        "theorem": "none",
+        "claims": "3",
+        "changes": "0",
+        **counts,
+    }
     assert set(runner.outputs()) == set(ACTION["outputs"])
     assert runner.summary.read_text(encoding="utf-8").startswith("# 1 of 3 claims holds\n")
     made = runner.temp / "juggleproof"
-    assert {path.name for path in made.iterdir()} == {"juggleproof.json", "juggleproof.xml", "juggleproof.md", "certify.txt", "problem.txt"}
+    assert {path.name for path in made.iterdir()} == {
+        "juggleproof.json",
+        "juggleproof.xml",
+        "juggleproof.md",
+        "certify.txt",
+        "problem.txt",
+    }
     assert "3 claims: 1 holds" in done.stdout
     assert runner.run("Result", STATUS=runner.outputs()["exit"]).returncode == 1
 
@@ -117,14 +154,19 @@ def test_true_claim_of_ones_own_passes_holds(runner: Runner) -> None:
     assert runner.outputs()["exit"] == "0" and runner.run("Result", STATUS="0").returncode == 0
 
 
-@pytest.mark.parametrize(("given", "told"), [
-    ({"FILES": "--accept"}, "--accept: no such file"),
-    ({"FILES": "absent.py; touch hacked"}, "absent.py; touch hacked: no such file"),
-    ({"FILES": "$(touch hacked).py\n`touch hacked`"}, "$(touch hacked).py: no such file"),
-    ({"FILES": "mine.py", "BUDGET": "1; touch hacked"}, "is not a whole number"),
-    ({"FILES": "mine.py", "BUDGET": "--accept"}, "is not a whole number"),
-])
-def test_rejects_input_that_is_no_file_or_number(given: dict[str, str], told: str, runner: Runner) -> None:
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"FILES": "--accept"}, "--accept: no such file"),
+        ({"FILES": "absent.py; touch hacked"}, "absent.py; touch hacked: no such file"),
+        ({"FILES": "$(touch hacked).py\n`touch hacked`"}, "$(touch hacked).py: no such file"),
+        ({"FILES": "mine.py", "BUDGET": "1; touch hacked"}, "is not a whole number"),
+        ({"FILES": "mine.py", "BUDGET": "--accept"}, "is not a whole number"),
+    ],
+)
+def test_rejects_input_that_is_no_file_or_number(
+    given: dict[str, str], told: str, runner: Runner
+) -> None:
     runner.installed()
     file_with(runner.work, HOLDS)
     assert runner.run("Certify", **given).returncode == 0
@@ -139,20 +181,41 @@ def test_report_is_made_in_every_format_holds(runner: Runner) -> None:
     runner.tool("latexmk", "")
     done = runner.run("Report on the paper", STATUS="1", FORMATS=" html  badge ")
     assert done.returncode == 0, done.stderr
-    assert runner.called() == [f"juggleproof report --format {name} --output {runner.temp / 'juggleproof'}" for name in ("html", "badge", "pdf")]
+    assert runner.called() == [
+        f"juggleproof report --format {name} --output {runner.temp / 'juggleproof'}"
+        for name in ("html", "badge", "pdf")
+    ]
 
 
-@pytest.mark.parametrize("given", [{"FILES": "mine.py", "STATUS": "0"}, {"STATUS": "2"}, {"STATUS": "130"}])
-def test_no_report_is_made_of_ones_own_file_or_after_bad_input_holds(given: dict[str, str], runner: Runner) -> None:
+@pytest.mark.parametrize(
+    "given", [{"FILES": "mine.py", "STATUS": "0"}, {"STATUS": "2"}, {"STATUS": "130"}]
+)
+def test_no_report_is_made_of_ones_own_file_or_after_bad_input_holds(
+    given: dict[str, str], runner: Runner
+) -> None:
     runner.tool("juggleproof", runner.recorded("juggleproof"), runner.venv)
     assert runner.run("Report on the paper", **given).returncode == 0 and not runner.called()
 
 
-@pytest.mark.parametrize("given", [{"FORMATS": "html docx"}, {"FORMATS": "$(touch hacked)"}, {"FORMATS": "-o"}, {"PDF": "yes"}, {"PDF": ""}])
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"FORMATS": "html docx"},
+        {"FORMATS": "$(touch hacked)"},
+        {"FORMATS": "-o"},
+        {"PDF": "yes"},
+        {"PDF": ""},
+    ],
+)
 def test_rejects_format(given: dict[str, str], runner: Runner) -> None:
     runner.tool("juggleproof", runner.recorded("juggleproof"), runner.venv)
     done = runner.run("Report on the paper", STATUS="0", **given)
-    assert done.returncode == 2 and len(done.stderr.splitlines()) == 1 and not runner.called() and not (runner.work / "hacked").exists()
+    assert (
+        done.returncode == 2
+        and len(done.stderr.splitlines()) == 1
+        and not runner.called()
+        and not (runner.work / "hacked").exists()
+    )
 
 
 def bare_path(runner: Runner) -> str:
@@ -172,8 +235,14 @@ def test_tex_is_installed_where_latexmk_is_absent_holds(runner: Runner) -> None:
     done = runner.run("Report on the paper", path=bare_path(runner), STATUS="0", FORMATS="")
     assert done.returncode == 0, done.stderr
     calls = runner.called()
-    assert calls[0].startswith("sudo --non-interactive apt-get update") and calls[1].startswith("apt-get update")
-    assert calls[3].startswith("apt-get install") and "latexmk" in calls[3] and calls[4].startswith("juggleproof report --format pdf")
+    assert calls[0].startswith("sudo --non-interactive apt-get update") and calls[1].startswith(
+        "apt-get update"
+    )
+    assert (
+        calls[3].startswith("apt-get install")
+        and "latexmk" in calls[3]
+        and calls[4].startswith("juggleproof report --format pdf")
+    )
 
 
 def test_pdf_is_left_out_and_said_so_where_it_cannot_be_made_holds(runner: Runner) -> None:
@@ -181,19 +250,38 @@ def test_pdf_is_left_out_and_said_so_where_it_cannot_be_made_holds(runner: Runne
     done = runner.run("Report on the paper", path=bare_path(runner), STATUS="0", FORMATS="html")
     assert done.returncode == 0 and "::warning::the PDF is left out" in done.stdout
     assert [call.split()[3] for call in runner.called()] == ["html"]
-    assert runner.run("Report on the paper", path="/usr/bin:/bin", STATUS="0", FORMATS="html", PDF="false").returncode == 0
+    assert (
+        runner.run(
+            "Report on the paper", path="/usr/bin:/bin", STATUS="0", FORMATS="html", PDF="false"
+        ).returncode
+        == 0
+    )
     assert [call.split()[3] for call in runner.called()] == ["html", "html"]
 
 
 def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_path: Path) -> None:
-    """The whole step on the paper; the store is a copy, so that a run of the tests leaves the tree as it is."""
+    """The whole step on the paper; the store is a copy, so that a run of the tests leaves the tree
+    as it is."""
     runner.tool("python", f"exec '{sys.executable}' \"$@\"", runner.venv)
     shutil.copytree(DEFAULT, tmp_path / "store")
-    runner.tool("juggleproof", f"command=$1; shift\nPYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m proofs.command.main \"$command\" --store "
-                               f"'{tmp_path / 'store'}' \"$@\"", runner.venv)
+    runner.tool(
+        "juggleproof",
+        f"command=$1; shift\nPYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m proofs.command.main"
+        f' "$command" --store \'{tmp_path / "store"}\' "$@"',
+        runner.venv,
+    )
     done = runner.run("Certify", PATH=os.environ["PATH"])
     assert done.returncode == 0, done.stderr
-    assert runner.outputs()["exit"] == "0" and runner.outputs()["theorem"] == "proved" and runner.outputs()["unknown"] == "0"
+    assert (
+        runner.outputs()["exit"] == "0"
+        and runner.outputs()["theorem"] == "proved"
+        and runner.outputs()["unknown"] == "0"
+    )
     summary = runner.summary.read_text(encoding="utf-8")
     assert summary.startswith("# The theorem is proved\n") and "No change." in summary
-    assert json.loads((runner.temp / "juggleproof" / "juggleproof.json").read_text(encoding="utf-8"))["exit"] == 0
+    assert (
+        json.loads((runner.temp / "juggleproof" / "juggleproof.json").read_text(encoding="utf-8"))[
+            "exit"
+        ]
+        == 0
+    )

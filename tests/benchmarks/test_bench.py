@@ -1,4 +1,5 @@
-"""The benchmark's questions are the paper's, its methods enclose the truth, a wrong closed form is noticed, and bad input is told in one line."""
+"""The benchmark's questions are the paper's, its methods enclose the truth, a wrong closed form is
+noticed, and bad input is told in one line."""
 
 from __future__ import annotations
 
@@ -32,7 +33,11 @@ from symbolic.symbols import alpha, r, w, x
 WIDTH, COARSE = Fraction(1, 1000), Fraction(1, 10)
 NAMES = tuple(questions())
 CERTIFYING = [name for name, method in METHODS.items() if method.worth != "no proof"]
-QUICKLY = {"coq": ("p-outside-R",), "qepcad": ("p-outside-R",), "mpmath": ("E-B1plus", "E-B1zero", "DE-H", "p-outside-R")}
+QUICKLY = {
+    "coq": ("p-outside-R",),
+    "qepcad": ("p-outside-R",),
+    "mpmath": ("E-B1plus", "E-B1zero", "DE-H", "p-outside-R"),
+}
 U = sympy.Symbol("U")
 
 
@@ -40,7 +45,9 @@ def truth(name: str) -> Fraction:
     return questions()[name].truth() * questions()[name].sign
 
 
-@pytest.mark.parametrize("method, name", [(method, name) for method in CERTIFYING for name in QUICKLY.get(method, NAMES)])
+@pytest.mark.parametrize(
+    "method, name", [(method, name) for method in CERTIFYING for name in QUICKLY.get(method, NAMES)]
+)
 def test_every_enclosure_contains_the_closed_form_holds(method: str, name: str) -> None:
     if not METHODS[method].present():
         pytest.skip(f"absent: {METHODS[method].package}")
@@ -51,8 +58,12 @@ def test_every_enclosure_contains_the_closed_form_holds(method: str, name: str) 
 @pytest.mark.parametrize("name", NAMES)
 def test_floating_point_comes_near_from_below_holds(name: str) -> None:
     value = METHODS["sampling"].solve(questions()[name].problem(), WIDTH)
-    assert value.high is None and truth(name) - Fraction(1, 2) < value.low <= truth(name) + Fraction(1, 10**12)
-    assert best_point(questions()[name].problem(), Fraction(1, 10**12))[1] >= truth(name) - Fraction(1, 10**12)
+    assert value.high is None and truth(name) - Fraction(1, 2) < value.low <= truth(
+        name
+    ) + Fraction(1, 10**12)
+    assert best_point(questions()[name].problem(), Fraction(1, 10**12))[1] >= truth(
+        name
+    ) - Fraction(1, 10**12)
 
 
 @pytest.mark.parametrize("balls", [1, 4, 7])
@@ -63,17 +74,28 @@ def test_a_point_is_found_in_many_variables_holds(balls: int) -> None:
 
 def test_our_method_loads_without_numpy_holds() -> None:
     """What it loads counts as part of its first answer."""
-    script = "import sys, benchmarks.bench.child, benchmarks.bench.methods_ours; print({'numpy', 'sympy', 'z3', 'flint'} & {*sys.modules})"
-    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "set()\n"
+    script = (
+        "import sys, benchmarks.bench.child, benchmarks.bench.methods_ours; print({'numpy',"
+        " 'sympy', 'z3', 'flint'} & {*sys.modules})"
+    )
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", script], capture_output=True, text=True, check=True
+        ).stdout
+        == "set()\n"
+    )
 
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("more", [Fraction(0), Fraction(1, 10**6)])
 def test_the_closed_form_is_the_bound_of_set_and_box_holds(name: str, more: Fraction) -> None:
     problem = questions()[name].problem()
-    for text, holds in ((problem.of_set(truth(name) + more), True), (problem.of_set(truth(name) - Fraction(1, 10**6)), False),
-                        (problem.of_box(truth(name) - 1, truth(name) + more), True),
-                        (problem.of_box(truth(name) - 1, truth(name) - Fraction(1, 10**6)), False)):
+    for text, holds in (
+        (problem.of_set(truth(name) + more), True),
+        (problem.of_set(truth(name) - Fraction(1, 10**6)), False),
+        (problem.of_box(truth(name) - 1, truth(name) + more), True),
+        (problem.of_box(truth(name) - 1, truth(name) - Fraction(1, 10**6)), False),
+    ):
         from benchmarks.peer_smt import z3
         from certificates.routes.questions import read_statement
 
@@ -99,7 +121,9 @@ def test_rejects_a_bound_that_is_exceeded(monkeypatch: pytest.MonkeyPatch, name:
     point, low = best_point(questions()[name].problem(), WIDTH)
     monkeypatch.setattr(methods_ours, "best_point", lambda *given: (point, low - COARSE))
     monkeypatch.setattr(methods_ours, "search_tree", lambda *given: ".")
-    with pytest.raises(ArithmeticError, match="a Bernstein coefficient of a leaf has the wrong sign"):
+    with pytest.raises(
+        ArithmeticError, match="a Bernstein coefficient of a leaf has the wrong sign"
+    ):
         bernstein(questions()[name].problem(), WIDTH)
 
 
@@ -107,14 +131,21 @@ def test_rejects_a_bound_that_is_exceeded(monkeypatch: pytest.MonkeyPatch, name:
 def test_rejects_a_bound_below_the_supremum_by_boxes(numbers: Any) -> None:
     for name in ("E-B1zero", "p-outside-R", "DE-H"):
         problem = questions()[name].problem()
-        assert never_negative(problem.excess(truth(name) - Fraction(1, 100)), problem.box, numbers) is None
+        assert (
+            never_negative(problem.excess(truth(name) - Fraction(1, 100)), problem.box, numbers)
+            is None
+        )
         assert never_negative(problem.excess(truth(name) + COARSE), problem.box, numbers)
 
 
 def test_the_curve_bounds_the_states_that_keep_energy_holds() -> None:
-    """B1+ is 0 <= x < the curve's height, and the curve lies in B1: change falls with x, and is 0 on the curve, which runs from 0 to x = 0 again."""
+    """B1+ is 0 <= x < the curve's height, and the curve lies in B1: change falls with x, and is 0
+    on the curve, which runs from 0 to x = 0 again."""
     change, (height, speed) = symbolic.normal_energy_change(), kept_curve()
-    assert put(change, height, speed) == 0 and sympy.expand(sympy.diff(change, x) + 2 * (alpha + 1)) == 0
+    assert (
+        put(change, height, speed) == 0
+        and sympy.expand(sympy.diff(change, x) + 2 * (alpha + 1)) == 0
+    )
     assert [height.subs(p, 0), speed.subs(p, 0), height.subs(p, 1)] == [0, 0, 0]
     assert sympy.cancel(height / (p * (1 - p)) - 1 / (1 - alpha)) == 0
     assert sympy.cancel(put(w - x, height, speed) / p - (1 + p) / (1 - alpha)) == 0
@@ -122,7 +153,8 @@ def test_the_curve_bounds_the_states_that_keep_energy_holds() -> None:
 
 
 def test_the_states_outside_the_region_are_reached_holds() -> None:
-    """With U^2 = 2 E and w = U - 1 + 2 q, x = (1 - q)(U - 1 + q) and w - x = q (U + q): for U > 1, x >= 0 and w > x mean 0 < q <= 1."""
+    """With U^2 = 2 E and w = U - 1 + 2 q, x = (1 - q)(U - 1 + q) and w - x = q (U + q): for U > 1,
+    x >= 0 and w > x mean 0 < q <= 1."""
     speed = U - 1 + 2 * q
     height = (1 - q) * (U - 1 + q)
     assert sympy.expand(put(symbolic.normal_energy(), height, speed) - U**2 / 2) == 0
@@ -131,22 +163,41 @@ def test_the_states_outside_the_region_are_reached_holds() -> None:
     found_x, found_w = outside_region()
     at_edge = sympy.cancel((found_w + 1 - 2 * q) * p)
     assert sympy.cancel(at_edge**2 - edge.subs(alpha, s**2 / 2 - 1)) == 0
-    assert sympy.cancel(found_w - speed.subs(U, at_edge / p)) == 0 and sympy.cancel(found_x - height.subs(U, at_edge / p)) == 0
-    assert all(at_edge.subs(s, sympy.sqrt(2 * (1 + sympy.Rational(a.numerator, a.denominator)))) > 1 for a in ALPHAS)
+    assert (
+        sympy.cancel(found_w - speed.subs(U, at_edge / p)) == 0
+        and sympy.cancel(found_x - height.subs(U, at_edge / p)) == 0
+    )
+    assert all(
+        at_edge.subs(s, sympy.sqrt(2 * (1 + sympy.Rational(a.numerator, a.denominator)))) > 1
+        for a in ALPHAS
+    )
 
 
-def test_a_wrong_closed_form_is_noticed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_closed_form_is_noticed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     question = questions()["p-outside-R"]
     wrong = dataclasses.replace(question, closed_form=question.closed_form + sympy.Rational(1, 100))
     monkeypatch.setattr(run, "questions", lambda: {"p-outside-R": wrong})
     monkeypatch.setattr(run, "METHODS", {"bernstein": METHODS["bernstein"]})
-    assert run.Run(run.Wish(("p-outside-R",), (Fraction(1, 1000),), 60.0, False), tmp_path, lambda what: None).all() == 1
+    assert (
+        run.Run(
+            run.Wish(("p-outside-R",), (Fraction(1, 1000),), 60.0, False),
+            tmp_path,
+            lambda what: None,
+        ).all()
+        == 1
+    )
     assert "WRONG: exact Bernstein, ours at 1e-3 does not enclose" in capsys.readouterr().out
 
 
 def test_a_bound_that_the_exact_orbit_breaks_is_noticed() -> None:
-    assert Strayed(Fraction(2), Fraction(1), beyond=True).wrong(Fraction(0)) and not Strayed(Fraction(1), Fraction(1)).wrong(Fraction(0))
-    assert not Answer(Fraction(1), None).wrong(Fraction(5)) and Answer(Fraction(1), Fraction(2)).wrong(Fraction(5))
+    assert Strayed(Fraction(2), Fraction(1), beyond=True).wrong(Fraction(0)) and not Strayed(
+        Fraction(1), Fraction(1)
+    ).wrong(Fraction(0))
+    assert not Answer(Fraction(1), None).wrong(Fraction(5)) and Answer(
+        Fraction(1), Fraction(2)
+    ).wrong(Fraction(5))
 
 
 @pytest.mark.parametrize("arithmetic", ORBITS)
@@ -158,7 +209,11 @@ def test_orbits_stay_within_their_bounds_holds(arithmetic: str, steps: int) -> N
 
 def test_floats_stray_where_the_others_do_not_holds() -> None:
     start, steps = orbits.STARTS["orbit-edge"], Fraction(50)
-    assert ORBITS["floats"].solve(start, steps)().distance > 1 > 10**20 * ORBITS["enclosed"].solve(start, steps)().error(Fraction(0))
+    assert (
+        ORBITS["floats"].solve(start, steps)().distance
+        > 1
+        > 10**20 * ORBITS["enclosed"].solve(start, steps)().error(Fraction(0))
+    )
     with pytest.raises(GaveUp, match="undecided"):
         ORBITS["fast"].solve(start, steps)
 
@@ -174,55 +229,116 @@ def test_the_sum_over_balls_has_its_closed_form_holds(count: int) -> None:
 def test_coq_is_asked_for_the_excess_on_the_box() -> None:
     box = ((Fraction(-1, 2), Fraction(3)), (Fraction(0), Fraction(1)))
     problem = Problem("t", ("a", "b"), box, {(1, 0): Fraction(1)}, {(0, 1): Fraction(2)}, 1, "", "")
-    assert "Goal forall v0 v1 : R, -1/2 <= v0 <= 3/1 -> 0/1 <= v1 <= 1/1 -> 0 <= v1*(6/1) + v0*(-1/1)." in goal(problem, Fraction(3))
+    assert (
+        "Goal forall v0 v1 : R, -1/2 <= v0 <= 3/1 -> 0/1 <= v1 <= 1/1 -> 0 <= v1*(6/1) + v0*(-1/1)."
+        in goal(problem, Fraction(3))
+    )
 
 
 def test_a_method_that_gives_up_is_ended_and_shown() -> None:
     began = time.monotonic()
-    found = measure(METHODS["sampling"], questions()["DE-outside-R"].problem(), Fraction(1, 10**12), 0.1)
-    assert found.answer is None and found.reason.startswith("gave up") and time.monotonic() - began < 60
+    found = measure(
+        METHODS["sampling"], questions()["DE-outside-R"].problem(), Fraction(1, 10**12), 0.1
+    )
+    assert (
+        found.answer is None
+        and found.reason.startswith("gave up")
+        and time.monotonic() - began < 60
+    )
     own = {"sampling": {found.size: found}}
     assert "gave up" in table.measured([METHODS["sampling"]], [found.size], own, Fraction(0))
-    assert table.faults([METHODS["sampling"]], own)[0].startswith("float sampling at 1e-12: gave up")
+    assert table.faults([METHODS["sampling"]], own)[0].startswith(
+        "float sampling at 1e-12: gave up"
+    )
 
 
 def test_the_aim_is_judged_by_the_ratios_of_the_run() -> None:
     methods = [METHODS[name] for name in ("bernstein", "arb", "cvc5-proof", "z3")]
     answer, sizes = Answer(Fraction(0), Fraction(0)), [COARSE, WIDTH]
     found = [Measured("bernstein", size, 0.5, 0.001, answer) for size in sizes]
-    found += [Measured("cvc5-proof", COARSE, 5.0, 0.02, answer), Measured("cvc5-proof", WIDTH, 5.0, 0.005, answer)]
-    found += [Measured("arb", COARSE, 0.4, 0.001, answer), Measured("z3", COARSE, reason="gave up")]  # Arb's boxes are our own
-    lines = [one.line() for one in table.judged("DE-H", methods, sizes, table.by_method(found), 10.0)]
+    found += [
+        Measured("cvc5-proof", COARSE, 5.0, 0.02, answer),
+        Measured("cvc5-proof", WIDTH, 5.0, 0.005, answer),
+    ]
+    found += [
+        Measured("arb", COARSE, 0.4, 0.001, answer),
+        Measured("z3", COARSE, reason="gave up"),
+    ]  # Arb's boxes are our own
+    lines = [
+        one.line() for one in table.judged("DE-H", methods, sizes, table.by_method(found), 10.0)
+    ]
     peers = "every certified peer (cvc5, one question with its proof)"
-    assert lines[0] == f"warm: 10 times faster than {peers}: NOT met, at 1 of 2 widths; least 5 times, DE-H at 1e-3, by {METHODS['cvc5-proof'].title}"
-    assert lines[1].startswith("warm: faster than Z3, bisection: met, at 2 of 2 widths; least 10000 times")
+    assert (
+        lines[0]
+        == f"warm: 10 times faster than {peers}: NOT met, at 1 of 2 widths; least 5 times, DE-H at"
+        f" 1e-3, by {METHODS['cvc5-proof'].title}"
+    )
+    assert lines[1].startswith(
+        "warm: faster than Z3, bisection: met, at 2 of 2 widths; least 10000 times"
+    )
     assert lines[2].startswith(f"cold: 10 times faster than {peers}: met, at 2 of 2 widths")
     both = table.together(table.judged("DE-H", methods, sizes, table.by_method(found), 10.0) * 2)
     assert both[0].line() == lines[0].replace("1 of 2", "2 of 4")
 
 
-def test_a_quick_run_ends_with_table_plot_and_verdict_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert command(["bench", "--quick", "--question", "p-outside-R", "--seconds", "60", "-o", str(tmp_path / "bench")]) == 0
+def test_a_quick_run_ends_with_table_plot_and_verdict_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert (
+        command(
+            [
+                "bench",
+                "--quick",
+                "--question",
+                "p-outside-R",
+                "--seconds",
+                "60",
+                "-o",
+                str(tmp_path / "bench"),
+            ]
+        )
+        == 0
+    )
     said = capsys.readouterr().out
-    assert "exact Bernstein, ours" in said and "every enclosure holds the truth" in said and "faster than Z3, one question" in said
-    assert "no certified peer was measured" in said and "faster than every certified peer" not in said
+    assert (
+        "exact Bernstein, ours" in said
+        and "every enclosure holds the truth" in said
+        and "faster than Z3, one question" in said
+    )
+    assert (
+        "no certified peer was measured" in said and "faster than every certified peer" not in said
+    )
     assert "1e-1" in said and "1e-6" in said and "slope" in said
     from benchmarks.bench.plot import ABSENT, can_plot
 
-    assert (tmp_path / "bench" / "p-outside-R.svg").read_bytes().startswith(b"<?xml") if can_plot() else ABSENT in said
+    assert (
+        (tmp_path / "bench" / "p-outside-R.svg").read_bytes().startswith(b"<?xml")
+        if can_plot()
+        else ABSENT in said
+    )
 
 
-def test_absent_peers_are_named_holds(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    absent: dict[str, Method] = {name: dataclasses.replace(METHODS[name], present=lambda: False) for name in ("cvc5", "coq")}
+def test_absent_peers_are_named_holds(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    absent: dict[str, Method] = {
+        name: dataclasses.replace(METHODS[name], present=lambda: False) for name in ("cvc5", "coq")
+    }
     monkeypatch.setattr(run, "METHODS", absent)
     run.Run(run.Wish(("p-outside-R",), (COARSE,), 1.0, False), tmp_path, lambda what: None).all()
     said = capsys.readouterr().out
-    assert "absent: cvc5 (pip install cvc5), coq-interval (Debian packages coq and libcoq-interval)" in said
+    assert (
+        "absent: cvc5 (pip install cvc5), coq-interval (Debian packages coq and libcoq-interval)"
+        in said
+    )
 
 
 BAD = {
     "an unknown question": (["--question", "magic"], "no such question"),
-    "a width that is none": (["--widths", "1e-1,abc"], "'abc': a width is a number from 1e-40 to 1"),
+    "a width that is none": (
+        ["--widths", "1e-1,abc"],
+        "'abc': a width is a number from 1e-40 to 1",
+    ),
     "a width of 0": (["--widths", "0"], "a width is a number"),
     "a width above 1": (["--widths", "2"], "a width is a number"),
     "a width divided by 0": (["--widths", "1/0"], "a width is a number"),
@@ -244,7 +360,9 @@ def test_rejects(defect: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert reason in said.err and len(said.err.strip().splitlines()) == 1 and not said.out
 
 
-def test_rejects_an_installation_without_benchmarks(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rejects_an_installation_without_benchmarks(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setitem(sys.modules, "benchmarks", None)
     for name in [name for name in sys.modules if name.startswith("benchmarks.")]:
         monkeypatch.delitem(sys.modules, name)

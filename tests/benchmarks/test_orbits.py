@@ -1,4 +1,5 @@
-"""The table of orbits: its slopes and errors are what they are called, each arithmetic has its row, and a million states stay below 200 MB."""
+"""The table of orbits: its slopes and errors are what they are called, each arithmetic has its row,
+and a million states stay below 200 MB."""
 
 from __future__ import annotations
 
@@ -12,7 +13,13 @@ from scenes.juggler import orbit, point, scene
 
 def test_slopes_are_those_of_powers_holds() -> None:
     for power in (0, 1, 2):
-        assert abs(orbits.slope((10, 100, 1000), [3.0 * size**power for size in (10, 100, 1000)]) - power) < 1e-12
+        assert (
+            abs(
+                orbits.slope((10, 100, 1000), [3.0 * size**power for size in (10, 100, 1000)])
+                - power
+            )
+            < 1e-12
+        )
 
 
 @pytest.mark.parametrize("kind", ["exact", "enclosed", "mp", "fast"])
@@ -26,7 +33,9 @@ def test_errors_are_distances_to_the_exact_orbit_holds(kind: str) -> None:
     assert orbits.error(kind, row, exact._replace(x=exact.x + Fraction(1, 2))).startswith("5.0e-01")
 
 
-def test_each_arithmetic_has_its_row_holds(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_arithmetic_has_its_row_holds(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(orbits, "STEPS", (10, 20, 40))
     monkeypatch.setattr(orbits, "STATES", (10, 20, 40))
     orbits.by_steps()

@@ -12,12 +12,18 @@ pytest.importorskip("numba")
 from benchmarks import part
 
 
-def test_benchmark_prints_every_figure_and_draws_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_benchmark_prints_every_figure_and_draws_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     pytest.importorskip("matplotlib")
     file = tmp_path / "part.svg"
-    assert part.main(["--ensembles", "6", "--horizon", "0.2", "--runs", "1", "--plot", str(file)]) == 0
+    assert (
+        part.main(["--ensembles", "6", "--horizon", "0.2", "--runs", "1", "--plot", str(file)]) == 0
+    )
     said = capsys.readouterr().out
-    assert len(re.findall(r"table I once, [12] core", said)) == 2 and re.search(r"parts\^-?[\d.]+ and time\^-?[\d.]+", said)
+    assert len(re.findall(r"table I once, [12] core", said)) == 2 and re.search(
+        r"parts\^-?[\d.]+ and time\^-?[\d.]+", said
+    )
     assert said.count("median error") == len(part.TOLERANCES) and said.count("median onset") == 2
     assert file.read_text(encoding="utf-8").startswith("<?xml") and "nan" not in said
 

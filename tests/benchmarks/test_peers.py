@@ -1,4 +1,5 @@
-"""The peers are asked what is meant: each translator gives the right answer on true and false statements, where its program is there."""
+"""The peers are asked what is meant: each translator gives the right answer on true and false
+statements, where its program is there."""
 
 from __future__ import annotations
 
@@ -20,8 +21,15 @@ FALSE = ("strict-square", "B2-by-time", "circle-half", "p-outside-R-whole", "som
 LINEAR = ("f1-in-H", "collision-time", "gain-identity")
 
 
-@pytest.mark.parametrize("settle, present", [(peer_smt.z3, peer_smt.z3_command()), (peer_smt.cvc5, peer_smt.has_cvc5()),
-                                             (peer_qepcad.qepcad, peer_qepcad.has_qepcad()), (peers.ours, True)])
+@pytest.mark.parametrize(
+    "settle, present",
+    [
+        (peer_smt.z3, peer_smt.z3_command()),
+        (peer_smt.cvc5, peer_smt.has_cvc5()),
+        (peer_qepcad.qepcad, peer_qepcad.has_qepcad()),
+        (peers.ours, True),
+    ],
+)
 @pytest.mark.parametrize("name", [*TRUE, *FALSE])
 def test_a_peer_gives_the_right_answer_holds(name: str, settle: Any, present: object) -> None:
     if not present:
@@ -30,7 +38,14 @@ def test_a_peer_gives_the_right_answer_holds(name: str, settle: Any, present: ob
     assert settle(statement, SECONDS) == ("holds" if expected else "fails")
 
 
-@pytest.mark.parametrize("name, answer", [*((name, "holds") for name in LINEAR), ("strict-square", "unsettled"), ("circle-half", "unsettled")])
+@pytest.mark.parametrize(
+    "name, answer",
+    [
+        *((name, "holds") for name in LINEAR),
+        ("strict-square", "unsettled"),
+        ("circle-half", "unsettled"),
+    ],
+)
 def test_nra_proves_what_is_true_and_nothing_false_holds(name: str, answer: str) -> None:
     if not peer_coq.has_coq():
         pytest.skip("coqc is not installed")
@@ -40,7 +55,9 @@ def test_nra_proves_what_is_true_and_nothing_false_holds(name: str, answer: str)
 def test_what_a_peer_has_no_words_for_is_not_expressible_holds() -> None:
     integer, exists = STATEMENTS["flight-count"][0], STATEMENTS["B1-plus-not-empty"][0]
     assert peer_qepcad.qepcad(integer, SECONDS) == "not expressible"
-    assert peer_coq.coq_nra(integer, SECONDS) == peer_coq.coq_nra(exists, SECONDS) == "not expressible"
+    assert (
+        peer_coq.coq_nra(integer, SECONDS) == peer_coq.coq_nra(exists, SECONDS) == "not expressible"
+    )
 
 
 @pytest.mark.parametrize("module", [peer_coq, peer_qepcad])
@@ -50,15 +67,26 @@ def test_the_formats_are_those_of_the_examples_holds(module: Any) -> None:
 
 
 def test_disjunctions_and_fractions_are_written_for_nra_holds() -> None:
-    statement = read_statement("statement t/t\nforall x y\ngiven x/3 > 1 or y < -1/2\ngiven x*y != 0\nshow x^2 + y^2 > 1/4")
+    statement = read_statement(
+        "statement t/t\nforall x y\ngiven x/3 > 1 or y < -1/2\ngiven x*y != 0\nshow x^2 + y^2 > 1/4"
+    )
     (text,) = [peer_coq.goal(question) for question in peer_coq.questions(statement)]
-    assert text is not None and text.splitlines()[0] == (
-        "Goal forall v0 v1 : R, (v0 - 3 > 0 \\/ - 2*v1 - 1 > 0) -> (v0*v1 < 0 \\/ v0*v1 > 0) -> - 4*v0*v0 - 4*v1*v1 + 1 >= 0 -> False.")
+    assert (
+        text is not None
+        and text.splitlines()[0]
+        == "Goal forall v0 v1 : R, (v0 - 3 > 0 \\/ - 2*v1 - 1 > 0) -> (v0*v1 < 0 \\/ v0*v1 > 0) ->"
+        " - 4*v0*v0 - 4*v1*v1 + 1 >= 0 -> False."
+    )
 
 
 def test_a_program_that_takes_too_long_is_ended_with_its_children() -> None:
     began = time.monotonic()
-    assert Clock(0.3).output_of([sys.executable, "-c", "import subprocess, sys; subprocess.run(['sleep', '30'])"], "") is None
+    assert (
+        Clock(0.3).output_of(
+            [sys.executable, "-c", "import subprocess, sys; subprocess.run(['sleep', '30'])"], ""
+        )
+        is None
+    )
     assert time.monotonic() - began < 10
 
 
@@ -69,7 +97,14 @@ def test_an_answer_that_comes_too_late_does_not_count() -> None:
 
 
 def test_rejects_answers_that_contradict_each_other() -> None:
-    first, second = (peers.Method(title, peers.ours, said={"t/t": (answer, 0.1)}) for title, answer in (("a", "holds"), ("b", "fails")))
+    first, second = (
+        peers.Method(title, peers.ours, said={"t/t": (answer, 0.1)})
+        for title, answer in (("a", "holds"), ("b", "fails"))
+    )
     silent = peers.Method("c", peers.ours, said={"t/t": ("unsettled", 0.1)})
-    assert peers.contradictions("t/t", None, [first, second]) == ["CONTRADICTION about t/t: a: holds; b: fails"]
-    assert peers.contradictions("t/t", {"refuted": []}, [first, silent]) and not peers.contradictions("t/t", {"certified": []}, [first, silent])
+    assert peers.contradictions("t/t", None, [first, second]) == [
+        "CONTRADICTION about t/t: a: holds; b: fails"
+    ]
+    assert peers.contradictions(
+        "t/t", {"refuted": []}, [first, silent]
+    ) and not peers.contradictions("t/t", {"certified": []}, [first, silent])

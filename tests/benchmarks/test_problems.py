@@ -1,4 +1,5 @@
-"""The set of problems is what the README says of it; the whole of it is answered in CI by `python -m benchmarks.problems`."""
+"""The set of problems is what the README says of it; the whole of it is answered in CI by
+`python -m benchmarks.problems`."""
 
 from __future__ import annotations
 
@@ -18,14 +19,21 @@ def test_every_problem_has_a_status_a_source_and_a_comment_holds() -> None:
     for path in SCRIPTS:
         text = path.read_text(encoding="utf-8")
         (one,) = problems_of_file(path)
-        assert one.status in ("sat", "unsat") and text.startswith("; ") and re.search(r"\(set-info :source \|\S", text), path.name
+        assert (
+            one.status in ("sat", "unsat")
+            and text.startswith("; ")
+            and re.search(r"\(set-info :source \|\S", text)
+        ), path.name
 
 
 def test_the_readme_counts_the_set_as_it_is_holds() -> None:
     said = problems.stated_in_readme()
     statuses = [problems_of_file(path)[0].status for path in SCRIPTS]
     assert len(SCRIPTS) >= 60 and 0.4 < statuses.count("sat") / len(statuses) < 0.6
-    assert said.startswith(f"{len(SCRIPTS)} problems, stated unsat {statuses.count('unsat')} and sat {statuses.count('sat')}: ")
+    assert said.startswith(
+        f"{len(SCRIPTS)} problems, stated unsat {statuses.count('unsat')} and sat"
+        f" {statuses.count('sat')}: "
+    )
     answered, open_, otherwise = map(int, re.findall(r"(\d+) (?:answered|open|otherwise)", said))
     assert answered + open_ + otherwise == len(SCRIPTS) and otherwise == 0 and answered >= 54
 

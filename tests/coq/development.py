@@ -19,20 +19,31 @@ def coqc() -> str:
     if found is None:
         if os.environ.get("CI") == "true":
             pytest.fail("coqc is missing: Debian's package is called coq")
-        pytest.skip("no coqc here (Debian's package is called coq): nothing about the Coq development was tested")
+        pytest.skip(
+            "no coqc here (Debian's package is called coq): nothing about the Coq development was"
+            " tested"
+        )
     return found
 
 
 @cache
 def order() -> tuple[str, ...]:
     """The files of the development in the order of _CoqProject."""
-    return tuple(row for row in (SOURCES / "_CoqProject").read_text().splitlines() if row.endswith(".v"))
+    return tuple(
+        row for row in (SOURCES / "_CoqProject").read_text().splitlines() if row.endswith(".v")
+    )
 
 
 def compiled(folder: Path, name: str, text: str) -> subprocess.CompletedProcess[str]:
     """One file compiled in a folder that holds what it needs."""
     (folder / name).write_text(text)
-    return subprocess.run([coqc(), "-q", "-Q", ".", "Juggleproof", name], cwd=folder, capture_output=True, text=True, timeout=600)
+    return subprocess.run(
+        [coqc(), "-q", "-Q", ".", "Juggleproof", name],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
 
 
 def build(folder: Path) -> Path:

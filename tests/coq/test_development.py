@@ -1,4 +1,5 @@
-"""The Coq development: compiled whole, on the axioms of the reals only, pinned to the table that it is written from."""
+"""The Coq development: compiled whole, on the axioms of the reals only, pinned to the table that it
+is written from."""
 
 from __future__ import annotations
 
@@ -16,8 +17,11 @@ from proofs.theorem.coq_table import Attraction, Piece
 from tests.coq.development import SOURCES, compiled, order
 
 # What Coq's standard Reals rest on; nothing else may be assumed.
-REALS = {"ClassicalDedekindReals.sig_forall_dec", "ClassicalDedekindReals.sig_not_dec",
-         "FunctionalExtensionality.functional_extensionality_dep"}
+REALS = {
+    "ClassicalDedekindReals.sig_forall_dec",
+    "ClassicalDedekindReals.sig_not_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+}
 # One change in so many; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 3
 
@@ -29,8 +33,14 @@ def test_every_source_is_compiled_holds() -> None:
 def test_the_sources_admit_nothing_holds() -> None:
     for path in SOURCES.glob("*.v"):
         text = re.sub(r"\(\*.*?\*\)", "", path.read_text(), flags=re.DOTALL)
-        assert not re.search(r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|give_up|Unset|bypass_check|Obligations?)\b", text), path
-        assert len(path.read_text().splitlines()) < 300 and max(map(len, path.read_text().splitlines())) <= 200, path
+        assert not re.search(
+            r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|give_up|Unset|bypass_check|Obligations?)\b",
+            text,
+        ), path
+        assert (
+            len(path.read_text().splitlines()) < 300
+            and max(map(len, path.read_text().splitlines())) <= 200
+        ), path
 
 
 def test_the_statements_are_those_of_the_table_holds() -> None:
@@ -38,17 +48,40 @@ def test_the_statements_are_those_of_the_table_holds() -> None:
 
 
 def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Path) -> None:
-    names = re.findall(r"^(?:Theorem|Lemma) (\w+)", (SOURCES / "Statements.v").read_text(), flags=re.MULTILINE)
-    rules = ["Rules.descent", "Rules.contraction", "Rules.weighted_stability", "Rules.stability", "Rules.approach", "Rules.convergence",
-             "Rules.periodic_orbit_stays_away", "Lists.lists_contraction", "Lists.lists_stability", "Lists.lists_approach", "Lists.lists_convergence",
-             "RulesInFull.attraction"]
+    names = re.findall(
+        r"^(?:Theorem|Lemma) (\w+)", (SOURCES / "Statements.v").read_text(), flags=re.MULTILINE
+    )
+    rules = [
+        "Rules.descent",
+        "Rules.contraction",
+        "Rules.weighted_stability",
+        "Rules.stability",
+        "Rules.approach",
+        "Rules.convergence",
+        "Rules.periodic_orbit_stays_away",
+        "Lists.lists_contraction",
+        "Lists.lists_stability",
+        "Lists.lists_approach",
+        "Lists.lists_convergence",
+        "RulesInFull.attraction",
+    ]
     asked = [f"Statements.{name}" for name in names] + rules
     assert len(names) > 40
     everything = ", ".join(f"@{name}" for name in asked)
-    text = f"From Juggleproof Require Rules Lists RulesInFull Statements.\nDefinition everything := ({everything}).\nPrint Assumptions everything.\n"
+    text = (
+        "From Juggleproof Require Rules Lists RulesInFull Statements.\nDefinition everything :="
+        f" ({everything}).\nPrint Assumptions everything.\n"
+    )
     result = compiled(development, "Asked.v", text)
     assert result.returncode == 0 and result.stdout.startswith("Axioms:\n"), result.stderr
-    assert set(re.findall(r"^([\w.]+)\s*:", result.stdout.removeprefix("Axioms:\n"), flags=re.MULTILINE)) == REALS
+    assert (
+        set(
+            re.findall(
+                r"^([\w.]+)\s*:", result.stdout.removeprefix("Axioms:\n"), flags=re.MULTILINE
+            )
+        )
+        == REALS
+    )
 
 
 def changed(**changes: object) -> Callable[[Attraction], Attraction]:
@@ -56,7 +89,12 @@ def changed(**changes: object) -> Callable[[Attraction], Attraction]:
 
 
 def stages(k: int, text: str) -> Callable[[Attraction], Attraction]:
-    return lambda theorem: replace(theorem, stages=tuple((name, text if i == k else was) for i, (name, was) in enumerate(theorem.stages)))
+    return lambda theorem: replace(
+        theorem,
+        stages=tuple(
+            (name, text if i == k else was) for i, (name, was) in enumerate(theorem.stages)
+        ),
+    )
 
 
 def contraction(**changes: object) -> Callable[[Attraction], Attraction]:
@@ -66,9 +104,13 @@ def contraction(**changes: object) -> Callable[[Attraction], Attraction]:
 TABLES: dict[str, Callable[[Attraction], Attraction]] = {
     "range": changed(given="0 < alpha and alpha < 1/2"),
     "space": changed(space="0 < x"),
-    "first-image": lambda t: replace(t, pieces=(Piece("x < w", ("alpha*w - x", "2 - alpha*w")), t.pieces[1])),
+    "first-image": lambda t: replace(
+        t, pieces=(Piece("x < w", ("alpha*w - x", "2 - alpha*w")), t.pieces[1])
+    ),
     "second-image": lambda t: replace(t, pieces=(t.pieces[0], Piece("w <= x", ("x - w", "w + 1")))),
-    "region": lambda t: replace(t, pieces=(Piece("w < x", t.pieces[0].images), Piece("x <= w", t.pieces[1].images))),
+    "region": lambda t: replace(
+        t, pieces=(Piece("w < x", t.pieces[0].images), Piece("x <= w", t.pieces[1].images))
+    ),
     "second-region": lambda t: replace(t, pieces=(t.pieces[0], Piece("w < x", t.pieces[1].images))),
     "point": lambda t: replace(t, point=(("e_x", "2*alpha/(alpha + 1)"), t.point[1])),
     "root": changed(root=("u", "4*x + (w + 1)^2")),
@@ -87,7 +129,13 @@ TABLES: dict[str, Callable[[Attraction], Attraction]] = {
 @pytest.mark.parametrize("name", list(TABLES)[::SHARE])
 def test_rejects_a_changed_table(name: str, development: Path) -> None:
     theorem = TABLES[name](coq_table.ball())
-    text = statements(theorem, coq_table.NEIGHBOURHOOD, coq_table.other_orbit(), coq_table.physical(), coq_table.boundary_speed())
+    text = statements(
+        theorem,
+        coq_table.NEIGHBOURHOOD,
+        coq_table.other_orbit(),
+        coq_table.physical(),
+        coq_table.boundary_speed(),
+    )
     assert text != current()
     result = compiled(development, "Mutant.v", text)
     assert result.returncode != 0 and "Error" in result.stderr
@@ -97,15 +145,24 @@ TEXTS = {
     "stronger-bound": ("<= rate alpha ^ k.", "<= rate alpha ^ (k + 1)."),
     "earlier": ("rank s + 3 <= INR n", "rank s + 2 <= INR n"),
     "wider-threshold": ("<-> alpha < 1 / 3.", "<-> alpha < 1 / 2."),
-    "wider-range": ("Theorem global : forall alpha, 0 < alpha /\\ alpha < 1 / 3", "Theorem global : forall alpha, 0 < alpha /\\ alpha <= 1 / 3"),
+    "wider-range": (
+        "Theorem global : forall alpha, 0 < alpha /\\ alpha < 1 / 3",
+        "Theorem global : forall alpha, 0 < alpha /\\ alpha <= 1 / 3",
+    ),
     "iterate": ("| S k => f (iterate f k s)", "| S k => iterate f k s"),
     "attracting": ("exists N, forall n, (N <= n)%nat ->", "exists N, forall n, (n <= N)%nat ->"),
     "stable": ("dist s e < delta -> forall n,", "dist s e < delta -> exists n,"),
     "dist": ("Rmax (Rabs (fst s - fst e))", "Rmin (Rabs (fst s - fst e))"),
     "period": ("(2 * n) (e_2 alpha)", "(3 * n) (e_2 alpha)"),
     "other-orbit": ("((6 * alpha - 2) /", "((6 * alpha - 1) /"),
-    "physical-map": ("(beta * g + 2 * r * v - 2 * r ^ 2) / g, v - 2 * r", "(beta * g + 2 * r * v - 2 * r ^ 2) / g, v - r"),
-    "physical-range": ("Theorem physical_global : forall r g, 0 < r -> 0 < g ->", "Theorem physical_global : forall r g, 0 <= r -> 0 < g ->"),
+    "physical-map": (
+        "(beta * g + 2 * r * v - 2 * r ^ 2) / g, v - 2 * r",
+        "(beta * g + 2 * r * v - 2 * r ^ 2) / g, v - r",
+    ),
+    "physical-range": (
+        "Theorem physical_global : forall r g, 0 < r -> 0 < g ->",
+        "Theorem physical_global : forall r g, 0 <= r -> 0 < g ->",
+    ),
     "greatest-energy": ("r ^ 2 * (alpha + 1) ^ 2 / (2 *", "r ^ 2 * (alpha + 1) ^ 2 / (3 *"),
 }
 

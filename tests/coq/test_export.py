@@ -1,4 +1,5 @@
-"""Certified statements as Coq lemmas: they compile, tampered ones do not, and what is not written is refused by name."""
+"""Certified statements as Coq lemmas: they compile, tampered ones do not, and what is not written
+is refused by name."""
 
 from __future__ import annotations
 
@@ -49,31 +50,60 @@ def written() -> dict[str, str]:
 
 def small(rule: str, line: str = "") -> str:
     """The shortest lemma whose certificate uses the rule and whose statement has such a line."""
-    fitting = [name for name in written() if rule in kinds(certificate(name)["certified"]) and (not line or stored()[1][name].get(line))]
+    fitting = [
+        name
+        for name in written()
+        if rule in kinds(certificate(name)["certified"])
+        and (not line or stored()[1][name].get(line))
+    ]
     return min(fitting, key=lambda name: (len(written()[name]), name))
 
 
 def test_most_certified_statements_are_written_under_names_of_their_own_holds() -> None:
     heads = [text.splitlines()[1] for text in written().values()]
     assert len(heads) == len(set(heads)) > 300
-    assert {"psatz", "cases", "sign"} <= set().union(*(kinds(certificate(name)["certified"]) for name in written()))
+    assert {"psatz", "cases", "sign"} <= set().union(
+        *(kinds(certificate(name)["certified"]) for name in written())
+    )
 
 
-@pytest.mark.parametrize("rule, line", [
-    ("psatz", ""), ("cases", ""), ("sign", ""), ("close", ""), ("integral", ""), ("psatz", "have"), ("psatz", "root"), ("psatz", "integer")])
+@pytest.mark.parametrize(
+    "rule, line",
+    [
+        ("psatz", ""),
+        ("cases", ""),
+        ("sign", ""),
+        ("close", ""),
+        ("integral", ""),
+        ("psatz", "have"),
+        ("psatz", "root"),
+        ("psatz", "integer"),
+    ],
+)
 def test_a_written_lemma_compiles(rule: str, line: str, tmp_path: Path) -> None:
     coqc()
     result = compiled(tmp_path, "Exported.v", f"{PRELUDE}\n{written()[small(rule, line)]}")
     assert result.returncode == 0, result.stderr
 
 
-def test_a_file_of_several_lemmas_compiles_on_the_axioms_of_the_reals(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_file_of_several_lemmas_compiles_on_the_axioms_of_the_reals(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     coqc()
     assert run(["export", "coq", "eq-7", "s3.0-closed-form"]) == 0
     out, err = capsys.readouterr()
-    assert out.count("Lemma statement_") == 3 and "eq-7/strikes: only certified statements without `exists`" in err
-    result = compiled(tmp_path, "Exported.v", out + "\nPrint Assumptions statement_eq_7_only_these.\n")
-    assert result.returncode == 0 and "Axioms:" in result.stdout and "classic" not in result.stdout.replace("Classical", ""), result.stderr
+    assert (
+        out.count("Lemma statement_") == 3
+        and "eq-7/strikes: only certified statements without `exists`" in err
+    )
+    result = compiled(
+        tmp_path, "Exported.v", out + "\nPrint Assumptions statement_eq_7_only_these.\n"
+    )
+    assert (
+        result.returncode == 0
+        and "Axioms:" in result.stdout
+        and "classic" not in result.stdout.replace("Classical", "")
+    ), result.stderr
 
 
 def test_rejects_a_lemma_whose_certificate_was_tampered_with(tmp_path: Path) -> None:
@@ -89,7 +119,9 @@ def test_rejects_the_proof_of_another_statement(tmp_path: Path) -> None:
     coqc()
     text = written()["eq-7/only-these"]
     assert text.count("0 < - v + r)") == 1
-    result = compiled(tmp_path, "Exported.v", f"{PRELUDE}\n{text.replace('0 < - v + r)', '0 < - v + 2 * r)')}")
+    result = compiled(
+        tmp_path, "Exported.v", f"{PRELUDE}\n{text.replace('0 < - v + r)', '0 < - v + 2 * r)')}"
+    )
     assert result.returncode != 0
 
 
@@ -104,7 +136,10 @@ def test_rejects_kinds_that_are_not_written(name: str) -> None:
 def test_rejects_a_rule_that_is_not_written_by_its_name() -> None:
     changed = copy.deepcopy(certificate("eq-7/only-these"))
     changed["certified"][2] = ["use", "eq-7/strikes", {}, {}, ["close"]]
-    with pytest.raises(ClaimError, match="uses the rule use; only psatz, cases, sign, close and integral are written"):
+    with pytest.raises(
+        ClaimError,
+        match="uses the rule use; only psatz, cases, sign, close and integral are written",
+    ):
         lemma(stored()[1]["eq-7/only-these"], changed)
 
 
@@ -121,4 +156,7 @@ def test_export_writes_one_file_a_statement_holds(tmp_path: Path) -> None:
 
 
 def test_export_of_nothing_that_is_written_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["export", "coq", "eq-7/strikes"]) == 2 and "none of the statements named" in capsys.readouterr().err
+    assert (
+        run(["export", "coq", "eq-7/strikes"]) == 2
+        and "none of the statements named" in capsys.readouterr().err
+    )

@@ -10,13 +10,31 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("symbolic", "certificates", "scenes", "proofs", "benchmarks")
-MAY_IMPORT = {"symbolic": {"symbolic"}, "certificates": {"certificates"}, "scenes": {"scenes", "symbolic"},
-              "proofs": {"proofs", "certificates", "symbolic", "scenes"}, "benchmarks": set(PACKAGES)}
+MAY_IMPORT = {
+    "symbolic": {"symbolic"},
+    "certificates": {"certificates"},
+    "scenes": {"scenes", "symbolic"},
+    "proofs": {"proofs", "certificates", "symbolic", "scenes"},
+    "benchmarks": set(PACKAGES),
+}
 MORE = {"proofs/command/bench.py": {"benchmarks"}}  # the only door
-FOREIGN = {"symbolic": {"sympy"}, "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"},
-           "scenes": {"matplotlib", "sympy", "flint", "mpmath", "numba", "numpy"},
-           "proofs": {"sympy", "rich", "pytest", "matplotlib", "jinja2", "latex2mathml"},
-           "benchmarks": {"sympy", "numpy", "flint", "mpmath", "z3", "cvc5", "scipy", "matplotlib", "rich"}}
+FOREIGN = {
+    "symbolic": {"sympy"},
+    "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"},
+    "scenes": {"matplotlib", "sympy", "flint", "mpmath", "numba", "numpy"},
+    "proofs": {"sympy", "rich", "pytest", "matplotlib", "jinja2", "latex2mathml"},
+    "benchmarks": {
+        "sympy",
+        "numpy",
+        "flint",
+        "mpmath",
+        "z3",
+        "cvc5",
+        "scipy",
+        "matplotlib",
+        "rich",
+    },
+}
 
 
 def modules(package: str) -> list[Path]:
@@ -37,7 +55,9 @@ def imported(path: Path) -> set[str]:
 def test_imports_run_one_way_holds(package: str) -> None:
     assert modules(package)
     for path in modules(package):
-        assert imported(path) & set(PACKAGES) <= MAY_IMPORT[package] | MORE.get(path.relative_to(ROOT).as_posix(), set()), path
+        assert imported(path) & set(PACKAGES) <= MAY_IMPORT[package] | MORE.get(
+            path.relative_to(ROOT).as_posix(), set()
+        ), path
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -45,7 +65,11 @@ def test_only_known_libraries_are_imported_holds(package: str) -> None:
     import sys
 
     for path in modules(package):
-        foreign = {name for name in imported(path) if name not in sys.stdlib_module_names and name not in PACKAGES}
+        foreign = {
+            name
+            for name in imported(path)
+            if name not in sys.stdlib_module_names and name not in PACKAGES
+        }
         assert foreign <= FOREIGN[package], (path, foreign)
 
 

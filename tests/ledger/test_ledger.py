@@ -26,12 +26,20 @@ def test_the_ledger_loads_and_reaches_from_2_2_to_the_last_table(rows: Rows) -> 
     assert len(all_claims(rows)) > 100
 
 
-def test_every_display_has_claims_but_two_that_name_components_and_a_lone_equation_number(rows: Rows) -> None:
-    assert [row.key for row in rows if row.kind == "display" and row.reason] == ["2.3-d01", "2.3-d02", "3.2-d08"]
+def test_every_display_has_claims_but_two_that_name_components_and_a_lone_equation_number(
+    rows: Rows,
+) -> None:
+    assert [row.key for row in rows if row.kind == "display" and row.reason] == [
+        "2.3-d01",
+        "2.3-d02",
+        "3.2-d08",
+    ]
 
 
 def test_no_reason_of_the_closed_list_is_idle(rows: Rows) -> None:
-    assert {row.reason.partition(" ")[0] for row in rows} - {""} == set(REASONS) | set(REASONS_WITH_KEY)
+    assert {row.reason.partition(" ")[0] for row in rows} - {""} == set(REASONS) | set(
+        REASONS_WITH_KEY
+    )
 
 
 def test_the_ledger_holds_digests_and_never_a_sentence() -> None:
@@ -71,7 +79,9 @@ SPOILED: list[tuple[str, Callable[[Rows], Rows]]] = [
 
 
 @pytest.mark.parametrize("message, spoiled", SPOILED, ids=range(len(SPOILED)))
-def test_a_spoiled_ledger_is_refused(rows: Rows, message: str, spoiled: Callable[[Rows], Rows]) -> None:
+def test_a_spoiled_ledger_is_refused(
+    rows: Rows, message: str, spoiled: Callable[[Rows], Rows]
+) -> None:
     with pytest.raises(LedgerError, match=message) as refusal:
         check_rows(spoiled(rows))
     assert "\n" not in str(refusal.value)
@@ -85,7 +95,9 @@ def test_a_spoiled_ledger_is_refused(rows: Rows, message: str, spoiled: Callable
     ("s2.2.1-B1 ", "s2.2.1-B1  ", "single spaces"),
     ("heading\n", "\n", "neither claims nor a reason"),
 ])  # fmt: skip
-def test_a_ledger_file_that_does_not_parse_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+def test_a_ledger_file_that_does_not_parse_is_refused(
+    tmp_path: Path, old: str, new: str, message: str
+) -> None:
     spoiled = tmp_path / "rows.tsv"
     spoiled.write_text(ROWS.read_text().replace(old, new, 1))
     with pytest.raises(LedgerError, match=message):

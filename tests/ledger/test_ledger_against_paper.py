@@ -1,4 +1,5 @@
-"""Where the paper is at hand, the ledger is rebuilt from it; the words are read there and never kept."""
+"""Where the paper is at hand, the ledger is rebuilt from it; the words are read there and never
+kept."""
 
 import os
 import re
@@ -12,7 +13,8 @@ from proofs.ledger.scan import Item, scan
 
 ROOT = Path(proofs.ledger.ledger.__file__).resolve().parents[2]
 ARGUES = re.compile(
-    r"\b(since|therefore|thus|conclude|note that|noting|because|it follows|so that|must|moreover|hence)\b",
+    r"\b(since|therefore|thus|conclude|note that|noting|because|it follows|so"
+    r" that|must|moreover|hence)\b",
     re.IGNORECASE,
 )
 ASSERTS = re.compile(r"=|<|>|\\le|\\ge|\\in\b|\\subset|\\equiv|\\notin|\\forall")
@@ -41,7 +43,10 @@ def items() -> list[Item]:
     named = os.environ.get("JUGGLEPROOF_PAPER")
     paper = Path(named) if named else ROOT.parent / "shared" / "paper.txt"
     if not named and not paper.is_file():
-        pytest.skip("the paper is not at hand: set JUGGLEPROOF_PAPER to its text to compare the ledger with it")
+        pytest.skip(
+            "the paper is not at hand: set JUGGLEPROOF_PAPER to its text to compare the ledger"
+            " with it"
+        )
     return scan(paper.read_text(encoding="utf-8"))
 
 
@@ -59,11 +64,16 @@ def test_the_paper_gives_exactly_the_rows_of_the_ledger(rows: list[Row], items: 
     check_against_paper(rows, items)
 
 
-def test_a_ledger_that_differs_from_the_paper_is_refused(rows: list[Row], items: list[Item]) -> None:
+def test_a_ledger_that_differs_from_the_paper_is_refused(
+    rows: list[Row], items: list[Item]
+) -> None:
     with pytest.raises(LedgerError, match="items: rescan"):
         check_against_paper(rows[:-1], items)
     with pytest.raises(LedgerError, match="holds digest"):
-        check_against_paper([*rows[:-1], Row(rows[-1].key, rows[-1].line, rows[-1].kind, "0" * 16, ("eq-1",))], items)
+        check_against_paper(
+            [*rows[:-1], Row(rows[-1].key, rows[-1].line, rows[-1].kind, "0" * 16, ("eq-1",))],
+            items,
+        )
 
 
 def test_every_piece_of_prose_that_argues_has_claims(rows: list[Row], items: list[Item]) -> None:
@@ -71,11 +81,19 @@ def test_every_piece_of_prose_that_argues_has_claims(rows: list[Row], items: lis
     assert {item.key for item in prose if ARGUES.search(item.text)} == set(ARGUES_IN_FORM_ONLY)
 
 
-def test_every_formula_that_relates_two_sides_has_claims(rows: list[Row], items: list[Item]) -> None:
+def test_every_formula_that_relates_two_sides_has_claims(
+    rows: list[Row], items: list[Item]
+) -> None:
     formulas = without_claims(rows, items, "inline")
     assert {item.key for item in formulas if ASSERTS.search(item.text)} == set(RELATES_IN_FORM_ONLY)
 
 
-def test_no_row_of_prose_can_be_read_back_from_the_ledger(rows: list[Row], items: list[Item]) -> None:
+def test_no_row_of_prose_can_be_read_back_from_the_ledger(
+    rows: list[Row], items: list[Item]
+) -> None:
     text = Path(proofs.ledger.ledger.ROWS).read_text(encoding="utf-8")
-    assert not [item.key for item in items if len(item.text.split()) > 2 and " ".join(item.text.split()) in text]
+    assert not [
+        item.key
+        for item in items
+        if len(item.text.split()) > 2 and " ".join(item.text.split()) in text
+    ]

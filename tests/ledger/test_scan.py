@@ -1,4 +1,5 @@
-"""The scanner on small texts of our own: what becomes an item, what does not, and in which order."""
+"""The scanner on small texts of our own: what becomes an item, what does not, and in which
+order."""
 
 import pytest
 
@@ -10,7 +11,10 @@ def shape(text: str) -> list[tuple[str, int, str]]:
 
 
 def test_only_the_sections_in_scope_give_items() -> None:
-    text = "2. Out\nNo.\n2.1. Out\nNo.\n2.2. In\n3.1.2. Deep. Yes.\n5. OUT\nNo.\nAPPENDIX A. BACK\nA.1. More\n"
+    text = (
+        "2. Out\nNo.\n2.1. Out\nNo.\n2.2. In\n3.1.2. Deep. Yes.\n5. OUT\nNo.\nAPPENDIX A."
+        " BACK\nA.1. More\n"
+    )
     assert shape(text) == [
         ("2.2-s01", 5, "In"),
         ("3.1.2-s01", 6, "Deep."),
@@ -21,12 +25,18 @@ def test_only_the_sections_in_scope_give_items() -> None:
 
 
 def test_references_close_the_scope_and_a_number_after_its_heading_opens_a_section() -> None:
-    text = "4.4. In\nReferences\n- 1. A. Author. A book.\nAPPENDIX B. TABLES\nHow Many B.1.\nSome.\n"
+    text = (
+        "4.4. In\nReferences\n- 1. A. Author. A book.\nAPPENDIX B. TABLES\nHow Many B.1.\nSome.\n"
+    )
     assert [item.key for item in scan(text)] == ["4.4-s01", "B-s01", "B.1-s01", "B.1-s02"]
 
 
 def test_the_proposition_opens_the_section_whose_heading_is_lost() -> None:
-    assert [item.section for item in scan("4.1. Edge\nProposition 1. It stays.\n")] == ["4.1", "4.2", "4.2"]
+    assert [item.section for item in scan("4.1. Edge\nProposition 1. It stays.\n")] == [
+        "4.1",
+        "4.2",
+        "4.2",
+    ]
 
 
 def test_a_display_over_several_lines_is_one_item_with_its_first_line() -> None:
@@ -53,7 +63,10 @@ def test_abbreviations_decimals_and_numbers_of_sections_do_not_end_a_sentence() 
 
 
 def test_captions_notes_and_table_rows_are_told_apart_from_prose() -> None:
-    text = "B.7. Names\nFigure 3 shows much.\nFigure 3 Much.\n⁷ Mind this. And so.\n$^{^{10}}$ Note.\nT\tperiod $T$\n"
+    text = (
+        "B.7. Names\nFigure 3 shows much.\nFigure 3 Much.\n⁷ Mind this. And so.\n$^{^{10}}$"
+        " Note.\nT\tperiod $T$\n"
+    )
     assert [(item.key, item.kind) for item in scan(text)] == [
         ("B.7-s01", "sentence"),
         ("B.7-s02", "sentence"),

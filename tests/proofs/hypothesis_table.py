@@ -3,8 +3,9 @@
     statement ID/part DIGEST
     <TAB>hypothesis<TAB>need<TAB>why
 
-`needed`: why is an exact counterexample without it, to what is shown or to a `have` line; `licenses a division`: without it the statement cannot
-be read; `not needed` and `undecided`: why is a reason from REASONS.  `python tests/proofs/hypothesis_table.py` writes it anew and keeps what an
+`needed`: why is an exact counterexample without it, to what is shown or to a `have` line;
+`licenses a division`: without it the statement cannot be read; `not needed` and `undecided`: why is
+a reason from REASONS.  `python tests/proofs/hypothesis_table.py` writes it anew and keeps what an
 unchanged statement has.
 """
 
@@ -46,17 +47,27 @@ from proofs.paper import events, orbits, outside, vocabulary
 HERE = Path(__file__).resolve().parent
 TABLE, GIVEN_REASONS = HERE / "hypotheses.txt", HERE / "hypothesis_reasons.tsv"
 REASONS = {
-    "standing": "the range of a parameter of the paper, assumed of all its claims: 0 < alpha < 1, r > 0, g > 0, a whole number of periods >= 1",
+    "standing": (
+        "the range of a parameter of the paper, assumed of all its claims: 0 < alpha < 1, r > 0, g"
+        " > 0, a whole number of periods >= 1"
+    ),
     "states": "the claim is about the states of this region of the plane",
-    "impact": "the claim is about an impact, at which ball and table are at one height and approach each other",
+    "impact": (
+        "the claim is about an impact, at which ball and table are at one height and approach each"
+        " other"
+    ),
     "times": "the claim is about the times of one period",
     "shared": "one claim, one set of hypotheses: another statement of the claim needs it",
     "proved": "a step of the claim that another of its statements proves",
     "printed": "the paper prints it with the claim",
     "read": "it is what words of the claim come to; this statement needs less",
 }
-STANDING = [str(formula) for table in (vocabulary.WITH_INTEGER_K.ranges, vocabulary.WITH_INTEGER_K.givens)
-            for formulas in table.values() for formula in formulas]
+STANDING = [
+    str(formula)
+    for table in (vocabulary.WITH_INTEGER_K.ranges, vocabulary.WITH_INTEGER_K.givens)
+    for formulas in table.values()
+    for formula in formulas
+]
 TIMES = re.compile(r"(t|tau|since) >= 0|(t|tau|since) <=? T")
 
 
@@ -79,27 +90,44 @@ def digest(text: str) -> str:
 def certified() -> dict[str, str]:
     """The certified statements that hold for all values of their variables."""
     store = Store(DEFAULT)
-    return {name: text for name, text in store.texts.items()
-            if "certified" in (store.certificate(name, text) or {}) and not re.search("^(sharp|iterates) ", text, re.MULTILINE)}
+    return {
+        name: text
+        for name, text in store.texts.items()
+        if "certified" in (store.certificate(name, text) or {})
+        and not re.search("^(sharp|iterates) ", text, re.MULTILINE)
+    }
 
 
-# ------------------------------------------------------------ counterexamples, short where they can be
+# --------------------------------------------------------- counterexamples, short where they can be
 
 
 def written(name: str, fails: str, refutation: Any) -> str:
-    """`x = 1, y = 2` or JSON where the point takes more than rational values; before it what fails, if not what is shown."""
+    """`x = 1, y = 2` or JSON where the point takes more than rational values; before it what fails,
+    if not what is shown."""
     _, adjoined, values, *nodes = refutation
     plain = not adjoined and nodes == [["close"], ["close"]]
-    point = ", ".join(f"{key} = {value}" for key, value in values.items()) if plain else json.dumps(refutation[1:], separators=(",", ":"))
+    point = (
+        ", ".join(f"{key} = {value}" for key, value in values.items())
+        if plain
+        else json.dumps(refutation[1:], separators=(",", ":"))
+    )
     return (f"{fails} fails at " if fails else "at ") + point
 
 
 def counterexample(name: str, why: str) -> tuple[str, Any]:
     """What fails, and the counterexample in the checker's form."""
-    fails, _, point = why.rpartition("fails at ") if " fails at " in why else ("", "", why.removeprefix("at "))
+    fails, _, point = (
+        why.rpartition("fails at ") if " fails at " in why else ("", "", why.removeprefix("at "))
+    )
     if point.startswith("["):
         return fails.strip(), [name, *json.loads(point)]
-    return fails.strip(), [name, [], dict(one.split(" = ") for one in point.split(", ")), ["close"], ["close"]]
+    return fails.strip(), [
+        name,
+        [],
+        dict(one.split(" = ") for one in point.split(", ")),
+        ["close"],
+        ["close"],
+    ]
 
 
 # ------------------------------------------------------------ reasons
@@ -107,40 +135,77 @@ def counterexample(name: str, why: str) -> tuple[str, Any]:
 
 @cache
 def meanings() -> dict[str, str]:
-    """What the conditions for regions and impacts say, as statements write them, and the reason that they are."""
+    """What the conditions for regions and impacts say, as statements write them, and the reason
+    that they are."""
     b, b_0, f1 = vocabulary.b, orbits.b_0, vocabulary.f1
-    inside = (vocabulary.H, vocabulary.STRIKES, vocabulary.B1, vocabulary.B2, vocabulary.R, vocabulary.B1_ZERO, vocabulary.B1_PLUS,
-              outside.CLOSED_B1, outside.ON_R)
-    states = [region(state) for region in inside for state in (b, b_0)] + [vocabulary.H(f1(b)), vocabulary.H(vocabulary.f2(b))]
+    inside = (
+        vocabulary.H,
+        vocabulary.STRIKES,
+        vocabulary.B1,
+        vocabulary.B2,
+        vocabulary.R,
+        vocabulary.B1_ZERO,
+        vocabulary.B1_PLUS,
+        outside.CLOSED_B1,
+        outside.ON_R,
+    )
+    states = [region(state) for region in inside for state in (b, b_0)] + [
+        vocabulary.H(f1(b)),
+        vocabulary.H(vocabulary.f2(b)),
+    ]
     t, tau = reals("t tau")
     impacts = [events.strikes_at(t), events.meet(t)]
-    impacts += [orbits.strikes_from(start, time) for start in (b, b_0, events.vector(f1(b))) for time in (t, tau)]
-    found = {part: word for word, formulas in (("impact", impacts), ("states", states)) for one in formulas for part in conjuncts(str(one))}
+    impacts += [
+        orbits.strikes_from(start, time)
+        for start in (b, b_0, events.vector(f1(b)))
+        for time in (t, tau)
+    ]
+    found = {
+        part: word
+        for word, formulas in (("impact", impacts), ("states", states))
+        for one in formulas
+        for part in conjuncts(str(one))
+    }
     return {said: word for said, word in found.items() if not TIMES.fullmatch(said)}
 
 
 def reason(name: str, one: Hypothesis, tables: Mapping[str, list[Row]]) -> str:
-    """The reason from REASONS why a hypothesis that is not known to be needed stands in a statement; empty where there is none."""
+    """The reason from REASONS why a hypothesis that is not known to be needed stands in a
+    statement; empty where there is none."""
     if one.said in STANDING:
         return "standing"
     if TIMES.fullmatch(one.said):
         return "times"
     if one.said in meanings():
         return meanings()[one.said]
-    family = [other for other in tables if other.split("/")[0] == name.split("/")[0] and other != name]
+    family = [
+        other for other in tables if other.split("/")[0] == name.split("/")[0] and other != name
+    ]
     for other in family:
         if any(row.said == one.said and row.need in (NEEDED, LICENSES) for row in tables[other]):
             return f"shared: {other.split('/')[1]}"
     for other in family:
         if certified()[other].endswith(f"\nshow {one.said}"):
             return f"proved: {other.split('/')[1]}"
-    return next((why for (of, said), why in given_reasons().items() if of == name and is_meant(one.said, said)), "")
+    return next(
+        (
+            why
+            for (of, said), why in given_reasons().items()
+            if of == name and is_meant(one.said, said)
+        ),
+        "",
+    )
 
 
 @cache
 def given_reasons() -> dict[tuple[str, str], str]:
-    """The reasons that a reader gave, from the file beside this one: (statement, hypothesis or how it begins): reason."""
-    rows = [line.split("\t") for line in GIVEN_REASONS.read_text().splitlines() if line and not line.startswith("#")]
+    """The reasons that a reader gave, from the file beside this one: (statement, hypothesis or how
+    it begins): reason."""
+    rows = [
+        line.split("\t")
+        for line in GIVEN_REASONS.read_text().splitlines()
+        if line and not line.startswith("#")
+    ]
     return {(name, said): why for name, said, why in rows}
 
 
@@ -168,7 +233,10 @@ def read_table(text: str) -> Table:
 
 
 def write_table(table: Table) -> str:
-    lines = ["# What each hypothesis of each certified statement is for; generated by tests/proofs/hypothesis_table.py."]
+    lines = [
+        "# What each hypothesis of each certified statement is for; generated by"
+        " tests/proofs/hypothesis_table.py."
+    ]
     lines += [f"# {word}: {meaning}." for word, meaning in REASONS.items()]
     for name, (mark, rows) in table.items():
         lines += [f"statement {name} {mark}", *("\t" + "\t".join(row) for row in rows)]
@@ -190,8 +258,17 @@ def with_reasons(table: Table) -> Table:
     rows_of = {name: rows for name, (_, rows) in table.items()}
     new: Table = {}
     for name, (mark, rows) in table.items():
-        new[name] = (mark, [row if row.need in (NEEDED, LICENSES) else row._replace(why=reason(name, one, rows_of))
-                            for row, one in zip(rows, hypotheses(certified()[name]), strict=True)])
+        new[name] = (
+            mark,
+            [
+                (
+                    row
+                    if row.need in (NEEDED, LICENSES)
+                    else row._replace(why=reason(name, one, rows_of))
+                )
+                for row, one in zip(rows, hypotheses(certified()[name]), strict=True)
+            ],
+        )
     return new
 
 
@@ -208,7 +285,8 @@ def renewed(old: Table, jobs: int = 2) -> Table:
 
 
 def checked(name: str, text: str, one: Hypothesis, row: Row) -> bool:
-    """Whether the checker accepts the counterexample of a row, or cannot read the statement without the hypothesis, as the row says."""
+    """Whether the checker accepts the counterexample of a row, or cannot read the statement without
+    the hypothesis, as the row says."""
     plain = without(text, one)
     if row.need == LICENSES:
         try:

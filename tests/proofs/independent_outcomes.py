@@ -1,4 +1,5 @@
-"""What an accepted certificate claims, put to points by the independent evaluator: `contradiction` names a point where it is wrong."""
+"""What an accepted certificate claims, put to points by the independent evaluator: `contradiction`
+names a point where it is wrong."""
 
 from __future__ import annotations
 
@@ -20,16 +21,24 @@ from certificates import checker
 POINTS, PARAMETERS, INSIDE, STEPS = 1_000, 20, 20, 4
 
 
-def contradiction(text: str, outcome: str, certificate: Any, texts: Mapping[str, str], known: Mapping[str, Any]) -> object:
-    """A point where the outcome that a certificate was accepted for is wrong; None where none of the sample is one.
+def contradiction(
+    text: str, outcome: str, certificate: Any, texts: Mapping[str, str], known: Mapping[str, Any]
+) -> object:
+    """A point where the outcome that a certificate was accepted for is wrong; None where none of
+    the sample is one.
 
-    Irrational values are not evaluated: a certificate that adjoins a number says nothing here about its point.
+    Irrational values are not evaluated: a certificate that adjoins a number says nothing here about
+    its point.
     """
     if outcome == "refuted":
         point = named_values(certificate["refuted"], {})
         statement = Independent(text)
         holds = None if point is None else statement.at(point, moving=False)
-        return point if holds or point is not None and holds is None and not statement.existing else None
+        return (
+            point
+            if holds or point is not None and holds is None and not statement.existing
+            else None
+        )
     if "\nsharp " in text:
         return sharp_contradiction(text, certificate["certified"], texts)
     if "\niterates " in text:
@@ -48,7 +57,10 @@ def premise_contradiction(text: str, known: Mapping[str, Any]) -> object:
     """A point at which a premise of a map rule is false, of those that are for all."""
     (statement,) = checker.read_statements(text).values()
     for premise in checker.premises_of(statement, known).values():
-        if not premise.get("exists") and (point := Independent(premise.text()).counterexample(POINTS // 5)) is not None:
+        if (
+            not premise.get("exists")
+            and (point := Independent(premise.text()).counterexample(POINTS // 5)) is not None
+        ):
             return premise.name, point
     return None
 
@@ -70,10 +82,15 @@ def sharp_contradiction(text: str, certificate: Any, texts: Mapping[str, str]) -
     for row in said.get("number", []):
         name, root = row.split(" = ", 1)
         numbers[name] = root_between(root)
-    inner = {name: "\n".join(row for row in texts[name].splitlines() if not row.startswith("range ")) for name in said["sharp"][0].split()}
+    inner = {
+        name: "\n".join(row for row in texts[name].splitlines() if not row.startswith("range "))
+        for name in said["sharp"][0].split()
+    }
     statements = {name: Independent(one) for name, one in inner.items()}
     chance = random.Random(1)
-    for parameters in islice(iter(lambda: {name: sampled(name, chance) for name in names}, None), PARAMETERS):
+    for parameters in islice(
+        iter(lambda: {name: sampled(name, chance) for name in names}, None), PARAMETERS
+    ):
         values: Any = {**NAMES, **numbers, **parameters}
         if not eval(compiled(said["domain"][0]), values):
             continue
@@ -90,7 +107,10 @@ def sharp_contradiction(text: str, certificate: Any, texts: Mapping[str, str]) -
         if found[0] == "empty":
             return parameters
         point = named_values(found, values)
-        if point is not None and statements[found[0]].at({**parameters, **point}, moving=False) is True:
+        if (
+            point is not None
+            and statements[found[0]].at({**parameters, **point}, moving=False) is True
+        ):
             return {**parameters, **point}
     return None
 
@@ -100,7 +120,8 @@ def sampled(name: str, chance: random.Random) -> fmpq:
 
 
 def root_between(text: str) -> fmpq:
-    """The root of a polynomial in one variable between two rationals, to within 2^-80: apart from every parameter of the sample."""
+    """The root of a polynomial in one variable between two rationals, to within 2^-80: apart from
+    every parameter of the sample."""
     call = ast.parse(text.replace("^", "**"), mode="eval").body
     if not isinstance(call, ast.Call):
         raise ValueError(f"not a root: {text!r}")
@@ -133,7 +154,11 @@ def iterates_contradiction(text: str) -> Point | None:
         return list(found) if isinstance(found, tuple) else [found]
 
     for _ in range(50):
-        point = {name: fmpq(chance.randint(-9, 9), chance.randint(1, 5)) for name in variables if name != count}
+        point = {
+            name: fmpq(chance.randint(-9, 9), chance.randint(1, 5))
+            for name in variables
+            if name != count
+        }
         now = [point[name] for name in states]
         try:
             for steps in range(STEPS):

@@ -1,4 +1,5 @@
-"""The judged content of a claim: its statements as formulas over polynomials, apart from how they are written."""
+"""The judged content of a claim: its statements as formulas over polynomials, apart from how they
+are written."""
 
 from __future__ import annotations
 
@@ -12,7 +13,8 @@ from proofs.reading.printed import read
 
 
 def content(claim: Claim, latex: str) -> list[Any]:
-    """What would be judged if the claim's print were this LaTeX; equal lists mean the same statements.
+    """What would be judged if the claim's print were this LaTeX; equal lists mean the same
+    statements.
 
     Raises ClaimError where the print is refused and checker.Rejected where the statement is.
     """
@@ -24,8 +26,12 @@ def content(claim: Claim, latex: str) -> list[Any]:
             if isinstance(part, Statement):
                 story = checker.Unfolding(statement, checker.Context())
                 goals = normal(list(story.goals))
-                said = str(part.show) if goals in (("True",), ("False",)) else ""  # an identity folds to a constant, its relation with it
-                found.append((part.name, normal(list(story.premises)), goals, relations(said), part.exists))
+                said = (
+                    str(part.show) if goals in (("True",), ("False",)) else ""
+                )  # an identity folds to a constant, its relation with it
+                found.append(
+                    (part.name, normal(list(story.premises)), goals, relations(said), part.exists)
+                )
             else:
                 found.append(part.text())
     return found
@@ -37,7 +43,8 @@ def relations(text: str) -> list[str]:
 
 
 def normal(formula: Any) -> Any:
-    """A formula with each polynomial as its sorted integer coefficients, up to a positive factor (any factor for equations)."""
+    """A formula with each polynomial as its sorted integer coefficients, up to a positive factor
+    (any factor for equations)."""
     if isinstance(formula, bool):
         return formula
     if isinstance(formula, list):

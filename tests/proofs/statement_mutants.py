@@ -1,16 +1,25 @@
-"""Mutants of a statement: one coefficient, sign, exponent or relation changed in a given or in what is shown."""
+"""Mutants of a statement: one coefficient, sign, exponent or relation changed in a given or in what
+is shown."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
 
-RELATIONS = {"<": ("<=", ">"), "<=": ("<", ">="), ">": (">=", "<"), ">=": (">", "<="), "=": ("<=", "!="), "!=": ("=",)}
+RELATIONS = {
+    "<": ("<=", ">"),
+    "<=": ("<", ">="),
+    ">": (">=", "<"),
+    ">=": (">", "<="),
+    "=": ("<=", "!="),
+    "!=": ("=",),
+}
 TOKEN = re.compile(r"\^\d+|\d+|<=|>=|!=|->|[<>=]| [+-] |[A-Za-z]\w*|.")
 
 
 def mutants(text: str, keywords: tuple[str, ...] = ("given", "show")) -> Iterator[tuple[str, str]]:
-    """(what was changed, the changed statement) for every single change of a number, sign, exponent or relation."""
+    """(what was changed, the changed statement) for every single change of a number, sign, exponent
+    or relation."""
     lines = text.splitlines()
     for row, line in enumerate(lines):
         keyword, _, said = line.partition(" ")
@@ -18,7 +27,10 @@ def mutants(text: str, keywords: tuple[str, ...] = ("given", "show")) -> Iterato
             continue
         for start, end, new in changes(said):
             changed = f"{keyword} {said[:start]}{new}{said[end:]}"
-            yield f"{keyword}: {said[start:end].strip()} becomes {new.strip()} at {start}", "\n".join([*lines[:row], changed, *lines[row + 1:]])
+            yield (
+                f"{keyword}: {said[start:end].strip()} becomes {new.strip()} at {start}",
+                "\n".join([*lines[:row], changed, *lines[row + 1 :]]),
+            )
 
 
 def changes(said: str) -> Iterator[tuple[int, int, str]]:

@@ -1,4 +1,5 @@
-"""`juggleproof bound`: what it prints is certified and exact; whatever is wrong with a question is told in one line."""
+"""`juggleproof bound`: what it prints is certified and exact; whatever is wrong with a question is
+told in one line."""
 
 from __future__ import annotations
 
@@ -27,7 +28,16 @@ def bound(*arguments: str) -> int:
 
 
 def test_the_minimum_at_a_corner_is_exact(capsys: pytest.CaptureFixture[str]) -> None:
-    assert bound("x1*(x2^2 + x3^2 + x4^2 - 1.1) + 1", "--box", "x1=-2..2,x2=-2..2,x3=-2..2,x4=-2..2", "--width", "1e-9") == 0
+    assert (
+        bound(
+            "x1*(x2^2 + x3^2 + x4^2 - 1.1) + 1",
+            "--box",
+            "x1=-2..2,x2=-2..2,x3=-2..2,x4=-2..2",
+            "--width",
+            "1e-9",
+        )
+        == 0
+    )
     printed = capsys.readouterr().out
     assert "low     -104/5  (-20.8, rounded down)" in printed
     assert "high    -104/5  (-20.8, rounded up)" in printed
@@ -35,13 +45,25 @@ def test_the_minimum_at_a_corner_is_exact(capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_the_readme_shows_what_is_printed_holds(capsys: pytest.CaptureFixture[str]) -> None:
-    rows = README.read_text(encoding="utf-8").split("    $ juggleproof bound ")[1].split("\n\n")[0].splitlines()
+    rows = (
+        README.read_text(encoding="utf-8")
+        .split("    $ juggleproof bound ")[1]
+        .split("\n\n")[0]
+        .splitlines()
+    )
     assert bound(*shlex.split(rows[0])) == 0
     assert capsys.readouterr().out.splitlines() == [row.removeprefix("    ") for row in rows[1:]]
 
 
-def test_the_problems_that_the_readme_shows_have_their_published_minima_holds(capsys: pytest.CaptureFixture[str]) -> None:
-    text = README.read_text(encoding="utf-8").split("whose published minima are ")[1].split("Valleys")[0].replace("\\\n", "")
+def test_the_problems_that_the_readme_shows_have_their_published_minima_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    text = (
+        README.read_text(encoding="utf-8")
+        .split("whose published minima are ")[1]
+        .split("Valleys")[0]
+        .replace("\\\n", "")
+    )
     published = [Fraction(number) for number in re.findall(r"(-\d+\.\d+) \(", "whose " + text)]
     commands = [line.strip() for line in text.splitlines() if "juggleproof bound" in line]
     assert len(commands) == len(published) == 2
@@ -55,45 +77,72 @@ def test_an_irrational_minimum_is_enclosed_as_narrowly_as_asked() -> None:
     for exponent in (1, 9, 30):
         found = enclose_minimum("x^3 - 2*x", {"x": (0, 2)}, Fraction(1, 10**exponent))
         assert found.reached and 0 < found.width <= Fraction(1, 10**exponent)
-        assert found.high < 0 and 27 * found.high**2 <= 32 <= 27 * found.low**2  # the minimum is -sqrt(32/27)
+        assert (
+            found.high < 0 and 27 * found.high**2 <= 32 <= 27 * found.low**2
+        )  # the minimum is -sqrt(32/27)
 
 
 def test_four_variables_are_enclosed() -> None:
-    found = enclose_minimum(CAPRASSE, dict.fromkeys("xyzu", (Fraction(-1, 2), Fraction(1, 2))), Fraction(1, 10**9))
+    found = enclose_minimum(
+        CAPRASSE, dict.fromkeys("xyzu", (Fraction(-1, 2), Fraction(1, 2))), Fraction(1, 10**9)
+    )
     assert found.reached
     assert found.low <= Fraction(-31800966258, 10**10) <= found.high + Fraction(1, 10**9)
 
 
-def test_width_zero_is_not_reached_where_the_minimum_is_irrational(capsys: pytest.CaptureFixture[str]) -> None:
+def test_width_zero_is_not_reached_where_the_minimum_is_irrational(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     assert bound("x^3 - 2*x", "--box", "x=0..2", "--width", "0", "--budget", "50") == 1
     printed = capsys.readouterr().out
     assert "width 0 is not reached" in printed and "checked" in printed
 
 
 def test_what_a_small_budget_comes_to_is_certified() -> None:
-    found = enclose_minimum(CAPRASSE, dict.fromkeys("xyzu", (Fraction(-1, 2), Fraction(1, 2))), Fraction(1, 10**9), budget=5)
+    found = enclose_minimum(
+        CAPRASSE,
+        dict.fromkeys("xyzu", (Fraction(-1, 2), Fraction(1, 2))),
+        Fraction(1, 10**9),
+        budget=5,
+    )
     assert not found.reached and found.width > Fraction(1, 10**9)
     statements = checker.read_statements(found.statements)
-    assert {checker.check_one(statements[name], entry, {}, {})[0] for name, entry in found.certificates.items()} == {"certified"}
+    assert {
+        checker.check_one(statements[name], entry, {}, {})[0]
+        for name, entry in found.certificates.items()
+    } == {"certified"}
 
 
 def test_a_larger_budget_comes_at_least_as_far() -> None:
     box = dict.fromkeys("xyzu", (Fraction(-1, 2), Fraction(1, 2)))
-    widths = [enclose_minimum(CAPRASSE, box, Fraction(1, 10**9), budget=boxes).width for boxes in (1, 10, 40, 400)]
+    widths = [
+        enclose_minimum(CAPRASSE, box, Fraction(1, 10**9), budget=boxes).width
+        for boxes in (1, 10, 40, 400)
+    ]
     assert widths == sorted(widths, reverse=True) and widths[-1] <= Fraction(1, 10**9)
 
 
 def test_a_changed_bound_is_rejected() -> None:
     found = enclose_minimum("x^2 - x", UNIT, 0)
     assert found.low == found.high == Fraction(-1, 4)
-    changes = [(LOWER, ">= -1/4", "> -1/4"), (LOWER, ">= -1/4", ">= -6/25"), (ATTAINED, "<= -1/4", "< -1/4"), (ATTAINED, "<= -1/4", "<= -1/3")]
+    changes = [
+        (LOWER, ">= -1/4", "> -1/4"),
+        (LOWER, ">= -1/4", ">= -6/25"),
+        (ATTAINED, "<= -1/4", "< -1/4"),
+        (ATTAINED, "<= -1/4", "<= -1/3"),
+    ]
     for name, old, new in changes:
         statement = checker.read_statements(found.statements.replace(old, new))[name]
         assert checker.check_one(statement, found.certificates[name], {}, {})[0] == "rejected"
 
 
 def test_files_are_read_by_check(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert bound("x^2 - x*y", "--box", "x=0..1,y=-1/2..3", "--width", "0", "-o", str(tmp_path / "there")) == 0
+    assert (
+        bound(
+            "x^2 - x*y", "--box", "x=0..1,y=-1/2..3", "--width", "0", "-o", str(tmp_path / "there")
+        )
+        == 0
+    )
     assert run(["check", str(tmp_path / "there")]) == 0
     assert "2 certified" in capsys.readouterr().out
     assert bound("x^2", "--box", "x=0..1", "--width", "0", "-o", str(tmp_path / "there")) == 0
@@ -131,7 +180,7 @@ def test_constants_and_points_hold() -> None:
 
 
 def test_decimals_are_rounded_outward() -> None:
-    for value in (Fraction(1, 3), Fraction(-1, 3), Fraction(7, 8), Fraction(-10**20 - 1, 3)):
+    for value in (Fraction(1, 3), Fraction(-1, 3), Fraction(7, 8), Fraction(-(10**20) - 1, 3)):
         assert Fraction(decimals(value, 2, False)) <= value <= Fraction(decimals(value, 2, True))
 
 
@@ -142,19 +191,37 @@ BAD = {
     "inf": (("x", "--box", "x=0..inf", "--width", "1"), "'inf' is no rational number"),
     "an empty box": (("x", "--box", "x=1..0", "--width", "1"), "the box is empty: x from 1 to 0"),
     "an unknown variable": (("x + z", "--box", "x=0..1", "--width", "1"), "an undeclared name: z"),
-    "a division by a variable": (("1/x", "--box", "x=1..2", "--width", "1"), "division by what may vanish"),
+    "a division by a variable": (
+        ("1/x", "--box", "x=1..2", "--width", "1"),
+        "division by what may vanish",
+    ),
     "a relation": (("x < 1", "--box", "x=0..1", "--width", "1"), "not a polynomial in x"),
     "half a polynomial": (("x +", "--box", "x=0..1", "--width", "1"), "unreadable text: x +"),
-    "a product without a sign": (("2x", "--box", "x=0..1", "--width", "1"), "write it as x^2 - 3/2*x*y"),
+    "a product without a sign": (
+        ("2x", "--box", "x=0..1", "--width", "1"),
+        "write it as x^2 - 3/2*x*y",
+    ),
     "no polynomial": (("", "--box", "x=0..1", "--width", "1"), "unreadable text"),
     "a call": (("sin(x)", "--box", "x=0..1", "--width", "1"), "not a term: sin(x)"),
     "a high degree": (("x^61", "--box", "x=0..1", "--width", "1"), "at most 60 can be searched"),
-    "an exponent beyond all": (("x^99999", "--box", "x=0..1", "--width", "1"), "an exponent is too large"),
-    "a large expansion": (("(x + y + z)^3000", "--box", "x=0..1,y=0..1,z=0..1", "--width", "1"), "too"),
-    "many variables": (("*".join(MANY), "--box", "=0..1,".join(MANY) + "=0..1", "--width", "1"), "product times sum may be at most 1000000"),
+    "an exponent beyond all": (
+        ("x^99999", "--box", "x=0..1", "--width", "1"),
+        "an exponent is too large",
+    ),
+    "a large expansion": (
+        ("(x + y + z)^3000", "--box", "x=0..1,y=0..1,z=0..1", "--width", "1"),
+        "too",
+    ),
+    "many variables": (
+        ("*".join(MANY), "--box", "=0..1,".join(MANY) + "=0..1", "--width", "1"),
+        "product times sum may be at most 1000000",
+    ),
     "huge values": (("x^60", "--box", "x=0..1000", "--width", "1"), "exceeds 10^100 on the box"),
     "a name that is none": (("x", "--box", "and=0..1", "--width", "1"), "'and' is not a name"),
-    "a digit of another script": (("x", "--box", "x=0..\u0663", "--width", "1"), "is no rational number"),
+    "a digit of another script": (
+        ("x", "--box", "x=0..\u0663", "--width", "1"),
+        "is no rational number",
+    ),
     "a side without an end": (("x", "--box", "x=0", "--width", "1"), "is no side of a box"),
     "a side twice": (("x", "--box", "x=0..1,x=0..2", "--width", "1"), "x stands twice"),
     "an end divided by 0": (("x", "--box", "x=0..1/0", "--width", "1"), "divides by 0"),
@@ -184,7 +251,12 @@ def test_rejects_a_float_and_an_empty_budget() -> None:
 def test_a_box_tree_is_refused_for_coq() -> None:
     found = enclose_minimum("x^2 - x", UNIT, 0)
     certificate = json.loads(json.dumps(found.certificates[LOWER]))
-    with pytest.raises(ClaimError, match="uses the rule boxes; only psatz, cases, sign, close and integral are written for Coq"):
+    with pytest.raises(
+        ClaimError,
+        match=(
+            "uses the rule boxes; only psatz, cases, sign, close and integral are written for Coq"
+        ),
+    ):
         lemma(checker.read_statements(found.statements)[LOWER], certificate)
 
 

@@ -1,4 +1,5 @@
-"""The file of records: its key tells every source apart, and what is not whole, or cannot be written, is let be."""
+"""The file of records: its key tells every source apart, and what is not whole, or cannot be
+written, is let be."""
 
 from __future__ import annotations
 
@@ -42,9 +43,13 @@ def test_a_changed_source_changes_the_key_holds(package: str, tree: Path) -> Non
     assert len(set(seen)) == len(seen)
 
 
-def test_settings_and_versions_change_the_key_holds(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_settings_and_versions_change_the_key_holds(
+    tree: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     seen = {cache.key(1, root=tree), cache.key(2, root=tree)}
-    monkeypatch.setattr(cache, "version_of", lambda tool: "another" if tool == "sympy" else "the same")
+    monkeypatch.setattr(
+        cache, "version_of", lambda tool: "another" if tool == "sympy" else "the same"
+    )
     seen.add(cache.key(1, root=tree))
     monkeypatch.setattr(cache.sys, "version", "another")
     seen.add(cache.key(1, root=tree))
@@ -53,7 +58,12 @@ def test_settings_and_versions_change_the_key_holds(tree: Path, monkeypatch: pyt
 
 def test_the_key_reads_the_prints_and_the_checker_holds() -> None:
     read = {path.relative_to(cache.ROOT).as_posix() for path in cache._sources(cache.ROOT)}
-    assert {"certificates/checker.py", "proofs/paper/a3_supremum.py", "proofs/reading/parser.py", "symbolic/bounds.py"} <= read
+    assert {
+        "certificates/checker.py",
+        "proofs/paper/a3_supremum.py",
+        "proofs/reading/parser.py",
+        "symbolic/bounds.py",
+    } <= read
 
 
 def test_records_come_back_holds(place: Path) -> None:
@@ -71,7 +81,7 @@ def test_rejects_truncated_and_changed_files(place: Path) -> None:
     for end in range(len(whole)):
         path.write_bytes(whole[:end])
         assert cache.load(KEY) == []
-        path.write_bytes(whole[:end] + bytes([whole[end] ^ 1]) + whole[end + 1:])
+        path.write_bytes(whole[:end] + bytes([whole[end] ^ 1]) + whole[end + 1 :])
         assert cache.load(KEY) == []
     path.write_bytes(whole)
     assert cache.load(KEY) == RECORDS
@@ -83,7 +93,19 @@ def test_rejects_a_file_of_another_key(place: Path) -> None:
     assert cache.load("1" * 64) == []
 
 
-@pytest.mark.parametrize("content", [b"", b"[]", b"{}", b'{"records": 1}', b'{"records": [1]}', b'{"records": [[]]}', b"\xff", b"[" * 100_000])
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"[]",
+        b"{}",
+        b'{"records": 1}',
+        b'{"records": [1]}',
+        b'{"records": [[]]}',
+        b"\xff",
+        b"[" * 100_000,
+    ],
+)
 def test_rejects_what_is_no_list_of_records(content: bytes, place: Path) -> None:
     place.mkdir()
     digest = hashlib.sha256(KEY.encode() + content).hexdigest().encode()
@@ -97,7 +119,9 @@ def test_rejects_a_file_that_others_may_write(place: Path) -> None:
     assert cache.load(KEY) == []
 
 
-def test_a_folder_that_cannot_be_written_is_no_error_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_written_is_no_error_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     for place in (tmp_path / "file", tmp_path / "file" / "below"):
         monkeypatch.setenv(cache.VARIABLE, str(place))
@@ -106,14 +130,18 @@ def test_a_folder_that_cannot_be_written_is_no_error_holds(tmp_path: Path, monke
     assert (tmp_path / "file").read_bytes() == b""
 
 
-def test_off_and_no_home_keep_nothing_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_off_and_no_home_keep_nothing_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setenv(cache.VARIABLE, "off")
     cache.keep(KEY, RECORDS)
     assert cache.folder() is None and cache.load(KEY) == [] and not list(tmp_path.iterdir())
     monkeypatch.delenv(cache.VARIABLE)
     cache.keep(KEY, RECORDS)
-    assert cache.load(KEY) == RECORDS and [path.name for path in tmp_path.iterdir()] == ["juggleproof"]
+    assert cache.load(KEY) == RECORDS and [path.name for path in tmp_path.iterdir()] == [
+        "juggleproof"
+    ]
     monkeypatch.delenv("XDG_CACHE_HOME")
 
     def homeless() -> Path:

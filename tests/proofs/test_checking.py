@@ -15,14 +15,24 @@ CLOSE = ["close"]
 TRUE = "forall x\nshow x^2 >= 0"
 ABSURD = "forall a\nshow a < 0"  # false; with it, everything follows
 FOLLOWS = "forall x\nshow x < 0"
-USES = {"certified": ["use", "a/one", {"a": "x"}, {}, ["close"]], "point": ["b/two", [], {"x": "0"}, ["close"]]}
+USES = {
+    "certified": ["use", "a/one", {"a": "x"}, {}, ["close"]],
+    "point": ["b/two", [], {"x": "0"}, ["close"]],
+}
 
 
 def folder_of(place: Path, statements: dict[str, str], certificates: dict[str, object]) -> Path:
     place.mkdir()
-    (place / "statements.txt").write_text("\n\n".join(f"statement {name}\n{text}" for name, text in statements.items()) + "\n", encoding="utf-8")
+    (place / "statements.txt").write_text(
+        "\n\n".join(f"statement {name}\n{text}" for name, text in statements.items()) + "\n",
+        encoding="utf-8",
+    )
     for claim in {name.split("/")[0] for name in certificates}:
-        (place / f"{claim}.json").write_bytes(canonical({name: one for name, one in certificates.items() if name.split("/")[0] == claim}))
+        (place / f"{claim}.json").write_bytes(
+            canonical(
+                {name: one for name, one in certificates.items() if name.split("/")[0] == claim}
+            )
+        )
     return place
 
 
@@ -35,7 +45,11 @@ def read_by(folder: Path, jobs: int) -> list[tuple[str, str, str]]:
 @pytest.fixture
 def some(tmp_path: Path) -> Path:
     """A part of the committed store."""
-    texts = [block for block in (DEFAULT / "statements.txt").read_text(encoding="utf-8").split("\n\n") if block.startswith("statement s2.2.1")]
+    texts = [
+        block
+        for block in (DEFAULT / "statements.txt").read_text(encoding="utf-8").split("\n\n")
+        if block.startswith("statement s2.2.1")
+    ]
     (tmp_path / "some").mkdir()
     (tmp_path / "some" / "statements.txt").write_text("\n\n".join(texts) + "\n", encoding="utf-8")
     for path in DEFAULT.glob("s2.2.1*.json"):
@@ -52,12 +66,16 @@ def test_shares_and_the_whole_agree_holds(some: Path) -> None:
 
 def test_every_claim_is_in_one_share_holds(some: Path) -> None:
     found = shares(some, 3)
-    assert sorted(claim for share in found for claim in share) == sorted(path.stem for path in some.glob("*.json"))
+    assert sorted(claim for share in found for claim in share) == sorted(
+        path.stem for path in some.glob("*.json")
+    )
 
 
 def test_rejects_a_lemma_that_another_share_only_assumes(tmp_path: Path) -> None:
     false = {"certified": CLOSE, "point": ["a/one", [], {"a": "-1"}, CLOSE]}
-    folder = folder_of(tmp_path / "store", {"a/one": ABSURD, "b/two": FOLLOWS}, {"a/one": false, "b/two": USES})
+    folder = folder_of(
+        tmp_path / "store", {"a/one": ABSURD, "b/two": FOLLOWS}, {"a/one": false, "b/two": USES}
+    )
     assert all(len(share) == 1 for share in shares(folder, 2))
     outcomes = {name: outcome for name, outcome, _ in read_by(folder, 2)}
     assert outcomes == {"a/one": "rejected", "b/two": "rejected"}

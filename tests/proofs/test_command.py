@@ -1,4 +1,5 @@
-"""What a user can get wrong is answered by one clear line that names file, claim and mend; nothing is left half-written."""
+"""What a user can get wrong is answered by one clear line that names file, claim and mend; nothing
+is left half-written."""
 
 from __future__ import annotations
 
@@ -13,18 +14,31 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-HEAD = "from fractions import Fraction\nfrom proofs import always, claim, equal, reals\nx, y = reals('x y')\n"
+HEAD = (
+    "from fractions import Fraction\nfrom proofs import always, claim, equal, reals\nx, y ="
+    " reals('x y')\n"
+)
 
 
 def run(*arguments: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
-    return subprocess.run([sys.executable, "-m", "proofs.command.main", *arguments], capture_output=True, text=True,
-                          cwd=cwd, env=environment, timeout=240, check=False)
+    return subprocess.run(
+        [sys.executable, "-m", "proofs.command.main", *arguments],
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        env=environment,
+        timeout=240,
+        check=False,
+    )
 
 
 def claim_file(folder: Path, body: str, name: str = "mine", more: str = "") -> Path:
     path = folder / "mine.py"
-    path.write_text(f"{HEAD}{more}\n@claim({name!r})\ndef one():\n    '''It says so.'''\n    return {body}\n", encoding="utf-8")
+    path.write_text(
+        f"{HEAD}{more}\n@claim({name!r})\ndef one():\n    '''It says so.'''\n    return {body}\n",
+        encoding="utf-8",
+    )
     return path
 
 
@@ -37,8 +51,18 @@ def test_true_claim_is_certified_holds(tmp_path: Path) -> None:
     done = certify(path)
     assert done.returncode == 0, done.stderr
     assert "1 holds" in done.stdout
-    bare = subprocess.run([sys.executable, "-I", "-S", str(ROOT / "certificates/checker.py"), str(tmp_path / "mine.certificates")],
-                          capture_output=True, text=True, check=False)
+    bare = subprocess.run(
+        [
+            sys.executable,
+            "-I",
+            "-S",
+            str(ROOT / "certificates/checker.py"),
+            str(tmp_path / "mine.certificates"),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert bare.returncode == 0 and "1 certified" in bare.stdout
 
 
@@ -77,8 +101,11 @@ def test_rejects_undeclared_symbol(tmp_path: Path) -> None:
 
 def test_rejects_duplicate_name(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x < x + 1)")
-    path.write_text(path.read_text(encoding="utf-8") + "\n@claim('mine')\ndef two():\n    '''Again.'''\n    return always(x < x + 2)\n",
-                    encoding="utf-8")
+    path.write_text(
+        path.read_text(encoding="utf-8")
+        + "\n@claim('mine')\ndef two():\n    '''Again.'''\n    return always(x < x + 2)\n",
+        encoding="utf-8",
+    )
     done = certify(path)
     assert done.returncode == 2 and "two claims" in done.stderr
 
@@ -122,13 +149,19 @@ def test_second_run_changes_no_byte_holds(tmp_path: Path) -> None:
     folder = tmp_path / "mine.certificates"
     before = {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()}
     certify(path)
-    assert {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()} == before
+    assert {
+        file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()
+    } == before
 
 
 def test_number_of_processes_changes_no_byte_holds(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
     text = path.read_text(encoding="utf-8")
-    path.write_text(text + "\n@claim('two')\ndef two():\n    '''Squares.'''\n    return always(x**2 + 1 >= 2 * x)\n", encoding="utf-8")
+    path.write_text(
+        text
+        + "\n@claim('two')\ndef two():\n    '''Squares.'''\n    return always(x**2 + 1 >= 2 * x)\n",
+        encoding="utf-8",
+    )
     outputs = []
     for jobs in ("1", "2"):
         store = tmp_path / jobs
@@ -143,10 +176,21 @@ def test_rejects_tampered_certificate(tmp_path: Path) -> None:
     certify(path)
     stored = tmp_path / "mine.certificates" / "mine.json"
     good = stored.read_bytes()
-    for bad in (good.replace(b'"2"', b'"3"'), good[:-20], good.replace(b'"psatz"', b'"magic"'), b"[1.5]", b"{" * 5000):
+    for bad in (
+        good.replace(b'"2"', b'"3"'),
+        good[:-20],
+        good.replace(b'"psatz"', b'"magic"'),
+        b"[1.5]",
+        b"{" * 5000,
+    ):
         stored.write_bytes(bad)
         done = run("check", str(stored.parent))
-        assert done.returncode == 1 and "rejected" in done.stdout and "mine" in done.stdout and not done.stderr
+        assert (
+            done.returncode == 1
+            and "rejected" in done.stdout
+            and "mine" in done.stdout
+            and not done.stderr
+        )
 
 
 def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
@@ -154,11 +198,20 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
     certify(path)
     folder = tmp_path / "mine.certificates"
     before = {file.name: file.read_bytes() for file in folder.iterdir()}
-    slow = "\nimport time\n@claim('slow')\ndef slow():\n    '''Slow.'''\n    time.sleep(60)\n    return always(x < x + 1)\n"
+    slow = (
+        "\nimport time\n@claim('slow')\ndef slow():\n    '''Slow.'''\n    time.sleep(60)\n   "
+        " return always(x < x + 1)\n"
+    )
     path.write_text(path.read_text(encoding="utf-8") + slow, encoding="utf-8")
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    process = subprocess.Popen([sys.executable, "-m", "proofs.command.main", "certify", str(path), "--jobs", "2"], stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "proofs.command.main", "certify", str(path), "--jobs", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        start_new_session=True,
+    )
     time.sleep(4)
     process.send_signal(signal.SIGINT)
     _, error = process.communicate(timeout=30)
@@ -166,29 +219,49 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
 
 
-@pytest.mark.parametrize(("body", "told"), [
-    ("1 // 0", "mine raises ZeroDivisionError"),
-    ("MapRule(over='a')", "mine raises TypeError"),
-    ("exists_some([x], equal(x * x, 2))", "is no list of names"),
-    ("exists_some('x', equal(x * x, 2))", "is no list of names"),
-    ("always(x == y)", "equal(a, b)"),
-])
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ("1 // 0", "mine raises ZeroDivisionError"),
+        ("MapRule(over='a')", "mine raises TypeError"),
+        ("exists_some([x], equal(x * x, 2))", "is no list of names"),
+        ("exists_some('x', equal(x * x, 2))", "is no list of names"),
+        ("always(x == y)", "equal(a, b)"),
+    ],
+)
 def test_rejects_claim_whose_function_fails(body: str, told: str, tmp_path: Path) -> None:
     done = certify(claim_file(tmp_path, body, more="from proofs import MapRule, exists_some"))
-    assert done.returncode == 2 and told in done.stderr and "mine.py:" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
+    assert (
+        done.returncode == 2
+        and told in done.stderr
+        and "mine.py:" in done.stderr
+        and len(done.stderr.splitlines()) == 1
+    ), done.stderr
 
 
 def test_rejects_file_that_ends_the_program(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x * x >= 0)", more="raise SystemExit(0)")
     done = certify(path)
-    assert done.returncode == 2 and "SystemExit" in done.stderr and "mine.py:4" in done.stderr, done.stderr
+    assert done.returncode == 2 and "SystemExit" in done.stderr and "mine.py:4" in done.stderr, (
+        done.stderr
+    )
 
 
 def test_rejects_wrong_arguments_in_one_line(tmp_path: Path) -> None:
-    wrong = (["certify", "--jobs", "-1"], ["certify", "--budget", "0"], ["export", "lean", "eq-6"], ["explain"], [], ["certify", str(tmp_path)])
+    wrong = (
+        ["certify", "--jobs", "-1"],
+        ["certify", "--budget", "0"],
+        ["export", "lean", "eq-6"],
+        ["explain"],
+        [],
+        ["certify", str(tmp_path)],
+    )
     for arguments in wrong:
         done = run(*arguments)
-        assert done.returncode == 2 and not done.stdout and len(done.stderr.splitlines()) == 1, (arguments, done.stderr)
+        assert done.returncode == 2 and not done.stdout and len(done.stderr.splitlines()) == 1, (
+            arguments,
+            done.stderr,
+        )
 
 
 RULES = '''from proofs import MapRule, claim
@@ -205,13 +278,18 @@ def every_orbit_tends_to_zero():
 '''
 
 
-@pytest.mark.parametrize(("parameter", "domain", "rate", "code", "shown"), [
-    ("alpha", "0 < alpha and 2*alpha < 1", "alpha", 0, "at least 0 < alpha < 1/2"),
-    ("alpha", "0 < alpha and alpha^2 < 1/4", "1/2", 0, "at least 0 < alpha and alpha^2 < 1/4"),
-    ("a", "0 < a and a < 1", "a", 0, "no alpha"),
-    ("a", "0 < a and a < 1", "a/2", 1, "unknown"),
-])
-def test_rules_of_a_map_of_ones_own_hold(parameter: str, domain: str, rate: str, code: int, shown: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("parameter", "domain", "rate", "code", "shown"),
+    [
+        ("alpha", "0 < alpha and 2*alpha < 1", "alpha", 0, "at least 0 < alpha < 1/2"),
+        ("alpha", "0 < alpha and alpha^2 < 1/4", "1/2", 0, "at least 0 < alpha and alpha^2 < 1/4"),
+        ("a", "0 < a and a < 1", "a", 0, "no alpha"),
+        ("a", "0 < a and a < 1", "a/2", 1, "unknown"),
+    ],
+)
+def test_rules_of_a_map_of_ones_own_hold(
+    parameter: str, domain: str, rate: str, code: int, shown: str, tmp_path: Path
+) -> None:
     path = tmp_path / "mine.py"
     path.write_text(RULES.format(parameter=parameter, domain=domain, rate=rate), encoding="utf-8")
     done = certify(path)
@@ -219,8 +297,17 @@ def test_rules_of_a_map_of_ones_own_hold(parameter: str, domain: str, rate: str,
 
 
 def test_claims_that_the_readme_shows_hold(tmp_path: Path) -> None:
-    part = (ROOT / "README.md").read_text(encoding="utf-8").split("## A claim of your own")[1].split("\n## ")[0]
-    code = [line[4:] if line.startswith("    ") else "" for line in part.splitlines() if line.startswith("    ") or not line]
+    part = (
+        (ROOT / "README.md")
+        .read_text(encoding="utf-8")
+        .split("## A claim of your own")[1]
+        .split("\n## ")[0]
+    )
+    code = [
+        line[4:] if line.startswith("    ") else ""
+        for line in part.splitlines()
+        if line.startswith("    ") or not line
+    ]
     path = tmp_path / "mine.py"
     path.write_text("\n".join(code) + "\n", encoding="utf-8")
     done = certify(path)
@@ -228,15 +315,36 @@ def test_claims_that_the_readme_shows_hold(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no file that is always full")
-@pytest.mark.parametrize("arguments", [("bound", "x", "--box", "x=0..1", "--width", "0"), ("simulate", "juggler", "--word", "2")])
+@pytest.mark.parametrize(
+    "arguments",
+    [("bound", "x", "--box", "x=0..1", "--width", "0"), ("simulate", "juggler", "--word", "2")],
+)
 def test_rejects_standard_output_that_is_full(arguments: tuple[str, ...]) -> None:
     with open("/dev/full", "w", encoding="utf-8") as full:
-        done = subprocess.run([sys.executable, "-m", "proofs.command.main", *arguments], stdout=full, stderr=subprocess.PIPE, text=True,
-                              cwd=ROOT, timeout=240, check=False)
-    assert done.returncode == 2 and "standard output cannot be written" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
+        done = subprocess.run(
+            [sys.executable, "-m", "proofs.command.main", *arguments],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=ROOT,
+            timeout=240,
+            check=False,
+        )
+    assert (
+        done.returncode == 2
+        and "standard output cannot be written" in done.stderr
+        and len(done.stderr.splitlines()) == 1
+    ), done.stderr
 
 
 def test_a_closed_standard_output_changes_nothing_holds(tmp_path: Path) -> None:
-    command = f"{shlex.quote(sys.executable)} -m proofs.command.main bound x --box x=0..1 --width 0 -o {shlex.quote(str(tmp_path / 'bound'))} >&-"
-    done = subprocess.run(command, shell=True, stderr=subprocess.PIPE, text=True, cwd=ROOT, timeout=240, check=False)
-    assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "bound" / "bound.json").exists()
+    command = (
+        f"{shlex.quote(sys.executable)} -m proofs.command.main bound x --box x=0..1 --width 0 -o"
+        f" {shlex.quote(str(tmp_path / 'bound'))} >&-"
+    )
+    done = subprocess.run(
+        command, shell=True, stderr=subprocess.PIPE, text=True, cwd=ROOT, timeout=240, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "") and (
+        tmp_path / "bound" / "bound.json"
+    ).exists()

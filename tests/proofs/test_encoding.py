@@ -1,4 +1,5 @@
-"""The encoder and SymPy agree at random rationals, on random expressions and on everything that is derived."""
+"""The encoder and SymPy agree at random rationals, on random expressions and on everything that is
+derived."""
 
 from __future__ import annotations
 
@@ -25,18 +26,30 @@ RATIONALS = st.fractions(min_value=-5, max_value=5, max_denominator=7)
 
 
 def expressions() -> st.SearchStrategy[sympy.Expr]:
-    leaves = st.one_of(st.sampled_from(NAMES), RATIONALS.map(lambda q: sympy.Rational(q.numerator, q.denominator)))
+    leaves = st.one_of(
+        st.sampled_from(NAMES), RATIONALS.map(lambda q: sympy.Rational(q.numerator, q.denominator))
+    )
 
     def grown(inner: st.SearchStrategy[sympy.Expr]) -> st.SearchStrategy[sympy.Expr]:
         pairs = st.tuples(inner, inner)
-        return st.one_of(pairs.map(lambda p: p[0] + p[1]), pairs.map(lambda p: p[0] * p[1]), pairs.map(lambda p: p[0] - p[1]),
-                         pairs.map(lambda p: -p[0] / (2 * p[1])), st.tuples(inner, st.integers(-2, 2)).map(lambda p: p[0] ** p[1]))
+        return st.one_of(
+            pairs.map(lambda p: p[0] + p[1]),
+            pairs.map(lambda p: p[0] * p[1]),
+            pairs.map(lambda p: p[0] - p[1]),
+            pairs.map(lambda p: -p[0] / (2 * p[1])),
+            st.tuples(inner, st.integers(-2, 2)).map(lambda p: p[0] ** p[1]),
+        )
 
     return st.recursive(leaves, grown, max_leaves=6)
 
 
 def exact(expression: sympy.Expr, point: dict[str, Fraction]) -> Fraction:
-    value = expression.subs({sympy.Symbol(name): sympy.Rational(q.numerator, q.denominator) for name, q in point.items()})
+    value = expression.subs(
+        {
+            sympy.Symbol(name): sympy.Rational(q.numerator, q.denominator)
+            for name, q in point.items()
+        }
+    )
     assert value.is_Rational, value
     return Fraction(int(value.p), int(value.q))
 
@@ -53,15 +66,23 @@ def test_encoder_agrees_with_sympy_holds(expression: sympy.Expr, values: list[Fr
     assert encoded_value == exact(expression, point)
 
 
-OTHER_ROOTS = {"worst_flight_time", "time_to_enter_region"}  # the root of an energy, or a ceiling: no name of the paper's vocabulary
+OTHER_ROOTS = {
+    "worst_flight_time",
+    "time_to_enter_region",
+}  # the root of an energy, or a ceiling: no name of the paper's vocabulary
 
 
 def derivations() -> list[str]:
-    """The names of `symbolic` that are derived expressions, columns or matrices without arguments."""
+    """The names of `symbolic` that are derived expressions, columns or matrices without
+    arguments."""
     found = []
     for name in dir(symbolic):
         function = getattr(symbolic, name)
-        if callable(function) and not isinstance(function, type) and getattr(function, "cache_info", None):
+        if (
+            callable(function)
+            and not isinstance(function, type)
+            and getattr(function, "cache_info", None)
+        ):
             try:
                 value = function()
             except TypeError:
@@ -80,12 +101,22 @@ def test_derived_expressions_are_encoded_as_they_are_holds(name: str) -> None:
             encoded(value)
         return
     terms = encoded(value)
-    listed = [terms] if not hasattr(terms, "entries") and not hasattr(terms, "rows") else (
-        list(terms.entries) if hasattr(terms, "entries") else [entry for row in terms.rows for entry in row])
+    listed = (
+        [terms]
+        if not hasattr(terms, "entries") and not hasattr(terms, "rows")
+        else (
+            list(terms.entries)
+            if hasattr(terms, "entries")
+            else [entry for row in terms.rows for entry in row]
+        )
+    )
     names = sorted({str(symbol) for entry in entries for symbol in entry.free_symbols})
     alpha = Fraction(1, 8)  # 2 (1 + alpha) = (3/2)^2
     for shift in range(3):
-        point = {one: Fraction(3 * i + 2 + shift, i + 2) for i, one in enumerate(names)} | {"alpha": alpha, "s": Fraction(3, 2)}
+        point = {one: Fraction(3 * i + 2 + shift, i + 2) for i, one in enumerate(names)} | {
+            "alpha": alpha,
+            "s": Fraction(3, 2),
+        }
         for entry, term in zip(entries, listed, strict=True):
             plain = {n: q for n, q in point.items() if n != "s"}
             assert value_at(term, point) == exact(sympy.sympify(entry), plain), name

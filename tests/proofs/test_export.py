@@ -1,4 +1,5 @@
-"""`juggleproof export smt2`: one statement, one claim, several, or the whole paper; a solver reads what is written in one go."""
+"""`juggleproof export smt2`: one statement, one claim, several, or the whole paper; a solver reads
+what is written in one go."""
 
 from __future__ import annotations
 
@@ -12,14 +13,20 @@ from proofs.command.export import export_smt2
 
 
 def heads(text: str) -> list[str]:
-    return [line.split()[2].rstrip(":") for line in text.splitlines() if line.startswith("; statement ")]
+    return [
+        line.split()[2].rstrip(":") for line in text.splitlines() if line.startswith("; statement ")
+    ]
 
 
 def test_export_of_several_ids_is_one_script_holds(capsys: pytest.CaptureFixture[str]) -> None:
     cvc5 = pytest.importorskip("cvc5")
     assert export_smt2(["eq-3", "s4.3.1-DK-negative/sharp", "s2.2.2-group-law"], None) == 0
     text = capsys.readouterr().out
-    assert {name.split("/")[0] for name in heads(text)} == {"eq-3", "s4.3.1-DK-negative", "s2.2.2-group-law"}
+    assert {name.split("/")[0] for name in heads(text)} == {
+        "eq-3",
+        "s4.3.1-DK-negative",
+        "s2.2.2-group-law",
+    }
     solver = cvc5.Solver()
     parser = cvc5.InputParser(solver)
     parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, text, "all.smt2")

@@ -41,24 +41,37 @@ def test_every_stored_statement_is_settled_by_the_checker_holds() -> None:
 
 
 def test_bare_checker_accepts_the_store_holds() -> None:
-    done = subprocess.run([sys.executable, "-I", "-S", "certificates/checker.py"], cwd=ROOT, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "certificates/checker.py"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_readme_shows_the_register_holds() -> None:
     text = readme.README.read_text(encoding="utf-8")
-    assert readme.with_results(text) == text, "run juggleproof certify --accept, which writes the results into README.md"
+    assert readme.with_results(text) == text, (
+        "run juggleproof certify --accept, which writes the results into README.md"
+    )
 
 
 def test_repeated_prints_name_an_earlier_claim_holds() -> None:
     seen: set[str] = set()
     for claim in paper_claims():
-        assert not claim.repeats or claim.repeats in seen, f"{claim.id} repeats {claim.repeats}, which is no earlier claim"
+        assert not claim.repeats or claim.repeats in seen, (
+            f"{claim.id} repeats {claim.repeats}, which is no earlier claim"
+        )
         seen.add(claim.id)
 
 
 def test_change_of_verdict_shows_before_and_after_holds() -> None:
-    before, after = {"a": {"verdict": "holds"}, "b": {"verdict": "gap"}}, {"a": {"verdict": "false"}}
+    before, after = (
+        {"a": {"verdict": "holds"}, "b": {"verdict": "gap"}},
+        {"a": {"verdict": "false"}},
+    )
     assert changes(before, after, partial=True) == ["a: verdict was holds, is false"]
     assert len(changes(before, after, partial=False)) == 2
 
@@ -69,7 +82,10 @@ def test_no_sentence_of_a_claim_names_a_verdict_holds() -> None:
 
 
 def test_every_kind_of_claim_is_explained_holds(capsys: pytest.CaptureFixture[str]) -> None:
-    for claim in [*paper_claims()[::20], *(c for c in paper_claims() if c.id in ("eq-10", "eq-37", "sA.3.2-sup3"))]:
+    for claim in [
+        *paper_claims()[::20],
+        *(c for c in paper_claims() if c.id in ("eq-10", "eq-37", "sA.3.2-sup3")),
+    ]:
         assert show.explain(claim.id) == 0
         told = capsys.readouterr().out
         assert claim.id in told and "verdict" in told and "Term(" not in told, claim.id

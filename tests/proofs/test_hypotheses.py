@@ -1,7 +1,9 @@
-"""Every hypothesis of every certified statement is needed, or its presence is explained: the table hypotheses.txt says which, and is right.
+"""Every hypothesis of every certified statement is needed, or its presence is explained: the table
+hypotheses.txt says which, and is right.
 
-`make test` checks a fixed sample of the rows; with JUGGLEPROOF_MUTANTS=all (as CI sets it) every counterexample is put to the checker and every
-hypothesis that is not needed is searched for again.  `python tests/proofs/hypothesis_table.py` brings the table up to date.
+`make test` checks a fixed sample of the rows; with JUGGLEPROOF_MUTANTS=all (as CI sets it) every
+counterexample is put to the checker and every hypothesis that is not needed is searched for again.
+`python tests/proofs/hypothesis_table.py` brings the table up to date.
 """
 
 from __future__ import annotations
@@ -31,7 +33,17 @@ from hypothesis_table import (
     with_reasons,
     write_table,
 )
-from search_needs import LICENSES, NEEDED, NOT_NEEDED, UNDECIDED, Hypothesis, hypotheses, is_not_needed, is_refuted, search_need
+from search_needs import (
+    LICENSES,
+    NEEDED,
+    NOT_NEEDED,
+    UNDECIDED,
+    Hypothesis,
+    hypotheses,
+    is_not_needed,
+    is_refuted,
+    search_need,
+)
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 CHECKED, SEARCHED = (1, 1) if ALL else (6, 60)  # one row in so many
@@ -46,18 +58,26 @@ def table() -> Table:
 
 
 def rows() -> Iterator[tuple[str, str, Hypothesis, Row]]:
-    """(statement, its text, hypothesis, what the table says); statements that differ in nothing but their name count once."""
+    """(statement, its text, hypothesis, what the table says); statements that differ in nothing but
+    their name count once."""
     seen = set()
     for name, (mark, said) in table().items():
         if mark not in seen:
             seen.add(mark)
-            yield from ((name, certified()[name], one, row) for one, row in zip(hypotheses(certified()[name]), said, strict=True))
+            yield from (
+                (name, certified()[name], one, row)
+                for one, row in zip(hypotheses(certified()[name]), said, strict=True)
+            )
 
 
 def some(share: int, *needs: str) -> list[tuple[str, str, Hypothesis, Row]]:
     """One row in so many of those with such a need; which ones depends on nothing but the texts."""
-    return [one for one in rows() if one[3].need in needs
-            and int(hashlib.sha256(f"{one[0]} {one[2].said}".encode()).hexdigest()[:8], 16) % share == 0]
+    return [
+        one
+        for one in rows()
+        if one[3].need in needs
+        and int(hashlib.sha256(f"{one[0]} {one[2].said}".encode()).hexdigest()[:8], 16) % share == 0
+    ]
 
 
 def is_as_checked(job: tuple[str, str, Hypothesis, Row]) -> bool:
@@ -77,9 +97,13 @@ def first_wrong(test: object, jobs: list[tuple[str, str, Hypothesis, Row]]) -> s
 
 
 def test_table_is_that_of_the_stored_statements_holds() -> None:
-    assert [(name, mark) for name, (mark, _) in table().items()] == [(name, digest(text)) for name, text in certified().items()], STALE
+    assert [(name, mark) for name, (mark, _) in table().items()] == [
+        (name, digest(text)) for name, text in certified().items()
+    ], STALE
     for name, (_, said) in table().items():
-        assert [row.said for row in said] == [one.said for one in hypotheses(certified()[name])], f"{name}: {STALE}"
+        assert [row.said for row in said] == [one.said for one in hypotheses(certified()[name])], (
+            f"{name}: {STALE}"
+        )
     assert write_table(with_reasons(table())) == TABLE.read_text(), STALE
 
 
@@ -96,9 +120,16 @@ def test_hypotheses_are_not_needed_where_the_table_says_so_holds() -> None:
 
 
 def test_every_hypothesis_that_is_not_needed_is_explained_holds() -> None:
-    loose = [f"{name}: {row.said}" for name, (_, said) in table().items() for row in said
-             if row.need == NOT_NEEDED and row.why.partition(":")[0] not in REASONS]
-    assert not loose, f"{len(loose)} hypotheses are not needed: remove them from their claims, or say why they stand there:\n" + "\n".join(loose)
+    loose = [
+        f"{name}: {row.said}"
+        for name, (_, said) in table().items()
+        for row in said
+        if row.need == NOT_NEEDED and row.why.partition(":")[0] not in REASONS
+    ]
+    assert not loose, (
+        f"{len(loose)} hypotheses are not needed: remove them from their claims, or say why they"
+        " stand there:\n" + "\n".join(loose)
+    )
 
 
 def test_few_are_undecided_holds() -> None:
@@ -108,8 +139,14 @@ def test_few_are_undecided_holds() -> None:
 
 
 def test_every_given_reason_is_used_holds() -> None:
-    idle = [key for key in given_reasons() if not any(row.need in (NOT_NEEDED, UNDECIDED) and is_meant(row.said, key[1])
-                                                      for row in table().get(key[0], ("", []))[1])]
+    idle = [
+        key
+        for key in given_reasons()
+        if not any(
+            row.need in (NOT_NEEDED, UNDECIDED) and is_meant(row.said, key[1])
+            for row in table().get(key[0], ("", []))[1]
+        )
+    ]
     assert not idle, f"reasons for what is needed or gone: {idle}"
 
 
@@ -129,8 +166,12 @@ def test_search_finds_the_division_that_a_hypothesis_keeps_possible_holds() -> N
 def test_rejects_a_counterexample_that_is_none() -> None:
     first, *_ = hypotheses(SQUARE)
     assert checked("demo/square", SQUARE, first, Row("x > 1", NEEDED, "at x = 1/2, y = 1"))
-    assert not checked("demo/square", SQUARE, first, Row("x > 1", NEEDED, "at x = 2, y = 1"))  # what is shown holds there
-    assert not checked("demo/square", SQUARE, first, Row("x > 1", NEEDED, "at x = 1/2, y = 2"))  # another hypothesis fails there
+    assert not checked(
+        "demo/square", SQUARE, first, Row("x > 1", NEEDED, "at x = 2, y = 1")
+    )  # what is shown holds there
+    assert not checked(
+        "demo/square", SQUARE, first, Row("x > 1", NEEDED, "at x = 1/2, y = 2")
+    )  # another hypothesis fails there
     assert not checked("demo/square", SQUARE, first, Row("x > 1", LICENSES, ""))
 
 

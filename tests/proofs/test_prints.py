@@ -1,4 +1,5 @@
-"""Every token of every print matters: a change is refused, changes what is judged, or is reviewed as meaning the same."""
+"""Every token of every print matters: a change is refused, changes what is judged, or is reviewed
+as meaning the same."""
 
 from __future__ import annotations
 
@@ -27,8 +28,14 @@ def claims() -> dict[str, Claim]:
 
 
 def reviewed() -> set[tuple[str, str]]:
-    rows = [line.split("\t") for line in REVIEWED.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
-    assert all(len(row) == 3 and row[2] for row in rows), "each reviewed change has claim, changed print and reason"
+    rows = [
+        line.split("\t")
+        for line in REVIEWED.read_text(encoding="utf-8").splitlines()
+        if line and not line.startswith("#")
+    ]
+    assert all(len(row) == 3 and row[2] for row in rows), (
+        "each reviewed change has claim, changed print and reason"
+    )
     return {(row[0], row[1]) for row in rows}
 
 
@@ -48,7 +55,11 @@ def unnoticed(claim: Claim) -> list[tuple[str, str]]:
 @pytest.mark.parametrize("claim_id", sorted(claims()))
 def test_every_token_of_the_print_matters_holds(claim_id: str) -> None:
     known = reviewed()
-    left = [(change, latex) for change, latex in unnoticed(claims()[claim_id]) if (claim_id, latex) not in known]
+    left = [
+        (change, latex)
+        for change, latex in unnoticed(claims()[claim_id])
+        if (claim_id, latex) not in known
+    ]
     assert not left, f"{claim_id}: {len(left)} changes go unnoticed, the first: {left[0]}"
 
 

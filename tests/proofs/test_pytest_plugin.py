@@ -1,4 +1,5 @@
-"""Claims as test items: one line each, failing where the verdict is not as it should be, never skipped, judged once a session."""
+"""Claims as test items: one line each, failing where the verdict is not as it should be, never
+skipped, judged once a session."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ Result = pytest.RunResult
 
 @pytest.fixture
 def inner(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.Pytester:
-    """A folder with a pytest of its own, in another process, that loads the plugin whether it is installed or not."""
+    """A folder with a pytest of its own, in another process, that loads the plugin whether it is
+    installed or not."""
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
     monkeypatch.setenv("PYTEST_PLUGINS", "proofs.pytest_plugin")
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
@@ -39,12 +41,20 @@ def test_true_claim_of_a_file_passes_holds(inner: pytest.Pytester) -> None:
     assert result.ret == 0
 
 
-def test_false_claim_of_a_file_fails_with_counterexample_and_hint_holds(inner: pytest.Pytester) -> None:
+def test_false_claim_of_a_file_fails_with_counterexample_and_hint_holds(
+    inner: pytest.Pytester,
+) -> None:
     file_with(inner.path, FALSE)
     result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py", "-v")
     result.assert_outcomes(passed=1, failed=2)
-    result.stdout.fnmatch_lines(["juggleproof::above FAILED*", "above/main fails at x = 1", "`juggleproof certify mine.py --only above` tells more",
-                                 "FAILED juggleproof::above - false"])
+    result.stdout.fnmatch_lines(
+        [
+            "juggleproof::above FAILED*",
+            "above/main fails at x = 1",
+            "`juggleproof certify mine.py --only above` tells more",
+            "FAILED juggleproof::above - false",
+        ]
+    )
     assert "Traceback" not in result.stdout.str() and ".py:" not in result.stdout.str()
 
 
@@ -57,10 +67,24 @@ def test_unknown_fails_and_is_not_skipped_holds(inner: pytest.Pytester) -> None:
 
 def test_names_and_node_ids_select_holds(inner: pytest.Pytester) -> None:
     path = file_with(inner.path, FALSE)
-    for chosen, passed, failed in ((["juggleproof::squares"], 1, 0), (["juggleproof::squares", "juggleproof::above"], 1, 1), (["-k", "above"], 0, 1),
-                                   (["juggleproof"], 1, 2), (["juggleproof::squares", "-k", "above"], 0, 0)):
+    for chosen, passed, failed in (
+        (["juggleproof::squares"], 1, 0),
+        (["juggleproof::squares", "juggleproof::above"], 1, 1),
+        (["-k", "above"], 0, 1),
+        (["juggleproof"], 1, 2),
+        (["juggleproof::squares", "-k", "above"], 0, 0),
+    ):
         inner.runpytest_subprocess("--juggleproof-claims", str(path), *chosen).assert_outcomes(
-            passed=passed, failed=failed, deselected=3 - passed - failed if "-k" in chosen and len(chosen) == 2 else 1 if "-k" in chosen else 0)
+            passed=passed,
+            failed=failed,
+            deselected=(
+                3 - passed - failed
+                if "-k" in chosen and len(chosen) == 2
+                else 1
+                if "-k" in chosen
+                else 0
+            ),
+        )
 
 
 def test_files_named_beside_the_option_are_judged_holds(inner: pytest.Pytester) -> None:
@@ -76,8 +100,12 @@ def test_claims_stand_beside_tests_holds(inner: pytest.Pytester) -> None:
     inner.makepyfile(test_it="def test_it(): pass\n")
     result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py", "-v")
     result.assert_outcomes(passed=2)
-    result.stdout.fnmatch_lines(["*collected 2 items", "test_it.py::test_it PASSED*", "juggleproof::squares PASSED*"])
-    inner.runpytest_subprocess("--juggleproof-claims", "mine.py", "test_it.py::test_it", "juggleproof::squares").assert_outcomes(passed=2)
+    result.stdout.fnmatch_lines(
+        ["*collected 2 items", "test_it.py::test_it PASSED*", "juggleproof::squares PASSED*"]
+    )
+    inner.runpytest_subprocess(
+        "--juggleproof-claims", "mine.py", "test_it.py::test_it", "juggleproof::squares"
+    ).assert_outcomes(passed=2)
 
 
 def test_without_the_options_nothing_is_judged_holds(inner: pytest.Pytester) -> None:
@@ -86,28 +114,47 @@ def test_without_the_options_nothing_is_judged_holds(inner: pytest.Pytester) -> 
     inner.runpytest_subprocess().assert_outcomes(passed=1)
 
 
-@pytest.mark.parametrize(("content", "told"), [
-    ("def (:\n", "mine.py:1: does not parse"),
-    ("x = 1\n", "mine.py: no claims; decorate"),
-    ("from proofs import always, claim, reals\nx, = reals('x')\n@claim('a')\ndef a():\n    'A.'\n    return always(x < 0.5)\n", "0.5 is not exact"),
-])
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        ("def (:\n", "mine.py:1: does not parse"),
+        ("x = 1\n", "mine.py: no claims; decorate"),
+        (
+            (
+                "from proofs import always, claim, reals\nx, = reals('x')\n@claim('a')\ndef a():\n "
+                "   'A.'\n    return always(x < 0.5)\n"
+            ),
+            "0.5 is not exact",
+        ),
+    ],
+)
 def test_rejects_file_in_one_line(content: str, told: str, inner: pytest.Pytester) -> None:
     (inner.path / "mine.py").write_text(content, encoding="utf-8")
     result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py")
-    assert result.ret != 0 and any(told in line for line in lines(result)) and "Traceback" not in result.stdout.str()
+    assert (
+        result.ret != 0
+        and any(told in line for line in lines(result))
+        and "Traceback" not in result.stdout.str()
+    )
 
 
 def test_rejects_name_of_no_claim(inner: pytest.Pytester) -> None:
     file_with(inner.path, HOLDS)
     result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py", "juggleproof::other")
-    assert result.ret != 0 and any(line.startswith("juggleproof::other: no such claim") for line in lines(result))
+    assert result.ret != 0 and any(
+        line.startswith("juggleproof::other: no such claim") for line in lines(result)
+    )
 
 
 def test_rejects_claim_of_a_file_with_a_name_of_the_paper(inner: pytest.Pytester) -> None:
     path = file_with(inner.path, HOLDS)
     path.write_text(path.read_text(encoding="utf-8").replace("squares", "eq-1"), encoding="utf-8")
-    result = inner.runpytest_subprocess("--juggleproof", "--juggleproof-claims", "mine.py", "juggleproof::eq-1")
-    assert result.ret != 0 and any("eq-1 is the name of two claims" in line for line in lines(result))
+    result = inner.runpytest_subprocess(
+        "--juggleproof", "--juggleproof-claims", "mine.py", "juggleproof::eq-1"
+    )
+    assert result.ret != 0 and any(
+        "eq-1 is the name of two claims" in line for line in lines(result)
+    )
 
 
 COUNTING = """
@@ -129,27 +176,55 @@ def pytest_sessionfinish():
 """
 
 
-def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(inner: pytest.Pytester) -> None:
+def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
+    inner: pytest.Pytester,
+) -> None:
     register = load_register()
     count = len(register)
     register["eq-2"], register["vanished"] = {"verdict": "holds"}, {"verdict": "gap"}
     (inner.path / "register.json").write_text(json.dumps(register), encoding="utf-8")
     inner.makeconftest(COUNTING)
-    store = {path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()}
+    store = {
+        path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()
+    }
     result = inner.runpytest_subprocess("--juggleproof", "-v", "-s")
     result.assert_outcomes(passed=count - 1, failed=2)
-    result.stdout.fnmatch_lines([
-        f"collecting*collected {count + 1} items", "juggleproof::eq-37 PASSED", "juggleproof::sB.7-tau-p PASSED", "* claim eq-2 *",
-        "differs from the register: eq-2: *verdict was holds, is misprint", "eq-2/main fails at *", "`juggleproof explain eq-2` tells more",
-        "differs from the register: vanished: verdict was gap, is absent", "the claim is gone from the sources"])
+    result.stdout.fnmatch_lines(
+        [
+            f"collecting*collected {count + 1} items",
+            "juggleproof::eq-37 PASSED",
+            "juggleproof::sB.7-tau-p PASSED",
+            "* claim eq-2 *",
+            "differs from the register: eq-2: *verdict was holds, is misprint",
+            "eq-2/main fails at *",
+            "`juggleproof explain eq-2` tells more",
+            "differs from the register: vanished: verdict was gap, is absent",
+            "the claim is gone from the sources",
+        ]
+    )
     assert result.stdout.str().count("judged 1 times") == 1
-    assert {path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()} == store
+    assert {
+        path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()
+    } == store
 
 
 def test_plugin_is_registered_and_cheap_to_load_holds() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     assert project["entry-points"]["pytest11"] == {"juggleproof": "proofs.pytest_plugin"}
-    heavy = {"sympy", "z3", "flint", "highspy", "mpmath", "numpy", "rich", "proofs.judging", "proofs.command", "proofs.paper"}
+    heavy = {
+        "sympy",
+        "z3",
+        "flint",
+        "highspy",
+        "mpmath",
+        "numpy",
+        "rich",
+        "proofs.judging",
+        "proofs.command",
+        "proofs.paper",
+    }
     code = f"import sys, proofs.pytest_plugin; print(sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
     assert done.stdout == "[]\n"

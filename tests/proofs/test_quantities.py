@@ -22,7 +22,12 @@ from proofs.theorem.quantities import Bound
 
 THIRD = Fraction(1, 3)
 below_a_third = st.fractions(Fraction(1, 100), Fraction(33, 100), max_denominator=100)
-states = st.builds(State, below_a_third, st.fractions(0, 60, max_denominator=12), st.fractions(-15, 15, max_denominator=12))
+states = st.builds(
+    State,
+    below_a_third,
+    st.fractions(0, 60, max_denominator=12),
+    st.fractions(-15, 15, max_denominator=12),
+)
 pairs = st.fractions(-30, 30, max_denominator=20)
 
 
@@ -33,10 +38,18 @@ def after(state: State, periods: int) -> State:
 
 
 def test_numbers_of_known_states_holds() -> None:
-    # u^2 = 5764 and 75 < u < 76, so that the rank 2 u + 21 is between 172 and 173; at e_1, u = 1 + alpha w = 19/13 and w = 20/13.
-    assert quantities.by_the_theorem(a_state(Fraction(3, 10), Fraction(1000), Fraction(-41))) == Bound(175, 176)
-    assert quantities.by_the_theorem(a_state(Fraction(3, 10), Fraction(60, 169), Fraction(20, 13))) == Bound(5, 6)
-    assert quantities.via_little_energy(a_state(Fraction(1, 5), Fraction(0), Fraction(1)), 4).to_little == 0
+    # u^2 = 5764 and 75 < u < 76, so that the rank 2 u + 21 is between 172 and 173; at e_1, u = 1 +
+    # alpha w = 19/13 and w = 20/13.
+    assert quantities.by_the_theorem(
+        a_state(Fraction(3, 10), Fraction(1000), Fraction(-41))
+    ) == Bound(175, 176)
+    assert quantities.by_the_theorem(
+        a_state(Fraction(3, 10), Fraction(60, 169), Fraction(20, 13))
+    ) == Bound(5, 6)
+    assert (
+        quantities.via_little_energy(a_state(Fraction(1, 5), Fraction(0), Fraction(1)), 4).to_little
+        == 0
+    )
     assert quantities.by_the_rate(Fraction(3, 10), 3) == Fraction(27, 125)
     assert quantities.by_the_closed_form(Fraction(3, 10), 3) == Fraction(108, 1000)
 
@@ -44,7 +57,9 @@ def test_numbers_of_known_states_holds() -> None:
 def test_the_best_way_is_no_worse_than_its_neighbours_holds() -> None:
     state = a_state(Fraction(3, 10), Fraction(10) ** 9, Fraction(-41))
     best = quantities.best_way(state)
-    others = [quantities.via_little_energy(state, W).bound.trap for W in range(best.W // 2, 2 * best.W)]
+    others = [
+        quantities.via_little_energy(state, W).bound.trap for W in range(best.W // 2, 2 * best.W)
+    ]
     assert best.bound.trap <= min(others) + 1  # each part is rounded up by itself
     assert best.bound.trap < quantities.by_the_theorem(state).trap / 2
 
@@ -57,7 +72,11 @@ def test_rejects_a_width_that_the_claim_does_not_allow() -> None:
 @settings(max_examples=60, deadline=None)
 @given(state=states, more=st.integers(0, 8), past=st.integers(0, 3))
 def test_orbits_keep_what_is_certified_holds(state: State, more: int, past: int) -> None:
-    for bound in (quantities.by_the_theorem(state), quantities.best_way(state).bound, quantities.certified(state)):
+    for bound in (
+        quantities.by_the_theorem(state),
+        quantities.best_way(state).bound,
+        quantities.certified(state),
+    ):
         assert after(state, bound.trap + past).is_in(TRAP)
         core = after(state, bound.core + past)
         assert core.is_in(CORE)
@@ -141,7 +160,9 @@ def test_rejects_input(options: str, capsys: pytest.CaptureFixture[str]) -> None
 
 
 @pytest.mark.parametrize("options", [["--bounds"], ["--alpha", "1/4"], ["--state", "x=1,w=1"]])
-def test_rejects_options_of_the_theorem_with_another_claim(options: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_rejects_options_of_the_theorem_with_another_claim(
+    options: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run(["explain", "eq-6", *options]) == 2
     assert "goes with `explain theorem` only" in capsys.readouterr().err
 
@@ -152,13 +173,21 @@ def test_rejects_premises_of_a_claim_without_map_rules(capsys: pytest.CaptureFix
 
 
 def test_numbers_are_read_and_shown_exactly_holds() -> None:
-    assert [exact(text, "x") for text in ("-41", "3/10", "10^3", "2^3/3^2", " 7 ")] == [-41, Fraction(3, 10), 1000, Fraction(8, 9), 7]
+    assert [exact(text, "x") for text in ("-41", "3/10", "10^3", "2^3/3^2", " 7 ")] == [
+        -41,
+        Fraction(3, 10),
+        1000,
+        Fraction(8, 9),
+        7,
+    ]
     assert shown(Fraction(10) ** 6000 + 1) == "1.00000000000e6000"
     assert [shown(Fraction(n, 8), 3) for n in (1, 8, -10001)] == ["0.125", "1", "-1.25e3"]
 
 
 def test_paper_units_are_converted_exactly_holds() -> None:
-    state = theorem.read_state(Fraction(9, 10), "beta=3,v=2,r=1/2,g=10")  # T = 2 r/g = 1/10, x = beta/(r T), w = 1 - v/r
+    state = theorem.read_state(
+        Fraction(9, 10), "beta=3,v=2,r=1/2,g=10"
+    )  # T = 2 r/g = 1/10, x = beta/(r T), w = 1 - v/r
     assert (state.x, state.w) == (60, -3)
 
 
@@ -167,60 +196,101 @@ def said_of(alpha: Fraction, x: int | Fraction, w: int | Fraction) -> str:
 
 
 def test_fate_from_a_third_on_is_told_holds() -> None:
-    assert said_of(THIRD, 0, -1) == "does not tend to e_1: from n = 2 on it has period 2, the orbit of e_2"
+    assert (
+        said_of(THIRD, 0, -1)
+        == "does not tend to e_1: from n = 2 on it has period 2, the orbit of e_2"
+    )
     assert said_of(Fraction(1, 2), 4, 2).startswith("tends to e_1: at n = 5")
-    assert said_of(Fraction(1, 2), 0, 4) == "does not tend to e_1: from n = 0 on it has period 3, the orbit of e_3"
+    assert (
+        said_of(Fraction(1, 2), 0, 4)
+        == "does not tend to e_1: from n = 0 on it has period 3, the orbit of e_3"
+    )
     assert said_of(Fraction(9, 10), 60, -3).startswith("not known")
 
 
 def test_at_a_third_all_states_but_three_are_certified_holds() -> None:
-    assert [quantities.converges(a_state(THIRD, Fraction(x), Fraction(w))) for x, w in ((0, 3), (1, 1), (0, -1), (5, 2))] == [False] * 3 + [True]
+    assert [
+        quantities.converges(a_state(THIRD, Fraction(x), Fraction(w)))
+        for x, w in ((0, 3), (1, 1), (0, -1), (5, 2))
+    ] == [False] * 3 + [True]
     assert not quantities.converges(a_state(Fraction(1, 2), Fraction(5), Fraction(2)))
 
 
-def test_explanation_of_a_state_shows_bounds_and_orbit_holds(capsys: pytest.CaptureFixture[str]) -> None:
+def test_explanation_of_a_state_shows_bounds_and_orbit_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     assert run(["explain", "theorem", "--alpha", "3/10", "--state", "x=1000,w=-41"]) == 0
     said = capsys.readouterr().out
-    assert "every N >= 175 periods" in said and "flight of 58 periods" in said and "in the trap from n = 87 on; certified: n = 144" in said
+    assert (
+        "every N >= 175 periods" in said
+        and "flight of 58 periods" in said
+        and "in the trap from n = 87 on; certified: n = 144" in said
+    )
     assert run(["explain", "theorem", "--alpha", "33/100", "--state", "x=10^300,w=0"]) == 0
     assert len(capsys.readouterr().out.splitlines()) < 60
 
 
-def test_tree_of_the_theorem_leads_to_its_premises_holds(capsys: pytest.CaptureFixture[str]) -> None:
+def test_tree_of_the_theorem_leads_to_its_premises_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     assert run(["explain", "theorem", "--premises"]) == 0
     said = capsys.readouterr().out
-    assert "theorem/exactly: 2 premises: covers same-point" in said and "6 rules, 35 premises" in said
-    assert said.count("    statement theorem/") == 35 + said.split("rests on")[0].count("    statement theorem/")
+    assert (
+        "theorem/exactly: 2 premises: covers same-point" in said and "6 rules, 35 premises" in said
+    )
+    assert said.count("    statement theorem/") == 35 + said.split("rests on")[0].count(
+        "    statement theorem/"
+    )
 
 
 def test_bounds_of_the_paper_in_known_rows_holds() -> None:
-    # alpha = 2/5, u = 29/8: one impact is counted with the printed loss, and the ball of the table's best state needs two.
+    # alpha = 2/5, u = 29/8: one impact is counted with the printed loss, and the ball of the
+    # table's best state needs two.
     row = into_region(Fraction(2, 5), Fraction(29, 8))
     assert (row.true, row.printed, row.impacts.impacts) == ((3, 4), (0, 1), 2)
     assert row.time.time > row.flight == Fraction(29, 8)
-    assert [bool(bounds.violations([row], measure, loss, "ceiling")) for measure in bounds.MEASURES for loss in bounds.LOSSES] == [
-        False, True, False, True, False, True]
+    assert [
+        bool(bounds.violations([row], measure, loss, "ceiling"))
+        for measure in bounds.MEASURES
+        for loss in bounds.LOSSES
+    ] == [False, True, False, True, False, True]
     # At the border of R (26) is early of sampled states only.
     row = into_region(Fraction(3, 10), Fraction(41, 16))
-    assert [bool(bounds.violations([row], measure, "derived", "ceiling")) for measure in bounds.MEASURES] == [False, False, True]
+    assert [
+        bool(bounds.violations([row], measure, "derived", "ceiling")) for measure in bounds.MEASURES
+    ] == [False, False, True]
 
 
 @settings(max_examples=40, deadline=None)
-@given(alpha=st.fractions(Fraction(1, 20), Fraction(9, 10), max_denominator=20), more=st.fractions(0, 20, max_denominator=9))
-def test_counts_and_periods_are_enough_where_claims_say_so_holds(alpha: Fraction, more: Fraction) -> None:
+@given(
+    alpha=st.fractions(Fraction(1, 20), Fraction(9, 10), max_denominator=20),
+    more=st.fractions(0, 20, max_denominator=9),
+)
+def test_counts_and_periods_are_enough_where_claims_say_so_holds(
+    alpha: Fraction, more: Fraction
+) -> None:
     u = 2 / (1 - alpha) + more  # outside R, whose border is at u^2 = 2 (1 + alpha)/(1 - alpha)^2
     row = into_region(alpha, u)
     assert row.impacts.impacts <= row.true[1] and row.time.time <= row.flight * row.true[1]
     assert row.sample.sample <= row.ours
     if alpha <= Fraction(364, 1000):
-        assert row.impacts.impacts <= row.printed[1] and row.time.time <= row.flight * row.printed[1]
+        assert (
+            row.impacts.impacts <= row.printed[1] and row.time.time <= row.flight * row.printed[1]
+        )
 
 
 @settings(max_examples=30, deadline=None)
 @given(alpha=st.fractions(Fraction(365, 1000), Fraction(19, 20), max_denominator=1000))
 def test_printed_loss_is_violated_from_the_claimed_alpha_on_holds(alpha: Fraction) -> None:
     steps = 10**6  # u just below where the bracket with the printed loss is 1
-    u = Fraction(least_integer(lambda k: bracket(PRINTED_LOSS, alpha, Fraction(k, steps))[1] > 1, steps) - 1, steps)
+    u = Fraction(
+        least_integer(lambda k: bracket(PRINTED_LOSS, alpha, Fraction(k, steps))[1] > 1, steps) - 1,
+        steps,
+    )
     start = State(alpha, Fraction(0), 1 + u)
-    assert bracket(PRINTED_LOSS, alpha, u)[1] == 1 < entry_into_region(start).impacts <= bracket(TRUE_LOSS, alpha, u)[1]
-
+    assert (
+        bracket(PRINTED_LOSS, alpha, u)[1]
+        == 1
+        < entry_into_region(start).impacts
+        <= bracket(TRUE_LOSS, alpha, u)[1]
+    )

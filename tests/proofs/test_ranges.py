@@ -1,4 +1,5 @@
-"""Sharp ranges of claims: whole numbers tied to alpha, a single point, what holds on the whole range left out, names of end points."""
+"""Sharp ranges of claims: whole numbers tied to alpha, a single point, what holds on the whole
+range left out, names of end points."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -20,8 +21,13 @@ alpha, K, n, k, x = reals("alpha K n k x")
 WHOLE = (("range", alpha > 0), ("range", alpha < 1))
 BUDGET = 6_000_000
 CEILING = Statement(
-    "round/up", ("alpha", "n", "k"), (*WHOLE, ("given", n * (1 - alpha) >= 1 + alpha), ("given", (n - 1) * (1 - alpha) < 1 + alpha)),
-    show=~((k <= n) & (k >= n)) | (k * (1 - alpha) <= 1 + alpha) & ((k + 1) * (1 - alpha) > 1 + alpha), integer=("n", "k"))
+    "round/up",
+    ("alpha", "n", "k"),
+    (*WHOLE, ("given", n * (1 - alpha) >= 1 + alpha), ("given", (n - 1) * (1 - alpha) < 1 + alpha)),
+    show=~((k <= n) & (k >= n))
+    | (k * (1 - alpha) <= 1 + alpha) & ((k + 1) * (1 - alpha) > 1 + alpha),
+    integer=("n", "k"),
+)
 
 
 def sought(*statements, over=("alpha",)):
@@ -29,7 +35,12 @@ def sought(*statements, over=("alpha",)):
     found = search_sharp_range("round/sharp", statements, over, {}, BUDGET)
     assert found is not None
     sharp, certificate, shown = found
-    return shown, read(sharp.text(), sharp.name), certificate, {one.name: read(one.text(), one.name) for one in statements}
+    return (
+        shown,
+        read(sharp.text(), sharp.name),
+        certificate,
+        {one.name: read(one.text(), one.name) for one in statements},
+    )
 
 
 def test_rounding_up_holds_where_nothing_is_rounded():
@@ -42,12 +53,22 @@ def test_rounding_up_fails_without_the_condition():
     sharp, certificate, _ = search_sharp_range("round/sharp", [CEILING], ("alpha",), {}, BUDGET)
     everywhere = replace(sharp, condition=alpha > 0)
     with pytest.raises(checker.Rejected):
-        checker.settle(read(everywhere.text(), "round/sharp"), {"certified": certificate}, {}, {"round/up": read(CEILING.text(), "round/up")})
+        checker.settle(
+            read(everywhere.text(), "round/sharp"),
+            {"certified": certificate},
+            {},
+            {"round/up": read(CEILING.text(), "round/up")},
+        )
 
 
 def test_single_point_is_told_as_one():
-    point = Statement("point/root", ("alpha",), WHOLE, show=(alpha**3 - 33 * alpha**2 - alpha + 1 <= 0)
-                      & (alpha**3 - 33 * alpha**2 - alpha + 1 >= 0))
+    point = Statement(
+        "point/root",
+        ("alpha",),
+        WHOLE,
+        show=(alpha**3 - 33 * alpha**2 - alpha + 1 <= 0)
+        & (alpha**3 - 33 * alpha**2 - alpha + 1 >= 0),
+    )
     shown, sharp, certificate, named = sought(point)
     assert shown == "alpha = c1; c1 = 0.159938682399..., a root of alpha^3 - 33*alpha^2 - alpha + 1"
     ((_, (_, low, high)),) = sharp.get("number")
@@ -57,7 +78,12 @@ def test_single_point_is_told_as_one():
 
 def test_every_root_in_the_domain_has_its_number_line():
     # 10 a^3 - 20 a^2 + 10 a - 1 has two roots in (0, 1); only the lower end is one of the set.
-    cubic = Statement("roots/two", ("alpha",), WHOLE, show=(10 * alpha**3 - 20 * alpha**2 + 10 * alpha - 1 < 0) & (2 * alpha < 1))
+    cubic = Statement(
+        "roots/two",
+        ("alpha",),
+        WHOLE,
+        show=(10 * alpha**3 - 20 * alpha**2 + 10 * alpha - 1 < 0) & (2 * alpha < 1),
+    )
     shown, sharp, certificate, named = sought(cubic)
     assert shown.startswith("0 < alpha < c1; c1 = 0.")
     assert [name for name, _ in sharp.get("number")] == ["c1", "c2"]
@@ -68,20 +94,31 @@ def test_end_points_are_told_under_their_names_in_the_statement():
     second = real_roots(fmpq_poly([-1, 10, -20, 10]))[1]
     poly = 10 * alpha**3 - 20 * alpha**2 + 10 * alpha - 1
     numbers = (("c1", poly, Fraction(0), Fraction(1, 2)), ("c2", poly, Fraction(1, 2), Fraction(1)))
-    assert told(Line((second,), (False, False, True)), "alpha", numbers).startswith("c2 < alpha < 1; c2 = 0.")
+    assert told(Line((second,), (False, False, True)), "alpha", numbers).startswith(
+        "c2 < alpha < 1; c2 = 0."
+    )
 
 
 def test_what_holds_on_the_whole_range_is_left_out():
     sure = Statement("", ("alpha", "x"), WHOLE, show=alpha * x**2 >= 0).named("sure")
     third = Statement("", ("alpha",), WHOLE, show=3 * alpha <= 1).named("third")
-    claim = Claim("left-out", "", "", "one part holds for every alpha", lambda: Assertion((sure, third)))
+    claim = Claim(
+        "left-out", "", "", "one part holds for every alpha", lambda: Assertion((sure, third))
+    )
     judgement = judge(claim, Options(routes=("exact",)))
-    assert judgement.sharp[""] == {"text": "0 < alpha <= 1/3", "by": ["left-out/sharp", "left-out/sure"]}
+    assert judgement.sharp[""] == {
+        "text": "0 < alpha <= 1/3",
+        "by": ["left-out/sharp", "left-out/sure"],
+    }
     assert "sharp left-out/third" in dict(judgement.statements)["left-out/sharp"].splitlines()
 
 
 def test_a_range_among_the_givens_counts():
-    low, high, none = ("given", real("alpha") > 0), ("given", real("alpha") < 1), ("given", real("alpha") >= 0)
+    low, high, none = (
+        ("given", real("alpha") > 0),
+        ("given", real("alpha") < 1),
+        ("given", real("alpha") >= 0),
+    )
     assert speaks_of_range(Statement("a/b", ("alpha",), (low, high), show=alpha < 2))
     assert not speaks_of_range(Statement("a/b", ("alpha",), (none,), show=alpha < 2))
     assert not speaks_of_range(Statement("a/b", ("x",), (("given", x > 0),), show=conjunction([])))

@@ -1,4 +1,5 @@
-"""A run that knows claims again by their records prints and writes what a run from the sources does; a record that lies is not believed."""
+"""A run that knows claims again by their records prints and writes what a run from the sources
+does; a record that lies is not believed."""
 
 from __future__ import annotations
 
@@ -21,9 +22,23 @@ from proofs.derivations import body_and_derivations
 from proofs.judging import DEFAULT_BUDGET
 from proofs.records import claim_of
 
-# Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem and one, one that nothing corrects, sharp ranges.
-CHOSEN = ("s2.2.1-H", "s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "s3.5.3-jacobian", "sA.3.2-sup3", "sB.7-C", "sB.1-so-that", "s4.2-invariant",
-          "eq-26", "theorem-roots", "theorem")
+# Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem and
+# one, one that nothing corrects, sharp ranges.
+CHOSEN = (
+    "s2.2.1-H",
+    "s2.2.1-B1",
+    "eq-2",
+    "eq-11",
+    "s3.5.1-composite",
+    "s3.5.3-jacobian",
+    "sA.3.2-sup3",
+    "sB.7-C",
+    "sB.1-so-that",
+    "s4.2-invariant",
+    "eq-26",
+    "theorem-roots",
+    "theorem",
+)
 PAPER = [claim for claim in loading.paper_claims() if claim.id in CHOSEN]
 
 
@@ -53,15 +68,20 @@ def few(patch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def output(store: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> Callable[..., dict[str, str]]:
+def output(
+    store: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> Callable[..., dict[str, str]]:
     """Everything that a run prints and writes."""
+
     def certified(*more: str) -> dict[str, str]:
         folder, told = tmp_path / "store", tmp_path / "verdicts.json"
         shutil.copytree(store, folder, dirs_exist_ok=True)
         capfd.readouterr()
         code = run(["certify", "--store", str(folder), "--json", str(told), *more])
         said = capfd.readouterr()
-        written = {path.name: path.read_text(encoding="utf-8") for path in [*folder.iterdir(), told]}
+        written = {
+            path.name: path.read_text(encoding="utf-8") for path in [*folder.iterdir(), told]
+        }
         return {"code": str(code), "printed": said.out, "complaints": said.err, **written}
 
     return certified
@@ -77,7 +97,9 @@ def nothing_is_stated(patch: pytest.MonkeyPatch) -> None:
 
 
 def test_outputs_do_not_depend_on_records_or_jobs_holds(
-    place: Path, output: Callable[..., dict[str, str]], monkeypatch: pytest.MonkeyPatch,
+    place: Path,
+    output: Callable[..., dict[str, str]],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setenv(cache.VARIABLE, "off")
     plain = output("--jobs", "1")
@@ -95,7 +117,10 @@ def test_outputs_do_not_depend_on_records_or_jobs_holds(
 
 
 def test_claims_are_told_from_records_as_from_sources_holds(
-    place: Path, output: Callable[..., dict[str, str]], monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str],
+    place: Path,
+    output: Callable[..., dict[str, str]],
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
 ) -> None:
     def told() -> str:
         capfd.readouterr()
@@ -113,7 +138,9 @@ def test_claims_are_told_from_records_as_from_sources_holds(
 
 
 def test_fresh_search_keeps_and_reads_no_records_holds(
-    place: Path, output: Callable[..., dict[str, str]], monkeypatch: pytest.MonkeyPatch,
+    place: Path,
+    output: Callable[..., dict[str, str]],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def refuse(*_: object) -> Any:
         raise AssertionError("records were asked for")
@@ -137,6 +164,7 @@ def records_of(place: Path) -> list[dict[str, Any]]:
 
 def lies(records: list[dict[str, Any]]) -> Iterator[tuple[str, list[dict[str, Any]]]]:
     """Records that are whole and say something else."""
+
     def told(change: Callable[[list[dict[str, Any]]], object]) -> list[dict[str, Any]]:
         other = copy.deepcopy(records)
         change(other)
@@ -145,14 +173,23 @@ def lies(records: list[dict[str, Any]]) -> Iterator[tuple[str, list[dict[str, An
     at = {record["id"]: index for index, record in enumerate(records)}
     plain, misprint, jacobian = at["s3.5.1-composite"], at["eq-2"], at["s3.5.3-jacobian"]
     yield "a statement is left out", told(lambda r: r[plain]["body"]["Assertion"].pop())
-    yield "a statement is another", told(lambda r: r[plain]["body"]["Assertion"][0].__setitem__(2, "0" * 64))
-    yield "a statement is another claim's", told(lambda r: r[plain].__setitem__("body", r[jacobian]["body"]))
+    yield (
+        "a statement is another",
+        told(lambda r: r[plain]["body"]["Assertion"][0].__setitem__(2, "0" * 64)),
+    )
+    yield (
+        "a statement is another claim's",
+        told(lambda r: r[plain].__setitem__("body", r[jacobian]["body"])),
+    )
     yield "no statement is left", told(lambda r: r[plain].__setitem__("body", {"Assertion": []}))
     yield "a body of no kind", told(lambda r: r[plain].__setitem__("body", {"Proved": []}))
     yield "a body too deep", told(lambda r: r[plain].__setitem__("body", deep()))
     yield "a body that is a word", told(lambda r: r[plain].__setitem__("body", "holds"))
     yield "a correction is left out", told(lambda r: r[misprint].__setitem__("correction", None))
-    yield "a correction is another", told(lambda r: r[misprint]["correction"].__setitem__("text", "0 = 0"))
+    yield (
+        "a correction is another",
+        told(lambda r: r[misprint]["correction"].__setitem__("text", "0 = 0")),
+    )
     yield "a correction's statement is left out", told(lambda r: r[misprint]["corrected"].pop())
     yield "a field is missing", told(lambda r: r[plain].pop("says"))
     yield "a field is no text", told(lambda r: r[plain].__setitem__("place", 3))
@@ -166,7 +203,9 @@ def deep() -> Any:
     return value
 
 
-def test_rejects_records_that_say_something_else(place: Path, output: Callable[..., dict[str, str]]) -> None:
+def test_rejects_records_that_say_something_else(
+    place: Path, output: Callable[..., dict[str, str]]
+) -> None:
     plain = output("--jobs", "1")
     key = recall.Records(DEFAULT_BUDGET).key
     kept = records_of(place)
@@ -178,7 +217,9 @@ def test_rejects_records_that_say_something_else(place: Path, output: Callable[.
 
 
 def test_rejects_the_body_of_a_claim_from_its_record_alone() -> None:
-    record = dict.fromkeys(("id", "section", "place", "says", "printed", "as_it_stands", "repeats", "source"), "")
+    record = dict.fromkeys(
+        ("id", "section", "place", "says", "printed", "as_it_stands", "repeats", "source"), ""
+    )
     claim = claim_of({**record, "parameters": ["alpha"], "nearby": True})
     with pytest.raises(recall.Forgotten):
         claim.body()
@@ -188,7 +229,11 @@ def test_rejects_the_body_of_a_claim_from_its_record_alone() -> None:
 
 
 def test_a_store_that_a_run_changes_is_checked_again_holds(
-    store: Path, place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str],
+    store: Path,
+    place: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
 ) -> None:
     folder, seen, check = tmp_path / "spoilt", list[int](), checker.check_folder
     shutil.copytree(store, folder)

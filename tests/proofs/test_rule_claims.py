@@ -1,4 +1,5 @@
-"""Claims of one's own under the map rules: certified, told with their range, and settled again where a statement that they rest on changes."""
+"""Claims of one's own under the map rules: certified, told with their range, and settled again
+where a statement that they rest on changes."""
 
 from __future__ import annotations
 
@@ -28,8 +29,25 @@ def it_comes_to_rest():
 def certify(folder: Path, on: str) -> subprocess.CompletedProcess[str]:
     path = folder / "mine.py"
     path.write_text(CLAIMS.replace("ON", on), encoding="utf-8")
-    return subprocess.run([sys.executable, "-m", "proofs.command.main", "certify", str(path), "--routes", "exact", "--jobs", "1"], check=False,
-                          capture_output=True, text=True, cwd=ROOT, env={**os.environ, "NO_COLOR": "1"}, timeout=240)
+    return subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "proofs.command.main",
+            "certify",
+            str(path),
+            "--routes",
+            "exact",
+            "--jobs",
+            "1",
+        ],
+        check=False,
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        env={**os.environ, "NO_COLOR": "1"},
+        timeout=240,
+    )
 
 
 def test_rules_of_ones_own_hold_and_tell_their_range(tmp_path: Path) -> None:
@@ -51,7 +69,22 @@ def test_a_rule_fails_without_its_set(tmp_path: Path) -> None:
 
 
 def test_no_claim_is_left_out_where_its_file_was_loaded_before() -> None:
-    told = [subprocess.run([sys.executable, "-c", f"{before}from proofs.loading import paper_claims\nprint(*(one.id for one in paper_claims()))"],
-                           check=True, capture_output=True, text=True, cwd=ROOT, timeout=240).stdout
-            for before in ("", "import proofs.theorem.sharper, proofs.paper.s4_2_proposition\n")]
+    told = [
+        subprocess.run(
+            [
+                sys.executable,
+                "-c",
+                (
+                    f"{before}from proofs.loading import paper_claims\nprint(*(one.id for one in"
+                    " paper_claims()))"
+                ),
+            ],
+            check=True,
+            capture_output=True,
+            text=True,
+            cwd=ROOT,
+            timeout=240,
+        ).stdout
+        for before in ("", "import proofs.theorem.sharper, proofs.paper.s4_2_proposition\n")
+    ]
     assert told[0] == told[1] and "theorem-roots" in told[0]

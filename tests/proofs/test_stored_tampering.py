@@ -1,8 +1,11 @@
-"""Stored certificates and statements, tampered with: a certificate never changes its verdict, and what is still accepted is true.
+"""Stored certificates and statements, tampered with: a certificate never changes its verdict, and
+what is still accepted is true.
 
-`make test` takes a fixed sample of the statements and of the changes; with JUGGLEPROOF_MUTANTS=all (as CI sets it) every field of every
-stored certificate and every line of every stored statement is changed.  A field is a key or a leaf of the JSON; of a sum of more than LONG products,
-each product has one field changed, in turn.  Statements that differ in nothing but their name, certificate and all, count once.
+`make test` takes a fixed sample of the statements and of the changes; with JUGGLEPROOF_MUTANTS=all
+(as CI sets it) every field of every stored certificate and every line of every stored statement is
+changed.  A field is a key or a leaf of the JSON; of a sum of more than LONG products, each product
+has one field changed, in turn.  Statements that differ in nothing but their name, certificate and
+all, count once.
 """
 
 from __future__ import annotations
@@ -28,7 +31,9 @@ from certificates import checker
 from certificates.store import DEFAULT, Store
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
-SHARE, FIELDS, LINES = (1, 10**9, 2) if ALL else (12, 12, 1)  # one statement in so many; fields of it; changes of each line
+SHARE, FIELDS, LINES = (
+    (1, 10**9, 2) if ALL else (12, 12, 1)
+)  # one statement in so many; fields of it; changes of each line
 LONG = 30
 KEY = "the key itself"
 STORE = Store(DEFAULT)
@@ -63,19 +68,24 @@ def fields(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     elif isinstance(value, list):
         for place, item in enumerate(value):
             inner = list(fields(item, (*path, place)))
-            yield from inner if len(value) <= LONG else inner[place % len(inner):][:1]
+            yield from inner if len(value) <= LONG else inner[place % len(inner) :][:1]
     else:
         yield path
 
 
 def changed(value: Any, path: tuple[Any, ...], which: int) -> Any:
-    """The JSON value with the field at the path changed; what is not on the path is shared with the original."""
+    """The JSON value with the field at the path changed; what is not on the path is shared with the
+    original."""
     first, *rest = path
     if rest == [KEY]:
         left = {key: item for key, item in value.items() if key != first}
         return left if which % 2 else {**left, first + "x": value[first]}
     new = changed(value[first], tuple(rest), which) if rest else leaf(value[first], which)
-    return {**value, first: new} if isinstance(value, dict) else [*value[:first], new, *value[first + 1:]]
+    return (
+        {**value, first: new}
+        if isinstance(value, dict)
+        else [*value[:first], new, *value[first + 1 :]]
+    )
 
 
 def leaf(value: Any, which: int) -> Any:
@@ -83,7 +93,10 @@ def leaf(value: Any, which: int) -> Any:
     if isinstance(value, int):
         return value + 1 if which % 2 else value - 1
     digits = [place for place, letter in enumerate(value) if letter.isdigit()]
-    ways = [value[:place] + str((int(value[place]) + 1) % 10) + value[place + 1:] for place in digits[:3]]
+    ways = [
+        value[:place] + str((int(value[place]) + 1) % 10) + value[place + 1 :]
+        for place in digits[:3]
+    ]
     ways += [value.replace("-", "+", 1)] if "-" in value else [f"-{value}"]
     return [*ways, value + "1"][which % (len(ways) + 1)]
 
@@ -93,7 +106,8 @@ closed: dict[tuple[int, bytes], Any] = {}
 
 
 def close_once(state: checker.State, node: Any, known: dict[str, checker.Statement]) -> None:
-    """The checker's `close`, which depends on nothing but what it is given: a node closes an equal state without being followed again."""
+    """The checker's `close`, which depends on nothing but what it is given: a node closes an equal
+    state without being followed again."""
     if not isinstance(node, list) or len(node) < 2:
         return plain_close(state, node, known)
     key = (id(node), hashlib.sha256(pickle.dumps(state)).digest())
@@ -106,12 +120,18 @@ def close_once(state: checker.State, node: Any, known: dict[str, checker.Stateme
 @cache
 def certified_before(name: str) -> dict[str, checker.Statement]:
     """What the checker knows when it comes to a stored statement."""
-    before = list(STATEMENTS)[:list(STATEMENTS).index(name)]
-    return {one: STATEMENTS[one] for one in before if "certified" in STORE.certificate(one, STORE.texts[one])}
+    before = list(STATEMENTS)[: list(STATEMENTS).index(name)]
+    return {
+        one: STATEMENTS[one]
+        for one in before
+        if "certified" in STORE.certificate(one, STORE.texts[one])
+    }
 
 
 def outcome(statement: checker.Statement, certificate: Any) -> str:
-    return str(checker.check_one(statement, certificate, certified_before(statement.name), STATEMENTS)[0])
+    return str(
+        checker.check_one(statement, certificate, certified_before(statement.name), STATEMENTS)[0]
+    )
 
 
 def claimed(certificate: Any) -> str:
@@ -121,7 +141,18 @@ def claimed(certificate: Any) -> str:
     if isinstance(certificate["certified"], dict):  # premises, which the statement alone decides
         return json.dumps(sorted(certificate["certified"]))
     way, *_, last = certificate["certified"] or [""]
-    return json.dumps([last if way == "witness" else certificate["certified"][1:2] if "point" not in certificate else "", certificate.get("point")])
+    return json.dumps(
+        [
+            (
+                last
+                if way == "witness"
+                else certificate["certified"][1:2]
+                if "point" not in certificate
+                else ""
+            ),
+            certificate.get("point"),
+        ]
+    )
 
 
 def tampered_certificate(name: str) -> Tally:
@@ -142,7 +173,9 @@ def tampered_certificate(name: str) -> Tally:
                 wrong.append(f"{name}: {before} became {after} with {path} changed")
             elif after != "rejected" and claimed(bad) not in told:
                 told.add(claimed(bad))
-                if (point := contradiction(text, after, bad, STORE.texts, certified_before(name))) is not None:
+                if (
+                    point := contradiction(text, after, bad, STORE.texts, certified_before(name))
+                ) is not None:
                     wrong.append(f"{name}: accepted with {path} changed, and false at {point}")
     finally:
         checker.close = plain_close
@@ -153,19 +186,26 @@ def tampered_certificate(name: str) -> Tally:
 
 
 def tampered_statements(text: str) -> Iterator[str]:
-    """The statement with one mark of one line changed, a name exchanged for another, or the line left out."""
+    """The statement with one mark of one line changed, a name exchanged for another, or the line
+    left out."""
     rows = text.splitlines()
     names = [name for row in rows if row.startswith("forall ") for name in row.split()[1:]]
     for place, row in enumerate(rows[1:], 1):
         keyword, _, said = row.partition(" ")
         marks = [f"{said[:start]}{new}{said[end:]}" for start, end, new in changes(said)]
         words = said.split(" ")
-        marks += [" ".join([*words[:k], names[digest(row) % len(names)], *words[k + 1:]]) for k, word in enumerate(words) if word in names]
-        marks = sorted({mark for mark in marks if mark != said}, key=lambda mark: digest(text, mark))
+        marks += [
+            " ".join([*words[:k], names[digest(row) % len(names)], *words[k + 1 :]])
+            for k, word in enumerate(words)
+            if word in names
+        ]
+        marks = sorted(
+            {mark for mark in marks if mark != said}, key=lambda mark: digest(text, mark)
+        )
         for mark in marks[:LINES]:
-            yield "\n".join([*rows[:place], f"{keyword} {mark}", *rows[place + 1:]])
+            yield "\n".join([*rows[:place], f"{keyword} {mark}", *rows[place + 1 :]])
         if ALL or digest(row) % 3 == 0:
-            yield "\n".join([*rows[:place], *rows[place + 1:]])
+            yield "\n".join([*rows[:place], *rows[place + 1 :]])
 
 
 def tampered_statement(name: str) -> Tally:
@@ -178,7 +218,11 @@ def tampered_statement(name: str) -> Tally:
         except checker.Rejected:
             after = "rejected"
         rejected += after == "rejected"
-        if after != "rejected" and (point := contradiction(other, after, good, STORE.texts, certified_before(name))) is not None:
+        if (
+            after != "rejected"
+            and (point := contradiction(other, after, good, STORE.texts, certified_before(name)))
+            is not None
+        ):
             wrong.append(f"{after}, but false at {point}:\n{other}")
     return tried, rejected, wrong
 
@@ -187,7 +231,11 @@ def over_all(work: Any) -> Tally:
     """The sum of what the work on each statement of the sample tells."""
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
         tallies = list(pool.map(work, sample()))
-    return sum(one[0] for one in tallies), sum(one[1] for one in tallies), [wrong for one in tallies for wrong in one[2]]
+    return (
+        sum(one[0] for one in tallies),
+        sum(one[1] for one in tallies),
+        [wrong for one in tallies for wrong in one[2]],
+    )
 
 
 def test_tampered_certificate_never_changes_the_outcome_holds() -> None:

@@ -1,4 +1,5 @@
-"""The theorem as it is stored: take any certificate from it, or weaken any line of it, and the checker names the place and the theorem is lost."""
+"""The theorem as it is stored: take any certificate from it, or weaken any line of it, and the
+checker names the place and the theorem is lost."""
 
 from __future__ import annotations
 
@@ -14,7 +15,12 @@ CLAIMS = ("theorem-roots", "theorem")
 STORE = Store(DEFAULT)
 TEXTS = {name: text for name, text in STORE.texts.items() if name.split("/")[0] in CLAIMS}
 CERTIFICATES = {name: STORE.certificate(name, text) for name, text in TEXTS.items()}
-NODES = [(name, premise) for name, one in CERTIFICATES.items() if isinstance(one["certified"], dict) for premise in one["certified"]]
+NODES = [
+    (name, premise)
+    for name, one in CERTIFICATES.items()
+    if isinstance(one["certified"], dict)
+    for premise in one["certified"]
+]
 
 # Lines of the theorem, each with what says more than is true, or proves less than is asked.
 WEAKENED = [
@@ -63,11 +69,16 @@ def test_theorem_holds() -> None:
     assert len(NODES) >= 30
 
 
-@pytest.mark.parametrize(("name", "premise"), NODES, ids=[f"{name} {premise}" for name, premise in NODES])
+@pytest.mark.parametrize(
+    ("name", "premise"), NODES, ids=[f"{name} {premise}" for name, premise in NODES]
+)
 def test_theorem_fails_without_a_premise(name: str, premise: str) -> None:
     fewer = {key: proof for key, proof in CERTIFICATES[name]["certified"].items() if key != premise}
     found = results(TEXTS, {**CERTIFICATES, name: {"certified": fewer}})
-    assert found[name] == ("rejected", f"the premises of a rule are missing or left over: ['{premise}']")
+    assert found[name] == (
+        "rejected",
+        f"the premises of a rule are missing or left over: ['{premise}']",
+    )
     assert found["theorem/exactly"][0] == "rejected"
 
 
@@ -75,11 +86,17 @@ def test_theorem_fails_without_a_premise(name: str, premise: str) -> None:
 def test_theorem_fails_without_a_certificate(name: str) -> None:
     found = results(TEXTS, {key: one for key, one in CERTIFICATES.items() if key != name})
     assert found[name][0] == found["theorem/exactly"][0] == "rejected"
-    resting = [other for other, (outcome, reason) in found.items() if other != name and outcome == "rejected" and name in reason]
+    resting = [
+        other
+        for other, (outcome, reason) in found.items()
+        if other != name and outcome == "rejected" and name in reason
+    ]
     assert resting or name == "theorem/exactly"
 
 
-@pytest.mark.parametrize(("name", "old", "new"), WEAKENED, ids=[f"{name}: {new.strip()}" for name, _, new in WEAKENED])
+@pytest.mark.parametrize(
+    ("name", "old", "new"), WEAKENED, ids=[f"{name}: {new.strip()}" for name, _, new in WEAKENED]
+)
 def test_theorem_fails_with_a_weakened_line(name: str, old: str, new: str) -> None:
     if old not in TEXTS[name]:
         raise ValueError(f"{old!r} does not stand in {name}")

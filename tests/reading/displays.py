@@ -1,4 +1,5 @@
-"""The table of displays in displays.txt: as printed, and as transcribed beside the restored print."""
+"""The table of displays in displays.txt: as printed, and as transcribed beside the restored
+print."""
 
 from __future__ import annotations
 

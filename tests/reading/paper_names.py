@@ -110,7 +110,9 @@ NAMES: dict[str, Any] = {
     r"\beta_1": B1,
     r"\mathcal{B}_2": B2,
     r"\beta_2": B2,
-    r"\partial\mathcal{B}_2": Region(lambda state: PHYSICAL(state) & equal(collision_time(state), PERIOD)),
+    r"\partial\mathcal{B}_2": Region(
+        lambda state: PHYSICAL(state) & equal(collision_time(state), PERIOD)
+    ),
     r"\sqrt{2(1+\alpha)}": S,
     r"p": Vector((2 * PERIOD / (1 + ALPHA) * R, -(1 - ALPHA) / (1 + ALPHA) * R)),
 }
@@ -129,7 +131,10 @@ def value_at(expression: Any, point: dict[str, Fraction]) -> Any:
         return tuple(tuple(value_at(entry, point) for entry in row) for row in expression.rows)
     if isinstance(expression, (int, Fraction)):
         return Fraction(expression)
-    parts = [value_at(part, point) if isinstance(part, (Term, Formula)) else part for part in expression.args]
+    parts = [
+        value_at(part, point) if isinstance(part, (Term, Formula)) else part
+        for part in expression.args
+    ]
     if isinstance(expression, Term):
         if expression.op == "var":
             return point[expression.args[0]]
@@ -160,7 +165,9 @@ def value_at(expression: Any, point: dict[str, Fraction]) -> Any:
     }[expression.op](*parts)
 
 
-UB, UV, RHO, RHODOT, AFTER, CHI1, CHI2, TP, ROUNDED = reals("ub uv rho rho_dot after chi chi_dot tp n")
+UB, UV, RHO, RHODOT, AFTER, CHI1, CHI2, TP, ROUNDED = reals(
+    "ub uv rho rho_dot after chi chi_dot tp n"
+)
 ZK, ZV, BK, BV = reals("zk zv bk bv")
 
 
@@ -200,7 +207,9 @@ WIDE = PAPER.extended(
         r"\Delta E_{sup}": EPS,
         r"\mathcal{B}_1^0": Region(lambda state: B1(state) & equal(impact_gain(state), 0)),
         r"\beta_1^0": Region(lambda state: B1(state) & equal(impact_gain(state), 0)),
-        r"\overline C_{\cdot}": lambda table: StateFunction(lambda state: (state - table) * -ALPHA + table),
+        r"\overline C_{\cdot}": lambda table: StateFunction(
+            lambda state: (state - table) * -ALPHA + table
+        ),
         r"R_{\cdot}": lambda factor: Matrix(((1, 0), (0, -factor))),
         r"\frac{\partial \Delta_1 E}{\partial \dot{\overline\beta}}": -ALPHA * G * PERIOD,
         r"D_{\cdot}\cdot": lambda by, function: StateFunction(lambda state: by * function(state)),
@@ -221,7 +230,11 @@ KINETIC = PAPER.extended(
         r"k": K,
         r"B_1": B1,
         r"R": PAPER.meaning_of(r"\mathcal{R}"),
-        r"\mathcal{K}": Region(lambda state: B1(state) & (term((state - FIXED_POINT).component(2)) <= EPS)),
-        r"\partial \mathcal{K}": Region(lambda state: equal((state - FIXED_POINT).component(2), EPS)),
+        r"\mathcal{K}": Region(
+            lambda state: B1(state) & (term((state - FIXED_POINT).component(2)) <= EPS)
+        ),
+        r"\partial \mathcal{K}": Region(
+            lambda state: equal((state - FIXED_POINT).component(2), EPS)
+        ),
     }
 )

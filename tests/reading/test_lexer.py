@@ -1,4 +1,5 @@
-"""Tokens: what is dropped, what is another spelling, where a line end joins and where it separates, what is refused."""
+"""Tokens: what is dropped, what is another spelling, where a line end joins and where it separates,
+what is refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Meanings: products told from applications, families, sets, cases, and exact values at a rational point."""
+"""Meanings: products told from applications, families, sets, cases, and exact values at a rational
+point."""
 
 from __future__ import annotations
 
@@ -10,7 +11,14 @@ import pytest
 from certificates.terms import ClaimError, Term, equal, implies, reals
 from proofs.reading.environment import Environment
 from proofs.reading.errors import PrintError
-from proofs.reading.notions import ExtremalValue, LimitValue, Region, Restricted, Rounded, StateFunction
+from proofs.reading.notions import (
+    ExtremalValue,
+    LimitValue,
+    Region,
+    Restricted,
+    Rounded,
+    StateFunction,
+)
 from proofs.reading.printed import Printed, read
 from proofs.reading.values import Matrix, Vector
 from tests.reading.displays import ALL
@@ -55,8 +63,17 @@ def exact(latex: str, environment: Environment = PAPER) -> Any:
         (r"A_T^{-1} \overline b", (5, -2)),
         (r"(I + \alpha A_T)^{-1}", ((Q(4, 5), Q(-4, 25)), (0, Q(4, 5)))),
         (r"\overline f_1(\overline b)", (1, Q(-13, 4))),
-        (r"\overline f_1 \circ \overline f_2(\overline b)", (Q(1, 4) * 16 + Q(5, 4), Q(3) - Q(15, 4))),
-        (r"[\frac12\gamma, \dot\rho_0] \begin{bmatrix} \overline\beta \\ \dot{\overline\beta} \end{bmatrix}", 5),
+        (
+            r"\overline f_1 \circ \overline f_2(\overline b)",
+            (Q(1, 4) * 16 + Q(5, 4), Q(3) - Q(15, 4)),
+        ),
+        (
+            (
+                r"[\frac12\gamma, \dot\rho_0] \begin{bmatrix} \overline\beta \\"
+                r" \dot{\overline\beta} \end{bmatrix}"
+            ),
+            5,
+        ),
         (r"\gamma T \begin{bmatrix} T/2 \\ 1 \end{bmatrix}", (5, 10)),
         (r"r_0/2 + \overline b", (3, Q(1, 2))),
         (r"C_{r_0}(\overline b)", (3, 5 + Q(1, 4) * 5 + Q(1, 4) * 2)),
@@ -93,13 +110,18 @@ def test_a_print_has_this_value_at_an_exact_point(latex: str, value: Any) -> Non
         (r"E \circ \overline f_1 |_{\mathcal{B}_2} = 0", True),
         (r"E \circ \overline f_1 |_{\mathcal{B}_1} = 0", False),
         (r"\mathcal{B}_1 := \{ \overline b \in \mathcal{H} | \tau_c < T \}", True),
-        (r"\mathcal{B}_1 := \{ \overline b \in \mathcal{H} | \tau_c < T, \overline\beta < 0 \}", False),
+        (
+            r"\mathcal{B}_1 := \{ \overline b \in \mathcal{H} | \tau_c < T, \overline\beta < 0 \}",
+            False,
+        ),
         (r"\overline b(t) = \overline b", None),
     ],
 )
 def test_a_print_is_true_or_false_at_an_exact_point(latex: str, true: bool | None) -> None:
     if true is None:
-        with pytest.raises(PrintError, match=r"column 12: \\overline{b} is a vector, not a function"):
+        with pytest.raises(
+            PrintError, match=r"column 12: \\overline{b} is a vector, not a function"
+        ):
             Printed(latex).formula(PAPER)
     else:
         assert value_at(Printed(latex).formula(PAPER), POINT) is true
@@ -121,11 +143,18 @@ def test_a_chain_gives_every_relation_with_both_values() -> None:
     assert str(print_.formula(PAPER)) == "0 <= beta/(r - v) and beta/(r - v) < 2*r/g"
 
 
-# juxtaposition -------------------------------------------------------------------------------------------------------
+# juxtaposition
+# --------------------------------------------------------------------------------------------------
 
 A, X, Y = reals("a x y")
 TWICE = Environment(
-    {"f": lambda value: value * 2, "a": A, "x": X, "y": Y, "h": StateFunction(lambda s: s.component(1))}
+    {
+        "f": lambda value: value * 2,
+        "a": A,
+        "x": X,
+        "y": Y,
+        "h": StateFunction(lambda s: s.component(1)),
+    }
 )
 
 
@@ -145,7 +174,9 @@ TWICE = Environment(
         ("(a)(x)", "a*x"),
     ],
 )
-def test_a_function_before_a_bracket_is_applied_and_all_else_is_a_product(latex: str, text: str) -> None:
+def test_a_function_before_a_bracket_is_applied_and_all_else_is_a_product(
+    latex: str, text: str
+) -> None:
     assert str(read(latex).value(TWICE)) == text
 
 
@@ -182,7 +213,8 @@ def test_what_has_no_meaning_is_refused_by_token_and_column(latex: str, message:
     assert str(refusal.value) == message
 
 
-# environments --------------------------------------------------------------------------------------------------------
+# environments
+# --------------------------------------------------------------------------------------------------
 
 
 def test_a_whole_expression_may_be_a_key_and_comes_before_its_pieces() -> None:
@@ -193,17 +225,25 @@ def test_a_whole_expression_may_be_a_key_and_comes_before_its_pieces() -> None:
 
 
 def test_a_family_takes_its_sub_and_superscript() -> None:
-    names = Environment({r"A_{\cdot}^{\cdot}": lambda s, k: s * 10 + k, "k": 7, r"\sqrt{\cdot}": lambda q: q * q})
+    names = Environment(
+        {r"A_{\cdot}^{\cdot}": lambda s, k: s * 10 + k, "k": 7, r"\sqrt{\cdot}": lambda q: q * q}
+    )
     assert value_at(read("A_3^k").value(names), {}) == 37
     assert value_at(read(r"A_{k-2}^{k+1} + \sqrt{k}").value(names), {}) == 58 + 49
 
 
 def test_a_definition_gives_its_value_to_this_expression_only() -> None:
-    print_ = Printed(r"\tau_c(\overline b) := \frac{\overline\beta}{\dot\rho_0 - \dot{\overline\beta}}")
+    print_ = Printed(
+        r"\tau_c(\overline b) := \frac{\overline\beta}{\dot\rho_0 - \dot{\overline\beta}}"
+    )
     assert value_at(print_.definition(PAPER, of=r"\tau_c(\overline{b})"), POINT) == Q(3, 7)
-    with pytest.raises(PrintError, match=r"column 1: this juxtaposition stands here, where \\tau_c was expected"):
+    with pytest.raises(
+        PrintError, match=r"column 1: this juxtaposition stands here, where \\tau_c was expected"
+    ):
         print_.definition(PAPER, of=r"\tau_c")
-    with pytest.raises(PrintError, match="column 1: a definition is one expression, one :=, one value"):
+    with pytest.raises(
+        PrintError, match="column 1: a definition is one expression, one :=, one value"
+    ):
         Printed(r"T < \alpha").definition(PAPER, of="T")
 
 
@@ -221,16 +261,19 @@ def test_a_state_must_be_among_the_names() -> None:
         Environment({"x": 1}, state="b")
 
 
-# sets, cases, notions ------------------------------------------------------------------------------------------------
+# sets, cases, notions
+# ------------------------------------------------------------------------------------------------
 
 
 def test_a_set_is_a_predicate_of_any_state() -> None:
-    region = Printed(r"\mathcal{A} := \{ \overline b \mid \overline\beta \ge 0 \}").set_predicate(PAPER)
+    region = Printed(r"\mathcal{A} := \{ \overline b \mid \overline\beta \ge 0 \}").set_predicate(
+        PAPER
+    )
     assert isinstance(region, Region)
     assert str(region(Vector((X, Y)))) == "x >= 0"
-    within = Printed(r"\beta_2 := \{ \overline b \in \mathcal{A} \mid T \le \tau_c(\overline b) \}").set_predicate(
-        PAPER, of=r"\beta_2"
-    )
+    within = Printed(
+        r"\beta_2 := \{ \overline b \in \mathcal{A} \mid T \le \tau_c(\overline b) \}"
+    ).set_predicate(PAPER, of=r"\beta_2")
     assert str(within(Vector((X, Y)))) == "x >= 0 and 2*r/g <= x/(r - y)"
 
 
@@ -246,10 +289,19 @@ def test_a_set_is_a_predicate_of_any_state() -> None:
             "column 15: r_{0} is not a point whose components the",
         ),
         (r"\beta_2 := \{ \overline b \in T \mid \tau_c < T \}", "column 31: T is not a region"),
-        (r"\beta_2 := \{ \overline b \in \mathcal{A} \mid \tau_c \}", "column 48: this states nothing"),
-        (r"\beta_2 := \{ \overline b \in \mathcal{A} \mid \tau_p < T \}", r"column 48: \tau_{p} has no meaning here"),
+        (
+            r"\beta_2 := \{ \overline b \in \mathcal{A} \mid \tau_c \}",
+            "column 48: this states nothing",
+        ),
+        (
+            r"\beta_2 := \{ \overline b \in \mathcal{A} \mid \tau_p < T \}",
+            r"column 48: \tau_{p} has no meaning here",
+        ),
         (r"\beta_2 := T", "column 12: this is not a region"),
-        (r"\beta_2 := \mathcal{A} = \mathcal{A}", "column 1: a definition of a region is one name, one :=, one set"),
+        (
+            r"\beta_2 := \mathcal{A} = \mathcal{A}",
+            "column 1: a definition of a region is one name, one :=, one set",
+        ),
     ],
 )
 def test_every_token_of_a_set_matters(latex: str, message: str) -> None:
@@ -282,7 +334,9 @@ def test_a_maximum_and_a_limit_keep_what_they_say() -> None:
     assert str(limit.value) == "1/2*zv^2"
     own = TWICE.extended({r"\max_{\cdot}\cdot": lambda extremum: extremum.value})
     assert str(Printed(r"y = \max_{x \le y} a x").formula(own)) == "y = a*x"
-    with pytest.raises(PrintError, match="column 1: = between a scalar and ExtremalValue states no formula"):
+    with pytest.raises(
+        PrintError, match="column 1: = between a scalar and ExtremalValue states no formula"
+    ):
         Printed(r"y = \max_{x \le y} a x").formula(TWICE)
 
 
@@ -337,9 +391,13 @@ def test_nearly_every_display_evaluates_with_the_names_of_its_context() -> None:
 
 
 def test_a_matrix_of_prints_is_exact() -> None:
-    assert Printed(r"\begin{bmatrix} 1 & x \\ 0 & \frac12 \end{bmatrix}").value(TWICE) == Matrix(((1, X), (0, Q(1, 2))))
+    assert Printed(r"\begin{bmatrix} 1 & x \\ 0 & \frac12 \end{bmatrix}").value(TWICE) == Matrix(
+        ((1, X), (0, Q(1, 2)))
+    )
 
 
 def test_points_name_components_of_the_state() -> None:
-    only = Environment({r"\overline\beta": X, r"\dot{\overline\beta}": Y}, points=POINTS, state=r"\overline b")
+    only = Environment(
+        {r"\overline\beta": X, r"\dot{\overline\beta}": Y}, points=POINTS, state=r"\overline b"
+    )
     assert only.state == Vector((X, Y)) and only.meaning_of(r"\overline b") == Vector((X, Y))

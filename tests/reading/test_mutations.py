@@ -1,4 +1,5 @@
-"""Changed prints: every changed token is refused or changes the statement, and one changed mark mends a lost one."""
+"""Changed prints: every changed token is refused or changes the statement, and one changed mark
+mends a lost one."""
 
 from __future__ import annotations
 
@@ -21,7 +22,10 @@ DROPPED = "_ is dropped with what it carries"
 SAME_CHANGE = r"\Delta E and \Delta_1 E have one meaning in these environments"
 # Changes that leave the statement as it is, and why.
 REVIEWED = {
-    ("2", r"column 6: \chi becomes \beta"): r"\dot\chi' and \dot\beta' have one meaning in these environments",
+    (
+        "2",
+        r"column 6: \chi becomes \beta",
+    ): r"\dot\chi' and \dot\beta' have one meaning in these environments",
     ("3.3", "column 10: I is doubled"): "the unit matrix squared is the unit matrix",
     ("3.4.2", f"column 105: {DROPPED}"): SAME_CHANGE,
     ("16", f"column 7: {DROPPED}"): SAME_CHANGE,
@@ -30,9 +34,18 @@ REVIEWED = {
     ("38", f"column 128: {DROPPED}"): SAME_CHANGE,
     ("40", f"column 40: {DROPPED}"): SAME_CHANGE,
     ("4.3.1", f"column 136: {DROPPED}"): "z and z_k have one meaning in these environments",
-    ("4.3.2", r"column 42: \mathcal is deleted"): r"B_1 and \mathcal{B}_1 have one meaning in these environments",
-    ("33", "column 20: ( and its partner are dropped"): "a bracket around one fraction groups nothing",
-    ("3.2", "column 30: [ and its partner are dropped"): "an array is a vector with or without a bracket around it",
+    (
+        "4.3.2",
+        r"column 42: \mathcal is deleted",
+    ): r"B_1 and \mathcal{B}_1 have one meaning in these environments",
+    (
+        "33",
+        "column 20: ( and its partner are dropped",
+    ): "a bracket around one fraction groups nothing",
+    (
+        "3.2",
+        "column 30: [ and its partner are dropped",
+    ): "an array is a vector with or without a bracket around it",
     ("B.3", "column 60: : is deleted"): "the & of the array separates value and condition as well",
     ("B.3", "column 113: : is deleted"): "the & of the array separates value and condition as well",
 }
@@ -63,7 +76,9 @@ def unnoticed(latex: str) -> list[str]:
 
 
 def test_every_changed_token_is_refused_or_changes_the_statement_or_is_reviewed() -> None:
-    assert {(where, change) for where, latex in ALL for change in unnoticed(latex)} == REVIEWED.keys()
+    assert {
+        (where, change) for where, latex in ALL for change in unnoticed(latex)
+    } == REVIEWED.keys()
 
 
 def test_every_token_that_means_something_is_changed() -> None:
@@ -71,7 +86,9 @@ def test_every_token_that_means_something_is_changed() -> None:
     changed = dict(mutations(latex))
     columns = {int(change.split()[1].rstrip(":")) for change in changed}
     assert columns == {1, 3, 7, 11, 12, 13, 14, 24, 25, 27, 29}
-    assert all(text != latex for text in changed.values()) and len(set(changed.values())) == len(changed)
+    assert all(text != latex for text in changed.values()) and len(set(changed.values())) == len(
+        changed
+    )
 
 
 @pytest.mark.parametrize(
@@ -125,8 +142,20 @@ def test_the_alternatives_are_tokens_that_are_read() -> None:
 )  # fmt: skip
 def test_a_lost_mark_is_found_by_one_change(lost: str, mended: str, kind: str) -> None:
     points = [
-        {"alpha": Fraction(1, 4), "beta": Fraction(3), "v": Fraction(-2), "r": Fraction(5), "g": Fraction(10)},
-        {"alpha": Fraction(2, 7), "beta": Fraction(1, 3), "v": Fraction(1), "r": Fraction(4), "g": Fraction(9)},
+        {
+            "alpha": Fraction(1, 4),
+            "beta": Fraction(3),
+            "v": Fraction(-2),
+            "r": Fraction(5),
+            "g": Fraction(10),
+        },
+        {
+            "alpha": Fraction(2, 7),
+            "beta": Fraction(1, 3),
+            "v": Fraction(1),
+            "r": Fraction(4),
+            "g": Fraction(9),
+        },
     ]
 
     def true_everywhere(latex: str) -> bool:
@@ -137,7 +166,9 @@ def test_a_lost_mark_is_found_by_one_change(lost: str, mended: str, kind: str) -
             return False
 
     assert not true_everywhere(lost)
-    change, first = next((change, changed) for change, changed in one_mark_changes(lost) if true_everywhere(changed))
+    change, first = next(
+        (change, changed) for change, changed in one_mark_changes(lost) if true_everywhere(changed)
+    )
     assert change.startswith(kind + ": ")
     assert Printed(first).formula(PAPER) == Printed(mended).formula(PAPER)
 
@@ -153,7 +184,8 @@ def test_simpler_marks_come_first_and_all_can_be_read() -> None:
 
 
 def test_all_displays_are_lexed_parsed_and_evaluated_quickly() -> None:
-    """Counted in calls of Python's functions, which no other load of the machine changes: 10^5 take a tenth of a second."""
+    """Counted in calls of Python's functions, which no other load of the machine changes: 10^5 take
+    a tenth of a second."""
     for cached in (lexer.lex, parser.parse, environment._key):
         cached.cache_clear()
     calls = Counter[str]()

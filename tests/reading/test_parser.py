@@ -1,4 +1,5 @@
-"""Trees: every display of the paper is read, marks tell names apart, and what is not a formula is refused."""
+"""Trees: every display of the paper is read, marks tell names apart, and what is not a formula is
+refused."""
 
 from __future__ import annotations
 
@@ -44,7 +45,9 @@ def test_every_display_of_the_paper_is_read(where: str, latex: str) -> None:
 
 
 @pytest.mark.parametrize(("where", "garbled", "restored"), RESTORED)
-def test_a_garbled_display_is_refused_or_says_something_else(where: str, garbled: str, restored: str) -> None:
+def test_a_garbled_display_is_refused_or_says_something_else(
+    where: str, garbled: str, restored: str
+) -> None:
     try:
         assert parse(garbled) != parse(restored)
     except PrintError as refusal:
@@ -101,24 +104,39 @@ def test_different_marks_are_different_trees(one: str, other: str) -> None:
         (r"2x/b", Quotient(Juxtaposition((Number(2), X)), B)),
         (r"a^{k+1}", Power(Name("a"), Binary("+", Name("k"), Number(1)))),
         (r"E \circ f(b)", Binary(r"\circ", E, Juxtaposition((F, Group("(", (B,)))))),
-        (r"E \circ f |_{\beta_2}", Binary(r"\circ", E, Restriction(F, Name(r"\beta", (), (Number(2),))))),
+        (
+            r"E \circ f |_{\beta_2}",
+            Binary(r"\circ", E, Restriction(F, Name(r"\beta", (), (Number(2),)))),
+        ),
         (r"[x]_1", Component(X, Number(1))),
         (r"(x, b)", Group("(", (X, B))),
         (r"|x - b|", Absolute(Binary("-", X, B))),
         (r"2|x|", Juxtaposition((Number(2), Absolute(X)))),
         (r"\sqrt{2(b)}", Root(Juxtaposition((Number(2), Group("(", (B,)))))),
         (r"\frac{\partial E}{\partial b}", Derivative(E, B)),
-        (r"\frac{\partial \Delta_1 E}{\partial b}", Derivative(Operator(r"\Delta", (Number(1),), E), B)),
+        (
+            r"\frac{\partial \Delta_1 E}{\partial b}",
+            Derivative(Operator(r"\Delta", (Number(1),), E), B),
+        ),
         (r"D_{x} E", Operator("D", (X,), E)),
-        (r"D_x \Delta E(b)", Juxtaposition((Operator("D", (X,), Operator(r"\Delta", (), E)), Group("(", (B,))))),
+        (
+            r"D_x \Delta E(b)",
+            Juxtaposition((Operator("D", (X,), Operator(r"\Delta", (), E)), Group("(", (B,)))),
+        ),
         (r"\lim_{k\to\infty} f", Limit(Chain(Name("k"), ((r"\rightarrow", Name(r"\infty")),)), F)),
         (r"\max_{x \le b} f", Extremum(r"\max", Chain(X, ((r"\le", B),)), F)),
         (r"B^+", Power(Name("B"), Mark("+"))),
         (r"k^{th}", Power(Name("k"), Name("th"))),
         (r"\forall x \in f, x < b", ForAll(Chain(X, ((r"\in", F),)), Chain(X, (("<", B),)))),
         (r"\{b \mid x < b\}", SetBuilder(B, (Chain(X, (("<", B),)),))),
-        (r"\{b \in f \mid |x| < b\}", SetBuilder(Chain(B, ((r"\in", F),)), (Chain(Absolute(X), (("<", B),)),))),
-        (r"\begin{cases} x & \text{if } b < 1 \end{cases}", Cases(((X, Chain(B, (("<", Number(1)),))),))),
+        (
+            r"\{b \in f \mid |x| < b\}",
+            SetBuilder(Chain(B, ((r"\in", F),)), (Chain(Absolute(X), (("<", B),)),)),
+        ),
+        (
+            r"\begin{cases} x & \text{if } b < 1 \end{cases}",
+            Cases(((X, Chain(B, (("<", Number(1)),))),)),
+        ),
         (r"\left\lfloor x \right\rfloor", Group(r"\lfloor", (X,))),
         (r"a - b - x", Binary("-", Binary("-", Name("a"), B), X)),
         (r"0 \le x < b", Chain(Number(0), ((r"\le", X), ("<", B)))),
@@ -158,7 +176,10 @@ def test_a_display_of_several_lines_has_its_parts(latex: str, parts: int) -> Non
         (r"\dot{x+b}", r"column 1: \dot stands over something that is not a name"),
         (r"\{b, x\}", r"column 4: a set needs a bar and a condition before ,"),
         (r"\Delta = 1", "column 8: an operator needs a name before ="),
-        (r"\begin{bmatrix} 1 & 2 \\ 3 \end{bmatrix}", "column 1: the rows of this bmatrix are not equally long"),
+        (
+            r"\begin{bmatrix} 1 & 2 \\ 3 \end{bmatrix}",
+            "column 1: the rows of this bmatrix are not equally long",
+        ),
         (r"\begin{cases} x \\ b \end{cases}", r"column 17: expected a condition before \\"),
         (r"\sqrt[3]{x}", "column 6: only square roots are read, not ["),
         (r"\frac{1}", "column 9: expected an argument instead of the end of the print"),

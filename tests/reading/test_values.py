@@ -1,4 +1,5 @@
-"""Vectors and matrices of exact scalars: the identities that define their operations, on random rationals."""
+"""Vectors and matrices of exact scalars: the identities that define their operations, on random
+rationals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""A headless Chromium that is driven over its own protocol; tests that need it are skipped, with the reason, where it is absent."""
+"""A headless Chromium that is driven over its own protocol; tests that need it are skipped, with
+the reason, where it is absent."""
 
 from __future__ import annotations
 
@@ -11,8 +12,16 @@ from typing import Any
 import pytest
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
-OPTIONS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars", "--no-first-run",
-           "--disable-background-networking", "--disable-component-update")
+OPTIONS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--hide-scrollbars",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+)
 
 
 @contextmanager
@@ -41,17 +50,27 @@ def chromium(width: int = 1280, height: int = 900) -> Iterator[Any]:
 
 
 def resize(driver: Any, width: int, height: int = 900) -> None:
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+    driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False},
+    )
 
 
 def scheme(driver: Any, name: str) -> None:
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": [{"name": "prefers-color-scheme", "value": name}]})
+    driver.execute_cdp_cmd(
+        "Emulation.setEmulatedMedia",
+        {"media": "", "features": [{"name": "prefers-color-scheme", "value": name}]},
+    )
 
 
 def requests(driver: Any) -> list[str]:
     """The addresses that were asked for since the last time."""
     messages = [json.loads(entry["message"])["message"] for entry in driver.get_log("performance")]
-    return [one["params"]["request"]["url"] for one in messages if one["method"] == "Network.requestWillBeSent"]
+    return [
+        one["params"]["request"]["url"]
+        for one in messages
+        if one["method"] == "Network.requestWillBeSent"
+    ]
 
 
 # The colours of an element's text and of what lies behind it, as [red, green, blue] from 0 to 255.
@@ -77,5 +96,7 @@ def contrast(driver: Any, element: Any) -> float:
 
 def luminance(colour: list[float]) -> float:
     parts = [part / 255 for part in colour]
-    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    red, green, blue = (
+        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts
+    )
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue

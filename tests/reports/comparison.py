@@ -1,8 +1,9 @@
 r"""What LaTeX says against the statement text that it was made from, at random rational points.
 
-Formulas must have the same relations in the same places, with the same signs, and the sides of each relation must have equal values: truth alone
-would hardly ever tell an equation from another, nor a <= b from a < b.  `not` is driven down to the relations first, and chains and
-nested `and`, `or` are taken apart, so that x \ge w may stand for `not x < w`.
+Formulas must have the same relations in the same places, with the same signs, and the sides of each
+relation must have equal values: truth alone would hardly ever tell an equation from another, nor a
+<= b from a < b.  `not` is driven down to the relations first, and chains and nested `and`, `or` are
+taken apart, so that x \ge w may stand for `not x < w`.
 """
 
 from __future__ import annotations
@@ -33,7 +34,12 @@ from tests.reports.statement_text import evaluate_statement_text, read_statement
 OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "=": "!=", "!=": "="}
 INTEGERS = ("K", "J", "n", "m", "k", "j")
 POSITIVE = ("r", "g", "T")
-DEFINED = {"T": "2*r/g", "tau": "beta/(r - v)", "x": "beta/(r*(2*r/g))", "w": "1 - v/r"}  # for names that only the LaTeX has
+DEFINED = {
+    "T": "2*r/g",
+    "tau": "beta/(r - v)",
+    "x": "beta/(r*(2*r/g))",
+    "w": "1 - v/r",
+}  # for names that only the LaTeX has
 ATTEMPTS = 20  # draws for each point that is wanted
 Point = dict[str, Fraction]
 
@@ -43,7 +49,8 @@ class Different(Exception):
 
 
 def differences(pairs: Iterable[tuple[str, str]], seed: int = 0, points: int = 8) -> list[str]:
-    """A line for each pair (statement text, LaTeX) that does not agree, or that could not be compared at all of the points."""
+    """A line for each pair (statement text, LaTeX) that does not agree, or that could not be
+    compared at all of the points."""
     found = []
     for text, latex in pairs:
         try:
@@ -72,7 +79,10 @@ def compare(text: str, latex: str, random: Random, points: int) -> None:
         values = [(both(one, other, point), one) for one, other in [*sides, (said, printed)]]
         for (left, right), _ in values:
             if isinstance(left, NotRead) is not isinstance(right, NotRead):
-                raise Different(f"a value on one side only: {shown(left)} against {shown(right)}, where {at(point)}")
+                raise Different(
+                    f"a value on one side only: {shown(left)} against {shown(right)}, where"
+                    f" {at(point)}"
+                )
             if isinstance(left, NotRead):
                 why = f"{left}"
             elif left != right:
@@ -94,7 +104,8 @@ def both(one: Node, other: Node, point: Point) -> tuple[object, object]:
 
 
 def opaque_root(under: Fraction) -> Fraction:
-    """The root of a square; for anything else a number that equal radicands share and others do not."""
+    """The root of a square; for anything else a number that equal radicands share and others do
+    not."""
     try:
         return exact_root(under)
     except NotRead:
@@ -109,7 +120,11 @@ def matched(said: Node, printed: Node) -> Iterator[tuple[Term, Term]]:
     """The terms that must be equal; Different where the trees have not one shape."""
     if isinstance(said, Formula) and isinstance(printed, Formula):
         yield from alike(plain(said), plain(printed))
-    elif isinstance(said, Listed) and isinstance(printed, Listed) and len(said.entries) == len(printed.entries):
+    elif (
+        isinstance(said, Listed)
+        and isinstance(printed, Listed)
+        and len(said.entries) == len(printed.entries)
+    ):
         for one, other in zip(said.entries, printed.entries):
             yield from matched(one, other)
     elif isinstance(said, Term) and isinstance(printed, Term):
@@ -122,7 +137,11 @@ def alike(said: Formula, printed: Formula) -> Iterator[tuple[Term, Term]]:
     if isinstance(said, Related) and isinstance(printed, Related) and said.sign == printed.sign:
         yield said.left, printed.left
         yield said.right, printed.right
-    elif isinstance(said, Joined) and isinstance(printed, Joined) and (said.how, len(said.parts)) == (printed.how, len(printed.parts)):
+    elif (
+        isinstance(said, Joined)
+        and isinstance(printed, Joined)
+        and (said.how, len(said.parts)) == (printed.how, len(printed.parts))
+    ):
         for one, other in zip(said.parts, printed.parts):
             yield from alike(one, other)
     elif isinstance(said, Implied) and isinstance(printed, Implied) and said.how == printed.how:
@@ -135,7 +154,8 @@ def alike(said: Formula, printed: Formula) -> Iterator[tuple[Term, Term]]:
 
 
 def plain(formula: Formula, denied: bool = False) -> Formula:
-    """The formula with `not` at no relation, `and` and `or`, and no `and` in an `and`; not iff(a, b) stays as it is."""
+    """The formula with `not` at no relation, `and` and `or`, and no `and` in an `and`; not iff(a,
+    b) stays as it is."""
     if isinstance(formula, Not):
         return plain(formula.of, not denied)
     if isinstance(formula, Related):
@@ -152,7 +172,11 @@ def plain(formula: Formula, denied: bool = False) -> Formula:
 
 
 def joined(how: str, parts: list[Formula]) -> Formula:
-    flat = [inner for part in parts for inner in (part.parts if isinstance(part, Joined) and part.how == how else (part,))]
+    flat = [
+        inner
+        for part in parts
+        for inner in (part.parts if isinstance(part, Joined) and part.how == how else (part,))
+    ]
     return Joined(how, tuple(flat))
 
 
@@ -176,7 +200,9 @@ def unknowns(said: Node, printed: Node) -> tuple[list[str], list[str]]:
     wanted: set[str] = set()
     for name in names_in(printed):
         if not names.intersection(name.stands_for):
-            known = [one for one in name.stands_for if one in DEFINED or root and one in ("alpha", "s")]
+            known = [
+                one for one in name.stands_for if one in DEFINED or root and one in ("alpha", "s")
+            ]
             if not known:
                 raise Different(f"{name.printed} is printed, and is not in the text")
             wanted.add(known[0])
@@ -186,7 +212,8 @@ def unknowns(said: Node, printed: Node) -> tuple[list[str], list[str]]:
 
 
 def drawn(names: list[str], wanted: list[str], random: Random) -> Point:
-    """Small rationals, no two the same and none special; alpha has a rational s, with s^2 = 2 (1 + alpha)."""
+    """Small rationals, no two the same and none special; alpha has a rational s, with s^2 = 2 (1 +
+    alpha)."""
     point: Point = {}
     if "alpha" in names or "s" in names:
         below = random.randint(20, 60)
@@ -194,7 +221,11 @@ def drawn(names: list[str], wanted: list[str], random: Random) -> Point:
         point |= {"alpha": 2 * half**2 - 1, "s": 2 * half}
     for name in names:
         while name not in point:
-            found = Fraction(random.randint(2, 9)) if name in INTEGERS else Fraction(random.randint(3, 60), random.randint(2, 13))
+            found = (
+                Fraction(random.randint(2, 9))
+                if name in INTEGERS
+                else Fraction(random.randint(3, 60), random.randint(2, 13))
+            )
             sign = 1 if name in INTEGERS or name in POSITIVE else random.choice((1, 1, -1))
             if found != 1 and found not in map(abs, point.values()):
                 point[name] = sign * found

@@ -5,7 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 STATEMENTS = Path(__file__).resolve().parents[2] / "certificates" / "store" / "statements.txt"
-SAYING = "range given have with show domain holds space rank stage on rate radius size point weights start".split()
+SAYING = (
+    "range given have with show domain holds space rank stage on rate radius size point weights"
+    " start".split()
+)
 
 
 def texts() -> list[str]:

@@ -1,4 +1,5 @@
-"""A strict reader of HTML: every element is closed where it was opened, every attribute stands once."""
+"""A strict reader of HTML: every element is closed where it was opened, every attribute stands
+once."""
 
 from __future__ import annotations
 
@@ -56,7 +57,10 @@ class _Reader(HTMLParser):
 
     def handle_endtag(self, tag: str) -> None:
         if self.open[-1].tag != tag:
-            raise NotNested(f"line {self.getpos()[0]}: </{tag}> while {self.open[-1].tag} of line {self.open[-1].line} is open")
+            raise NotNested(
+                f"line {self.getpos()[0]}: </{tag}> while {self.open[-1].tag} of line"
+                f" {self.open[-1].line} is open"
+            )
         self.open.pop()
 
     def handle_data(self, data: str) -> None:

@@ -1,4 +1,5 @@
-"""A place in the tokens of a text, and the names that start there: base, accents, subscripts and primes."""
+"""A place in the tokens of a text, and the names that start there: base, accents, subscripts and
+primes."""
 
 from __future__ import annotations
 
@@ -37,7 +38,9 @@ class Cursor:
 
     def term(self, node: Node, at: int) -> Term:
         if not isinstance(node, Term):
-            raise self.fail("a formula or list stands where a term is expected: no function is applied here", at)
+            raise self.fail(
+                "a formula or list stands where a term is expected: no function is applied here", at
+            )
         return node
 
     def formula(self, node: Node, at: int) -> Formula:
@@ -50,7 +53,8 @@ class Glyphs(Cursor):
     """Names."""
 
     def name(self) -> Name | Num:
-        """A name with accents, subscript and primes; a number or a name may stand in braces, and takes its marks outside."""
+        """A name with accents, subscript and primes; a number or a name may stand in braces, and
+        takes its marks outside."""
         at = self.next().at
         if self.next().text == "{" and self.next(1).kind == "digit":
             self.at += 1
@@ -121,7 +125,11 @@ class Glyphs(Cursor):
         parts = []
         while not self.took("}"):
             token = self.next()
-            if token.kind not in ("digit", "letter", "spelled", "calligraphic") and token.text not in LIMITS and token.text != "+":
+            if (
+                token.kind not in ("digit", "letter", "spelled", "calligraphic")
+                and token.text not in LIMITS
+                and token.text != "+"
+            ):
                 raise self.fail("not a subscript of a name")
             self.at += 1
             parts.append(LIMITS.get(token.text, token.text))
@@ -152,7 +160,9 @@ class Glyphs(Cursor):
             raise self.fail("no such change", at)
         if self.next().text in ("_", "'") or self.next().text == "^" and self.next(2).text == "_":
             raise self.fail("a mark on a change")
-        return Name(rf"\Delta{'_' * bool(which)}{which} {of}{'_' * bool(subscript)}{subscript}", names)
+        return Name(
+            rf"\Delta{'_' * bool(which)}{which} {of}{'_' * bool(subscript)}{subscript}", names
+        )
 
     def slope(self) -> Name:
         r"""\frac{\partial \Delta_1 E}{\partial \overline\beta}: one name."""

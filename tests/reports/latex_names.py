@@ -1,11 +1,13 @@
 r"""Which names of the statement language a printed name may stand for.
 
-From the paper's Table II (\gamma gravity, \alpha restitution, T the period, \dot\rho_0 the table's launch speed, \rho its position,
-\overline\beta and \dot{\overline\beta} the ball's position and velocity, sampled; \tau_c the time to collision, \tau_p the time since the table
-was lowest), its equations (E_{max}, \Delta E_{max}, \Delta_1 E, \Delta E_{sup}, \tau_w, z_1) and the README's symbols (r, g, beta, v, T, x, w).
-What the paper uses for something else is refused: r and b are states there, and \beta without a bar is the ball between samples.
-The impact of a corner, of which the paper prints no formula, has its own: e restitution, mu friction, sigma a direction, omega an angular velocity,
-B_1 to B_3, impulses P, velocities S and C.
+From the paper's Table II (\gamma gravity, \alpha restitution, T the period, \dot\rho_0 the table's
+launch speed, \rho its position, \overline\beta and \dot{\overline\beta} the ball's position and
+velocity, sampled; \tau_c the time to collision, \tau_p the time since the table was lowest), its
+equations (E_{max}, \Delta E_{max}, \Delta_1 E, \Delta E_{sup}, \tau_w, z_1) and the README's
+symbols (r, g, beta, v, T, x, w). What the paper uses for something else is refused: r and b are
+states there, and \beta without a bar is the ball between samples. The impact of a corner, of which
+the paper prints no formula, has its own: e restitution, mu friction, sigma a direction, omega an
+angular velocity, B_1 to B_3, impulses P, velocities S and C.
 """
 
 from __future__ import annotations
@@ -14,8 +16,13 @@ import re
 
 from tests.reports.nodes import NotRead
 
-GREEK = "alpha beta gamma delta epsilon varepsilon lambda rho tau chi xi mu nu eta theta kappa sigma omega".split()
-PLAIN = {letter: letter for letter in "cdhjJkKmnpqstTuwWxyz" + "BCPS"}  # the paper gives none to a state or a region; the last are of the corner
+GREEK = (
+    "alpha beta gamma delta epsilon varepsilon lambda rho tau chi xi mu nu eta theta kappa sigma"
+    " omega".split()
+)
+PLAIN = {
+    letter: letter for letter in "cdhjJkKmnpqstTuwWxyz" + "BCPS"
+}  # the paper gives none to a state or a region; the last are of the corner
 BASES = {  # (base, accents) -> name; subscripts and primes are added to it
     **{(letter, ""): name for letter, name in PLAIN.items()},
     (r"\alpha", ""): "alpha",
@@ -49,11 +56,18 @@ CHANGES = {  # what \Delta, its subscript and what follows stand for
     (r"\Delta", "", "E", "sup"): ("dE_sup",),
     (r"\Delta", "", "K", ""): ("change", "dK"),
 }
-OF_ENERGY, OF_MARGIN = ("change", "change_1"), "R"  # what the paper differentiates: \Delta_1 E and R
+OF_ENERGY, OF_MARGIN = (
+    ("change", "change_1"),
+    "R",
+)  # what the paper differentiates: \Delta_1 E and R
 PRIMED = ("_after", "_next")
 NEXT = "k+1"
 FUNCTIONS = ("max", "min", "sup", "inf", "sqrt", "sin", "cos", "exp", "log")
-ON_PAPER = frozenset(BASES.values()) | {"r", "v", "g"}  # names that have a glyph of their own, so that they are never spelled out
+ON_PAPER = frozenset(BASES.values()) | {
+    "r",
+    "v",
+    "g",
+}  # names that have a glyph of their own, so that they are never spelled out
 
 
 def names_for(base: str, accents: tuple[str, ...], subscript: str, primes: int) -> tuple[str, ...]:
@@ -66,7 +80,10 @@ def names_for(base: str, accents: tuple[str, ...], subscript: str, primes: int) 
     else:
         stem = BASES.get((base, kind)) or spelled(base, kind)
         if not stem:
-            raise NotRead(f"{' '.join((*accents, base))} is not a name of statements, or the paper gives it another meaning")
+            raise NotRead(
+                f"{' '.join((*accents, base))} is not a name of statements, or the paper gives it"
+                " another meaning"
+            )
         names = subscripted(stem, subscript)
     if not names:
         raise NotRead(f"{base} alone is a function in the paper")
@@ -82,8 +99,13 @@ def subscripted(stem: str, subscript: str) -> tuple[str, ...]:
 
 
 def spelled(base: str, kind: str) -> str:
-    """A name written out in letters, such as `size` or `ball_after`, and with a dot `folded_dot`."""
-    if kind not in ("", "dot") or base in FUNCTIONS or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]+", base, re.ASCII):
+    """A name written out in letters, such as `size` or `ball_after`, and with a dot
+    `folded_dot`."""
+    if (
+        kind not in ("", "dot")
+        or base in FUNCTIONS
+        or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]+", base, re.ASCII)
+    ):
         return ""
     stem = re.match(r"[A-Za-z]+", base)
     if not stem or stem[0] in ON_PAPER and not re.fullmatch(rf"{stem[0]}_[a-z]+", base):

@@ -1,16 +1,19 @@
-r"""LaTeX in the notation of the paper, read back into something that has a value: the independent half of the test of what reports print.
+r"""LaTeX in the notation of the paper, read back into something that has a value: the independent
+half of the test of what reports print.
 
-`read` understands a text completely or raises NotRead, with the position and the reason.  Nothing is shared with the printer, with the
-parser of prints or with the checker.  Decisions, strict wherever a human reader might hesitate:
+`read` understands a text completely or raises NotRead, with the position and the reason.  Nothing
+is shared with the printer, with the parser of prints or with the checker.  Decisions, strict
+wherever a human reader might hesitate:
 
     -x^2           -(x^2); a sign takes the whole product after it; two signs in a row are refused
-    a/b c          refused, as are a/b/c, a/b \cdot c and 1/2 x: after a slash stands one factor, and then the product ends
-    x 2, 2\frac12  refused: a number is the first factor of a product, or follows \cdot or \times
-    \frac{a}{b}^2  refused; {x+1} c refused, for plain braces cannot be seen; x^12 refused
-    x (a + b)      a product; x (a, b) a function applied, which is refused
-    and, or        never side by side without parentheses; neither are \implies and \iff; a relation is never in a relation
-    a < b \le c    a chain in one direction; \ne stands alone
-    \sqrt{a}       has a value where a is the square of a rational number; x^K where K has an integer as value
+    a/b c          refused, as are a/b/c, a/b \cdot c and 1/2 x: after a slash stands one factor,
+    and then the product ends x 2, 2\frac12  refused: a number is the first factor of a product, or
+    follows \cdot or \times \frac{a}{b}^2  refused; {x+1} c refused, for plain braces cannot be
+    seen; x^12 refused x (a + b)      a product; x (a, b) a function applied, which is refused
+    and, or        never side by side without parentheses; neither are \implies and \iff; a relation
+    is never in a relation a < b \le c    a chain in one direction; \ne stands alone
+    \sqrt{a}       has a value where a is the square of a rational number; x^K where K has an
+    integer as value
 """
 
 from __future__ import annotations
@@ -55,7 +58,13 @@ class _Reading(Terms):
 
     def connective(self) -> str:
         token = self.next()
-        return token.text if token.kind == "word" else CONNECTIVES.get(token.text, "") if token.kind == "command" else ""
+        return (
+            token.text
+            if token.kind == "word"
+            else CONNECTIVES.get(token.text, "")
+            if token.kind == "command"
+            else ""
+        )
 
     def whole(self) -> Node:
         found = self.statement()
@@ -77,7 +86,9 @@ class _Reading(Terms):
         if self.connective() in ("implies", "iff"):
             raise self.fail("ambiguous: a second implication or equivalence without parentheses")
         if in_words and (several or self.several):
-            raise self.fail("ambiguous: an implication in words beside and, or without parentheses", at)
+            raise self.fail(
+                "ambiguous: an implication in words beside and, or without parentheses", at
+            )
         return Implied(how, self.formula(left, at), self.formula(right, right_at))
 
     def joined(self) -> Node:
@@ -126,5 +137,8 @@ class _Reading(Terms):
         if not signs:
             return sides[0]
         if len(signs) > 1 and not any(set(signs) <= one_way for one_way in DIRECTIONS):
-            raise self.fail("ambiguous: a chain of relations in two directions, or with a sign for different", at)
+            raise self.fail(
+                "ambiguous: a chain of relations in two directions, or with a sign for different",
+                at,
+            )
         return chain([self.term(side, at) for side in sides], signs)

@@ -7,7 +7,11 @@ from tests.reports.nodes import Arithmetic, Listed, Neg, Node, Num, Term, Unary
 
 BRACKETS = {"(": ")", "[": "]", r"\lfloor": r"\rfloor", r"\lceil": r"\rceil"}
 SIZES = ("big", "Big", "bigg", "Bigg")
-OPENERS = {r"\left": r"\right", **{f"\\{size}l": f"\\{size}r" for size in SIZES}, **{f"\\{size}": f"\\{size}" for size in SIZES}}
+OPENERS = {
+    r"\left": r"\right",
+    **{f"\\{size}l": f"\\{size}r" for size in SIZES},
+    **{f"\\{size}": f"\\{size}" for size in SIZES},
+}
 FRACTIONS = (r"\frac", r"\tfrac", r"\dfrac")
 VECTORS = ("bmatrix", "pmatrix")
 
@@ -41,26 +45,52 @@ class Terms(Glyphs):
                 return left
             if slashed:
                 raise self.fail("ambiguous: a product goes on after a slash", right_at)
-            if not sign and (self.next().kind == "digit" or self.next().text == "{" and self.next(1).kind == "digit"):
+            if not sign and (
+                self.next().kind == "digit"
+                or self.next().text == "{"
+                and self.next(1).kind == "digit"
+            ):
                 raise self.fail("ambiguous: a number after a factor", right_at)
             mixed = not sign and after_number and self.next().text in FRACTIONS
             right_start = self.next().at
             right = self.power()
-            if mixed and isinstance(right, Arithmetic) and isinstance(right.left, Num) and isinstance(right.right, Num):
+            if (
+                mixed
+                and isinstance(right, Arithmetic)
+                and isinstance(right.left, Num)
+                and isinstance(right.right, Num)
+            ):
                 raise self.fail("ambiguous: a number before a fraction of numbers", right_at)
             slashed, after_number = sign == "/", self.ended_number(right_start)
-            left = Arithmetic("/" if slashed else "*", self.term(left, at), self.term(right, right_at))
+            left = Arithmetic(
+                "/" if slashed else "*", self.term(left, at), self.term(right, right_at)
+            )
 
     def ended_number(self, start: int) -> bool:
         """Whether the factor that began there, and was read just now, is a plain number."""
-        return all(token.kind == "digit" or token.text in ("{", "}") for token in self.tokens[: self.at] if token.at >= start)
+        return all(
+            token.kind == "digit" or token.text in ("{", "}")
+            for token in self.tokens[: self.at]
+            if token.at >= start
+        )
 
     def starts_factor(self) -> bool:
         token = self.next()
         if token.kind == "command":
-            named = token.text in GREEK or token.text in ACCENTS or token.text in FRACTIONS or token.text in (r"\sqrt", r"\Delta")
+            named = (
+                token.text in GREEK
+                or token.text in ACCENTS
+                or token.text in FRACTIONS
+                or token.text in (r"\sqrt", r"\Delta")
+            )
             return named or self.opens()
-        return token.kind in ("digit", "letter", "spelled", "calligraphic", "begin") or token.text in ("(", "[", "{")
+        return token.kind in (
+            "digit",
+            "letter",
+            "spelled",
+            "calligraphic",
+            "begin",
+        ) or token.text in ("(", "[", "{")
 
     def opens(self) -> bool:
         token = self.next()
@@ -85,7 +115,9 @@ class Terms(Glyphs):
         token = self.next()
         if self.took("{"):
             if self.next().text == "(":
-                raise self.fail("ambiguous: an exponent that begins with a parenthesis may be an order")
+                raise self.fail(
+                    "ambiguous: an exponent that begins with a parenthesis may be an order"
+                )
             inner = self.term(self.sum(), token.at)
             self.expect("}")
             return inner
@@ -112,9 +144,16 @@ class Terms(Glyphs):
             return self.bracketed()
         if token.text == r"\Delta":
             return self.change()
-        if token.text == "{" or token.text in ACCENTS or token.text in GREEK or token.kind in ("letter", "spelled", "calligraphic"):
+        if (
+            token.text == "{"
+            or token.text in ACCENTS
+            or token.text in GREEK
+            or token.kind in ("letter", "spelled", "calligraphic")
+        ):
             return self.name()
-        raise self.fail("expected a term or a formula" if token.kind != "stop" else "the text ends too early")
+        raise self.fail(
+            "expected a term or a formula" if token.kind != "stop" else "the text ends too early"
+        )
 
     def fraction(self) -> Node:
         self.at += 1
@@ -154,7 +193,11 @@ class Terms(Glyphs):
         entries = [self.statement()]
         while self.took(","):
             entries.append(self.statement())
-        return entries[0] if len(entries) == 1 else Listed(tuple(self.term(entry, at) for entry in entries))
+        return (
+            entries[0]
+            if len(entries) == 1
+            else Listed(tuple(self.term(entry, at) for entry in entries))
+        )
 
     def vector(self) -> Node:
         r"""A column of terms, or the rows of a matrix."""
@@ -168,7 +211,11 @@ class Terms(Glyphs):
                 rows[-1].append(self.cell())
             else:
                 rows.append([self.cell()])
-        if self.next().kind != "end" or self.next().text != kind or len({len(row) for row in rows}) != 1:
+        if (
+            self.next().kind != "end"
+            or self.next().text != kind
+            or len({len(row) for row in rows}) != 1
+        ):
             raise self.fail(f"rows of different lengths, or no end of {kind}")
         self.at += 1
         return Listed(tuple(row[0] if len(row) == 1 else Listed(tuple(row)) for row in rows))

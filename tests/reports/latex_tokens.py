@@ -1,4 +1,5 @@
-r"""The tokens of LaTeX mathematics, with their positions: digits and letters one by one, as TeX takes them for an argument."""
+r"""The tokens of LaTeX mathematics, with their positions: digits and letters one by one, as TeX
+takes them for an argument."""
 
 from __future__ import annotations
 
@@ -8,7 +9,18 @@ from typing import NamedTuple
 
 from tests.reports.nodes import NotRead
 
-SPACING = {r"\,", r"\;", r"\:", r"\!", r"\ ", r"\quad", r"\qquad", r"\thinspace", r"\displaystyle", r"\textstyle"}
+SPACING = {
+    r"\,",
+    r"\;",
+    r"\:",
+    r"\!",
+    r"\ ",
+    r"\quad",
+    r"\qquad",
+    r"\thinspace",
+    r"\displaystyle",
+    r"\textstyle",
+}
 SPELLED = {r"\text", r"\mathrm", r"\mathit", r"\textrm", r"\textit"}
 SAYING = {  # words between formulas
     "and": ("and",),
@@ -20,16 +32,28 @@ SAYING = {  # words between formulas
     "if and only if": ("iff",),
     "iff": ("iff",),
 }
-PROSE = {*keyword.kwlist, "then", "where", "when", "all", "every", "some", "implies"}  # words that are never names
+PROSE = {
+    *keyword.kwlist,
+    "then",
+    "where",
+    "when",
+    "all",
+    "every",
+    "some",
+    "implies",
+}  # words that are never names
 TOKEN = re.compile(
-    r"(?P<space>[ \t\n~]+)|(?P<command>\\(?:[A-Za-z]+|.))|(?P<digit>[0-9])|(?P<letter>[A-Za-z])|(?P<mark>[-+/^_{}()\[\]<>=,&'])",
+    r"(?P<space>["
+    r" \t\n~]+)|(?P<command>\\(?:[A-Za-z]+|.))|(?P<digit>[0-9])|(?P<letter>[A-Za-z])|(?P<mark>[-+/^_{}()\[\]<>=,&'])",
     re.ASCII,
 )
 CONTENT = re.compile(r"\s*\{([^{}]*)\}")
 
 
 class Token(NamedTuple):
-    kind: str  # command digit letter mark; spelled: a name in letters; word: and, or, not ..; calligraphic; begin; end; stop
+    # command digit letter mark; spelled: a name in letters; word: and, or, not ..; calligraphic;
+    # begin; end; stop
+    kind: str
     text: str
     at: int
     after: int  # where the token ends
@@ -66,6 +90,10 @@ def spelled(command: str, content: str, start: int, latex: str) -> list[tuple[st
             raise NotRead(f"{command} around a word between formulas", start, latex)
         return [("word", word) for word in SAYING[said]]
     name = said.replace(r"\_", "_")
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name, re.ASCII) or "_" in said.replace(r"\_", "") or name in PROSE:
+    if (
+        not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name, re.ASCII)
+        or "_" in said.replace(r"\_", "")
+        or name in PROSE
+    ):
         raise NotRead(f"neither a word between formulas nor a name: {content!r}", start, latex)
     return [("letter" if len(name) == 1 else "spelled", name)]

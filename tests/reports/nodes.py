@@ -1,6 +1,8 @@
-"""What a text says, as a tree, and its exact value at rational points: common to both readers of the tests of reports.
+"""What a text says, as a tree, and its exact value at rational points: common to both readers of
+the tests of reports.
 
-Nothing here knows how a text is written; nothing here is shared with what prints or checks statements.
+Nothing here knows how a text is written; nothing here is shared with what prints or checks
+statements.
 """
 
 from __future__ import annotations
@@ -19,7 +21,9 @@ class NotRead(Exception):
 
     def __init__(self, reason: str, position: int | None = None, source: str = "") -> None:
         where = "" if position is None else f"position {position}: "
-        near = f", at {source[position : position + 30]!r}" if position is not None and source else ""
+        near = (
+            f", at {source[position : position + 30]!r}" if position is not None and source else ""
+        )
         super().__init__(f"{where}{reason}{near}")
         self.position, self.reason = position, reason
 
@@ -43,7 +47,8 @@ class Num(Term):
 
 @dataclass(frozen=True)
 class Name(Term):
-    """A name as it is printed, and the names of the statement language that it may stand for: exactly one of them has a value."""
+    """A name as it is printed, and the names of the statement language that it may stand for:
+    exactly one of them has a value."""
 
     printed: str
     stands_for: tuple[str, ...]
@@ -145,7 +150,8 @@ def names_in(node: Node) -> list[Name]:
 
 
 def value(node: Node, values: Mapping[str, Fraction], root: Root = exact_root) -> Value:
-    """The value of a tree: a number, a truth value, or a tuple of such.  Every part is evaluated, whatever the others say."""
+    """The value of a tree: a number, a truth value, or a tuple of such.  Every part is evaluated,
+    whatever the others say."""
     if isinstance(node, Formula):
         return truth(node, values, root)
     if isinstance(node, Listed):
@@ -176,15 +182,23 @@ def number(node: Term, values: Mapping[str, Fraction], root: Root) -> Fraction:
         found = [name for name in node.stands_for if name in values]
         if len(found) != 1:
             said = "several of" if found else "none of"
-            raise NotRead(f"{node.printed} has no one value: {said} {', '.join(node.stands_for)} is known")
+            raise NotRead(
+                f"{node.printed} has no one value: {said} {', '.join(node.stands_for)} is known"
+            )
         return Fraction(values[found[0]])
     if isinstance(node, Neg):
         return -number(node.of, values, root)
     if isinstance(node, Unary):
         under = number(node.of, values, root)
-        return root(under) if node.function == "sqrt" else Fraction({"floor": floor, "ceil": ceil}[node.function](under))
+        return (
+            root(under)
+            if node.function == "sqrt"
+            else Fraction({"floor": floor, "ceil": ceil}[node.function](under))
+        )
     if isinstance(node, Arithmetic):
-        return operated(node.sign, number(node.left, values, root), number(node.right, values, root))
+        return operated(
+            node.sign, number(node.left, values, root), number(node.right, values, root)
+        )
     raise NotRead(f"not a term: {node!r}")
 
 

@@ -1,4 +1,5 @@
-"""Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up ones."""
+"""Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up
+ones."""
 
 from __future__ import annotations
 
@@ -22,14 +23,20 @@ CLAIMS = {
     "above": "always(x**2 > x, given=[x > 0])",
     "negative-square": "exists_some(['y'], y * y < 0)",
     # a map that leaves its space: rules are never refuted
-    "open": "MapRule('main', (('over', 'a'), ('domain', '0 < a'), ('state', 'x'), ('space', 'x <= 1'), ('piece', 'x <= 1 -> x + a')))",
+    "open": (
+        "MapRule('main', (('over', 'a'), ('domain', '0 < a'), ('state', 'x'), ('space', 'x <= 1'),"
+        " ('piece', 'x <= 1 -> x + a')))"
+    ),
 }
 HOLDS, FALSE, OPEN = ("squares",), ("squares", "above", "negative-square"), ("squares", "open")
 
 
 def file_with(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Path:
     path = folder / "mine.py"
-    parts = [f"@claim({name!r})\ndef one_{number}():\n    {says!r}\n    return {CLAIMS[name]}\n" for number, name in enumerate(names)]
+    parts = [
+        f"@claim({name!r})\ndef one_{number}():\n    {says!r}\n    return {CLAIMS[name]}\n"
+        for number, name in enumerate(names)
+    ]
     path.write_text(HEAD + "\n\n".join(parts), encoding="utf-8")
     return path
 
@@ -59,4 +66,11 @@ def paper(register: Mapping[str, Mapping[str, Any]] | None = None, **more: Any) 
 
 
 def _results(done: Run, register: Mapping[str, Mapping[str, Any]] | None, **more: Any) -> Results:
-    return results_of_run(done.claims, done.judgements, register, theorem=done.theorem, rejected=more.pop("rejected", done.rejected), **more)
+    return results_of_run(
+        done.claims,
+        done.judgements,
+        register,
+        theorem=done.theorem,
+        rejected=more.pop("rejected", done.rejected),
+        **more,
+    )

@@ -1,10 +1,12 @@
-"""Terms and formulas of the statement language, read by a parser of their own: nothing is shared with the checker or its tests.
+"""Terms and formulas of the statement language, read by a parser of their own: nothing is shared
+with the checker or its tests.
 
-    formula   a or b; a and b; not a; implies(a, b); iff(a, b); terms joined by < <= = != >= >, chained as in 0 <= x < w
-    term      a + b, a - b; a*b, a/b from left to right; -a; a^2 for an integer from 0 up; sqrt(a) on lines that name a root
-    list      a, b or (a, b)
+    formula   a or b; a and b; not a; implies(a, b); iff(a, b); terms joined by < <= = != >= >,
+    chained as in 0 <= x < w term      a + b, a - b; a*b, a/b from left to right; -a; a^2 for an
+    integer from 0 up; sqrt(a) on lines that name a root list      a, b or (a, b)
 
-A sign binds weaker than a power and stronger than a product: -x^2*y is (-(x^2))*y.  `or` binds weakest, then `and`, `not`, relations.
+A sign binds weaker than a power and stronger than a product: -x^2*y is (-(x^2))*y.  `or` binds
+weakest, then `and`, `not`, relations.
 """
 
 from __future__ import annotations
@@ -35,12 +37,17 @@ from tests.reports.nodes import (
     value,
 )
 
-TOKEN = re.compile(r"\s*(?:(?P<number>\d+)|(?P<word>[A-Za-z][A-Za-z0-9_]*)|(?P<sign><=|>=|!=|[-+*/^()<>=,]))", re.ASCII)
+TOKEN = re.compile(
+    r"\s*(?:(?P<number>\d+)|(?P<word>[A-Za-z][A-Za-z0-9_]*)|(?P<sign><=|>=|!=|[-+*/^()<>=,]))",
+    re.ASCII,
+)
 RELATIONS = ("<", "<=", ">", ">=", "=", "!=")
 CONNECTIVES = ("and", "or", "not", "implies", "iff")
 
 
-def evaluate_statement_text(text: str, values: Mapping[str, Fraction], root: Root = exact_root) -> Value:
+def evaluate_statement_text(
+    text: str, values: Mapping[str, Fraction], root: Root = exact_root
+) -> Value:
     """The value of a term or formula of the statement language."""
     return value(read_statement_text(text), values, root)
 
@@ -63,7 +70,9 @@ class _Reading:
                 raise NotRead("not in the language", end, text)
             self.tokens.append((found[0].strip(), found.start(found.lastgroup or 0), found.end()))
             end = found.end()
-        for (token, start, stop), following in zip(self.tokens, [*[start for _, start, _ in self.tokens[1:]], -1]):
+        for (token, start, stop), following in zip(
+            self.tokens, [*[start for _, start, _ in self.tokens[1:]], -1]
+        ):
             joined = token[0].isdigit() and following == stop and text[stop].isalpha()
             if joined or re.fullmatch(r"0\d+", token):
                 raise NotRead("a number that is none", start, text)
@@ -181,4 +190,3 @@ class _Reading:
         if not isinstance(node, Formula):
             raise self.fail("a term or list stands where a formula is expected")
         return node
-

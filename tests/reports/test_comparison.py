@@ -1,6 +1,8 @@
-r"""The comparison agrees with every statement as it is printed, and notices what an edit of the LaTeX changes.
+r"""The comparison agrees with every statement as it is printed, and notices what an edit of the
+LaTeX changes.
 
-Whether an edit changes the meaning is SymPy's to say: relations of cancelled differences, whose order in `and` and `or` does not matter.
+Whether an edit changes the meaning is SymPy's to say: relations of cancelled differences, whose
+order in `and` and `or` does not matter.
 """
 
 from __future__ import annotations
@@ -15,7 +17,21 @@ import sympy
 from tests.reports.comparison import differences
 from tests.reports.corpus import TEXTS
 from tests.reports.latex_reader import NotRead, read
-from tests.reports.nodes import Arithmetic, Formula, Implied, Joined, Listed, Name, Neg, Node, Not, Num, Related, Unary, names_in
+from tests.reports.nodes import (
+    Arithmetic,
+    Formula,
+    Implied,
+    Joined,
+    Listed,
+    Name,
+    Neg,
+    Node,
+    Not,
+    Num,
+    Related,
+    Unary,
+    names_in,
+)
 from tests.reports.statement_text import read_statement_text
 from tests.reports.tiny_printer import printed
 
@@ -47,7 +63,10 @@ def test_every_statement_agrees_with_its_print_holds() -> None:
         ("x = w", r"x = w^{1}\cdot 1 + 0"),
         ("alpha < r^2/r", r"\alpha < \dot\rho_0"),
         ("0 = 1", "0 = 1"),
-        ("2*alpha/(alpha + 1)^2, 2/(alpha + 1)", r"\begin{bmatrix} \frac{2\alpha}{(1+\alpha)^2} \\ \frac{2}{1+\alpha} \end{bmatrix}"),
+        (
+            "2*alpha/(alpha + 1)^2, 2/(alpha + 1)",
+            r"\begin{bmatrix} \frac{2\alpha}{(1+\alpha)^2} \\ \frac{2}{1+\alpha} \end{bmatrix}",
+        ),
         ("not iff(x < w, w < u)", r"\lnot (x < w \iff w < u)"),
         ("not implies(x < w, w < u)", r"x < w \land w \ge u"),
     ],
@@ -90,7 +109,9 @@ def test_points_depend_on_the_seed_alone_holds() -> None:
 
 # ------------------------------------------------------------ edits
 
-GLYPH = re.compile(r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?|\\(?:alpha|gamma)\b|\b[xwutTK]\b(?!_)|\\tau_c")
+GLYPH = re.compile(
+    r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?|\\(?:alpha|gamma)\b|\b[xwutTK]\b(?!_)|\\tau_c"
+)
 SWAPS = [
     (r"\\leq?\b", "<"), (r"\\geq?\b", ">"), ("<", r"\\le "), (">", r"\\ge "), ("<", ">"), (">", "<"), ("=", r"\\ne "), (r"\\neq?\b", "="), ("<", "="),
     (r"\\(?:land|wedge)\b|\\text\{ and \}", r"\\lor "), (r"\\(?:lor|vee)\b|\\text\{ or \}", r"\\land "), (r"\\(?:lnot|neg)\b|\\text\{not \}", " "),
@@ -102,7 +123,8 @@ SWAPS = [
 
 
 def edits(latex: str, random: Random) -> Iterator[str]:
-    """The LaTeX with one mark changed, or two names exchanged: an edit of a kind that is drawn first."""
+    """The LaTeX with one mark changed, or two names exchanged: an edit of a kind that is drawn
+    first."""
     while True:
         pattern, put = random.choice(SWAPS)
         if random.random() < 0.2:
@@ -120,7 +142,8 @@ OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "=": "!=", "!=": "="}
 
 
 def meaning(node: Node, known: set[str]) -> object:
-    """What a tree says, so that equal meanings are equal objects: up to algebra on each relation, and to the order of and, or, iff."""
+    """What a tree says, so that equal meanings are equal objects: up to algebra on each relation,
+    and to the order of and, or, iff."""
     if isinstance(node, Listed):
         return tuple(meaning(entry, known) for entry in node.entries)
     if isinstance(node, Related):
@@ -146,14 +169,22 @@ def sympy_of(node: Node, known: set[str]) -> sympy.Expr:
     if isinstance(node, Num):
         return sympy.Integer(node.number)
     if isinstance(node, Name):
-        return sympy.Symbol(next((name for name in node.stands_for if name in known), node.stands_for[0]))
+        return sympy.Symbol(
+            next((name for name in node.stands_for if name in known), node.stands_for[0])
+        )
     if isinstance(node, Neg):
         return -sympy_of(node.of, known)
     if isinstance(node, Unary):
         return sympy.Function(node.function)(sympy.cancel(sympy_of(node.of, known)))
     assert isinstance(node, Arithmetic)
     left, right = sympy_of(node.left, known), sympy_of(node.right, known)
-    return {"+": left + right, "-": left - right, "*": left * right, "/": left / right, "^": left**right}[node.sign]
+    return {
+        "+": left + right,
+        "-": left - right,
+        "*": left * right,
+        "/": left / right,
+        "^": left**right,
+    }[node.sign]
 
 
 def test_edits_of_the_print_are_noticed_holds() -> None:
@@ -183,6 +214,14 @@ def test_the_judge_tells_formulas_apart_holds() -> None:
         known = {"x", "w", "u"}
         return meaning(read(one), known) == meaning(read(other), known)
 
-    assert same("x < w", "w > x") and same(r"x < w \land u < w", r"u - w < 0 \land x < w") and same("2x = w + x", "x = w")
-    assert not same("x < w", r"x \le w") and not same("x < w", "w < x") and not same(r"x < w \land u < w", r"x < w \lor u < w")
+    assert (
+        same("x < w", "w > x")
+        and same(r"x < w \land u < w", r"u - w < 0 \land x < w")
+        and same("2x = w + x", "x = w")
+    )
+    assert (
+        not same("x < w", r"x \le w")
+        and not same("x < w", "w < x")
+        and not same(r"x < w \land u < w", r"x < w \lor u < w")
+    )
     assert isinstance(read("x < w"), Formula)

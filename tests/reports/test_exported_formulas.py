@@ -1,4 +1,5 @@
-"""Every formula that reports set as LaTeX is read back by a reader that shares nothing with the printer, and has the same values."""
+"""Every formula that reports set as LaTeX is read back by a reader that shares nothing with the
+printer, and has the same values."""
 
 from __future__ import annotations
 
@@ -31,20 +32,29 @@ def test_every_formula_of_every_statement_reads_back_holds() -> None:
 
 
 def test_every_derivation_reads_back_holds() -> None:
-    entries = dict.fromkeys(entry for one in contents().derivations for row in one.shown for entry in row)
+    entries = dict.fromkeys(
+        entry for one in contents().derivations for row in one.shown for entry in row
+    )
     assert len(entries) > 50
     assert differences((entry, latex_of(entry)) for entry in entries) == []
 
 
 def test_every_corrected_term_reads_back_holds() -> None:
-    terms = [str(entry.correction["text"]) for entry in contents().entries
-             if entry.correction and entry.correction["kind"] in ("coefficients", "derived")]
+    terms = [
+        str(entry.correction["text"])
+        for entry in contents().entries
+        if entry.correction and entry.correction["kind"] in ("coefficients", "derived")
+    ]
     assert terms and differences((text, latex_of(text)) for text in terms) == []
 
 
 def test_every_formula_is_read_with_its_macros_holds() -> None:
     pairs = dict.fromkeys(pair for text in texts() for pair in formulas_of(text))
-    changed = [(text, without_macros(with_macros(latex))) for text, latex in pairs if "\\jug" in with_macros(latex)]
+    changed = [
+        (text, without_macros(with_macros(latex)))
+        for text, latex in pairs
+        if "\\jug" in with_macros(latex)
+    ]
     assert len(changed) > 500 and differences(changed) == []
 
 
@@ -55,8 +65,11 @@ def test_rejects_what_is_no_term(text: str) -> None:
 
 
 def plain(latex: str) -> str:
-    """A print without the marks that do not change how it is read: spaces, and braces around one sign."""
-    return "".join(narrow(latex).replace(r"\mathcal{", r"\mathcal ").replace("{", "").replace("}", "").split())
+    """A print without the marks that do not change how it is read: spaces, and braces around one
+    sign."""
+    return "".join(
+        narrow(latex).replace(r"\mathcal{", r"\mathcal ").replace("{", "").replace("}", "").split()
+    )
 
 
 def test_macros_stand_for_what_was_printed_holds() -> None:

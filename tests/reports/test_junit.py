@@ -13,11 +13,29 @@ from tests.reports.runs import FALSE, HOLDS, OPEN, gathered, own, paper
 # What the schema that Jenkins publishes, and others follow, allows of what is used here.
 ATTRIBUTES = {
     "testsuites": {"name", "time", "tests", "failures", "disabled", "errors"},
-    "testsuite": {"name", "tests", "failures", "errors", "time", "disabled", "skipped", "timestamp", "hostname", "id", "package"},
+    "testsuite": {
+        "name",
+        "tests",
+        "failures",
+        "errors",
+        "time",
+        "disabled",
+        "skipped",
+        "timestamp",
+        "hostname",
+        "id",
+        "package",
+    },
     "testcase": {"name", "classname", "assertions", "time", "status"},
-    "failure": {"type", "message"}, "error": {"type", "message"}, "system-out": set(),
+    "failure": {"type", "message"},
+    "error": {"type", "message"},
+    "system-out": set(),
 }
-INSIDE = {"testsuites": {"testsuite"}, "testsuite": {"testcase"}, "testcase": {"failure", "error", "system-out"}}
+INSIDE = {
+    "testsuites": {"testsuite"},
+    "testsuite": {"testcase"},
+    "testcase": {"failure", "error", "system-out"},
+}
 
 
 def read(results: Results) -> ElementTree.Element:
@@ -32,20 +50,37 @@ def read(results: Results) -> ElementTree.Element:
     cases = list(suite)
     for counted in (root, suite):
         assert int(counted.attrib["tests"]) == len(cases)
-        assert int(counted.attrib["failures"]) == sum(case.find("failure") is not None for case in cases)
-        assert int(counted.attrib["errors"]) == sum(case.find("error") is not None for case in cases)
+        assert int(counted.attrib["failures"]) == sum(
+            case.find("failure") is not None for case in cases
+        )
+        assert int(counted.attrib["errors"]) == sum(
+            case.find("error") is not None for case in cases
+        )
     assert suite.attrib["skipped"] == "0" and root.find(".//skipped") is None
-    assert all(case.get("name") and case.get("classname") and len(case.findall("failure") + case.findall("error")) <= 1 for case in cases)
+    assert all(
+        case.get("name")
+        and case.get("classname")
+        and len(case.findall("failure") + case.findall("error")) <= 1
+        for case in cases
+    )
     return suite
 
 
 def found(suite: ElementTree.Element, kind: str) -> dict[str, str]:
-    return {str(case.get("name")): str(node.get("message")) for case in suite for node in case.findall(kind)}
+    return {
+        str(case.get("name")): str(node.get("message"))
+        for case in suite
+        for node in case.findall(kind)
+    }
 
 
 def test_paper_as_registered_has_no_failure_holds() -> None:
     suite = read(paper())
-    assert len(suite) == len(load_register()) and not found(suite, "failure") and not found(suite, "error")
+    assert (
+        len(suite) == len(load_register())
+        and not found(suite, "failure")
+        and not found(suite, "error")
+    )
 
 
 def test_report_and_run_write_the_same_holds() -> None:
@@ -59,19 +94,29 @@ def test_change_is_a_failure_with_before_and_after_holds() -> None:
     suite = read(paper(register))
     failures = found(suite, "failure")
     assert set(failures) == {"gone", "eq-1", "eq-2"} and not found(suite, "error")
-    assert "verdict was holds, is misprint" in failures["eq-2"] and "eq-2/main fails at " in failures["eq-2"]
-    assert "verdict was gap, is absent" in failures["gone"] and "verdict was absent, is holds" in failures["eq-1"]
+    assert (
+        "verdict was holds, is misprint" in failures["eq-2"]
+        and "eq-2/main fails at " in failures["eq-2"]
+    )
+    assert (
+        "verdict was gap, is absent" in failures["gone"]
+        and "verdict was absent, is holds" in failures["eq-1"]
+    )
     assert not found(read(paper(register, accepted=True)), "failure")
 
 
 def test_unknown_is_an_error_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, OPEN))
-    assert found(suite, "error") == {"open": "unknown: neither proved nor refuted"} and not found(suite, "failure")
+    assert found(suite, "error") == {"open": "unknown: neither proved nor refuted"} and not found(
+        suite, "failure"
+    )
 
 
 def test_false_claim_of_ones_own_is_a_failure_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, FALSE))
-    assert set(found(suite, "failure")) == {"above", "negative-square"} and not found(suite, "error")
+    assert set(found(suite, "failure")) == {"above", "negative-square"} and not found(
+        suite, "error"
+    )
     assert found(suite, "failure")["above"] == "false; above/main fails at x = 1"
 
 
@@ -82,9 +127,15 @@ def test_true_claims_of_ones_own_pass_holds(tmp_path: Path) -> None:
 
 def test_rejected_statement_is_an_error_holds() -> None:
     stated = paper().claims[0].statements[0].name
-    errors = found(read(paper(rejected=[(stated, "the sum is not 0"), ("elsewhere/main", "no such kind")])), "error")
+    errors = found(
+        read(paper(rejected=[(stated, "the sum is not 0"), ("elsewhere/main", "no such kind")])),
+        "error",
+    )
     assert set(errors) == {stated.split("/")[0], "elsewhere/main"}
-    assert f"the checker rejects {stated}: the sum is not 0" in errors[stated.split("/")[0]] and "no such kind" in errors["elsewhere/main"]
+    assert (
+        f"the checker rejects {stated}: the sum is not 0" in errors[stated.split("/")[0]]
+        and "no such kind" in errors["elsewhere/main"]
+    )
 
 
 def test_docstring_that_xml_cannot_hold_is_written_all_the_same_holds(tmp_path: Path) -> None:

@@ -1,4 +1,5 @@
-"""The reader of LaTeX: what texts come to, what it refuses, and trees that are printed and read back."""
+"""The reader of LaTeX: what texts come to, what it refuses, and trees that are printed and read
+back."""
 
 from __future__ import annotations
 
@@ -10,16 +11,73 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.reports.latex_reader import NotRead, read, value
-from tests.reports.nodes import Arithmetic, Formula, Implied, Joined, Listed, Name, Neg, Node, Not, Num, Related, Term, Unary
+from tests.reports.nodes import (
+    Arithmetic,
+    Formula,
+    Implied,
+    Joined,
+    Listed,
+    Name,
+    Neg,
+    Node,
+    Not,
+    Num,
+    Related,
+    Term,
+    Unary,
+)
 from tests.reports.tiny_printer import printed
 
 VALUES = {
     name: Fraction(str(found))
     for name, found in {
-        **{"alpha": "1/8", "r": 3, "g": 10, "beta": "7/2", "v": -5, "T": "3/5", "x": 11, "w": 13, "u": 17, "s": "3/2", "tau": "1/4", "K": 2},
-        **{"beta0": "9/2", "v0": "-11/3", "beta_next": 19, "v_next": 23, "E_max": 29, "dE_max": 31, "dE_sup": -37, "change_1": 41, "tau_w": 43},
-        **{"chi_dot": 47, "chi_dot_after": 53, "eps": "1/100", "lam": 59, "rho": 61, "z1": 67, "since": "2/5", "size": 71, "t_R": 73, "n": 3},
-        **{"h": 79, "dE_dbeta": 83, "dR_dv": 89, "delta": "1/10", "t": "1/7", "folded_dot": 97, "v1": 101, "k": 5},
+        **{
+            "alpha": "1/8",
+            "r": 3,
+            "g": 10,
+            "beta": "7/2",
+            "v": -5,
+            "T": "3/5",
+            "x": 11,
+            "w": 13,
+            "u": 17,
+            "s": "3/2",
+            "tau": "1/4",
+            "K": 2,
+        },
+        **{
+            "beta0": "9/2",
+            "v0": "-11/3",
+            "beta_next": 19,
+            "v_next": 23,
+            "E_max": 29,
+            "dE_max": 31,
+            "dE_sup": -37,
+            "change_1": 41,
+            "tau_w": 43,
+        },
+        **{
+            "chi_dot": 47,
+            "chi_dot_after": 53,
+            "eps": "1/100",
+            "lam": 59,
+            "rho": 61,
+            "z1": 67,
+            "since": "2/5",
+            "size": 71,
+            "t_R": 73,
+            "n": 3,
+        },
+        **{
+            "h": 79,
+            "dE_dbeta": 83,
+            "dR_dv": 89,
+            "delta": "1/10",
+            "t": "1/7",
+            "folded_dot": 97,
+            "v1": 101,
+            "k": 5,
+        },
     }.items()
 }
 TERMS = r"""
@@ -321,7 +379,10 @@ x < w \lor \sqrt{2} < 1                       not the square
 def rows(table: str) -> list[tuple[str, str]]:
     """Two columns, which two spaces at least keep apart."""
     lines = [line for line in table.strip("\n").splitlines() if line]
-    return [(line[: line.rstrip().rindex("  ")].strip(), line.rstrip().rpartition("  ")[2].strip()) for line in lines]
+    return [
+        (line[: line.rstrip().rindex("  ")].strip(), line.rstrip().rpartition("  ")[2].strip())
+        for line in lines
+    ]
 
 
 @pytest.mark.parametrize(("latex", "expected"), rows(TERMS))
@@ -353,7 +414,11 @@ def test_vector_has_these_values_holds(latex: str, expected: tuple[object, ...])
 def test_rejects_what_is_not_understood(latex: str, reason: str) -> None:
     with pytest.raises(NotRead) as refused:
         read(latex)
-    assert reason in refused.value.reason and refused.value.position is not None and f"position {refused.value.position}" in str(refused.value)
+    assert (
+        reason in refused.value.reason
+        and refused.value.position is not None
+        and f"position {refused.value.position}" in str(refused.value)
+    )
 
 
 @pytest.mark.parametrize(("latex", "reason"), rows(VALUELESS))
@@ -383,7 +448,9 @@ def test_rejects_a_glyph_whose_meanings_both_have_values() -> None:
 # ------------------------------------------------------------ printed and read back
 
 NAMES = "alpha beta v r g T x w tau K beta0 v0 E_max dE_max eps since size v_next change_1 z1 t_R".split()
-LEAVES = st.builds(Num, st.integers(0, 120)) | st.sampled_from(NAMES).map(lambda name: Name(name, (name,)))
+LEAVES = st.builds(Num, st.integers(0, 120)) | st.sampled_from(NAMES).map(
+    lambda name: Name(name, (name,))
+)
 SMALL = st.integers(0, 4).map(Num)
 
 
@@ -400,7 +467,11 @@ def terms_over(inner: st.SearchStrategy[Term]) -> st.SearchStrategy[Term]:
 def formulas_over(inner: st.SearchStrategy[Formula]) -> st.SearchStrategy[Formula]:
     return (
         st.builds(Not, inner)
-        | st.builds(Joined, st.sampled_from(("and", "or")), st.lists(inner, min_size=2, max_size=3).map(tuple))
+        | st.builds(
+            Joined,
+            st.sampled_from(("and", "or")),
+            st.lists(inner, min_size=2, max_size=3).map(tuple),
+        )
         | st.builds(Implied, st.sampled_from(("implies", "iff")), inner, inner)
     )
 
@@ -424,7 +495,10 @@ def test_what_is_printed_is_read_back_with_its_value_holds(tree: Node, style: in
     assert value_or_reason(read(printed(tree, Random(style)))) == value_or_reason(tree)
 
 
-PIECES = r"\frac \sqrt { } ( ) [ ] \left \right \bigl ^ _ ' 1 2 x \bar \dot \beta \rho \alpha \Delta E - + / \cdot , < \le = & \\ |".split()
+PIECES = (
+    r"\frac \sqrt { } ( ) [ ] \left \right \bigl ^ _ ' 1 2 x \bar \dot \beta \rho \alpha \Delta E -"
+    r" + / \cdot , < \le = & \\ |".split()
+)
 MORE = [r"\text{ and }", r"\mathit{size}", r"\begin{bmatrix}", r"\end{bmatrix}", r"\mathcal{R}"]
 WORDS = r"\land \lor \lnot \iff \partial \lfloor \rfloor".split()
 
@@ -442,7 +516,9 @@ def test_any_text_is_read_or_refused_holds(latex: str) -> None:
 
 @settings(deadline=None, max_examples=200)
 @given(SAID, st.integers(0, 10**6), st.data())
-def test_a_print_cut_short_is_read_or_refused_holds(tree: Node, style: int, data: st.DataObject) -> None:
+def test_a_print_cut_short_is_read_or_refused_holds(
+    tree: Node, style: int, data: st.DataObject
+) -> None:
     latex = printed(tree, Random(style))
     at = data.draw(st.integers(0, len(latex) - 1))
     try:

@@ -1,4 +1,5 @@
-"""`juggleproof report --format html` writes the page, or says in one line why it cannot, and leaves nothing half-written."""
+"""`juggleproof report --format html` writes the page, or says in one line why it cannot, and leaves
+nothing half-written."""
 
 from __future__ import annotations
 
@@ -21,34 +22,46 @@ def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     return shown.err
 
 
-def test_page_is_written_and_its_path_printed_holds(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_page_is_written_and_its_path_printed_holds(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(report, "gather", contents)
     assert run(["report", "--format", "html", "-o", str(tmp_path / "new" / "folder")]) == 0
     path = tmp_path / "new" / "folder" / "juggleproof.html"
     assert capsys.readouterr().out == f"{path}\n"
-    assert [one.name for one in path.parent.iterdir()] == [path.name] and path.read_bytes().startswith(b"<!DOCTYPE html>")
+    assert [one.name for one in path.parent.iterdir()] == [
+        path.name
+    ] and path.read_bytes().startswith(b"<!DOCTYPE html>")
 
 
-def test_rejects_a_folder_that_cannot_be_made(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_rejects_a_folder_that_cannot_be_made(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     (tmp_path / "file").write_text("as it was", encoding="utf-8")
-    assert "not a folder" in told(capsys, "--format", "html", "-o", str(tmp_path / "file" / "below"))
+    assert "not a folder" in told(
+        capsys, "--format", "html", "-o", str(tmp_path / "file" / "below")
+    )
     assert (tmp_path / "file").read_text(encoding="utf-8") == "as it was"
 
 
 def test_missing_library_is_told_and_nothing_written_holds(
-        capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def absent(name: str) -> Any:
         raise ImportError(name)
 
     monkeypatch.setattr(report, "gather", contents)
     monkeypatch.setattr(page, "pictures", lambda contents: ())
     monkeypatch.setattr(extras, "import_module", absent)
-    assert "jinja2 is needed for this report" in told(capsys, "--format", "html", "-o", str(tmp_path / "there"))
+    assert "jinja2 is needed for this report" in told(
+        capsys, "--format", "html", "-o", str(tmp_path / "there")
+    )
     assert not (tmp_path / "there").exists()
 
 
 def test_figures_are_left_out_where_matplotlib_is_absent_holds(
-        capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(report, "gather", contents)
     monkeypatch.setattr(report.importlib.util, "find_spec", lambda name: None)
     assert run(["report", "--format", "html", "-o", str(tmp_path)]) == 0

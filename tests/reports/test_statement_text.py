@@ -1,4 +1,5 @@
-"""The evaluator of statement texts against Python's own evaluation of the same text, and what it refuses."""
+"""The evaluator of statement texts against Python's own evaluation of the same text, and what it
+refuses."""
 
 from __future__ import annotations
 
@@ -15,7 +16,14 @@ from tests.reports.corpus import TEXTS
 from tests.reports.nodes import NotRead, names_in
 from tests.reports.statement_text import evaluate_statement_text, read_statement_text
 
-VALUES = {"alpha": Fraction(1, 8), "x": Fraction(11), "w": Fraction(13), "r": Fraction(3), "v": Fraction(-5), "dE_max": Fraction(2)}
+VALUES = {
+    "alpha": Fraction(1, 8),
+    "x": Fraction(11),
+    "w": Fraction(13),
+    "r": Fraction(3),
+    "v": Fraction(-5),
+    "dE_max": Fraction(2),
+}
 
 
 def by_python(text: str, values: dict[str, Fraction]) -> object:
@@ -72,18 +80,24 @@ TERMS = st.recursive(
         st.tuples(inner, st.sampled_from((" + ", " - ", "*")), inner).map("".join)
         | inner.map("-{}".format)
         | inner.map("({})".format)
-        | st.tuples(SOME | inner.map("({})".format), st.sampled_from(("^0", "^2", "^3"))).map("".join)
+        | st.tuples(SOME | inner.map("({})".format), st.sampled_from(("^0", "^2", "^3"))).map(
+            "".join
+        )
     ),
     max_leaves=8,
 )
-RELATED = st.tuples(TERMS, st.sampled_from((" < ", " <= ", " = ", " != ", " > ", " >= ")), TERMS).map("".join)
+RELATED = st.tuples(
+    TERMS, st.sampled_from((" < ", " <= ", " = ", " != ", " > ", " >= ")), TERMS
+).map("".join)
 FORMULAS = st.recursive(
     RELATED,
     lambda inner: (
         st.tuples(inner, st.sampled_from((" and ", " or ")), inner).map("".join)
         | inner.map("not {}".format)
         | inner.map("({})".format)
-        | st.tuples(st.sampled_from(("iff", "implies")), inner, inner).map(lambda parts: f"{parts[0]}({parts[1]}, {parts[2]})")
+        | st.tuples(st.sampled_from(("iff", "implies")), inner, inner).map(
+            lambda parts: f"{parts[0]}({parts[1]}, {parts[2]})"
+        )
     ),
     max_leaves=6,
 )

@@ -1,16 +1,38 @@
-"""Trees printed as LaTeX in many styles, for tests of the reader and of the comparison: one draw of `Random` for each choice of style."""
+"""Trees printed as LaTeX in many styles, for tests of the reader and of the comparison: one draw of
+`Random` for each choice of style."""
 
 from __future__ import annotations
 
 from random import Random
 
-from tests.reports.nodes import Arithmetic, Formula, Implied, Joined, Listed, Name, Neg, Node, Not, Num, Related, Term, Unary
+from tests.reports.nodes import (
+    Arithmetic,
+    Formula,
+    Implied,
+    Joined,
+    Listed,
+    Name,
+    Neg,
+    Node,
+    Not,
+    Num,
+    Related,
+    Term,
+    Unary,
+)
 
-SUM, QUOTIENT, PRODUCT, FACTOR, BASE = range(5)  # how tightly what is printed holds together; a BASE takes an exponent
+SUM, QUOTIENT, PRODUCT, FACTOR, BASE = range(
+    5
+)  # how tightly what is printed holds together; a BASE takes an exponent
 GLYPHS = {
     "alpha": (r"\alpha", r"{\alpha}"),
     "beta": (r"\bar\beta", r"\overline\beta", r"\overline{\beta}", r"\bar{\beta}"),
-    "v": (r"\dot{\bar\beta}", r"\dot{\overline{\beta}}", r"\overline{\dot\beta}", r"\dot{\bar{\beta}}"),
+    "v": (
+        r"\dot{\bar\beta}",
+        r"\dot{\overline{\beta}}",
+        r"\overline{\dot\beta}",
+        r"\dot{\bar{\beta}}",
+    ),
     "r": (r"\dot\rho_0", r"\dot{\rho}_0", r"\dot{\rho}_{0}", r"\dot{\rho_0}"),
     "g": (r"\gamma",),
     "beta0": (r"\bar\beta_0", r"\overline{\beta}_{0}"),
@@ -39,7 +61,14 @@ GLYPHS = {
     "omega_after": (r"\omega_{\mathrm{after}}",),
 }
 BRACKETS = (("(", ")"), (r"\left(", r"\right)"), (r"\bigl(", r"\bigr)"), ("[", "]"))
-SIGNS = {"<": ("<",), "<=": (r"\le", r"\leq"), ">": (">",), ">=": (r"\ge", r"\geq"), "=": ("=",), "!=": (r"\ne", r"\neq")}
+SIGNS = {
+    "<": ("<",),
+    "<=": (r"\le", r"\leq"),
+    ">": (">",),
+    ">=": (r"\ge", r"\geq"),
+    "=": ("=",),
+    "!=": (r"\ne", r"\neq"),
+}
 JOINS = {"and": (r"\land", r"\wedge", r"\text{ and }"), "or": (r"\lor", r"\vee", r"\text{ or }")}
 ARROWS = {"implies": (r"\Rightarrow", r"\implies"), "iff": (r"\iff", r"\Leftrightarrow")}
 
@@ -51,7 +80,11 @@ def printed(node: Node, random: Random) -> str:
     if isinstance(node, Listed):
         if random.random() < 0.5:
             return "(" + ", ".join(printed(entry, random) for entry in node.entries) + ")"
-        return r"\begin{bmatrix}" + r" \\ ".join(printed(entry, random) for entry in node.entries) + r"\end{bmatrix}"
+        return (
+            r"\begin{bmatrix}"
+            + r" \\ ".join(printed(entry, random) for entry in node.entries)
+            + r"\end{bmatrix}"
+        )
     assert isinstance(node, Term)
     return term(node, random)[0]
 
@@ -75,22 +108,55 @@ def term(node: Term, random: Random) -> tuple[str, int]:
         return "-" + at_least(QUOTIENT, node.of, random), SUM
     if isinstance(node, Unary):
         under = term(node.of, random)[0]
-        return {"sqrt": rf"\sqrt{{{under}}}", "floor": rf"\lfloor {under} \rfloor", "ceil": rf"\left\lceil {under} \right\rceil"}[node.function], BASE
+        return {
+            "sqrt": rf"\sqrt{{{under}}}",
+            "floor": rf"\lfloor {under} \rfloor",
+            "ceil": rf"\left\lceil {under} \right\rceil",
+        }[node.function], BASE
     assert isinstance(node, Arithmetic)
     if node.sign in "+-":
-        return f"{at_least(SUM, node.left, random)} {node.sign} {at_least(QUOTIENT, node.right, random)}", SUM
+        return (
+            (
+                f"{at_least(SUM, node.left, random)} {node.sign}"
+                f" {at_least(QUOTIENT, node.right, random)}"
+            ),
+            SUM,
+        )
     if node.sign == "^":
         power = printed(node.right, random)
-        return at_least(BASE, node.left, random) + "^" + (power if len(power) == 1 and random.random() < 0.5 else f"{{{power}}}"), FACTOR
+        return (
+            at_least(BASE, node.left, random)
+            + "^"
+            + (power if len(power) == 1 and random.random() < 0.5 else f"{{{power}}}"),
+            FACTOR,
+        )
     if node.sign == "/":
         if random.random() < 0.3:
-            return f"{at_least(PRODUCT, node.left, random)}/{at_least(FACTOR, node.right, random)}", QUOTIENT
-        if isinstance(node.left, Num) and isinstance(node.right, Num) and node.left.number < 10 > node.right.number:
+            return (
+                f"{at_least(PRODUCT, node.left, random)}/{at_least(FACTOR, node.right, random)}",
+                QUOTIENT,
+            )
+        if (
+            isinstance(node.left, Num)
+            and isinstance(node.right, Num)
+            and node.left.number < 10 > node.right.number
+        ):
             return rf"\tfrac{node.left.number}{node.right.number}", FACTOR
         return rf"\frac{{{term(node.left, random)[0]}}}{{{term(node.right, random)[0]}}}", FACTOR
     left, right = at_least(PRODUCT, node.left, random), at_least(FACTOR, node.right, random)
-    dotted = right[0].isdigit() or left[-1].isdigit() and "frac" in right[:6] or random.random() < 0.2
-    return left + (random.choice((r" \cdot ", r" \times ")) if dotted else random.choice((" ", r"\,", r" \; "))) + right, PRODUCT
+    dotted = (
+        right[0].isdigit() or left[-1].isdigit() and "frac" in right[:6] or random.random() < 0.2
+    )
+    return (
+        left
+        + (
+            random.choice((r" \cdot ", r" \times "))
+            if dotted
+            else random.choice((" ", r"\,", r" \; "))
+        )
+        + right,
+        PRODUCT,
+    )
 
 
 def glyph(name: str, random: Random) -> str:
@@ -103,7 +169,10 @@ def glyph(name: str, random: Random) -> str:
 
 def formula(node: Formula, random: Random) -> str:
     if isinstance(node, Related):
-        return f"{printed(node.left, random)} {random.choice(SIGNS[node.sign])} {printed(node.right, random)}"
+        return (
+            f"{printed(node.left, random)} {random.choice(SIGNS[node.sign])}"
+            f" {printed(node.right, random)}"
+        )
     if isinstance(node, Not):
         inner = formula(node.of, random)
         if isinstance(node.of, Related) and random.random() < 0.5:
@@ -113,9 +182,15 @@ def formula(node: Formula, random: Random) -> str:
         sign = random.choice(JOINS[node.how])
         return f" {sign} ".join(kept_apart(part, (Joined, Implied), random) for part in node.parts)
     assert isinstance(node, Implied)
-    return f" {random.choice(ARROWS[node.how])} ".join(kept_apart(side, (Implied,), random) for side in (node.left, node.right))
+    return f" {random.choice(ARROWS[node.how])} ".join(
+        kept_apart(side, (Implied,), random) for side in (node.left, node.right)
+    )
 
 
 def kept_apart(part: Formula, kinds: tuple[type, ...], random: Random) -> str:
     """A formula, in brackets where it is of one of these kinds."""
-    return bracketed(formula(part, random), random) if isinstance(part, kinds) else formula(part, random)
+    return (
+        bracketed(formula(part, random), random)
+        if isinstance(part, kinds)
+        else formula(part, random)
+    )

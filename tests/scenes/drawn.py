@@ -37,7 +37,8 @@ def curves(slug: str, name: str) -> list[Any]:
 
 
 def points(slug: str, name: str, parts: int = 7) -> list[tuple[float, float]]:
-    """Points along every piece of the curves of this name, ends included, in the coordinates of their axes."""
+    """Points along every piece of the curves of this name, ends included, in the coordinates of
+    their axes."""
     found = []
     for patch in curves(slug, name):
         here = (0.0, 0.0)
@@ -45,7 +46,10 @@ def points(slug: str, name: str, parts: int = 7) -> list[tuple[float, float]]:
             if code == Path.MOVETO:
                 here = tuple(map(float, vertices))
                 continue
-            ends = [here, *[tuple(map(float, vertices[k:k + 2])) for k in range(0, len(vertices), 2)]]
+            ends = [
+                here,
+                *[tuple(map(float, vertices[k : k + 2])) for k in range(0, len(vertices), 2)],
+            ]
             found += [_bezier(ends, k / parts) for k in range(parts + 1)]
             here = ends[-1]
     return found
@@ -53,12 +57,15 @@ def points(slug: str, name: str, parts: int = 7) -> list[tuple[float, float]]:
 
 def _bezier(ends: list[tuple[float, float]], t: float) -> tuple[float, float]:
     while len(ends) > 1:
-        ends = [((1 - t) * a + t * c, (1 - t) * b + t * d) for (a, b), (c, d) in zip(ends, ends[1:])]
+        ends = [
+            ((1 - t) * a + t * c, (1 - t) * b + t * d) for (a, b), (c, d) in zip(ends, ends[1:])
+        ]
     return ends[0]
 
 
 def states(slug: str, name: str) -> list[dict[Any, float]]:
-    """The states beta, v of the points of a curve in the plane of states, where 1 is r T across and r up, at alpha = 1/4 and r = g = 1."""
+    """The states beta, v of the points of a curve in the plane of states, where 1 is r T across and
+    r up, at alpha = 1/4 and r = g = 1."""
     from symbolic import period
     from symbolic.symbols import alpha, beta, g, r, v
 

@@ -1,4 +1,5 @@
-"""Figure 3 shows the exact images of the boundary of R: no point is off its orbit, and no piece joins what f tears apart."""
+"""Figure 3 shows the exact images of the boundary of R: no point is off its orbit, and no piece
+joins what f tears apart."""
 
 from __future__ import annotations
 
@@ -15,13 +16,18 @@ from symbolic.symbols import alpha, beta, g, r, v
 from tests.scenes.drawn import points
 
 SETTING = {alpha: Rational(1, 4), r: 1, g: 1}
-BRANCHES = [tuple(entry.subs(SETTING) for entry in branch()) for branch in (symbolic.f1, symbolic.f2)]
+BRANCHES = [
+    tuple(entry.subs(SETTING) for entry in branch()) for branch in (symbolic.f1, symbolic.f2)
+]
 MARGIN = symbolic.collision_margin().subs(SETTING)
 
 
 def exact_orbit(height: Fraction, speed: Fraction, steps: int) -> tuple[Rational, Rational]:
     """f^steps by SymPy's rationals, from the derived branches and inequality (7) alone."""
-    state = Rational(height.numerator, height.denominator), Rational(speed.numerator, speed.denominator)
+    state = (
+        Rational(height.numerator, height.denominator),
+        Rational(speed.numerator, speed.denominator),
+    )
     for _ in range(steps):
         at = {beta: state[0], v: state[1]}
         branch = BRANCHES[0] if MARGIN.subs(at) > 0 else BRANCHES[1]
@@ -30,16 +36,20 @@ def exact_orbit(height: Fraction, speed: Fraction, steps: int) -> tuple[Rational
 
 
 def start_of(parameter: Fraction, arc_of_boundary: bool) -> tuple[Fraction, Fraction]:
-    """The state of the boundary with this parameter: its velocity on the arc, and how far along the edge beta = 0 from its lowest point."""
+    """The state of the boundary with this parameter: its velocity on the arc, and how far along the
+    edge beta = 0 from its lowest point."""
     if arc_of_boundary:
-        height = symbolic.region_margin().subs({**SETTING, v: Rational(parameter.numerator, parameter.denominator), beta: 0})
+        height = symbolic.region_margin().subs(
+            {**SETTING, v: Rational(parameter.numerator, parameter.denominator), beta: 0}
+        )
         return Fraction(int(height.p), int(height.q)), parameter
     low, high = (Fraction(boundary_image(0)[1].at(end)[1]) for end in (0.0, 1.0))
     return Fraction(0), low + parameter * (high - low)
 
 
 def of_the_arc(piece: Arc) -> bool:
-    """The edge's pieces are affine in their parameter, which lies between 0 and 1; those of the arc are quadratic."""
+    """The edge's pieces are affine in their parameter, which lies between 0 and 1; those of the arc
+    are quadratic."""
     return piece.across[2] != 0
 
 
@@ -50,7 +60,10 @@ def test_images_are_the_exact_images_holds(step: int) -> None:
         for part in (0.2, 0.5, 0.8):
             parameter = piece.start + part * (piece.stop - piece.start)
             exact = exact_orbit(*start_of(Fraction(parameter), of_the_arc(piece)), step)
-            assert piece.at(parameter) == (pytest.approx(float(exact[0]), abs=1e-12), pytest.approx(float(exact[1]), abs=1e-12))
+            assert piece.at(parameter) == (
+                pytest.approx(float(exact[0]), abs=1e-12),
+                pytest.approx(float(exact[1]), abs=1e-12),
+            )
             seen += 1
     assert seen >= 6
 
@@ -73,14 +86,19 @@ def test_what_is_drawn_is_the_image_holds(step: int) -> None:
             continue
         drawn = points("fig-3", name, parts=2)
         middles = {(round(x * 2, 9), round(y, 9)) for x, y in drawn[1::3]}
-        assert middles == {tuple(round(one, 9) for one in arc.at((arc.start + arc.stop) / 2)) for arc in expected}
+        assert middles == {
+            tuple(round(one, 9) for one in arc.at((arc.start + arc.stop) / 2)) for arc in expected
+        }
 
 
 def test_no_drawn_piece_crosses_the_line_where_f_jumps_holds() -> None:
     for step in range(STEPS):
         for arc in boundary_image(step):
             for part, strikes in cut_at_the_bounce(arc):
-                inside = [float(margin(*part.at(part.start + k / 10 * (part.stop - part.start)))) for k in range(1, 10)]
+                inside = [
+                    float(margin(*part.at(part.start + k / 10 * (part.stop - part.start))))
+                    for k in range(1, 10)
+                ]
                 assert all(one > 0 for one in inside) if strikes else all(one < 0 for one in inside)
 
 

@@ -13,9 +13,17 @@ THIRD = (Fraction(0), Fraction(1, 3), False, False)
 
 
 def test_rows_with_one_range_share_a_bar_holds() -> None:
-    rows: list[Row] = [("a", "holds", [THIRD]), ("b", "false", [THIRD]), ("c", "holds", []), ("d", "holds", None)]
+    rows: list[Row] = [
+        ("a", "holds", [THIRD]),
+        ("b", "false", [THIRD]),
+        ("c", "holds", []),
+        ("d", "holds", None),
+    ]
     groups = grouped(rows)
-    assert [(ranges, [row[0] for row in of]) for ranges, of in groups] == [((THIRD,), ["a", "b"]), ((), ["c"])]
+    assert [(ranges, [row[0] for row in of]) for ranges, of in groups] == [
+        ((THIRD,), ["a", "b"]),
+        ((), ["c"]),
+    ]
     assert verdicts(groups[0]) == ["1 false, 1 holds"] and verdicts(groups[1]) == ["holds"]
 
 
@@ -32,7 +40,12 @@ def test_what_is_not_drawn_is_said_holds() -> None:
 
 
 def test_bars_have_their_ends_holds() -> None:
-    assert [row[0] for _, of in grouped(ROWS) for row in of] == ["whole", "theorem", "at one", "empty"]
+    assert [row[0] for _, of in grouped(ROWS) for row in of] == [
+        "whole",
+        "theorem",
+        "at one",
+        "empty",
+    ]
     for index, (low, high) in enumerate([(0, 1), (0, 1 / 3), (0.12, 0.12)]):
         xs = [x for x, _ in points("fig-ranges", f"range-{index}")]
         assert min(xs) == pytest.approx(low, abs=0.02) and max(xs) == pytest.approx(high, abs=0.02)
@@ -42,5 +55,11 @@ def test_bars_have_their_ends_holds() -> None:
 def test_open_and_closed_ends_are_told_apart_holds() -> None:
     from matplotlib.lines import Line2D
 
-    faces = {one.get_gid(): one.get_markerfacecolor() for one in figure("fig-ranges").findobj(Line2D)}
-    assert faces["range-1-open"] == "none" and faces["range-2-closed"] != "none" and "range-1-closed" not in faces
+    faces = {
+        one.get_gid(): one.get_markerfacecolor() for one in figure("fig-ranges").findobj(Line2D)
+    }
+    assert (
+        faces["range-1-open"] == "none"
+        and faces["range-2-closed"] != "none"
+        and "range-1-closed" not in faces
+    )

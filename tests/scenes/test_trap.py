@@ -33,7 +33,11 @@ def test_orbits_are_those_of_the_derived_map_and_end_in_the_trap_holds() -> None
         orbit = orbit_into(TRAP, start)
         for here, there in zip(orbit, orbit[1:]):
             place = {x: Rational(here[0]), w: Rational(here[1]), **QUARTER}
-            branch = symbolic.normal_f1() if symbolic.normal_margin().subs(place) > 0 else symbolic.normal_f2()
+            branch = (
+                symbolic.normal_f1()
+                if symbolic.normal_margin().subs(place) > 0
+                else symbolic.normal_f2()
+            )
             assert tuple(entry.subs(place) for entry in branch) == tuple(map(Rational, there))
             assert not inside(TRAP, *here) and here[0] >= 0
         assert inside(TRAP, *orbit[-1]) and inside(TRAP, *normal_step(*orbit[-1]))
@@ -41,11 +45,22 @@ def test_orbits_are_those_of_the_derived_map_and_end_in_the_trap_holds() -> None
 
 def test_sides_bound_the_trap_holds() -> None:
     corners = {start for start, _, _ in sides(TRAP)}
-    assert corners == {(Fraction(0), Fraction(0)), (Fraction(4), Fraction(4)), (Fraction(0), Fraction(4))}
+    assert corners == {
+        (Fraction(0), Fraction(0)),
+        (Fraction(4), Fraction(4)),
+        (Fraction(0), Fraction(4)),
+    }
     assert {(start, stop): left_out for start, stop, left_out in sides(TRAP)} == {
-        ((0, 0), (4, 4)): True, ((4, 4), (0, 4)): True, ((0, 4), (0, 0)): False}
+        ((0, 0), (4, 4)): True,
+        ((4, 4), (0, 4)): True,
+        ((0, 4), (0, 0)): False,
+    }
     middle = [sum(corner[k] for corner in corners) / 3 for k in (0, 1)]
-    assert inside(TRAP, *middle) and not inside(TRAP, Fraction(1), Fraction(1)) and inside(TRAP, Fraction(0), Fraction(1))
+    assert (
+        inside(TRAP, *middle)
+        and not inside(TRAP, Fraction(1), Fraction(1))
+        and inside(TRAP, Fraction(0), Fraction(1))
+    )
 
 
 def test_orbit_fails_without_a_trap_to_fall_into() -> None:

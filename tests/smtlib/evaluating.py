@@ -9,8 +9,21 @@ from typing import Any
 
 from certificates.terms import RELATIONS, Formula, Term
 
-COMPARE = {"<": operator.lt, "<=": operator.le, "=": operator.eq, "!=": operator.ne, ">=": operator.ge, ">": operator.gt}
-COMPUTE = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "^": operator.pow}
+COMPARE = {
+    "<": operator.lt,
+    "<=": operator.le,
+    "=": operator.eq,
+    "!=": operator.ne,
+    ">=": operator.ge,
+    ">": operator.gt,
+}
+COMPUTE = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "^": operator.pow,
+}
 
 
 def value(term: Term, point: Mapping[str, Fraction]) -> Fraction:
@@ -28,12 +41,19 @@ def value(term: Term, point: Mapping[str, Fraction]) -> Fraction:
 def truth(formula: Formula, point: Mapping[str, Fraction]) -> bool:
     """Whether a formula holds."""
     if formula.op in RELATIONS:
-        return bool(COMPARE[formula.op](value(formula.args[0], point), value(formula.args[1], point)))
+        return bool(
+            COMPARE[formula.op](value(formula.args[0], point), value(formula.args[1], point))
+        )
     if formula.op in ("true", "false"):
         return formula.op == "true"
     parts = [truth(part, point) for part in formula.args]
-    return {"not": lambda: not parts[0], "and": lambda: all(parts), "or": lambda: any(parts),
-            "implies": lambda: not parts[0] or parts[1], "iff": lambda: parts[0] == parts[1]}[formula.op]()
+    return {
+        "not": lambda: not parts[0],
+        "and": lambda: all(parts),
+        "or": lambda: any(parts),
+        "implies": lambda: not parts[0] or parts[1],
+        "iff": lambda: parts[0] == parts[1],
+    }[formula.op]()
 
 
 def atoms(formula: Formula) -> Iterator[Formula]:

@@ -1,4 +1,5 @@
-"""What the reader of SMT-LIB accepts, as the statement that it becomes, and what it refuses, in one line that names file, line and mend."""
+"""What the reader of SMT-LIB accepts, as the statement that it becomes, and what it refuses, in one
+line that names file, line and mend."""
 
 from __future__ import annotations
 
@@ -30,16 +31,28 @@ ACCEPTED = [
     ("(assert (> (ite (> x 0) x (- x)) 1))", "x > 0 and x > 1 or not x > 0 and -x > 1"),
     ("(assert (let ((x y) (y x)) (> x (* 2 y))))", "y > 2*x"),
     ("(assert (let ((z (+ x 1))) (let ((z (* z z))) (> z 0))))", "(x + 1)*(x + 1) > 0"),
-    ("(define-fun sq ((t Real)) Real (* t t))(assert (< (sq (+ x 1)) (sq y)))", "(x + 1)*(x + 1) < y*y"),
+    (
+        "(define-fun sq ((t Real)) Real (* t t))(assert (< (sq (+ x 1)) (sq y)))",
+        "(x + 1)*(x + 1) < y*y",
+    ),
     ("(define-fun pos ((x Real)) Bool (> x 0))(assert (pos y))", "y > 0"),
     ("(define-const c Real 2.50)(assert (> x c))", "x > 5/2"),
     ("(define-fun c () Real 2)(assert (> x c))", "x > 2"),
     ("(assert (! (> x 0) :named positive))", "x > 0"),
     ("(push 1)(assert (> x 9))(pop 1)(assert (> x 1))", "x > 1"),
-    ("(set-info :source |it; is ) so|)(set-option :produce-models true)(assert (> x 0)) ; (assert (< x 0))\n", "x > 0"),
+    (
+        (
+            "(set-info :source |it; is ) so|)(set-option :produce-models true)(assert (> x 0)) ;"
+            " (assert (< x 0))\n"
+        ),
+        "x > 0",
+    ),
     (f"{B}(assert (and b (> x 0)))", "b > 0 and x > 0"),
     ("(assert (> (ite (> x 0) 1 0) (ite (> x 0) 0 1)))", "x > 0 and 1 > 0 or not x > 0 and 0 > 1"),
-    ("(declare-const |a b'| Real)(declare-const lambda Real)(assert (> |a b'| lambda))", "a_b_ > lambda_"),
+    (
+        "(declare-const |a b'| Real)(declare-const lambda Real)(assert (> |a b'| lambda))",
+        "a_b_ > lambda_",
+    ),
     ("(declare-const |x| Bool)", None),
 ]
 
@@ -50,17 +63,31 @@ def test_a_script_is_read_as_this_statement_holds(body: str, shown: str | None) 
         with pytest.raises(ClaimError, match="x is declared already"):
             read_problems(f"{XY}{body}(check-sat)", "f")
         return
-    (problem,) = read_problems(f"(set-logic QF_NRA){XY}{body}(check-sat)(get-model)(exit)(nonsense)", "f")
+    (problem,) = read_problems(
+        f"(set-logic QF_NRA){XY}{body}(check-sat)(get-model)(exit)(nonsense)", "f"
+    )
     text = statement_of(problem, "f/check").text()
-    assert text.splitlines()[-1] == f"show not {shown if ' and ' not in shown and ' or ' not in shown else f'({shown})'}"
+    assert (
+        text.splitlines()[-1]
+        == f"show not {shown if ' and ' not in shown and ' or ' not in shown else f'({shown})'}"
+    )
 
 
 DIVISIONS = [
     ("(assert (> x 0))(assert (< (/ 1 x) y))", ["given x > 0", "show not 1/x < y"]),
-    ("(assert (not (= x y)))(assert (< (/ 1 (- x y)) 1))", ["given not x = y", "show not 1/(x - y) < 1"]),
+    (
+        "(assert (not (= x y)))(assert (< (/ 1 (- x y)) 1))",
+        ["given not x = y", "show not 1/(x - y) < 1"],
+    ),
     ("(assert (< (/ y (+ 1 (* x x))) 1))", ["have 1 + x*x > 0", "show not y/(1 + x*x) < 1"]),
-    ("(assert (< x (- 1)))(assert (< (/ y (* 2 x)) 1))", ["given x < -1", "have 2*x < 0", "show not y/(2*x) < 1"]),
-    ("(assert (and (> x 1) (< (/ 1 (- 1 (/ 1 x))) y)))", ["given x > 1", "have x > 0", "show not 1/(1 - 1/x) < y"]),
+    (
+        "(assert (< x (- 1)))(assert (< (/ y (* 2 x)) 1))",
+        ["given x < -1", "have 2*x < 0", "show not y/(2*x) < 1"],
+    ),
+    (
+        "(assert (and (> x 1) (< (/ 1 (- 1 (/ 1 x))) y)))",
+        ["given x > 1", "have x > 0", "show not 1/(1 - 1/x) < y"],
+    ),
 ]
 
 
@@ -124,9 +151,17 @@ REJECTED = [
     ("(reset)(assert (> x 0))", 2, "x is not declared"),
     ("assert", 2, "assert is no command"),
     ("(assert " + "(not " * 250 + "true" + ")" * 251, 2, "nested more than 200 deep"),
-    ("(define-fun a0 () Real (+ x y))" + "".join(f"(define-fun a{k} () Real (* a{k - 1} a{k - 1}))" for k in range(1, 30)), 2,
-     "more than 20000 symbols"),
-    ("(assert (> (+ " + " ".join(f"(ite (> x {k}) y x)" for k in range(9)) + ") 0))", 2, "more than 64 cases of ite"),
+    (
+        "(define-fun a0 () Real (+ x y))"
+        + "".join(f"(define-fun a{k} () Real (* a{k - 1} a{k - 1}))" for k in range(1, 30)),
+        2,
+        "more than 20000 symbols",
+    ),
+    (
+        "(assert (> (+ " + " ".join(f"(ite (> x {k}) y x)" for k in range(9)) + ") 0))",
+        2,
+        "more than 64 cases of ite",
+    ),
 ]
 
 
@@ -136,7 +171,12 @@ def test_rejects_what_is_not_understood_in_one_line(body: str, line: int, told: 
         for problem in read_problems(f"{XY}\n{body}\n(check-sat)", "bad.smt2"):
             statement_of(problem, "bad/check")
     message = str(caught.value)
-    assert message.startswith(f"bad.smt2:{line}: ") and told in message and "; " in message and "\n" not in message, message
+    assert (
+        message.startswith(f"bad.smt2:{line}: ")
+        and told in message
+        and "; " in message
+        and "\n" not in message
+    ), message
 
 
 def test_rejects_a_script_without_check_sat_and_a_file_that_is_none(tmp_path: Path) -> None:
@@ -150,13 +190,30 @@ def test_rejects_a_script_without_check_sat_and_a_file_that_is_none(tmp_path: Pa
 
 
 def test_every_check_sat_has_the_assertions_and_the_status_of_its_place_holds() -> None:
-    text = ("(declare-const x Real)(set-info :status sat)(assert (> x 0))(check-sat)\n(push)(set-info :status unsat)(assert (< x 0))(check-sat)\n"
-            "(pop)(check-sat)(reset-assertions)(declare-const x Real)(assert (= x 7))(check-sat)(exit)(check-sat)")
-    found = [(problem.line, problem.status, [str(formula) for _, formula in problem.assertions]) for problem in read_problems(text, "f")]
-    assert found == [(1, "sat", ["x > 0"]), (2, "unsat", ["x > 0", "x < 0"]), (3, "", ["x > 0"]), (3, "", ["x = 7"])]
+    text = (
+        "(declare-const x Real)(set-info :status sat)(assert (> x 0))(check-sat)\n(push)(set-info"
+        " :status unsat)(assert (< x"
+        " 0))(check-sat)\n(pop)(check-sat)(reset-assertions)(declare-const x Real)(assert (= x"
+        " 7))(check-sat)(exit)(check-sat)"
+    )
+    found = [
+        (problem.line, problem.status, [str(formula) for _, formula in problem.assertions])
+        for problem in read_problems(text, "f")
+    ]
+    assert found == [
+        (1, "sat", ["x > 0"]),
+        (2, "unsat", ["x > 0", "x < 0"]),
+        (3, "", ["x > 0"]),
+        (3, "", ["x = 7"]),
+    ]
 
 
 def test_names_that_two_symbols_would_share_are_kept_apart_holds() -> None:
-    (problem,) = read_problems("(declare-const |a b| Real)(declare-const a_b Real)(assert (> |a b| a_b))(check-sat)", "f")
+    (problem,) = read_problems(
+        "(declare-const |a b| Real)(declare-const a_b Real)(assert (> |a b| a_b))(check-sat)", "f"
+    )
     assert [variable.name for variable in problem.variables] == ["a_b", "a_b_2"]
-    assert statement_of(problem, "f/check").text().splitlines()[1:] == ["forall a_b a_b_2", "show not a_b > a_b_2"]
+    assert statement_of(problem, "f/check").text().splitlines()[1:] == [
+        "forall a_b a_b_2",
+        "show not a_b > a_b_2",
+    ]

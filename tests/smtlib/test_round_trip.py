@@ -1,4 +1,5 @@
-"""What is written as SMT-LIB and read back means the same: random formulas by a tiny writer, and our own export of stored statements."""
+"""What is written as SMT-LIB and read back means the same: random formulas by a tiny writer, and
+our own export of stored statements."""
 
 from __future__ import annotations
 
@@ -22,21 +23,38 @@ NAMES = ("x", "y", "z")
 numbers = st.fractions(-3, 3, max_denominator=4)
 terms = st.recursive(
     st.sampled_from(NAMES) | numbers,
-    lambda inner: st.tuples(st.sampled_from("+-*"), inner, inner) | st.tuples(st.just("neg"), inner)
-    | st.tuples(st.just("^"), inner, st.integers(0, 3)) | st.tuples(st.just("let"), inner, inner), max_leaves=6)
+    lambda inner: (
+        st.tuples(st.sampled_from("+-*"), inner, inner)
+        | st.tuples(st.just("neg"), inner)
+        | st.tuples(st.just("^"), inner, st.integers(0, 3))
+        | st.tuples(st.just("let"), inner, inner)
+    ),
+    max_leaves=6,
+)
 relations = st.tuples(st.sampled_from(("<", "<=", "=", ">=", ">")), terms, terms)
 formulas = st.recursive(
     relations | st.booleans(),
-    lambda inner: st.tuples(st.sampled_from(("and", "or", "=>", "xor", "iff")), inner, inner) | st.tuples(st.just("not"), inner)
-    | st.tuples(st.just("ite"), inner, inner, inner) | st.tuples(st.just("choose"), inner, terms, terms), max_leaves=6)
+    lambda inner: (
+        st.tuples(st.sampled_from(("and", "or", "=>", "xor", "iff")), inner, inner)
+        | st.tuples(st.just("not"), inner)
+        | st.tuples(st.just("ite"), inner, inner, inner)
+        | st.tuples(st.just("choose"), inner, terms, terms)
+    ),
+    max_leaves=6,
+)
 
 
 def written(thing: Any) -> str:
-    """The tiny writer; `let` names the first term and adds it twice to the second, `choose` compares a real `ite` with 1."""
+    """The tiny writer; `let` names the first term and adds it twice to the second, `choose`
+    compares a real `ite` with 1."""
     if isinstance(thing, bool):
         return str(thing).lower()
     if isinstance(thing, Fraction):
-        size = f"{abs(thing.numerator)}.0" if thing.denominator == 1 else f"(/ {abs(thing.numerator)} {thing.denominator})"
+        size = (
+            f"{abs(thing.numerator)}.0"
+            if thing.denominator == 1
+            else f"(/ {abs(thing.numerator)} {thing.denominator})"
+        )
         return size if thing >= 0 else f"(- {size})"
     if isinstance(thing, str):
         return thing
@@ -48,7 +66,7 @@ def written(thing: Any) -> str:
         return f"(let ((v {written(parts[0])}) (x y) (y x)) (+ v v {written(parts[1])}))"
     if op == "choose":
         return f"(< (ite {inner}) 1)"
-    return f"({ {'neg': '-', 'iff': '='}.get(op, op)} {inner})"
+    return f"({ {'neg': '-', 'iff': '='}.get(op, op) } {inner})"
 
 
 def meant(thing: Any, point: dict[str, Fraction]) -> Any:
@@ -62,18 +80,37 @@ def meant(thing: Any, point: dict[str, Fraction]) -> Any:
         return 2 * meant(first, point) + meant(rest[0], {**point, "x": point["y"], "y": point["x"]})
     a, more = meant(first, point), [part if op == "^" else meant(part, point) for part in rest]
     b = more[0] if more else None
-    return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "neg": lambda: -a, "^": lambda: a**b,
-            "<": lambda: a < b, "<=": lambda: a <= b, "=": lambda: a == b, ">=": lambda: a >= b,
-            ">": lambda: a > b, "and": lambda: a and b, "or": lambda: a or b, "not": lambda: not a,
-            "=>": lambda: not a or b, "xor": lambda: a != b, "iff": lambda: a == b, "ite": lambda: b if a else more[1],
-            "choose": lambda: (b if a else more[1]) < 1}[op]()
+    return {
+        "+": lambda: a + b,
+        "-": lambda: a - b,
+        "*": lambda: a * b,
+        "neg": lambda: -a,
+        "^": lambda: a**b,
+        "<": lambda: a < b,
+        "<=": lambda: a <= b,
+        "=": lambda: a == b,
+        ">=": lambda: a >= b,
+        ">": lambda: a > b,
+        "and": lambda: a and b,
+        "or": lambda: a or b,
+        "not": lambda: not a,
+        "=>": lambda: not a or b,
+        "xor": lambda: a != b,
+        "iff": lambda: a == b,
+        "ite": lambda: b if a else more[1],
+        "choose": lambda: (b if a else more[1]) < 1,
+    }[op]()
 
 
 @settings(max_examples=150, deadline=None)
 @given(formulas, st.lists(st.tuples(numbers, numbers, numbers), min_size=3, max_size=3))
-def test_a_formula_that_is_written_and_read_back_means_the_same_holds(formula: Any, points: list[tuple[Fraction, ...]]) -> None:
+def test_a_formula_that_is_written_and_read_back_means_the_same_holds(
+    formula: Any, points: list[tuple[Fraction, ...]]
+) -> None:
     declared = "".join(f"(declare-const {name} Real)" for name in NAMES)
-    (problem,) = read_problems(f"(set-logic QF_NRA){declared}(assert {written(formula)})(check-sat)", "f")
+    (problem,) = read_problems(
+        f"(set-logic QF_NRA){declared}(assert {written(formula)})(check-sat)", "f"
+    )
     ((_, read),) = problem.assertions
     for values in points:
         point = dict(zip(NAMES, values))
@@ -81,9 +118,21 @@ def test_a_formula_that_is_written_and_read_back_means_the_same_holds(formula: A
 
 
 STORE = Store()
-KEYWORDS = ("forall ", "range ", "given ", "have ", "let ", "root ", "show ")  # no integers, nothing to exist, no rule
-SAMPLE = [name for name, text in sorted(STORE.texts.items()) if zlib.crc32(name.encode()) % 12 == 0
-          and all(row.startswith(KEYWORDS) for row in text.splitlines()[1:])]
+KEYWORDS = (
+    "forall ",
+    "range ",
+    "given ",
+    "have ",
+    "let ",
+    "root ",
+    "show ",
+)  # no integers, nothing to exist, no rule
+SAMPLE = [
+    name
+    for name, text in sorted(STORE.texts.items())
+    if zlib.crc32(name.encode()) % 12 == 0
+    and all(row.startswith(KEYWORDS) for row in text.splitlines()[1:])
+]
 
 
 def holds(formula: Any, values: list[Fraction]) -> bool:
@@ -116,8 +165,14 @@ def test_our_own_export_read_back_is_the_same_up_to_names_holds(name: str) -> No
         formulas = [*question.assumed, *(denial.formula for denial in question.denials)]
         assert len(problem.assertions) == len(formulas)
         for _ in range(4):
-            point = {symbol: Fraction(chance.randint(-6, 6), chance.randint(1, 4)) for symbol in question.names}
-            ours = {variable.name: point[variable.symbol.removesuffix("!")] for variable in problem.variables}  # e! where Z3 has its own e
+            point = {
+                symbol: Fraction(chance.randint(-6, 6), chance.randint(1, 4))
+                for symbol in question.names
+            }
+            ours = {
+                variable.name: point[variable.symbol.removesuffix("!")]
+                for variable in problem.variables
+            }  # e! where Z3 has its own e
             values = [point[symbol] for symbol in question.names]
             for (_, read), formula in zip(problem.assertions, formulas):
                 assert truth(read, ours) == holds(formula, values)

@@ -13,11 +13,14 @@ Value = Callable[..., Fraction]
 
 @pytest.fixture(scope="session")
 def value() -> Value:
-    """value(expression, alpha=..., beta=..., ...): the exact number that an expression has at rational arguments."""
+    """value(expression, alpha=..., beta=..., ...): the exact number that an expression has at
+    rational arguments."""
     from sympy import Rational, Symbol
 
     def evaluate(expression: Any, **arguments: Fraction) -> Fraction:
-        exact = {Symbol(name): Rational(a.numerator, a.denominator) for name, a in arguments.items()}
+        exact = {
+            Symbol(name): Rational(a.numerator, a.denominator) for name, a in arguments.items()
+        }
         found = Rational(expression.xreplace(exact))  # refuses what is not rational
         return Fraction(int(found.p), int(found.q))
 

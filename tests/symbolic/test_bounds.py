@@ -1,4 +1,5 @@
-"""The bounds are bounds, and are reached or approached, at restitutions for which sqrt(2 (1 + alpha)) is rational."""
+"""The bounds are bounds, and are reached or approached, at restitutions for which sqrt(2 (1 +
+alpha)) is rational."""
 
 from __future__ import annotations
 
@@ -62,8 +63,12 @@ def test_every_impact_outside_the_region_loses_more_than_the_supremum_holds(
     assert value(s.energy_change_1(), **at) < value(s.delta_E_sup(), alpha=alpha, **UNIT) < 0
 
 
-@pytest.mark.parametrize("root", [Fraction(3, 2), Fraction(5, 3), Fraction(71, 50), Fraction(199, 100)])
-def test_maxima_are_reached_in_the_set_and_the_supremum_is_only_approached_holds(value: Value, root: Fraction) -> None:
+@pytest.mark.parametrize(
+    "root", [Fraction(3, 2), Fraction(5, 3), Fraction(71, 50), Fraction(199, 100)]
+)
+def test_maxima_are_reached_in_the_set_and_the_supremum_is_only_approached_holds(
+    value: Value, root: Fraction
+) -> None:
     alpha = restitution(root)
 
     def at(found: s.Extremum, lower: Fraction = Fraction(0)) -> dict[str, Fraction]:
@@ -96,7 +101,12 @@ def test_region_energy_is_the_sum_of_the_maxima_holds() -> None:
 def test_corner_lies_on_the_ground_and_on_the_boundary_of_the_region_holds() -> None:
     corner = s.region_corner()
     assert corner[0] == 0
-    assert s.lowest_terms((corner[1] / sqrt(2 * s.alpha + 2)) ** 2 * (2 * s.alpha + 2) - 2 * s.region_energy()) == 0
+    assert (
+        s.lowest_terms(
+            (corner[1] / sqrt(2 * s.alpha + 2)) ** 2 * (2 * s.alpha + 2) - 2 * s.region_energy()
+        )
+        == 0
+    )
     assert corner == s.least_energy_loss().state
 
 
@@ -115,12 +125,15 @@ def test_point_p_has_the_speed_of_the_fixed_point_on_the_line_between_the_region
 
 @many
 @given(closing, st.fractions(min_value=-20, max_value=20, max_denominator=50))
-def test_no_fall_takes_longer_than_the_worst_flight_holds(value: Value, beta: Fraction, v: Fraction) -> None:
+def test_no_fall_takes_longer_than_the_worst_flight_holds(
+    value: Value, beta: Fraction, v: Fraction
+) -> None:
     # The worst time squared is compared, so that no root is taken.
     at = {"beta": beta, "v": v, **UNIT}
     energy = value(s.total_energy(), **at)
     squared = value(s.worst_flight_time() ** 2, E0=energy, **UNIT)
-    # After the worst time the ball is below the ground: at time t it is at beta + v t - g t^2 / 2 <= 0.
+    # After the worst time the ball is below the ground: at time t it is at beta + v t - g t^2 / 2
+    # <= 0.
     fallen = UNIT["g"] * squared / 2 - beta
     assert fallen >= 0
     assert fallen**2 >= v**2 * squared
@@ -156,7 +169,10 @@ def test_sign_is_that_of_every_value_holds(value: Value, root: Fraction, c: list
 def test_candidates_of_which_none_is_always_greatest_are_refused_holds() -> None:
     found = s.candidates(s.w - s.x, [s.x, s.w - s.alpha, 1 - s.w])
     assert s.greatest(found).value == 1
-    split = [candidate._replace(value=level) for candidate, level in zip(found, (s.alpha, Rational(1, 2)), strict=True)]
+    split = [
+        candidate._replace(value=level)
+        for candidate, level in zip(found, (s.alpha, Rational(1, 2)), strict=True)
+    ]
     with pytest.raises(s.DerivationError, match="sign may change"):
         s.greatest(split)
 

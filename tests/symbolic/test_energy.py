@@ -13,7 +13,9 @@ import symbolic as s
 Value = Callable[..., Fraction]
 numbers = st.fractions(min_value=-20, max_value=20, max_denominator=50)
 positive = st.fractions(min_value=Fraction(1, 20), max_value=20, max_denominator=50)
-restitutions = st.fractions(min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50)
+restitutions = st.fractions(
+    min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50
+)
 few = settings(max_examples=40, deadline=None)
 
 
@@ -30,13 +32,23 @@ def test_energy_change_is_that_of_the_kinetic_energy_at_impact_holds() -> None:
 @few
 @given(numbers, numbers, restitutions, positive, positive, positive)
 def test_gradient_is_the_exact_slope_of_a_quadratic_holds(
-    value: Value, beta: Fraction, v: Fraction, alpha: Fraction, r: Fraction, g: Fraction, step: Fraction
+    value: Value,
+    beta: Fraction,
+    v: Fraction,
+    alpha: Fraction,
+    r: Fraction,
+    g: Fraction,
+    step: Fraction,
 ) -> None:
     # Central differences of a quadratic are its derivative, whatever the step.
     at = {"alpha": alpha, "r": r, "g": g}
     change = s.energy_change_1()
-    by_height = value(change, beta=beta + step, v=v, **at) - value(change, beta=beta - step, v=v, **at)
-    by_speed = value(change, beta=beta, v=v + step, **at) - value(change, beta=beta, v=v - step, **at)
+    by_height = value(change, beta=beta + step, v=v, **at) - value(
+        change, beta=beta - step, v=v, **at
+    )
+    by_speed = value(change, beta=beta, v=v + step, **at) - value(
+        change, beta=beta, v=v - step, **at
+    )
     slopes = tuple(value(entry, beta=beta, v=v, **at) for entry in s.energy_gradient())
     assert slopes == (by_height / (2 * step), by_speed / (2 * step))
 

@@ -1,4 +1,5 @@
-"""Fixed points are fixed, and their orbits keep to the regions exactly when restitution is large enough."""
+"""Fixed points are fixed, and their orbits keep to the regions exactly when restitution is large
+enough."""
 
 from __future__ import annotations
 
@@ -12,7 +13,9 @@ from sympy import Integer, Rational
 import symbolic as s
 
 Value = Callable[..., Fraction]
-restitutions = st.fractions(min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50)
+restitutions = st.fractions(
+    min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50
+)
 few = settings(max_examples=60, deadline=None)
 
 
@@ -23,14 +26,22 @@ def test_fixed_point_is_fixed_for_every_number_of_periods_holds() -> None:
 
 def test_first_fixed_point_is_that_of_one_period_holds() -> None:
     assert s.apply(s.f1(), s.e_1()) == s.e_1()
-    assert (s.fixed_point().xreplace({s.K: Integer(1)}) - s.e_1()).applyfunc(s.lowest_terms).is_zero_matrix
+    assert (
+        (s.fixed_point().xreplace({s.K: Integer(1)}) - s.e_1())
+        .applyfunc(s.lowest_terms)
+        .is_zero_matrix
+    )
     assert s.scaled_state(s.e_1())[1] == s.lowest_terms(2 / (1 + s.alpha))
 
 
 def test_impact_state_is_fixed_when_impact_comes_first_holds() -> None:
     around = s.apply(s.flight_power(s.K - 1), s.apply(s.f1(), s.impact_fixed_point()))
     assert (around - s.impact_fixed_point()).applyfunc(s.lowest_terms).is_zero_matrix
-    assert (s.apply(s.f1(), s.impact_fixed_point()) - s.fixed_point()).applyfunc(s.lowest_terms).is_zero_matrix
+    assert (
+        (s.apply(s.f1(), s.impact_fixed_point()) - s.fixed_point())
+        .applyfunc(s.lowest_terms)
+        .is_zero_matrix
+    )
 
 
 def test_first_fixed_point_is_a_shifted_launch_holds() -> None:
@@ -63,7 +74,9 @@ def test_orbit_keeps_to_its_regions_exactly_from_the_threshold_on_holds(
 
 def test_table_speed_from_restitution_balance_is_that_of_the_fixed_point_holds() -> None:
     assert s.table_speed_at_fixed_point() == s.subharmonic_table_speed()
-    ball = s.ball_speed_at_collision().xreplace({s.beta: s.impact_fixed_point()[0], s.v: s.impact_fixed_point()[1]})
+    ball = s.ball_speed_at_collision().xreplace(
+        {s.beta: s.impact_fixed_point()[0], s.v: s.impact_fixed_point()[1]}
+    )
     assert s.lowest_terms(ball + s.subharmonic_ball_speed()) == 0
 
 
@@ -82,6 +95,9 @@ def test_equilibrium_speed_is_only_reversed_holds() -> None:
 
 
 def test_threshold_is_where_the_bound_is_the_number_of_periods_holds() -> None:
-    assert s.lowest_terms(s.subharmonic_bound().xreplace({s.alpha: s.restitution_threshold()}) - s.K) == 0
+    assert (
+        s.lowest_terms(s.subharmonic_bound().xreplace({s.alpha: s.restitution_threshold()}) - s.K)
+        == 0
+    )
     assert s.restitution_threshold(2) == Rational(1, 3)
     assert s.restitution_threshold(1) == 0

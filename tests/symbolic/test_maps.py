@@ -15,11 +15,15 @@ Value = Callable[..., Fraction]
 
 positive = st.fractions(min_value=Fraction(1, 20), max_value=20, max_denominator=50)
 speeds = st.fractions(min_value=-20, max_value=20, max_denominator=50)
-restitutions = st.fractions(min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50)
+restitutions = st.fractions(
+    min_value=Fraction(1, 50), max_value=Fraction(49, 50), max_denominator=50
+)
 few = settings(max_examples=40, deadline=None)
 
 
-def flown(height: Fraction, speed: Fraction, time: Fraction, gravity: Fraction) -> tuple[Fraction, Fraction]:
+def flown(
+    height: Fraction, speed: Fraction, time: Fraction, gravity: Fraction
+) -> tuple[Fraction, Fraction]:
     return height + speed * time - gravity * time**2 / 2, speed - gravity * time
 
 
@@ -34,7 +38,9 @@ def stepped(
     ball_height, ball_speed = flown(height, speed, time, gravity)
     table_height, table_speed = flown(Fraction(0), launch, time, gravity)
     assert ball_height == table_height
-    return flown(ball_height, table_speed - alpha * (ball_speed - table_speed), period - time, gravity)
+    return flown(
+        ball_height, table_speed - alpha * (ball_speed - table_speed), period - time, gravity
+    )
 
 
 @few
@@ -72,14 +78,20 @@ def test_ball_meets_the_table_at_the_collision_time_holds() -> None:
 
 def test_boundary_between_the_regions_is_where_the_collision_takes_a_period_holds() -> None:
     assert s.lowest_terms(s.collision_time().xreplace({s.v: s.boundary_speed()}) - s.period()) == 0
-    assert s.lowest_terms(s.collision_time().xreplace({s.beta: s.boundary_height()}) - s.period()) == 0
+    assert (
+        s.lowest_terms(s.collision_time().xreplace({s.beta: s.boundary_height()}) - s.period()) == 0
+    )
     assert s.time_after_collision().xreplace({s.beta: s.boundary_height()}).cancel() == 0
 
 
 def test_folded_impact_is_a_contraction_towards_the_launch_holds() -> None:
-    difference = s.folded_impact() - s.launch_state() + s.alpha * (s.state(s.beta, s.v) - s.launch_state())
+    difference = (
+        s.folded_impact() - s.launch_state() + s.alpha * (s.state(s.beta, s.v) - s.launch_state())
+    )
     assert difference.expand() == s.state(0, 0)
-    assert (s.fly(s.folded_impact(), s.period()) - s.f1()).applyfunc(s.lowest_terms) == s.state(0, 0)
+    assert (s.fly(s.folded_impact(), s.period()) - s.f1()).applyfunc(s.lowest_terms) == s.state(
+        0, 0
+    )
 
 
 def test_first_map_has_its_matrix_offset_and_time_shift_holds() -> None:
@@ -132,4 +144,6 @@ def test_normal_form_is_conjugate_to_the_maps_holds(
         after = tuple(value(entry, beta=after_beta, v=after_v, r=r, g=g) for entry in s.scaling())
         assert after == tuple(value(entry, alpha=alpha, x=x, w=w) for entry in normal)
     assert value(s.normal_energy(), x=x, w=w) * r**2 == value(s.total_energy(), **at)
-    assert value(s.normal_energy_change(), alpha=alpha, x=x, w=w) * r**2 == value(s.energy_change_1(), **at)
+    assert value(s.normal_energy_change(), alpha=alpha, x=x, w=w) * r**2 == value(
+        s.energy_change_1(), **at
+    )

@@ -1,4 +1,5 @@
-"""The package loads nothing until a derivation is asked for, and says so where a derivation fails."""
+"""The package loads nothing until a derivation is asked for, and says so where a derivation
+fails."""
 
 from __future__ import annotations
 
@@ -13,12 +14,19 @@ from sympy import ImmutableMatrix, sqrt
 
 import symbolic as s
 
-MODULES = sorted(path.stem for path in Path(s.__file__).parent.glob("*.py") if path.stem != "__init__")
+MODULES = sorted(
+    path.stem for path in Path(s.__file__).parent.glob("*.py") if path.stem != "__init__"
+)
 
 
 def test_importing_the_package_loads_no_sympy_holds() -> None:
     code = "import symbolic, sys; sys.exit('sympy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], cwd=Path(s.__file__).parents[1], check=False).returncode == 0
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], cwd=Path(s.__file__).parents[1], check=False
+        ).returncode
+        == 0
+    )
 
 
 def test_every_listed_name_resolves_to_its_module_holds() -> None:

@@ -15,17 +15,36 @@ from proofs.reports.prose import pieces
 from proofs.reports.statements import WORDS, parts_of
 
 NAMES = ("exists", "integer", "over", "state")
-FORMULAS = ("given", "have", "show", "with", "domain", "holds", "space", "stage", "rank", "on", "rate", "radius", "size")
+FORMULAS = (
+    "given",
+    "have",
+    "show",
+    "with",
+    "domain",
+    "holds",
+    "space",
+    "stage",
+    "rank",
+    "on",
+    "rate",
+    "radius",
+    "size",
+)
 TUPLES = ("point", "start", "weights")
 LINKS = ("sharp", "map", "descent", "contraction", "attraction", "escape")
-ONE_LINE = {"show": 144, "with": 144, "holds": 144}  # characters of a formula that stands in one line
+ONE_LINE = {
+    "show": 144,
+    "with": 144,
+    "holds": 144,
+}  # characters of a formula that stands in one line
 ELSE = 64
 ARROW = r"\mapsto"
 
 
 @dataclass(frozen=True)
 class Row:
-    """A line of a statement: the word for its keyword, and what it says as markup, in parts between which a line may break; or names to link to."""
+    """A line of a statement: the word for its keyword, and what it says as markup, in parts between
+    which a line may break; or names to link to."""
 
     word: str
     parts: tuple[str, ...] = ()
@@ -35,12 +54,18 @@ class Row:
 @cache
 def prose(sentence: str) -> str:
     """A sentence as markup."""
-    return "".join(escape(said, quote=False) if kind == "text" else mathml(said) for kind, said in pieces(sentence))
+    return "".join(
+        escape(said, quote=False) if kind == "text" else mathml(said)
+        for kind, said in pieces(sentence)
+    )
 
 
 def line(said: str) -> str:
     """A line of the program's own output as markup: what stands between backquotes is code."""
-    return "".join(f"<code>{escape(part, quote=False)}</code>" if i % 2 else escape(part, quote=False) for i, part in enumerate(said.split("`")))
+    return "".join(
+        f"<code>{escape(part, quote=False)}</code>" if i % 2 else escape(part, quote=False)
+        for i, part in enumerate(said.split("`"))
+    )
 
 
 @cache
@@ -50,29 +75,35 @@ def formula(text: str, block: bool = False) -> str:
 
 
 def shown(text: str, longest: int) -> str:
-    """A formula as markup, or as the checker reads it where it is too long for one line: as text it can be broken."""
+    """A formula as markup, or as the checker reads it where it is too long for one line: as text it
+    can be broken."""
     return formula(text) if len(text) <= longest else f"<code>{escape(text, quote=False)}</code>"
 
 
 def change(text: str) -> str:
     """What a correction changes: LaTeX commands in it as what they stand for."""
-    return "".join(mathml(part) if part.startswith("\\") else escape(part, quote=False) for part in re.split(r"(\\[A-Za-z]+)", text))
+    return "".join(
+        mathml(part) if part.startswith("\\") else escape(part, quote=False)
+        for part in re.split(r"(\\[A-Za-z]+)", text)
+    )
 
 
 SIDE = r"-?[\w/()*^]+(?: [+-] [\w/()*^]+)*"  # a term, whose signs stand between spaces
 RANGE = re.compile(
     rf"(?P<point>\bc\d+ = \d\.\d+\.{{3}})|\ba root of (?P<polynomial>{SIDE})"
-    rf"|(?P<condition>(?:{SIDE} <=? )?\balpha (?:<=?|>=?|=) {SIDE})|(?P<alpha>\balpha\b)")
+    rf"|(?P<condition>(?:{SIDE} <=? )?\balpha (?:<=?|>=?|=) {SIDE})|(?P<alpha>\balpha\b)"
+)
 
 
 def ranged(said: str) -> str:
-    """A sharp range, or a line with one: conditions on alpha, end points and the polynomials that they are roots of as formulas.
+    """A sharp range, or a line with one: conditions on alpha, end points and the polynomials that
+    they are roots of as formulas.
 
     Labels of readings and steps stay as they are.
     """
     shown, at = "", 0
     for found in RANGE.finditer(said):
-        shown += escape(said[at:found.start()], quote=False)
+        shown += escape(said[at : found.start()], quote=False)
         kind, text, at = str(found.lastgroup), str(found.group(found.lastgroup or 0)), found.end()
         if kind == "point":
             name, _, value = text.partition(" = ")
@@ -84,7 +115,9 @@ def ranged(said: str) -> str:
 
 def polynomial(text: str) -> str:
     """A polynomial as markup, its terms in the order in which they are written."""
-    latex = re.sub(r"\^(\d+)", r"^{\1}", re.sub(r"[A-Za-z]\w*", lambda name: glyph(name.group()), text)).replace("*", " ")
+    latex = re.sub(
+        r"\^(\d+)", r"^{\1}", re.sub(r"[A-Za-z]\w*", lambda name: glyph(name.group()), text)
+    ).replace("*", " ")
     return mathml(latex)
 
 
@@ -92,21 +125,26 @@ ADJOINED = re.compile(r"(\w+) is a root of (.+?) between (\S+) and (\S+?)(?= \w+
 
 
 def values(at: str) -> str:
-    """A counterexample: values of names, and where adjoined roots lie; or a family, told by the sign of a polynomial."""
+    """A counterexample: values of names, and where adjoined roots lie; or a family, told by the
+    sign of a polynomial."""
     family = "a family by the sign of "
     if at.startswith(family):
         return family + polynomial(at.removeprefix(family))
     found, where, rest = at.partition(" where ")
     shown = ", ".join(formula(one) for one in found.split(", "))
     for name, of, low, high in ADJOINED.findall(rest):
-        shown += f"{where}{mathml(glyph(name))} is a root of {polynomial(of)} between {formula(low)} and {formula(high)}"
+        shown += (
+            f"{where}{mathml(glyph(name))} is a root of {polynomial(of)} between {formula(low)} and"
+            f" {formula(high)}"
+        )
         where = ", and "
     return shown
 
 
 @cache
 def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
-    """The lines of a statement below its name, each keyword with what it says; lines of one keyword that follow each other are joined.
+    """The lines of a statement below its name, each keyword with what it says; lines of one keyword
+    that follow each other are joined.
 
     The names that `forall` lists are left out: they are all that stand in the lines.
 
@@ -122,7 +160,10 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
             joined[-1][1].extend(parts)
         elif keyword != "forall":
             joined.append((keyword, parts))
-    return [(keyword, tuple(chained(parts) if keyword in FORMULAS else parts)) for keyword, parts in joined]
+    return [
+        (keyword, tuple(chained(parts) if keyword in FORMULAS else parts))
+        for keyword, parts in joined
+    ]
 
 
 def rows_of(lines: Sequence[tuple[str, Sequence[str]]]) -> list[Row]:
@@ -148,7 +189,15 @@ def _row(keyword: str, said: Sequence[str]) -> Row:
     if keyword in ("piece", "iterates", "after"):
         before, _, images = said[0].partition(" -> ")
         source = _tuple(_listed(before)) if keyword == "iterates" else formula(before)
-        return Row(word, (f"{source} {mathml(ARROW)} {_tuple(parts_of(images) if keyword == 'piece' else _listed(images))}",))
+        return Row(
+            word,
+            (
+                (
+                    f"{source} {mathml(ARROW)}"
+                    f" {_tuple(parts_of(images) if keyword == 'piece' else _listed(images))}"
+                ),
+            ),
+        )
     return Row(word, (escape(said[0], quote=False),))
 
 
@@ -208,7 +257,11 @@ def chained(parts: Sequence[str]) -> list[str]:
         upper = re.fullmatch(r"(\w+) (<=?) (\w+)", part)
         lower = found and re.fullmatch(r"(\w+) (>=?) ([\w/]+)|([\w/]+) (<=?) (\w+)", found[-1])
         if upper and lower and upper.group(1) in (lower.group(1), lower.group(6)):
-            bound = f"{lower.group(4)} {lower.group(5)}" if lower.group(4) else f"{lower.group(3)} {lower.group(2).replace('>', '<')}"
+            bound = (
+                f"{lower.group(4)} {lower.group(5)}"
+                if lower.group(4)
+                else f"{lower.group(3)} {lower.group(2).replace('>', '<')}"
+            )
             found[-1] = f"{bound} {part}"
         else:
             found.append(part)

@@ -1,8 +1,10 @@
-r"""LaTeX of the paper and of `latex_of` as MathML Core, which browsers draw without a script; what is not known is an error, never left out.
+r"""LaTeX of the paper and of `latex_of` as MathML Core, which browsers draw without a script; what
+is not known is an error, never left out.
 
-A small reader of our own: it knows exactly the commands in `symbols`, takes a tenth of the time of a general converter, and settles what such
-converters leave to be mended: lines parted outside of tables become a table; an alignment mark there means nothing; `:=` is one sign; words
-keep a space on either side; bars and dots are accents; a sign after an operator is a prefix.
+A small reader of our own: it knows exactly the commands in `symbols`, takes a tenth of the time of
+a general converter, and settles what such converters leave to be mended: lines parted outside of
+tables become a table; an alignment mark there means nothing; `:=` is one sign; words keep a space
+on either side; bars and dots are accents; a sign after an operator is a prefix.
 """
 
 from __future__ import annotations
@@ -29,7 +31,9 @@ from proofs.reports.page.symbols import (
     UPRIGHT,
 )
 
-TOKEN = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}|\\(?:text|mathrm|mathit|operatorname|mbox)\s*\{[^{}]*\}|\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|:=|\S")
+TOKEN = re.compile(
+    r"\\(?:begin|end)\s*\{\w+\*?\}|\\(?:text|mathrm|mathit|operatorname|mbox)\s*\{[^{}]*\}|\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|:=|\S"
+)
 CLOSING = frozenset({")", "]", "!", "|", r"\}", r"\rfloor", r"\rceil"})
 ENDS = frozenset({"", "}", "&", r"\\", r"\right", r"\middle"})
 
@@ -47,7 +51,10 @@ def mathml(latex: str, block: bool = False) -> str:
     try:
         inner = _Reader(said).lines()
     except (KeyError, IndexError, ValueError) as problem:
-        raise ClaimError(f"{said!r} cannot be shown as MathML: {problem.args[0] if problem.args else 'it ends too early'}") from None
+        raise ClaimError(
+            f"{said!r} cannot be shown as MathML:"
+            f" {problem.args[0] if problem.args else 'it ends too early'}"
+        ) from None
     return f'<math{_display(block)} alttext="{escape(said)}">{inner}</math>'
 
 
@@ -56,7 +63,8 @@ def _display(block: bool) -> str:
 
 
 class _Reader:
-    """Reads tokens from left to right; every method returns markup and leaves `at` behind what it read."""
+    """Reads tokens from left to right; every method returns markup and leaves `at` behind what it
+    read."""
 
     def __init__(self, latex: str) -> None:
         self.tokens: list[str] = [*TOKEN.findall(latex), ""]
@@ -89,7 +97,11 @@ class _Reader:
             raise ValueError("there is nothing in it")
         if len(found) == 1:
             return found[0]
-        return '<mtable class="lines" displaystyle="true">' + "".join(f"<mtr><mtd>{row}</mtd></mtr>" for row in found) + "</mtable>"
+        return (
+            '<mtable class="lines" displaystyle="true">'
+            + "".join(f"<mtr><mtd>{row}</mtd></mtr>" for row in found)
+            + "</mtable>"
+        )
 
     def row(self) -> str:
         """What stands side by side, up to the end of a group, cell, line or print."""
@@ -208,7 +220,13 @@ class _Reader:
         if brace and kind in ("text", "mbox"):
             return f"<mtext>{KEPT_SPACE}{escape(' '.join(said.split()), quote=False)}{KEPT_SPACE}</mtext>"
         if brace and kind in ("mathrm", "mathit", "operatorname"):
-            variant = ' class="italic"' if kind == "mathit" else ' mathvariant="normal"' if len(said) == 1 else ""
+            variant = (
+                ' class="italic"'
+                if kind == "mathit"
+                else ' mathvariant="normal"'
+                if len(said) == 1
+                else ""
+            )
             return f"<mi{variant}>{escape(said.strip(), quote=False)}</mi>"
         raise ValueError(f"\\{name} is not known")
 
@@ -224,7 +242,9 @@ class _Reader:
     def environment(self, name: str) -> str:
         if name in LAYERS:
             inner = self.lines_until(rf"\end{{{name}}}")
-            return "".join(inner) if len(inner) == 1 else _table([[cell] for cell in inner], "lines")
+            return (
+                "".join(inner) if len(inner) == 1 else _table([[cell] for cell in inner], "lines")
+            )
         before, after = MATRICES[name]
         if name == "array":
             self.take("{")
@@ -237,8 +257,13 @@ class _Reader:
             else:
                 cells.append([self.row()])
         self.take(rf"\end{{{name}}}")
-        shown = _table([row for row in cells if any(row)], "cases" if name in ("cases", "array") else "")
-        opened, closed = (f'<mo form="{form}">{sign}</mo>' if sign else "" for form, sign in (("prefix", before), ("postfix", after)))
+        shown = _table(
+            [row for row in cells if any(row)], "cases" if name in ("cases", "array") else ""
+        )
+        opened, closed = (
+            f'<mo form="{form}">{sign}</mo>' if sign else ""
+            for form, sign in (("prefix", before), ("postfix", after))
+        )
         return f"<mrow>{opened}{shown}{closed}</mrow>"
 
     def lines_until(self, end: str) -> list[str]:
@@ -262,7 +287,9 @@ def _fence(token: str, form: str) -> str:
 
 
 def _table(cells: list[list[str]], kind: str) -> str:
-    rows = "".join("<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in cells)
+    rows = "".join(
+        "<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in cells
+    )
     return f'<mtable class="{kind}">{rows}</mtable>' if kind else f"<mtable>{rows}</mtable>"
 
 

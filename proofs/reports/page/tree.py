@@ -1,7 +1,9 @@
-"""The picture of a proof tree: rules in layers, each above what it rests on, as SVG whose boxes are links.
+"""The picture of a proof tree: rules in layers, each above what it rests on, as SVG whose boxes are
+links.
 
-The layout is a small layered drawing: a node's layer is the longest way down to it; a line that passes a layer takes a place in it; the order in
-a layer follows the neighbours' middles; places are moved towards the neighbours as far as the order allows.  Same nodes, same bytes.
+The layout is a small layered drawing: a node's layer is the longest way down to it; a line that
+passes a layer takes a place in it; the order in a layer follows the neighbours' middles; places are
+moved towards the neighbours as far as the order allows.  Same nodes, same bytes.
 """
 
 from __future__ import annotations
@@ -27,7 +29,8 @@ class Chip:
 
 @dataclass(frozen=True)
 class Node:
-    """A rule or statement: lines of text, where it leads, its outcome, its premises, and the names of what it rests on."""
+    """A rule or statement: lines of text, where it leads, its outcome, its premises, and the names
+    of what it rests on."""
 
     name: str
     title: str
@@ -50,7 +53,14 @@ class Node:
     @property
     def width(self) -> float:
         """The box's width."""
-        return max(self.columns * self.chip_width + (self.columns - 1) * 6, (len(self.title) + 3) * LETTER * 1.22, len(self.subtitle) * 6.4) + 2 * PAD
+        return (
+            max(
+                self.columns * self.chip_width + (self.columns - 1) * 6,
+                (len(self.title) + 3) * LETTER * 1.22,
+                len(self.subtitle) * 6.4,
+            )
+            + 2 * PAD
+        )
 
     @property
     def height(self) -> float:
@@ -60,7 +70,8 @@ class Node:
 
 @dataclass
 class _Place:
-    """A node, or the stretch of a line that passes its layer, with the places that it is joined to above and below."""
+    """A node, or the stretch of a line that passes its layer, with the places that it is joined to
+    above and below."""
 
     layer: int
     width: float
@@ -77,10 +88,15 @@ def picture(nodes: Sequence[Node], title: str) -> str:
     tops = [PAD + sum(heights[:i]) + i * RISE for i in range(len(rows))]
     width = max(place.x + place.width / 2 for row in rows for place in row) + PAD
     height = tops[-1] + heights[-1] + PAD
-    lines = [_line(place, child, tops, heights) for row in rows for place in row for child in place.below]
+    lines = [
+        _line(place, child, tops, heights) for row in rows for place in row for child in place.below
+    ]
     boxes = [_box(place, tops[place.layer]) for row in rows for place in row if place.node]
-    return (f'<svg class="tree" xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}" '
-            f'role="group" aria-label="{escape(title)}">{"".join(lines)}{"".join(boxes)}</svg>')
+    return (
+        f'<svg class="tree" xmlns="http://www.w3.org/2000/svg" width="{width:.0f}"'
+        f' height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}" role="group"'
+        f' aria-label="{escape(title)}">{"".join(lines)}{"".join(boxes)}</svg>'
+    )
 
 
 def depths(nodes: Sequence[Node]) -> Mapping[str, int]:
@@ -115,13 +131,23 @@ def _laid_out(nodes: Sequence[Node]) -> list[list[_Place]]:
     for turn in range(SWEEPS):
         for row in rows[1:] if turn % 2 == 0 else rows[-2::-1]:
             order = {id(place): i for others in rows for i, place in enumerate(others)}
-            row.sort(key=lambda place: _middle([float(order[id(one)]) for one in (place.above if turn % 2 == 0 else place.below)],
-                                               float(order[id(place)])))
+            row.sort(
+                key=lambda place: _middle(
+                    [
+                        float(order[id(one)])
+                        for one in (place.above if turn % 2 == 0 else place.below)
+                    ],
+                    float(order[id(place)]),
+                )
+            )
     for row in rows:
         _set_apart(row, [0.0] * len(row))
     for turn in range(2 * SWEEPS):
         for row in rows if turn % 2 else rows[::-1]:
-            _set_apart(row, [_middle([one.x for one in place.above + place.below], place.x) for place in row])
+            _set_apart(
+                row,
+                [_middle([one.x for one in place.above + place.below], place.x) for place in row],
+            )
     left = min(place.x - place.width / 2 for row in rows for place in row) - PAD
     for row in rows:
         for place in row:
@@ -146,7 +172,8 @@ def _middle(values: Sequence[float], otherwise: float) -> float:
 
 
 def _set_apart(row: Sequence[_Place], wanted: Sequence[float]) -> None:
-    """Puts each place near where it is wanted, in order and without overlap: the mean of pushing rightwards and pushing leftwards."""
+    """Puts each place near where it is wanted, in order and without overlap: the mean of pushing
+    rightwards and pushing leftwards."""
     if not row:
         return
     steps = [(a.width + b.width) / 2 + GAP for a, b in zip(row, row[1:])]
@@ -164,8 +191,10 @@ def _line(upper: _Place, lower: _Place, tops: Sequence[float], heights: Sequence
     end, bottom = tops[lower.layer], tops[upper.layer] + heights[upper.layer]
     bend = (bottom + end) / 2
     through = f"V{end + heights[lower.layer]:.1f}" if lower.node is None else ""
-    return (f'<path class="edge" d="M{upper.x:.1f} {start:.1f}V{bottom:.1f}C{upper.x:.1f} {bend:.1f} {lower.x:.1f} {bend:.1f} '
-            f'{lower.x:.1f} {end:.1f}{through}"/>')
+    return (
+        f'<path class="edge" d="M{upper.x:.1f} {start:.1f}V{bottom:.1f}C{upper.x:.1f} {bend:.1f}'
+        f' {lower.x:.1f} {bend:.1f} {lower.x:.1f} {end:.1f}{through}"/>'
+    )
 
 
 def _box(place: _Place, top: float) -> str:
@@ -174,16 +203,23 @@ def _box(place: _Place, top: float) -> str:
         return ""
     left = place.x - node.width / 2
     shown = [
-        f'<a href="{escape(node.link)}" aria-label="{escape(f"{node.title}: {node.subtitle}; {node.outcome}")}"><rect class="node {node.outcome}" '
-        f'x="{left:.1f}" y="{top:.1f}" width="{node.width:.1f}" height="{node.height:.1f}" rx="8"/>'
-        f'<text class="title" x="{left + PAD:.1f}" y="{top + PAD + 13:.1f}">{MARKS.get(node.outcome, "?")} {escape(node.title)}</text>'
-        f'<text class="subtitle" x="{left + PAD:.1f}" y="{top + PAD + 13 + LINE:.1f}">{escape(node.subtitle)}</text></a>']
+        f'<a href="{escape(node.link)}"'
+        f' aria-label="{escape(f"{node.title}: {node.subtitle}; {node.outcome}")}"><rect'
+        f' class="node {node.outcome}" x="{left:.1f}" y="{top:.1f}" width="{node.width:.1f}"'
+        f' height="{node.height:.1f}" rx="8"/><text class="title" x="{left + PAD:.1f}"'
+        f' y="{top + PAD + 13:.1f}">{MARKS.get(node.outcome, "?")} {escape(node.title)}</text><text'
+        f' class="subtitle" x="{left + PAD:.1f}"'
+        f' y="{top + PAD + 13 + LINE:.1f}">{escape(node.subtitle)}</text></a>'
+    ]
     width = (node.width - 2 * PAD - 6 * (node.columns - 1)) / node.columns
     for i, chip in enumerate(node.chips):
         x = left + PAD + i % node.columns * (width + 6)
         y = top + PAD + 2 * LINE + 2 + i // node.columns * (CHIP + 4)
         shown.append(
-            f'<a href="{escape(chip.link)}" aria-label="{escape(f"premise {chip.label} of {node.title}; {chip.outcome}")}">'
-            f'<rect class="chip {chip.outcome}" x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{CHIP}" rx="5"/>'
-            f'<text class="label" x="{x + 8:.1f}" y="{y + 16:.1f}">{MARKS.get(chip.outcome, "?")} {escape(chip.label)}</text></a>')
+            f'<a href="{escape(chip.link)}"'
+            f' aria-label="{escape(f"premise {chip.label} of {node.title}; {chip.outcome}")}"><rect'
+            f' class="chip {chip.outcome}" x="{x:.1f}" y="{y:.1f}" width="{width:.1f}"'
+            f' height="{CHIP}" rx="5"/><text class="label" x="{x + 8:.1f}"'
+            f' y="{y + 16:.1f}">{MARKS.get(chip.outcome, "?")} {escape(chip.label)}</text></a>'
+        )
     return "".join(shown)

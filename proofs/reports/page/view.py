@@ -1,4 +1,5 @@
-"""What the page shows of the contents: words, marks and links for the templates, which hold no logic of their own."""
+"""What the page shows of the contents: words, marks and links for the templates, which hold no
+logic of their own."""
 
 from __future__ import annotations
 
@@ -16,7 +17,9 @@ from proofs.reports.page import formulas
 from proofs.reports.page.mathml import mathml
 from proofs.reports.page.tree import Chip, Node, picture
 
-LONGEST = 300  # characters: a longer certificate is shown in the theorem's tree only, and else told where it stands
+# characters: a longer certificate is shown in the theorem's tree only, and else told where it
+# stands
+LONGEST = 300
 VERDICTS = {  # word -> mark, and what it means
     "holds": ("✓", "true as printed, with a certificate"),
     "misprint": ("✎", "false as printed, certified as corrected"),
@@ -62,21 +65,44 @@ def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) ->
     """
     text = certificate_text(shown.certificate)
     refuted = shown.outcome == "refuted"
-    lines = [(keyword, [one for one in said if (keyword, one) not in shared]) for keyword, said in formulas.lines_of(shown.text)]
-    votes = ", ".join(f"{route} {answer}" for route, answer in shown.votes.items() if answer != "not applicable")
+    lines = [
+        (keyword, [one for one in said if (keyword, one) not in shared])
+        for keyword, said in formulas.lines_of(shown.text)
+    ]
+    votes = ", ".join(
+        f"{route} {answer}" for route, answer in shown.votes.items() if answer != "not applicable"
+    )
     return Statement(
-        shown.name, shown.name.partition("/")[2], shown.outcome, formulas.rows_of([line for line in lines if line[1]]), shown.text,
-        formulas.values(shown.at) if refuted and shown.at else "", _false_there(shown.text) if refuted else "", votes,
-        text if whole or len(text) <= LONGEST else "", len(text), f"certificates/store/{shown.name.partition('/')[0]}.json")
+        shown.name,
+        shown.name.partition("/")[2],
+        shown.outcome,
+        formulas.rows_of([line for line in lines if line[1]]),
+        shown.text,
+        formulas.values(shown.at) if refuted and shown.at else "",
+        _false_there(shown.text) if refuted else "",
+        votes,
+        text if whole or len(text) <= LONGEST else "",
+        len(text),
+        f"certificates/store/{shown.name.partition('/')[0]}.json",
+    )
 
 
 SHARED = ("given", "let", "root")
 
 
 def shared_lines(statements: Sequence[Shown]) -> list[Line]:
-    """What all statements of a claim assume, where there are several; rules and sharp ranges assume nothing."""
-    assumed = [[(keyword, one) for keyword, said in formulas.lines_of(shown.text) if keyword in SHARED for one in said]
-               for shown in statements if "\nshow " in shown.text]
+    """What all statements of a claim assume, where there are several; rules and sharp ranges assume
+    nothing."""
+    assumed = [
+        [
+            (keyword, one)
+            for keyword, said in formulas.lines_of(shown.text)
+            if keyword in SHARED
+            for one in said
+        ]
+        for shown in statements
+        if "\nshow " in shown.text
+    ]
     if len(assumed) < 2:
         return []
     return [line for line in dict.fromkeys(assumed[0]) if all(line in others for others in assumed)]
@@ -88,7 +114,9 @@ def _false_there(text: str) -> str:
     if not said or "\nexists " in text:
         return formulas.prose(said)
     formula, *lets = said.split(", where ")
-    return ", where ".join([formulas.formula(formula), *(formulas.named(*let.split(" = ", 1)) for let in lets)])
+    return ", where ".join(
+        [formulas.formula(formula), *(formulas.named(*let.split(" = ", 1)) for let in lets)]
+    )
 
 
 def certificate_text(certificate: Any) -> str:
@@ -132,7 +160,10 @@ class Told:
     @property
     def outcomes(self) -> str:
         """How many statements came to which outcome."""
-        counts = {word: sum(one.outcome == word for one in self.statements) for word in ("certified", "refuted", "unknown")}
+        counts = {
+            word: sum(one.outcome == word for one in self.statements)
+            for word in ("certified", "refuted", "unknown")
+        }
         return ", ".join(f"{count} {word}" for word, count in counts.items() if count)
 
 
@@ -142,20 +173,35 @@ def told(entry: Entry) -> Told:
     made = str(correction.get("text", ""))
     shared = shared_lines(entry.statements)
     of_statements = correction.get("kind") in ("coefficients", "derived")
-    corrected = "" if not made else formulas.formula(made, block=True) if of_statements else mathml(made, block=True)
+    corrected = (
+        ""
+        if not made
+        else formulas.formula(made, block=True)
+        if of_statements
+        else mathml(made, block=True)
+    )
     return Told(
-        entry=entry, place=place(claim.section, claim.place), says=formulas.prose(claim.says), transcribed=claim.as_it_stands,
-        printed=mathml(claim.printed, block=True) if claim.printed else "", wrong=[formulas.ranged(line) for line in entry.wrong],
-        corrected=corrected, change=formulas.change(str(correction.get("change", ""))), roots=list(_roots(entry, made)) if of_statements else [],
+        entry=entry,
+        place=place(claim.section, claim.place),
+        says=formulas.prose(claim.says),
+        transcribed=claim.as_it_stands,
+        printed=mathml(claim.printed, block=True) if claim.printed else "",
+        wrong=[formulas.ranged(line) for line in entry.wrong],
+        corrected=corrected,
+        change=formulas.change(str(correction.get("change", ""))),
+        roots=list(_roots(entry, made)) if of_statements else [],
         sharp="" if entry.sharp == "no alpha" else formulas.ranged(entry.sharp),
         steps=[(formulas.prose(step.title), anchor(step.function)) for step in entry.steps],
-        shared=_rows(shared), statements=[statement(one, shared=shared) for one in entry.statements],
-        note=entry.verdict_text.partition(" (")[2].removesuffix(")"))
+        shared=_rows(shared),
+        statements=[statement(one, shared=shared) for one in entry.statements],
+        note=entry.verdict_text.partition(" (")[2].removesuffix(")"),
+    )
 
 
 @dataclass(frozen=True)
 class Derived:
-    """A derived expression: its anchor, what it is, its entries as markup, and what it is made from."""
+    """A derived expression: its anchor, what it is, its entries as markup, and what it is made
+    from."""
 
     anchor: str
     said: str
@@ -166,8 +212,15 @@ class Derived:
 def derivations(contents: Contents) -> list[Derived]:
     """Every derived expression once."""
     titles = {one.function: formulas.prose(one.title) for one in contents.derivations}
-    return [Derived(anchor(one.function), titles[one.function], rows(one.rows), [(titles[name], anchor(name)) for name in one.uses if name in titles])
-            for one in contents.derivations]
+    return [
+        Derived(
+            anchor(one.function),
+            titles[one.function],
+            rows(one.rows),
+            [(titles[name], anchor(name)) for name in one.uses if name in titles],
+        )
+        for one in contents.derivations
+    ]
 
 
 def anchor(function: str) -> str:
@@ -184,19 +237,30 @@ def rows(entries: Sequence[Sequence[str]]) -> str:
     if len(entries) == 1 and len(entries[0]) == 1:
         return formulas.formula(entries[0][0], block=True)
 
-    lines = r" \\ ".join(" & ".join(map(latex_of, row)) for row in entries) if len(entries) > 1 else r" \\ ".join(map(latex_of, entries[0]))
+    lines = (
+        r" \\ ".join(" & ".join(map(latex_of, row)) for row in entries)
+        if len(entries) > 1
+        else r" \\ ".join(map(latex_of, entries[0]))
+    )
     return mathml(rf"\begin{{bmatrix}} {lines} \end{{bmatrix}}", block=True)
 
 
 def _rows(lines: Sequence[Line]) -> list[formulas.Row]:
     joined: dict[str, list[str]] = {}
     for keyword, said in lines:
-        joined.setdefault(keyword if keyword in formulas.FORMULAS else f"{keyword} {said}", []).append(said)
+        joined.setdefault(
+            keyword if keyword in formulas.FORMULAS else f"{keyword} {said}", []
+        ).append(said)
     return formulas.rows_of([(key.partition(" ")[0], said) for key, said in joined.items()])
 
 
 def _roots(entry: Entry, made: str) -> Iterator[str]:
-    lines = {line for one in entry.statements for line in one.text.splitlines() if line.startswith("root ")}
+    lines = {
+        line
+        for one in entry.statements
+        for line in one.text.splitlines()
+        if line.startswith("root ")
+    }
     for line in sorted(lines):
         if re.search(rf"\b{line.split()[1]}\b", made):
             yield formulas.rows_of(formulas.lines_of(f"statement\n{line}"))[0].parts[0]
@@ -221,7 +285,14 @@ def sections(contents: Contents) -> list[tuple[str, list[Told]]]:
 
     def key(section: str) -> tuple[int, list[tuple[bool, int, str]]]:
         ours = not re.match(r"[A-Z0-9]", section)
-        parts = [] if ours else [(not part.isdecimal(), int(part) if part.isdecimal() else 0, part) for part in section.split(".")]
+        parts = (
+            []
+            if ours
+            else [
+                (not part.isdecimal(), int(part) if part.isdecimal() else 0, part)
+                for part in section.split(".")
+            ]
+        )
         return int(ours), parts
 
     return sorted(found.items(), key=lambda item: key(item[0]))
@@ -230,13 +301,17 @@ def sections(contents: Contents) -> list[tuple[str, list[Told]]]:
 def errata(by_section: Sequence[tuple[str, Sequence[Told]]]) -> list[tuple[str, str, list[Told]]]:
     """The groups of the errata with their claims."""
     everything = [one for _, claims in by_section for one in claims]
-    groups = [(group, title, [one for one in everything if one.entry.group == group]) for group, title in GROUPS.items()]
+    groups = [
+        (group, title, [one for one in everything if one.entry.group == group])
+        for group, title in GROUPS.items()
+    ]
     return [group for group in groups if group[2]]
 
 
 @dataclass(frozen=True)
 class Panel:
-    """A rule of the theorem's tree, or a statement that it uses, with what it gives and its premises."""
+    """A rule of the theorem's tree, or a statement that it uses, with what it gives and its
+    premises."""
 
     name: str
     title: str
@@ -250,18 +325,47 @@ class Panel:
 
 def panels(rules: Sequence[Rule]) -> list[Panel]:
     """The rules with all that proves them; what a rule gives is in the checker's own words."""
-    return [Panel(rule.name, rule.name.partition("/")[2], rule.kind, (checker.ORBIT_RULES[rule.kind].__doc__ or "").strip(),
-                  statement(Shown(rule.name, rule.text, rule.outcome, None, "", {}), whole=True),
-                  [statement(premise, whole=True) for premise in rule.premises], rule.rests_on, rule.uses) for rule in rules]
+    return [
+        Panel(
+            rule.name,
+            rule.name.partition("/")[2],
+            rule.kind,
+            (checker.ORBIT_RULES[rule.kind].__doc__ or "").strip(),
+            statement(Shown(rule.name, rule.text, rule.outcome, None, "", {}), whole=True),
+            [statement(premise, whole=True) for premise in rule.premises],
+            rule.rests_on,
+            rule.uses,
+        )
+        for rule in rules
+    ]
 
 
 def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
-    """The picture of the theorem's tree; statements that a rule uses stand in it beside the rules."""
+    """The picture of the theorem's tree; statements that a rule uses stand in it beside the
+    rules."""
     if not rules:
         return ""
-    nodes = [Node(rule.name, rule.name, KINDS.get(rule.kind, rule.kind), f"#rule-{rule.name}", rule.outcome,
-                  tuple(Chip(one.name.rpartition(".")[2], f"#premise-{one.name}", one.outcome) for one in rule.premises),
-                  (*rule.rests_on, *rule.uses)) for rule in rules]
+    nodes = [
+        Node(
+            rule.name,
+            rule.name,
+            KINDS.get(rule.kind, rule.kind),
+            f"#rule-{rule.name}",
+            rule.outcome,
+            tuple(
+                Chip(one.name.rpartition(".")[2], f"#premise-{one.name}", one.outcome)
+                for one in rule.premises
+            ),
+            (*rule.rests_on, *rule.uses),
+        )
+        for rule in rules
+    ]
     for used in sorted({name for rule in rules for name in rule.uses}):
-        nodes.append(Node(used, used, "a statement on numbers", f"#{used}", outcomes.get(used, "unknown")))
-    return picture(nodes, "What the theorem rests on: each rule stands above the rules that it rests on, and holds its premises")
+        nodes.append(
+            Node(used, used, "a statement on numbers", f"#{used}", outcomes.get(used, "unknown"))
+        )
+    return picture(
+        nodes,
+        "What the theorem rests on: each rule stands above the rules that it rests on, and holds"
+        " its premises",
+    )

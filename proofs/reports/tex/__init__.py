@@ -1,4 +1,5 @@
-"""The LaTeX report: fragments that an author can input, and documents that hold them all, from templates that hold no formula of the paper."""
+"""The LaTeX report: fragments that an author can input, and documents that hold them all, from
+templates that hold no formula of the paper."""
 
 from __future__ import annotations
 
@@ -19,22 +20,42 @@ from proofs.reports.statements import parts_of
 from proofs.reports.tex import words
 
 HERE = Path(__file__).parent
-APPENDICES = {"A": "Maximal and supremal points", "B": "Handy equations, definitions, and parameterizations"}
-SECTIONS = {
-    "A.1": "Maximum sustainable energy", "A.2": "Maximum energy change", "A.3": r"Supremum $\Delta E$ outside $\jugR$",
-    "A.3.1": r"The boundary $R(\jugstate) = 0$",
-    "A.3.2": r"Finding $\Delta E_{\sup}$", "A.4": r"Number of impacts to enter $\jugR$", "B.1": "Time to collision", "B.2": "Important regions",
-    "B.3": "System dynamics", "B.4": "Fixed point", "B.5": "Zero energy change boundary", "B.6": r"Boundary of $\jugR$", "B.7": "Table of notation",
+APPENDICES = {
+    "A": "Maximal and supremal points",
+    "B": "Handy equations, definitions, and parameterizations",
 }
-BESIDE = ("theorem-one-third", "theorem-nearby", "theorem-region", "theorem-ends", "theorem-kinetic")
+SECTIONS = {
+    "A.1": "Maximum sustainable energy",
+    "A.2": "Maximum energy change",
+    "A.3": r"Supremum $\Delta E$ outside $\jugR$",
+    "A.3.1": r"The boundary $R(\jugstate) = 0$",
+    "A.3.2": r"Finding $\Delta E_{\sup}$",
+    "A.4": r"Number of impacts to enter $\jugR$",
+    "B.1": "Time to collision",
+    "B.2": "Important regions",
+    "B.3": "System dynamics",
+    "B.4": "Fixed point",
+    "B.5": "Zero energy change boundary",
+    "B.6": r"Boundary of $\jugR$",
+    "B.7": "Table of notation",
+}
+BESIDE = (
+    "theorem-one-third",
+    "theorem-nearby",
+    "theorem-region",
+    "theorem-ends",
+    "theorem-kinetic",
+)
 PROOF = "theorem-by-hand"
 
 
 def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> dict[str, bytes]:
-    """The files of the LaTeX report by name: macros, fragments, bibliography, and the documents for one and for two columns.
+    """The files of the LaTeX report by name: macros, fragments, bibliography, and the documents for
+    one and for two columns.
 
-    `figures` are (slug, title, caption); a document shows those whose PDFs stand in the folder figures beside it.
-    Raises ClaimError, one line, where a template's library is absent or a written line is not certified.
+    `figures` are (slug, title, caption); a document shows those whose PDFs stand in the folder
+    figures beside it. Raises ClaimError, one line, where a template's library is absent or a
+    written line is not certified.
     """
     made = _environment()
     fragments = {
@@ -42,42 +63,74 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
         "theorem": _theorem(contents),
         "errata": _errata(contents),
         "derivations": {"derivations": _behind_the_appendices(contents)},
-        "notation": {"notation": [(latex, words.prose(meaning)) for _, latex, meaning in NOTATION if meaning]},
+        "notation": {
+            "notation": [(latex, words.prose(meaning)) for _, latex, meaning in NOTATION if meaning]
+        },
     }
     told = {name: _render(made, name, contents, values) for name, values in fragments.items()}
     for letter, title in APPENDICES.items():
-        told[f"appendix-{letter.lower()}"] = _render(made, "appendix", contents, _appendix(contents, letter, title))
+        told[f"appendix-{letter.lower()}"] = _render(
+            made, "appendix", contents, _appendix(contents, letter, title)
+        )
     if figures:
         captions = [(slug, words.plain(title), words.prose(text)) for slug, title, text in figures]
         told["figures"] = _render(made, "figures", contents, {"figures": captions})
-    said = {"summary": summary(contents), "versions": words.plain(", ".join(f"{tool} {one}" for tool, one in contents.tools.items())),
-            "first_figure": f"figures/{figures[0][0]}.pdf" if figures else "none"}
+    said = {
+        "summary": summary(contents),
+        "versions": words.plain(", ".join(f"{tool} {one}" for tool, one in contents.tools.items())),
+        "first_figure": f"figures/{figures[0][0]}.pdf" if figures else "none",
+    }
     for name, twocolumn in (("juggleproof", False), ("juggleproof-twocolumn", True)):
         told[name] = _render(made, "document", contents, {**said, "twocolumn": twocolumn})
-    return {"paper.bib": (HERE / "paper.bib").read_bytes(), **{f"{name}.tex": text.encode() for name, text in told.items()}}
+    return {
+        "paper.bib": (HERE / "paper.bib").read_bytes(),
+        **{f"{name}.tex": text.encode() for name, text in told.items()},
+    }
 
 
 def summary(contents: Contents) -> str:
     """The counts of verdicts and outcomes in a sentence."""
     verdicts = ", ".join(f"{count} {word}" for word, count in contents.verdicts.items())
     outcomes = ", ".join(f"{count} {word}" for word, count in sorted(contents.outcomes.items()))
-    return f"In all {len(contents.entries)} claims: {verdicts}; {sum(contents.outcomes.values())} statements: {outcomes}."
+    return (
+        f"In all {len(contents.entries)} claims: {verdicts}; {sum(contents.outcomes.values())}"
+        f" statements: {outcomes}."
+    )
 
 
 def _environment() -> Any:
     jinja2 = needed("jinja2")
     made = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(str(HERE)), block_start_string="<%", block_end_string="%>", variable_start_string="<<",
-        variable_end_string=">>", comment_start_string="<#", comment_end_string="#>", undefined=jinja2.StrictUndefined, autoescape=False,
-        trim_blocks=True, keep_trailing_newline=True)
-    made.globals.update({name: getattr(words, name) for name in words.__all__ if name != "Steps"}, counterexamples=_counterexamples)
+        loader=jinja2.FileSystemLoader(str(HERE)),
+        block_start_string="<%",
+        block_end_string="%>",
+        variable_start_string="<<",
+        variable_end_string=">>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+        undefined=jinja2.StrictUndefined,
+        autoescape=False,
+        trim_blocks=True,
+        keep_trailing_newline=True,
+    )
+    made.globals.update(
+        {name: getattr(words, name) for name in words.__all__ if name != "Steps"},
+        counterexamples=_counterexamples,
+    )
     return made
 
 
 def _render(made: Any, name: str, contents: Contents, values: Mapping[str, Any]) -> str:
-    template = "document" if name.startswith("juggleproof") and name != "juggleproof-macros" else name
-    text: str = made.get_template(f"{template}.tex.j2").render(tools=contents.tools, with_steps=name == "appendix", **values)
-    return re.sub(r"\n{3,}", "\n\n", "\n".join(line.rstrip() for line in text.strip().splitlines())) + "\n"
+    template = (
+        "document" if name.startswith("juggleproof") and name != "juggleproof-macros" else name
+    )
+    text: str = made.get_template(f"{template}.tex.j2").render(
+        tools=contents.tools, with_steps=name == "appendix", **values
+    )
+    return (
+        re.sub(r"\n{3,}", "\n\n", "\n".join(line.rstrip() for line in text.strip().splitlines()))
+        + "\n"
+    )
 
 
 def _counterexamples(entry: Entry) -> list[str]:
@@ -86,18 +139,33 @@ def _counterexamples(entry: Entry) -> list[str]:
 
 
 def _appendix(contents: Contents, letter: str, title: str) -> dict[str, Any]:
-    sections = [(section, heading, [one for one in contents.entries if one.claim.section == section])
-                for section, heading in SECTIONS.items() if section.startswith(letter)]
-    left = [one.claim.id for one in contents.entries if one.claim.section.startswith(f"{letter}.") and one.claim.section not in SECTIONS]
+    sections = [
+        (section, heading, [one for one in contents.entries if one.claim.section == section])
+        for section, heading in SECTIONS.items()
+        if section.startswith(letter)
+    ]
+    left = [
+        one.claim.id
+        for one in contents.entries
+        if one.claim.section.startswith(f"{letter}.") and one.claim.section not in SECTIONS
+    ]
     if left:
-        raise ClaimError(f"{left[0]}: section {contents.entry(left[0]).claim.section} has no heading in the LaTeX report; add it there")
+        raise ClaimError(
+            f"{left[0]}: section {contents.entry(left[0]).claim.section} has no heading in the"
+            " LaTeX report; add it there"
+        )
     return {"letter": letter, "title": title, "sections": [one for one in sections if one[2]]}
 
 
 def _behind_the_appendices(contents: Contents) -> list[Derivation]:
     """The derivations that the entries of the appendices name, and all that these are made from."""
     by_name = {one.function: one for one in contents.derivations}
-    needed = {one.function for entry in contents.entries if entry.claim.section[:1] in APPENDICES for one in entry.steps}
+    needed = {
+        one.function
+        for entry in contents.entries
+        if entry.claim.section[:1] in APPENDICES
+        for one in entry.steps
+    }
     for one in reversed(contents.derivations):  # each stands after what it is made from
         if one.function in needed:
             needed |= set(one.uses) & set(by_name)
@@ -105,8 +173,16 @@ def _behind_the_appendices(contents: Contents) -> list[Derivation]:
 
 
 def _errata(contents: Contents) -> dict[str, Any]:
-    groups = [(words.plain(title.partition(":")[0]), [one for one in contents.entries if one.group == group]) for group, title in GROUPS.items()]
-    counted = "; ".join(f"{len(claims)} {title[:1].lower()}{title[1:]}" for title, claims in groups if claims)
+    groups = [
+        (
+            words.plain(title.partition(":")[0]),
+            [one for one in contents.entries if one.group == group],
+        )
+        for group, title in GROUPS.items()
+    ]
+    counted = "; ".join(
+        f"{len(claims)} {title[:1].lower()}{title[1:]}" for title, claims in groups if claims
+    )
     return {"groups": [one for one in groups if one[1]], "counts": f"In all: {counted}."}
 
 
@@ -114,7 +190,11 @@ def _theorem(contents: Contents) -> dict[str, Any]:
     by_name = {one.name: one for entry in contents.entries for one in entry.statements}
 
     def rows(name: str, keyword: str) -> list[str]:
-        return [line.partition(" ")[2] for line in by_name[name].text.splitlines() if line.startswith(f"{keyword} ")]
+        return [
+            line.partition(" ")[2]
+            for line in by_name[name].text.splitlines()
+            if line.startswith(f"{keyword} ")
+        ]
 
     def said(name: str, keyword: str) -> list[str]:
         return [with_macros(latex_of(part)) for part in parts_of(rows(name, keyword)[0])]
@@ -123,7 +203,8 @@ def _theorem(contents: Contents) -> dict[str, Any]:
         return contents.entry(name)
 
     def conjuncts(said: str, most: int | None = None) -> str:
-        """The parts of a conjunction; the first ones of a domain, where the last is there for a division."""
+        """The parts of a conjunction; the first ones of a domain, where the last is there for a
+        division."""
         return with_macros(",\\; ".join(latex_of(part) for part in said.split(" and ")[:most]))
 
     steps = words.Steps(entry(PROOF))
@@ -131,16 +212,32 @@ def _theorem(contents: Contents) -> dict[str, Any]:
     stages = rows("theorem/descends", "stage")
     scaling = next(one for one in contents.derivations if one.function == "scaling")
     return {
-        "scaling": ",\\; ".join(f"{name} = {with_macros(latex_of(value))}" for name, value in zip(("x", "w"), scaling.shown[0])),
+        "scaling": ",\\; ".join(
+            f"{name} = {with_macros(latex_of(value))}"
+            for name, value in zip(("x", "w"), scaling.shown[0])
+        ),
         "guards": [latex_of(guard) for guard, _ in pieces],
-        "images": [", ".join(with_macros(latex_of(part)) for part in parts_of(image)) for _, image in pieces],
-        "fixed": said("theorem/contracts", "point"), "other": said("theorem/escapes", "start"),
+        "images": [
+            ", ".join(with_macros(latex_of(part)) for part in parts_of(image))
+            for _, image in pieces
+        ],
+        "fixed": said("theorem/contracts", "point"),
+        "other": said("theorem/escapes", "start"),
         "speed": latex_of(rows("theorem/descends", "root")[0].partition("sqrt(")[2][:-1]),
         "rank": said("theorem/descends", "rank")[0],
-        "stage_1": conjuncts(stages[0]), "stage_2": conjuncts(stages[1]), "trap": conjuncts(stages[2]), "later": len(stages) - 1,
-        "below": conjuncts(rows("theorem/descends", "domain")[0], 2), "others": conjuncts(rows("theorem/escapes", "domain")[0], 2),
-        "space": latex_of(rows("theorem/map", "space")[0]), "rate": said("theorem/contracts", "rate")[0], "given": steps.given,
+        "stage_1": conjuncts(stages[0]),
+        "stage_2": conjuncts(stages[1]),
+        "trap": conjuncts(stages[2]),
+        "later": len(stages) - 1,
+        "below": conjuncts(rows("theorem/descends", "domain")[0], 2),
+        "others": conjuncts(rows("theorem/escapes", "domain")[0], 2),
+        "space": latex_of(rows("theorem/map", "space")[0]),
+        "rate": said("theorem/contracts", "rate")[0],
+        "given": steps.given,
         "radius": latex_of(rows("theorem/contracts", "radius")[0]),
-        "show": steps.show, "says": lambda name: entry(name).claim.says, "verdict": lambda name: entry(name).verdict,
-        "rules": contents.rules, "beside": [name for name in BESIDE if name in {one.claim.id for one in contents.entries}],
+        "show": steps.show,
+        "says": lambda name: entry(name).claim.says,
+        "verdict": lambda name: entry(name).verdict,
+        "rules": contents.rules,
+        "beside": [name for name in BESIDE if name in {one.claim.id for one in contents.entries}],
     }

@@ -14,17 +14,49 @@ from proofs.reports.latex import latex_of
 from proofs.reports.notation import with_macros
 from proofs.reports.prose import pieces
 
-SPECIAL = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
-           "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": "$<$", ">": "$>$", "|": r"\textbar{}", '"': "''", "`": "'"}
+SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "&": r"\&",
+    "%": r"\%",
+    "$": r"\$",
+    "#": r"\#",
+    "_": r"\_",
+    "{": r"\{",
+    "}": r"\}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": "$<$",
+    ">": "$>$",
+    "|": r"\textbar{}",
+    '"': "''",
+    "`": "'",
+}
 # What a derived expression is called in the paper, where it has a name there.
 SYMBOLS = {
-    "f1": r"\bar f_1(\bar b)", "f2": r"\bar f_2(\bar b)", "period": "T",
-    "e_1": "e_1", "E_max": r"E_{\max}", "delta_E_max": r"\Delta E_{\max}",
-    "delta_E_sup": r"\Delta E_{\sup}", "total_energy": r"E(\bar b)", "energy_change_1": r"\Delta_1 E(\bar b)",
+    "f1": r"\bar f_1(\bar b)",
+    "f2": r"\bar f_2(\bar b)",
+    "period": "T",
+    "e_1": "e_1",
+    "E_max": r"E_{\max}",
+    "delta_E_max": r"\Delta E_{\max}",
+    "delta_E_sup": r"\Delta E_{\sup}",
+    "total_energy": r"E(\bar b)",
+    "energy_change_1": r"\Delta_1 E(\bar b)",
     "energy_change_2": r"\Delta_2 E(\bar b)",
-    "collision_time": r"\tau_c(\bar b)", "xi_1": r"\xi_1", "epsilon_1": r"\epsilon_1", "launch_state": "r_0", "region_margin": r"R(\bar b)",
-    "flight_matrix": "A_t", "flight_offset": "a_t", "flight_map": r"F^t(\bar b)", "restitution_matrix": r"R_\alpha", "fixed_point": "e_K",
-    "point_p": "p", "energy_of_p": "E(p)", "hang_time": "t_f", "scaling": "(x, w)",
+    "collision_time": r"\tau_c(\bar b)",
+    "xi_1": r"\xi_1",
+    "epsilon_1": r"\epsilon_1",
+    "launch_state": "r_0",
+    "region_margin": r"R(\bar b)",
+    "flight_matrix": "A_t",
+    "flight_offset": "a_t",
+    "flight_map": r"F^t(\bar b)",
+    "restitution_matrix": r"R_\alpha",
+    "fixed_point": "e_K",
+    "point_p": "p",
+    "energy_of_p": "E(p)",
+    "hang_time": "t_f",
+    "scaling": "(x, w)",
 }
 
 
@@ -43,7 +75,10 @@ def prose(text: str) -> str:
     >>> prose("The maximum of Delta_1 E on H.")
     'The maximum of $\\Delta_1 E$ on $\\jugH$.'
     """
-    return "".join(f"${with_macros(content)}$" if kind == "math" else plain(content) for kind, content in pieces(text))
+    return "".join(
+        f"${with_macros(content)}$" if kind == "math" else plain(content)
+        for kind, content in pieces(text)
+    )
 
 
 def lines(latex: str) -> list[str]:
@@ -56,7 +91,7 @@ def lines(latex: str) -> list[str]:
     for mark in re.finditer(r"\\begin|\\end|\\\\", latex):
         depth += {"\\begin": 1, "\\end": -1}.get(mark.group(), 0)
         if mark.group() == r"\\" and not depth:
-            found.append(latex[start:mark.start()].strip())
+            found.append(latex[start : mark.start()].strip())
             start = mark.end()
     return [*found, latex[start:].strip()]
 
@@ -64,7 +99,9 @@ def lines(latex: str) -> list[str]:
 def formula(latex: str) -> str:
     """The two arguments for a display: the formula whole, and to be broken."""
     rows = [with_macros(row) for row in lines(latex)]
-    whole = rows[0] if len(rows) == 1 else "\\begin{gathered}" + r" \\ ".join(rows) + "\\end{gathered}"
+    whole = (
+        rows[0] if len(rows) == 1 else "\\begin{gathered}" + r" \\ ".join(rows) + "\\end{gathered}"
+    )
     return "{" + whole + "}{" + r" $\newline $ ".join(rows) + "}"
 
 
@@ -83,7 +120,8 @@ def without_stop(row: str) -> str:
 
 
 def correction(entry: Entry) -> str:
-    """The corrected print: as LaTeX where a print was changed, else the corrected term after the print's left side."""
+    """The corrected print: as LaTeX where a print was changed, else the corrected term after the
+    print's left side."""
     if entry.correction is None:
         raise ValueError(f"{entry.claim.id} has no correction")
     text = str(entry.correction["text"])
@@ -107,7 +145,13 @@ def number(claim: Claim) -> str:
 
 def heading(claim: Claim) -> str:
     """What the claim is referred to by: the number of its equation, or its section and place."""
-    shown = claim.place if claim.place.startswith("(") and number(claim) else f"{claim.section}, {claim.place}" if claim.place else claim.section
+    shown = (
+        claim.place
+        if claim.place.startswith("(") and number(claim)
+        else f"{claim.section}, {claim.place}"
+        if claim.place
+        else claim.section
+    )
     return plain(shown[:1].upper() + shown[1:])
 
 
@@ -134,14 +178,20 @@ def holds(sharp: str) -> str:
     if sharp == "nowhere":
         return r"for no $\jugrestitution$"
     if ": " not in sharp and "root" not in sharp:
-        return f"exactly for {prose(sharp)}" if sharp != "0 < alpha < 1" else r"for all $0 < \jugrestitution < 1$"
+        return (
+            f"exactly for {prose(sharp)}"
+            if sharp != "0 < alpha < 1"
+            else r"for all $0 < \jugrestitution < 1$"
+        )
     return prose(re.sub(r"(?<=: )nowhere", "for no alpha", sharp))
 
 
 def values(at: str) -> str:
     """A counterexample: its values, and which root is meant."""
     point, where, root = at.partition(" where ")
-    shown = ", ".join(f"${with_macros(_value(one))}$" for one in point.split(", ") if " = " in one) or prose(point)
+    shown = ", ".join(
+        f"${with_macros(_value(one))}$" for one in point.split(", ") if " = " in one
+    ) or prose(point)
     return shown + (f" where {prose(root)}" if where else "")
 
 
@@ -166,18 +216,28 @@ class Steps:
         self.used: set[str] = set()
 
     def show(self, label: str, *parts: int) -> str:
-        """What a line shows, whole or some of its conjuncts; refuses a line that is not certified."""
+        """What a line shows, whole or some of its conjuncts; refuses a line that is not
+        certified."""
         one = self.by_label[label]
         if one.outcome != "certified":
             raise ClaimError(f"{one.name} is {one.outcome}; the written proof cannot print it")
         self.used.add(label)
         said = one.text.rpartition("\nshow ")[2].split(" and ")
-        return with_macros(_chained([latex_of(said[part]) for part in parts] if parts else [latex_of(part) for part in said]))
-
+        return with_macros(
+            _chained(
+                [latex_of(said[part]) for part in parts]
+                if parts
+                else [latex_of(part) for part in said]
+            )
+        )
 
     def given(self, label: str, place: int) -> str:
         """What a line is given, by place."""
-        said = [line.partition(" ")[2] for line in self.by_label[label].text.splitlines() if line.startswith("given ")]
+        said = [
+            line.partition(" ")[2]
+            for line in self.by_label[label].text.splitlines()
+            if line.startswith("given ")
+        ]
         return with_macros(latex_of(said[place]))
 
 
@@ -194,5 +254,20 @@ def _chained(relations: Sequence[str]) -> str:
     return shown
 
 
-__all__ = ["Steps", "change", "correction", "entries", "formula", "heading", "holds", "inline", "key", "number", "plain", "prose", "settled",
-           "symbol", "values"]
+__all__ = [
+    "Steps",
+    "change",
+    "correction",
+    "entries",
+    "formula",
+    "heading",
+    "holds",
+    "inline",
+    "key",
+    "number",
+    "plain",
+    "prose",
+    "settled",
+    "symbol",
+    "values",
+]

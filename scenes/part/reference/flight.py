@@ -1,4 +1,5 @@
-"""The part in flight: its centre on a parabola, turning evenly; the gaps between its four corners and the table."""
+"""The part in flight: its centre on a parabola, turning evenly; the gaps between its four corners
+and the table."""
 
 from __future__ import annotations
 
@@ -6,7 +7,12 @@ from typing import Any
 
 from scenes.part.reference.setting import Model, Setting, State
 
-CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))  # corner i is R(theta) (a, b) with these signs: counterclockwise, 2 and 3 below when upright
+CORNERS = (
+    (1, 1),
+    (-1, 1),
+    (-1, -1),
+    (1, -1),
+)  # corner i is R(theta) (a, b) with these signs: counterclockwise, 2 and 3 below when upright
 
 
 def places(model: Model, theta: Any) -> list[tuple[Any, Any]]:
@@ -51,18 +57,37 @@ class Flight:
         [(13, 6), (13, -6), (5, -6), (5, 6)]
         """
         now, (height, _, up) = self.state(t), self.model.table(t)
-        return [(now.Y + y - height, now.VY + now.omega * x - up) for x, y in places(self.model, now.theta)]
+        return [
+            (now.Y + y - height, now.VY + now.omega * x - up)
+            for x, y in places(self.model, now.theta)
+        ]
 
     def bound(self) -> Any:
-        """A bound of the second derivative of every gap: gravity, the table's acceleration, and omega^2 times the corner's distance."""
-        return self.model.g + self.model.greatest_table_acceleration() + self.start.omega**2 * self.model.rho
+        """A bound of the second derivative of every gap: gravity, the table's acceleration, and
+        omega^2 times the corner's distance."""
+        return (
+            self.model.g
+            + self.model.greatest_table_acceleration()
+            + self.start.omega**2 * self.model.rho
+        )
 
 
-def dropped(setting: Setting, theta: Any, height: Any, *, X: Any = 0, VX: Any = 0, VY: Any = 0, omega: Any = 0, t: Any = 0,
-            digits: int = 50) -> State:
+def dropped(
+    setting: Setting,
+    theta: Any,
+    height: Any,
+    *,
+    X: Any = 0,
+    VX: Any = 0,
+    VY: Any = 0,
+    omega: Any = 0,
+    t: Any = 0,
+    digits: int = 50,
+) -> State:
     """The state at the time t whose lowest corner stands so high above the table.
 
-    For a comparison with an integrator in float64, round it and start both at `State(*map(float, state))`.
+    For a comparison with an integrator in float64, round it and start both at
+    `State(*map(float, state))`.
 
     >>> from fractions import Fraction
     >>> block = Setting(*map(Fraction, (3, 4, 0, 0, 10, 0, 0, 0, 0, 0, 0)))

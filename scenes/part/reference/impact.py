@@ -1,8 +1,10 @@
-"""The impact of one corner, walked literally through impulse space: the normal impulse grows, friction is what Coulomb says at each moment.
+"""The impact of one corner, walked literally through impulse space: the normal impulse grows,
+friction is what Coulomb says at each moment.
 
-The corner slides, and friction is mu times the normal impulse against it, until it stops; then it sticks where the friction that holds it
-is at most that, and slides off where it is more.  Compression ends where the corner no longer approaches, at the normal impulse n;
-the impact ends at (1 + e) n (Poisson).  Numbers of any kind: exact rationals, or mpmath's.
+The corner slides, and friction is mu times the normal impulse against it, until it stops; then it
+sticks where the friction that holds it is at most that, and slides off where it is more.
+Compression ends where the corner no longer approaches, at the normal impulse n; the impact ends at
+(1 + e) n (Poisson).  Numbers of any kind: exact rationals, or mpmath's.
 """
 
 from __future__ import annotations
@@ -11,13 +13,16 @@ from typing import Any, NamedTuple
 
 from scenes.errors import SceneError
 
-Motion = tuple[Any, Any, Any]  # velocity of the centre of mass relative to the table, and angular velocity
+Motion = tuple[
+    Any, Any, Any
+]  # velocity of the centre of mass relative to the table, and angular velocity
 Vector = tuple[Any, Any]
 AT_REST = (0, 0, 0)
 
 
 class Impact(NamedTuple):
-    """The impulse on the part (per unit of its mass), its motion after it, and how the corner moved meanwhile."""
+    """The impulse on the part (per unit of its mass), its motion after it, and how the corner moved
+    meanwhile."""
 
     impulse: Vector
     motion: Motion
@@ -35,7 +40,8 @@ def corner_velocity(motion: Motion, place: Vector) -> Vector:
 
 
 def pushed(motion: Motion, place: Vector, k2: Any, impulse: Vector) -> Motion:
-    """The motion after an impulse there; k2 is the square of the radius of gyration (momentum and angular momentum).
+    """The motion after an impulse there; k2 is the square of the radius of gyration (momentum and
+    angular momentum).
 
     >>> from fractions import Fraction
     >>> pushed((0, 0, 0), (3, 4), Fraction(2), (1, 0))
@@ -69,7 +75,8 @@ def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
         return corner_velocity(pushed(AT_REST, place, k2, (slope, 1)), place)
 
     def from_a_stop() -> tuple[int, Any]:
-        """The way in which a corner without tangential velocity goes on, and its friction: it sticks where friction can hold it."""
+        """The way in which a corner without tangential velocity goes on, and its friction: it
+        sticks where friction can hold it."""
         frictionless, with_friction = growth(0)[0], growth(1)[0]
         holding = frictionless / (frictionless - with_friction)
         if abs(holding) <= mu:
@@ -87,8 +94,12 @@ def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
         if not up_rate > 0:
             raise SceneError(f"friction jams the corner at {place}: mu = {mu} is too large")
         step = -normal / up_rate if end is None else end - up
-        until_stop = -tangential / along_rate if stopped is None and way * along_rate < 0 else None  # it stops once
-        stops = until_stop is not None and (until_stop <= step if end is None else until_stop < step)
+        until_stop = (
+            -tangential / along_rate if stopped is None and way * along_rate < 0 else None
+        )  # it stops once
+        stops = until_stop is not None and (
+            until_stop <= step if end is None else until_stop < step
+        )
         if stops:
             step = until_stop
         along, up = along + slope * step, up + step
@@ -104,7 +115,8 @@ def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
 
 
 def _mode(way: int, stopped: str | None) -> str:
-    """Wang and Mason's name for how the corner moved: where it stopped, if it did, and whether it stuck."""
+    """Wang and Mason's name for how the corner moved: where it stopped, if it did, and whether it
+    stuck."""
     if stopped is None:
         return "sliding"
     return f"{'reversed' if way else 'sticking'}-in-{stopped}"

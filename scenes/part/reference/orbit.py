@@ -17,7 +17,8 @@ MOST_IMPACTS, WITHIN = 20, "1e-6"  # more impacts in so many seconds are chatter
 
 
 class Event(NamedTuple):
-    """An impact: when, of which corner (an index of CORNERS), in which mode, and the states before and after it."""
+    """An impact: when, of which corner (an index of CORNERS), in which mode, and the states before
+    and after it."""
 
     time: Any
     corner: int
@@ -26,11 +27,21 @@ class Event(NamedTuple):
     after: State
 
 
-def reference_orbit(setting: Setting, start: State, until: Any, digits: int = 50, *,
-                    together: Any = TOGETHER, most: int = MOST_IMPACTS, within: Any = WITHIN) -> list[Event]:
-    """The impacts from a state in flight until a time; what it cannot follow raises, with the impacts until then in `events`.
+def reference_orbit(
+    setting: Setting,
+    start: State,
+    until: Any,
+    digits: int = 50,
+    *,
+    together: Any = TOGETHER,
+    most: int = MOST_IMPACTS,
+    within: Any = WITHIN,
+) -> list[Event]:
+    """The impacts from a state in flight until a time; what it cannot follow raises, with the
+    impacts until then in `events`.
 
-    Dropped by 0.2 m under g = 10, with its centre above the corner, a part strikes after 0.2 s and, with e = 1/2, again after 0.2 s:
+    Dropped by 0.2 m under g = 10, with its centre above the corner, a part strikes after 0.2 s and,
+    with e = 1/2, again after 0.2 s:
 
     >>> from math import atan
     >>> from scenes.part.reference import dropped, setting
@@ -47,7 +58,9 @@ def reference_orbit(setting: Setting, start: State, until: Any, digits: int = 50
         for event in _impacts(model, begun, last, model.lift(together)):
             events.append(event)
             if len(events) > most and event.time - events[-1 - most].time < model.lift(within):
-                raise Chatter(f"more than {most} impacts within {within} s before t = {float(event.time):.9f}")
+                raise Chatter(
+                    f"more than {most} impacts within {within} s before t = {float(event.time):.9f}"
+                )
     except Stopped as stopped:
         stopped.events = tuple(events)
         raise
@@ -59,7 +72,10 @@ def _refuse_what_does_not_fly(model: Model, start: State, last: Any) -> None:
         raise SceneError(f"the orbit would end at t = {last}, before it begins at t = {start.t}")
     for corner, (gap, rate) in enumerate(Flight(model, start).gaps(start.t)):
         if not (gap > 0 or (gap == 0 and rate > 0)):
-            raise SceneError(f"corner {corner} is not above the table at the start: its gap is {float(gap):.3g} m")
+            raise SceneError(
+                f"corner {corner} is not above the table at the start: its gap is"
+                f" {float(gap):.3g} m"
+            )
 
 
 def _impacts(model: Model, start: State, last: Any, together: Any) -> Iterator[Event]:
@@ -72,7 +88,9 @@ def _impacts(model: Model, start: State, last: Any, together: Any) -> Iterator[E
         refuse_others_that_strike_too(flight, event, together)
         yield event
         if Flight(model, event.after).gaps(event.time)[event.corner][1] ** 2 <= model.noise:
-            raise Chatter(f"corner {event.corner} stays on the table at t = {float(event.time):.9f}")
+            raise Chatter(
+                f"corner {event.corner} stays on the table at t = {float(event.time):.9f}"
+            )
         start = event.after
 
 
@@ -80,17 +98,34 @@ def struck(model: Model, flight: Flight, time: Any, corner: int) -> Event:
     """The impact of a corner at this time of a flight: only the velocities change."""
     before = flight.state(time)
     _, along, up = model.table(time)
-    met = impact((before.VX - along, before.VY - up, before.omega), places(model, before.theta)[corner], model.k2, model.e, model.mu)
+    met = impact(
+        (before.VX - along, before.VY - up, before.omega),
+        places(model, before.theta)[corner],
+        model.k2,
+        model.e,
+        model.mu,
+    )
     push_along, push_up = met.impulse
-    return Event(time, corner, met.mode, before, before._replace(VX=before.VX + push_along, VY=before.VY + push_up, omega=met.motion[2]))
+    return Event(
+        time,
+        corner,
+        met.mode,
+        before,
+        before._replace(VX=before.VX + push_along, VY=before.VY + push_up, omega=met.motion[2]),
+    )
 
 
 def refuse_others_that_strike_too(flight: Flight, event: Event, together: Any) -> None:
-    """Raise where another corner is as good as on the table and approaches it, before this impact or after it.
+    """Raise where another corner is as good as on the table and approaches it, before this impact
+    or after it.
 
-    Both impulses would have to be taken symmetrically, so that a mirrored start gives the mirrored orbit; the law of one corner says nothing of it.
+    Both impulses would have to be taken symmetrically, so that a mirrored start gives the mirrored
+    orbit; the law of one corner says nothing of it.
     """
     after = Flight(flight.model, event.after).gaps(event.time)
     for corner, (gap, rate) in enumerate(flight.gaps(event.time)):
         if corner != event.corner and gap <= together and min(rate, after[corner][1]) < 0:
-            raise Simultaneous(f"corners {event.corner} and {corner} strike together at t = {float(event.time):.9f}")
+            raise Simultaneous(
+                f"corners {event.corner} and {corner} strike together at t ="
+                f" {float(event.time):.9f}"
+            )

@@ -1,7 +1,9 @@
-"""The first time at which one of several gaps falls to 0, found so that none can be skipped: pieces of time are halved until each is decided.
+"""The first time at which one of several gaps falls to 0, found so that none can be skipped: pieces
+of time are halved until each is decided.
 
 With |gap''| <= M, at the middle m of a piece of half-width h:
-gap(m) - |gap'(m)| h - M h^2/2 > 0 leaves no root in it; |gap'(m)| > M h makes the gap rise or fall through all of it.
+gap(m) - |gap'(m)| h - M h^2/2 > 0 leaves no root in it; |gap'(m)| > M h makes the gap rise or fall
+through all of it.
 """
 
 from __future__ import annotations
@@ -15,8 +17,11 @@ Gaps = Callable[[Any], list[tuple[Any, Any]]]  # the gaps at a time, each with i
 MOST_STEPS = 1000
 
 
-def first_crossing(gaps: Gaps, bound: Any, start: Any, end: Any, noise: Any) -> tuple[Any, int] | None:
-    """The first time from start to end at which a gap falls from above 0 to 0, and which one; none where there is no such time.
+def first_crossing(
+    gaps: Gaps, bound: Any, start: Any, end: Any, noise: Any
+) -> tuple[Any, int] | None:
+    """The first time from start to end at which a gap falls from above 0 to 0, and which one; none
+    where there is no such time.
 
     Numbers closer than the noise are not told apart: a gap that touches 0 so closely is undecided.
 
@@ -38,14 +43,19 @@ def first_crossing(gaps: Gaps, bound: Any, start: Any, end: Any, noise: Any) -> 
             pieces += [(middle, right, falling + unclear), (left, middle, falling + unclear)]
             continue
         there = gaps(right) if falling else []
-        crossings = [(crossing(gaps, one, left, right, noise), one) for one in falling if there[one][0] <= 0]
+        crossings = [
+            (crossing(gaps, one, left, right, noise), one) for one in falling if there[one][0] <= 0
+        ]
         if crossings:
             return min(crossings)
     return None
 
 
-def _sorted_out(here: list[tuple[Any, Any]], watched: list[int], bound: Any, half: Any, noise: Any) -> tuple[list[int], list[int]]:
-    """Those of the watched gaps that fall through all of the piece, and those that are not decided; the others do not fall to 0 in it."""
+def _sorted_out(
+    here: list[tuple[Any, Any]], watched: list[int], bound: Any, half: Any, noise: Any
+) -> tuple[list[int], list[int]]:
+    """Those of the watched gaps that fall through all of the piece, and those that are not decided;
+    the others do not fall to 0 in it."""
     falling, unclear = [], []
     for one in watched:
         gap, rate = here[one]
@@ -59,7 +69,8 @@ def _sorted_out(here: list[tuple[Any, Any]], watched: list[int], bound: Any, hal
 
 
 def crossing(gaps: Gaps, one: int, left: Any, right: Any, width: Any) -> Any:
-    """The root of a gap that falls from above 0 to below, from the side where it is above, to this width (the Illinois method).
+    """The root of a gap that falls from above 0 to below, from the side where it is above, to this
+    width (the Illinois method).
 
     >>> from mpmath import mpf
     >>> crossing(lambda t: [(1 - t**2, -2 * t)], 0, mpf(0), mpf(3), mpf("1e-15")) - 1 < mpf("1e-15")
@@ -67,7 +78,9 @@ def crossing(gaps: Gaps, one: int, left: Any, right: Any, width: Any) -> Any:
     """
     above, below = gaps(left)[one][0], gaps(right)[one][0]
     if not above > 0 >= below:
-        raise Undecided(f"no corner is known to be above the table at t = {left} and below it at t = {right}")
+        raise Undecided(
+            f"no corner is known to be above the table at t = {left} and below it at t = {right}"
+        )
     if below == 0:
         return right
     moved = 0

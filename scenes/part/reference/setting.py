@@ -1,4 +1,5 @@
-"""The part, its table and its state: exact numbers, and the same in mpmath numbers of so many digits."""
+"""The part, its table and its state: exact numbers, and the same in mpmath numbers of so many
+digits."""
 
 from __future__ import annotations
 
@@ -33,7 +34,8 @@ class Setting:
 
 
 class State(NamedTuple):
-    """The centre of mass in the laboratory's frame at the time t: its place, the angle (0 upright, counterclockwise), and their velocities."""
+    """The centre of mass in the laboratory's frame at the time t: its place, the angle (0 upright,
+    counterclockwise), and their velocities."""
 
     t: Any
     X: Any
@@ -56,18 +58,39 @@ def exact(value: Any, name: str) -> Fraction:
         raise SceneError(f"{name} = {value!r} is not a number") from error
 
 
-def setting(a: Any, b: Any, *, e: Any, mu: Any, g: Any = "9.81", A_x: Any = 0, f_x: Any = 0, phase_x: Any = 0,
-            A_y: Any = 0, f_y: Any = 0, phase_y: Any = 0) -> Setting:
-    """A rectangle of half-sides a and b on a table at A sin(2 pi f t + phase), along x and along y; metres, seconds, radians.
+def setting(
+    a: Any,
+    b: Any,
+    *,
+    e: Any,
+    mu: Any,
+    g: Any = "9.81",
+    A_x: Any = 0,
+    f_x: Any = 0,
+    phase_x: Any = 0,
+    A_y: Any = 0,
+    f_y: Any = 0,
+    phase_y: Any = 0,
+) -> Setting:
+    """A rectangle of half-sides a and b on a table at A sin(2 pi f t + phase), along x and along y;
+    metres, seconds, radians.
 
     >>> setting("0.01", "0.02", e="0.7", mu="0.08").mu
     Fraction(2, 25)
     """
     given = locals()
-    numbers = Setting(**{field.name: exact(given[field.name], field.name) for field in fields(Setting)})
-    allowed = {"a": ("> 0", numbers.a > 0), "b": ("> 0", numbers.b > 0), "e": ("from 0 to 1", 0 <= numbers.e <= 1), "g": ("> 0", numbers.g > 0),
-               "mu": ("from 0 to less than 4/3, where a corner can jam", 0 <= numbers.mu < JAMMING),
-               "f_x": (">= 0", numbers.f_x >= 0), "f_y": (">= 0", numbers.f_y >= 0)}
+    numbers = Setting(
+        **{field.name: exact(given[field.name], field.name) for field in fields(Setting)}
+    )
+    allowed = {
+        "a": ("> 0", numbers.a > 0),
+        "b": ("> 0", numbers.b > 0),
+        "e": ("from 0 to 1", 0 <= numbers.e <= 1),
+        "g": ("> 0", numbers.g > 0),
+        "mu": ("from 0 to less than 4/3, where a corner can jam", 0 <= numbers.mu < JAMMING),
+        "f_x": (">= 0", numbers.f_x >= 0),
+        "f_y": (">= 0", numbers.f_y >= 0),
+    }
     for name, (what, holds) in allowed.items():
         if not holds:
             raise SceneError(f"{name} = {given[name]} is not allowed: {name} must be {what}")
@@ -75,7 +98,8 @@ def setting(a: Any, b: Any, *, e: Any, mu: Any, g: Any = "9.81", A_x: Any = 0, f
 
 
 class Model:
-    """A setting in mpmath numbers, in a context of its own, so that mpmath's global precision is left alone."""
+    """A setting in mpmath numbers, in a context of its own, so that mpmath's global precision is
+    left alone."""
 
     def __init__(self, numbers: Setting, digits: int) -> None:
         if digits < FEWEST_DIGITS:
@@ -83,8 +107,12 @@ class Model:
         self.context = MPContext()
         self.context.dps = digits
         lifted = {field.name: self.lift(getattr(numbers, field.name)) for field in fields(Setting)}
-        self.a, self.b, self.e, self.mu, self.g = (lifted[name] for name in ("a", "b", "e", "mu", "g"))
-        self.sideways, self.upwards = (tuple(lifted[f"{name}_{axis}"] for name in ("A", "f", "phase")) for axis in "xy")
+        self.a, self.b, self.e, self.mu, self.g = (
+            lifted[name] for name in ("a", "b", "e", "mu", "g")
+        )
+        self.sideways, self.upwards = (
+            tuple(lifted[f"{name}_{axis}"] for name in ("A", "f", "phase")) for axis in "xy"
+        )
         self.k2 = (self.a**2 + self.b**2) / 3
         self.rho = self.context.sqrt(self.a**2 + self.b**2)
         self.noise = self.context.mpf(10) ** (GUARD_DIGITS - digits)

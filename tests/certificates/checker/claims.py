@@ -1,4 +1,5 @@
-"""What an accepted certificate claims, tested at sample points by the second reading: `contradiction` names a point where it is false."""
+"""What an accepted certificate claims, tested at sample points by the second reading:
+`contradiction` names a point where it is false."""
 
 from __future__ import annotations
 
@@ -12,7 +13,20 @@ from tests.certificates.checker.harness import Json
 
 SAMPLES = [
     Fraction(n, d)
-    for n, d in ((0, 1), (1, 1), (-1, 1), (2, 1), (1, 2), (-3, 2), (9, 4), (1, 8), (16, 1), (-5, 1), (10, 1), (4, 1))
+    for n, d in (
+        (0, 1),
+        (1, 1),
+        (-1, 1),
+        (2, 1),
+        (1, 2),
+        (-3, 2),
+        (9, 4),
+        (1, 8),
+        (16, 1),
+        (-5, 1),
+        (10, 1),
+        (4, 1),
+    )
 ]
 
 
@@ -25,7 +39,9 @@ def points(names: list[str], integers: list[str]) -> Iterator[dict[str, Fraction
     """Sample points: all pairs of samples on two variables, a diagonal beyond."""
     first = SAMPLES if len(names) < 3 else SAMPLES[:6]
     for values in itertools.islice(itertools.product(first, repeat=len(names)), 300):
-        if all(value.denominator == 1 or name not in integers for name, value in zip(names, values)):
+        if all(
+            value.denominator == 1 or name not in integers for name, value in zip(names, values)
+        ):
             yield dict(zip(names, values))
 
 
@@ -50,7 +66,10 @@ def contradiction(text: str, outcome: str, certificate: Json, earlier: dict[str,
 
 
 def _certified(rows: list[str], certificate: Json) -> object:
-    names, integers = " ".join(said(rows, "forall")).split(), " ".join(said(rows, "integer")).split()
+    names, integers = (
+        " ".join(said(rows, "forall")).split(),
+        " ".join(said(rows, "integer")).split(),
+    )
     universal = [row for row in rows if row.partition(" ")[0] not in ("with", "show")]
     for point in points(names, integers):
         values: dict[str, Fraction] = dict(point)
@@ -81,8 +100,16 @@ def _refutation(rows: list[str], found: Json) -> object:
 
 
 def _sharp(rows: list[str], certificate: Json, earlier: dict[str, str]) -> object:
-    (domain,), (condition,), names = said(rows, "domain"), said(rows, "holds"), " ".join(said(rows, "over")).split()
-    inner = [row for row in earlier[said(rows, "sharp")[0]].strip().splitlines()[1:] if not row.startswith("range ")]
+    (domain,), (condition,), names = (
+        said(rows, "domain"),
+        said(rows, "holds"),
+        " ".join(said(rows, "over")).split(),
+    )
+    inner = [
+        row
+        for row in earlier[said(rows, "sharp")[0]].strip().splitlines()[1:]
+        if not row.startswith("range ")
+    ]
     others = [name for name in " ".join(said(inner, "forall")).split() if name not in names]
     for parameters in points(names, []):
         if not formula_at(domain, parameters):
@@ -95,7 +122,10 @@ def _sharp(rows: list[str], certificate: Json, earlier: dict[str, str]) -> objec
             terms = terms_found(certificate[1], parameters)
             if (
                 terms is None
-                or holds_at(inner, parameters | {n: term_at(t, parameters) for n, t in terms.items()}) is not False
+                or holds_at(
+                    inner, parameters | {n: term_at(t, parameters) for n, t in terms.items()}
+                )
+                is not False
             ):
                 return parameters
     return None
@@ -105,7 +135,9 @@ def _iterates(rows: list[str]) -> object:
     def images(row: str) -> list[str]:
         return [
             part
-            for part in re.split(r",(?![^(]*\))", re.sub(r"^\((.*?),?\)$", r"\1", row.partition(" -> ")[2]))
+            for part in re.split(
+                r",(?![^(]*\))", re.sub(r"^\((.*?),?\)$", r"\1", row.partition(" -> ")[2])
+            )
             if part.strip()
         ]
 
@@ -115,9 +147,9 @@ def _iterates(rows: list[str]) -> object:
     for point in itertools.islice(points([n for n in names if n != count], []), 60):
         now = dict(point)
         for steps in range(4):
-            if [_lets(rows, power, point | {count: Fraction(steps)}) for power in images(power_row)] != [
-                now[name] for name in state
-            ]:
+            if [
+                _lets(rows, power, point | {count: Fraction(steps)}) for power in images(power_row)
+            ] != [now[name] for name in state]:
                 return point | {count: Fraction(steps)}
             now |= dict(zip(state, [_lets(rows, image, now) for image in images(map_row)]))
     return None

@@ -1,7 +1,8 @@
-"""A second reading of statements, sharing nothing with the checker: its own parser, values at rational points as Fractions.
+"""A second reading of statements, sharing nothing with the checker: its own parser, values at
+rational points as Fractions.
 
-`holds_at(rows, point)` says whether a statement holds at one point; `None` says that the point tells nothing (a premise fails there, or a
-root is no rational number).
+`holds_at(rows, point)` says whether a statement holds at one point; `None` says that the point
+tells nothing (a premise fails there, or a root is no rational number).
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ RELATIONS = ("<=", ">=", "!=", "<", ">", "=")
 
 
 class Reader:
-    """Recursive descent straight to values: or < and < not < relations < sums < products < minus < powers."""
+    """Recursive descent straight to values: or < and < not < relations < sums < products < minus <
+    powers."""
 
     def __init__(self, text: str, point: Point) -> None:
         self.tokens, self.point, self.place = TOKEN.findall(text), point, 0
@@ -79,7 +81,10 @@ class Reader:
             sign = (left > right) - (left < right)
             value = (
                 value
-                and sign in {"<": (-1,), "<=": (-1, 0), "=": (0,), "!=": (-1, 1), ">=": (0, 1), ">": (1,)}[relation]
+                and sign
+                in {"<": (-1,), "<=": (-1, 0), "=": (0,), "!=": (-1, 1), ">=": (0, 1), ">": (1,)}[
+                    relation
+                ]
             )
             left = right
         return value
@@ -140,12 +145,15 @@ def formula_at(text: str, point: Point) -> bool:
 
 def rational_root(value: Fraction) -> Fraction | None:
     """The square root, where it is rational."""
-    root = Fraction(math.isqrt(value.numerator), math.isqrt(value.denominator)) if value >= 0 else None
+    root = (
+        Fraction(math.isqrt(value.numerator), math.isqrt(value.denominator)) if value >= 0 else None
+    )
     return root if root is not None and root * root == value else None
 
 
 def holds_at(rows: list[str], point: Point) -> bool | None:
-    """Whether the lines of a statement hold at a point of its variables; those that `exists` names are to be among them."""
+    """Whether the lines of a statement hold at a point of its variables; those that `exists` names
+    are to be among them."""
     values = dict(point)
     for row in rows:
         keyword, _, rest = row.partition(" ")

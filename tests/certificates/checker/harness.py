@@ -1,4 +1,5 @@
-"""Cases for the checker: a statement, a certificate, and the outcome, or how the reason of the rejection begins."""
+"""Cases for the checker: a statement, a certificate, and the outcome, or how the reason of the
+rejection begins."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ CLOSE = ["close"]
 
 @dataclass(frozen=True)
 class Case:
-    """One certificate for the last statement of a text; `earlier` holds the certificates of those before it."""
+    """One certificate for the last statement of a text; `earlier` holds the certificates of those
+    before it."""
 
     defect: str
     text: str
@@ -29,25 +31,35 @@ def lines(*rows: str, name: str = "rule/case") -> str:
     return "\n".join([f"statement {name}", *rows, ""])
 
 
-def proof(node: Json, *steps: Json, at: dict[str, str] | None = None, name: str = "rule/case") -> Json:
-    """A certificate: `node` closes "premises and not goals", `steps` the obligations; the point's terms meet the premises at once."""
+def proof(
+    node: Json, *steps: Json, at: dict[str, str] | None = None, name: str = "rule/case"
+) -> Json:
+    """A certificate: `node` closes "premises and not goals", `steps` the obligations; the point's
+    terms meet the premises at once."""
     return {"certified": ["proof", list(steps), node], "point": [name, [], at or {}, CLOSE]}
 
 
-def witness(found: Json, *steps: Json, at: dict[str, str] | None = None, name: str = "rule/case") -> Json:
+def witness(
+    found: Json, *steps: Json, at: dict[str, str] | None = None, name: str = "rule/case"
+) -> Json:
     """A certificate for a statement with `exists`."""
     return {"certified": ["witness", list(steps), found], "point": [name, [], at or {}, CLOSE]}
 
 
 def refuted(
-    at: dict[str, str], premises: Json = CLOSE, goals: Json = CLOSE, adjoined: Json = (), name: str = "rule/case"
+    at: dict[str, str],
+    premises: Json = CLOSE,
+    goals: Json = CLOSE,
+    adjoined: Json = (),
+    name: str = "rule/case",
 ) -> Json:
     """A counterexample."""
     return {"refuted": [name, list(adjoined), at, premises, goals]}
 
 
 def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, str]]:
-    """{name: (outcome, reason)} for every statement of a text, each checked after those before it."""
+    """{name: (outcome, reason)} for every statement of a text, each checked after those before
+    it."""
     known: dict[str, Any] = {}
     earlier: dict[str, Any] = {}
     found: dict[str, tuple[str, str]] = {}
@@ -61,7 +73,8 @@ def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, st
 
 
 def judge(case: Case) -> tuple[str, str]:
-    """(outcome, reason) of the last statement of a case; none of those before it may be rejected."""
+    """(outcome, reason) of the last statement of a case; none of those before it may be
+    rejected."""
     try:
         found = verdict(case.text, case.earlier | {_last(case.text): case.certificate})
     except checker.Rejected as reason:
@@ -73,4 +86,6 @@ def judge(case: Case) -> tuple[str, str]:
 
 
 def _last(text: str) -> str:
-    return [row for row in text.splitlines() if row.startswith("statement ")][-1].removeprefix("statement ")
+    return [row for row in text.splitlines() if row.startswith("statement ")][-1].removeprefix(
+        "statement "
+    )

@@ -1,4 +1,5 @@
-"""Two maps that are not the paper's, with all that the map rules say of them, and certificates that the search finds."""
+"""Two maps that are not the paper's, with all that the map rules say of them, and certificates that
+the search finds."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ from certificates.search.map_rules import search_map_rule
 Json = Any
 BUDGET = 300_000
 
-# One is subtracted until what is left is less than 1, and that is multiplied by a: to 0 exactly for a < 1.
+# One is subtracted until what is left is less than 1, and that is multiplied by a: to 0 exactly for
+# a < 1.
 SUBTRACT = """
 statement demo/map
 over a
@@ -53,7 +55,8 @@ attraction demo/attracts
 escape demo/escapes
 """
 
-# Three variables: a count that runs down, and a point of the plane that is turned meanwhile, then drawn to (1/2, 0) with a shear.
+# Three variables: a count that runs down, and a point of the plane that is turned meanwhile, then
+# drawn to (1/2, 0) with a shear.
 TURN = """
 statement turn/map
 over b
@@ -94,7 +97,8 @@ def read(text: str) -> dict[str, checker.Statement]:
 
 @cache
 def searched(text: str) -> dict[str, Json]:
-    """{name: certificate or the reason why none was found} for the statements of a text in order, as far as those before are certified."""
+    """{name: certificate or the reason why none was found} for the statements of a text in order,
+    as far as those before are certified."""
     known: dict[str, checker.Statement] = {}
     found: dict[str, Json] = {}
     for name, statement in read(text).items():

@@ -1,4 +1,5 @@
-"""The checker as it is run, alone on a folder: exit codes, and one line for each thing that is wrong, whatever the files hold."""
+"""The checker as it is run, alone on a folder: exit codes, and one line for each thing that is
+wrong, whatever the files hold."""
 
 from __future__ import annotations
 
@@ -12,19 +13,24 @@ import pytest
 CHECKER = Path(__file__).resolve().parents[3] / "certificates" / "checker.py"
 TRUE = "statement a/b\nforall x\nshow x^2 + 1 > 0\n"
 GOOD = (
-    '{"a/b": {"certified": ["proof", [], ["psatz", [[1, [[0, 1]], "1"], [1, [], "x"], [1, [], "1"]], []]], '
-    '"point": ["a/b", [], {"x": "0"}, ["close"]]}}'
+    '{"a/b": {"certified": ["proof", [], ["psatz", [[1, [[0, 1]], "1"], [1, [], "x"], [1, [],'
+    ' "1"]], []]], "point": ["a/b", [], {"x": "0"}, ["close"]]}}'
 )
 UNKNOWN = '{"a/b": {"unknown": "no search"}}'
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-I", "-S", str(CHECKER), *map(str, arguments)], capture_output=True, text=True, timeout=60
+        [sys.executable, "-I", "-S", str(CHECKER), *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=60,
     )
 
 
-def check(folder: Path, statements: str | bytes, **files: str | bytes) -> subprocess.CompletedProcess[str]:
+def check(
+    folder: Path, statements: str | bytes, **files: str | bytes
+) -> subprocess.CompletedProcess[str]:
     for name, content in {
         "statements.txt": statements,
         **{f"{name}.json": content for name, content in files.items()},
@@ -35,7 +41,9 @@ def check(folder: Path, statements: str | bytes, **files: str | bytes) -> subpro
 
 def test_exit_0_where_nothing_is_rejected(tmp_path: Path) -> None:
     done = check(
-        tmp_path, "# a title\n\n" + TRUE + "\n" + TRUE.replace("a/b", "a/c"), a=GOOD[:-1] + ', "a/c": {"unknown": ""}}'
+        tmp_path,
+        "# a title\n\n" + TRUE + "\n" + TRUE.replace("a/b", "a/c"),
+        a=GOOD[:-1] + ', "a/c": {"unknown": ""}}',
     )
     assert (done.returncode, done.stdout, done.stderr) == (
         0,
@@ -81,12 +89,18 @@ CERTIFICATES: dict[str, tuple[str | bytes, str]] = {
     "deep nesting": (DEEP, "not a certificate file"),
     "deep nesting of objects": ('{"a":' * 100_000, "not a certificate file"),
     "a key twice": (GOOD[:-1] + ", " + GOOD[1:], "a key stands twice"),
-    "a key twice deep inside": (GOOD.replace('"x": "0"', '"x": "0", "x": "0"'), "a key stands twice: ['x', 'x']"),
+    "a key twice deep inside": (
+        GOOD.replace('"x": "0"', '"x": "0", "x": "0"'),
+        "a key stands twice: ['x', 'x']",
+    ),
     "a float": (GOOD.replace("[[1,", "[[1.0,", 1), "not an exact integer: 1.0"),
     "an exponent": (GOOD.replace("[[1,", "[[1e0,", 1), "not an exact integer: 1e0"),
     "NaN": (GOOD.replace("[[1,", "[[NaN,", 1), "not an exact integer: NaN"),
     "Infinity": (GOOD.replace("[[1,", "[[-Infinity,", 1), "not an exact integer: -Infinity"),
-    "a number of 10000 digits": (GOOD.replace("[[1,", "[[1" + "0" * 10_000 + ",", 1), "not a certificate file"),
+    "a number of 10000 digits": (
+        GOOD.replace("[[1,", "[[1" + "0" * 10_000 + ",", 1),
+        "not a certificate file",
+    ),
     "a comment": ("// " + GOOD, "not a certificate file"),
 }
 
@@ -122,9 +136,9 @@ def test_rejects_a_file_that_is_no_certificate_file(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (1, "")
     rows = done.stdout.splitlines(keepends=True)
     for name, (_, reason) in zip(files, CERTIFICATES.values()):
-        assert one_line(next(row for row in rows if row.startswith(f"rejected  {name}: "))).startswith(
-            f"rejected  {name}: {reason}"
-        )
+        assert one_line(
+            next(row for row in rows if row.startswith(f"rejected  {name}: "))
+        ).startswith(f"rejected  {name}: {reason}")
         assert f"rejected  {name}/b: no certificate\n" in rows
     assert rows[-1].endswith(f" 0 certified, 0 refuted, 0 unknown, {2 * len(files)} rejected\n")
 
@@ -140,18 +154,25 @@ def test_rejects_an_entry_that_is_no_certificate(tmp_path: Path) -> None:
         for row, (name, (_, reason)) in zip(rows, names.items(), strict=True)
         if not one_line(row).startswith(f"rejected  {name}: {reason}")
     ] == []
-    assert last == f"{len(names)} statements: 0 certified, 0 refuted, 0 unknown, {len(names)} rejected\n"
+    assert (
+        last
+        == f"{len(names)} statements: 0 certified, 0 refuted, 0 unknown, {len(names)} rejected\n"
+    )
 
 
 def test_rejects_what_is_left_over(tmp_path: Path) -> None:
     done = check(
-        tmp_path, TRUE, a=GOOD[:-1] + ', "a/c": 1, "a/d\\n1 statements: 1 certified": 2, "\\ud800": 3}', z=UNKNOWN
+        tmp_path,
+        TRUE,
+        a=GOOD[:-1] + ', "a/c": 1, "a/d\\n1 statements: 1 certified": 2, "\\ud800": 3}',
+        z=UNKNOWN,
     )
     assert (done.returncode, done.stderr) == (1, "")
     rows = done.stdout.splitlines()
-    assert [row.startswith("rejected  ") and row.endswith(": a certificate without a statement") for row in rows] == [
-        True
-    ] * 4 + [False]
+    assert [
+        row.startswith("rejected  ") and row.endswith(": a certificate without a statement")
+        for row in rows
+    ] == [True] * 4 + [False]
     assert rows[-1] == "5 statements: 1 certified, 0 refuted, 0 unknown, 4 rejected"
 
 
@@ -166,7 +187,10 @@ def test_rejects_a_missing_certificate(tmp_path: Path) -> None:
 def test_rejects_an_empty_set_of_statements(tmp_path: Path) -> None:
     for nothing in ("", "\n\n", "# only a title\n"):
         done = check(tmp_path, nothing)
-        assert (done.returncode, done.stdout) == (1, "0 statements: 0 certified, 0 refuted, 0 unknown, 0 rejected\n")
+        assert (done.returncode, done.stdout) == (
+            1,
+            "0 statements: 0 certified, 0 refuted, 0 unknown, 0 rejected\n",
+        )
 
 
 STATEMENTS: dict[str, str | bytes] = {
@@ -180,12 +204,14 @@ STATEMENTS: dict[str, str | bytes] = {
     "no name": "statement\nshow 1 < 2\n",
     "a path for a name": "statement ../../a/b\nshow 1 < 2\n",
     "a line out of order": "statement a/b\nshow 1 < 2\nforall x\n",
-    "a number of 5000 hexadecimal digits": "statement a/b\nforall x K\ninteger K\niterates 0x"
-    + "f" * 5000
-    + " -> x\nafter K -> x\n",
+    "a number of 5000 hexadecimal digits": (
+        "statement a/b\nforall x K\ninteger K\niterates 0x" + "f" * 5000 + " -> x\nafter K -> x\n"
+    ),
     "calls of calls": "statement a/b\nroot s = sqrt" + "(x)" * 950 + "\nshow 0 = 0\n",
     "a formula of 200000 brackets": "statement a/b\nshow " + "(" * 200_000 + "\n",
-    "a formula of two million characters": "statement a/b\nshow 1 < 2" + " and 1 < 2" * 200_000 + "\n",
+    "a formula of two million characters": (
+        "statement a/b\nshow 1 < 2" + " and 1 < 2" * 200_000 + "\n"
+    ),
     "a sum of 100000 terms": "statement a/b\nshow 0 < 1" + "+1" * 100_000 + "\n",
     "starred arguments": "statement a/b\nroot s = sqrt(*x)\nfrom os import path\n",
 }

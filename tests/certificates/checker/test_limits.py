@@ -53,19 +53,33 @@ def negated(p: str, node: Json) -> Json:
 NODES: dict[str, Json] = {
     "a power of a power": summand("((x + y + z)^40)^40"),
     "a tower of powers": summand("(((x^60)^60)^60)^60"),
-    "terms without number": summand("*".join(power_sum(name, step) for name in "xyz" for step in (1, 60))),
-    "huge coefficients": summand(power_sum(f"{BIG}*x") + "*" + power_sum(f"{BIG}*y") + "*" + power_sum(f"{BIG}*z")),
+    "terms without number": summand(
+        "*".join(power_sum(name, step) for name in "xyz" for step in (1, 60))
+    ),
+    "huge coefficients": summand(
+        power_sum(f"{BIG}*x") + "*" + power_sum(f"{BIG}*y") + "*" + power_sum(f"{BIG}*z")
+    ),
     "a huge number": summand(f"{BIG}^4000"),
-    "many summands after a long one": ["psatz", [[1, [], "(x + y + z + 1)^12"], *[[1, [], "1"]] * 200_000], []],
+    "many summands after a long one": [
+        "psatz",
+        [[1, [], "(x + y + z + 1)^12"], *[[1, [], "1"]] * 200_000],
+        [],
+    ],
     "a root count of degree 150": negated(f"{sampled(60, 150)} - 2^61", ["interval", 3, 0, 1]),
-    "a root count of degree 40, long coefficients": negated(f"{sampled(4000, 40)} - 2^3999*4", ["interval", 3, 0, 1]),
+    "a root count of degree 40, long coefficients": negated(
+        f"{sampled(4000, 40)} - 2^3999*4", ["interval", 3, 0, 1]
+    ),
     "a long numerator at the end of an interval": negated(
         f"{BIG}*x + {BIG[:-1]}7", negated("x^3000 - 3", ["interval", 4, 3, 1])
     ),
     "a long denominator at the end of an interval": negated(
         f"{BIG}*x - 1", negated("x^3000 - 3", ["interval", 4, 3, 1])
     ),
-    "denominators without bound": ["psatz", [[f"1/{10**300 + k}", [], "1"] for k in range(300)], []],
+    "denominators without bound": [
+        "psatz",
+        [[f"1/{10**300 + k}", [], "1"] for k in range(300)],
+        [],
+    ],
     "a power of a fact": ["psatz", [[1, [[0, 4000], [1, 4000], [2, 4000]], "1"]], []],
 }
 SHOWS: dict[str, str] = {
@@ -73,17 +87,35 @@ SHOWS: dict[str, str] = {
     "a product of quotients": "*".join(f"((x + {k})/z^{k})" for k in range(80)) + " + 1/z >= 0",
     "equivalences of equivalences": nested(60),
 }
-WIDE = ("forall x y z", *(f"given {name} {side}" for name in "xyz" for side in (">= -1/7", "<= 3/5")))
-LONG = ("forall x y z", *(f"given {name} {side}" for name in "xyz" for side in (f">= 1/{BIG[:-3]}1", f"<= {BIG[:-2]}7")))
+WIDE = (
+    "forall x y z",
+    *(f"given {name} {side}" for name in "xyz" for side in (">= -1/7", "<= 3/5")),
+)
+LONG = (
+    "forall x y z",
+    *(
+        f"given {name} {side}"
+        for name in "xyz"
+        for side in (f">= 1/{BIG[:-3]}1", f"<= {BIG[:-2]}7")
+    ),
+)
 VARIABLES = [f"v{k}" for k in range(40)]
-MANY = ("forall " + " ".join(VARIABLES), *(f"given {name} {side}" for name in VARIABLES for side in (">= 0", "<= 1")))
+MANY = (
+    "forall " + " ".join(VARIABLES),
+    *(f"given {name} {side}" for name in VARIABLES for side in (">= 0", "<= 1")),
+)
 SIDES = [[2 * k, 2 * k + 1] for k in range(40)]
 BOXES: dict[str, tuple[tuple[str, ...], str, list[list[int]], str]] = {
     "a box tree of halves without end": (WIDE, "x^2 + y^2 + z^2 > -1", SIDES[:3], "a" * 500_000),
     "a box tree of halves of a high degree": (WIDE, "x^200 > -1", SIDES[:1], "a" * 100_000),
     "a box tree of two axes without end": (WIDE, "(x + y + z)^2 > -1", SIDES[:3], "cba" * 100_000),
     "a degree that no box tree can have": (WIDE, "x^3999 > -1", SIDES[:1], "."),
-    "a power on the unit box": (("forall x y z", "given x >= 0", "given x <= 1"), "x^3999 < 2", SIDES[:1], "."),
+    "a power on the unit box": (
+        ("forall x y z", "given x >= 0", "given x <= 1"),
+        "x^3999 < 2",
+        SIDES[:1],
+        ".",
+    ),
     "three degrees that no box tree can have": (WIDE, "(x*y*z)^200 > -1", SIDES[:3], "."),
     "ends with long numbers": (LONG, "(x*y*z)^20 > -1", SIDES[:3], "abc" * 1000),
     "an axis for each of forty variables": (MANY, "*".join(VARIABLES) + " <= 2", SIDES, "."),
@@ -104,9 +136,12 @@ CASES: dict[str, tuple[str, Json]] = {
 
 @pytest.fixture(scope="module")
 def outcomes() -> dict[str, str]:
-    """{name: what the checker says}, from one process with bounded memory and time; a name is missing where it did not end."""
+    """{name: what the checker says}, from one process with bounded memory and time; a name is
+    missing where it did not end."""
     sent = json.dumps(list(CASES.values()))
-    done = subprocess.run([sys.executable, "-c", PROGRAM], input=sent, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM], input=sent, capture_output=True, text=True, timeout=120
+    )
     return dict(zip(CASES, done.stdout.splitlines()))
 
 

@@ -1,4 +1,5 @@
-"""The map rules on two other maps: accepted as they are, rejected with the premise's name where one premise fails, and nothing can be left out."""
+"""The map rules on two other maps: accepted as they are, rejected with the premise's name where one
+premise fails, and nothing can be left out."""
 
 from __future__ import annotations
 
@@ -48,7 +49,8 @@ FAILING = [
     ("escapes", "domain a = 1", "domain a = 2", "inside"),
     ("escapes", "domain a = 1", "domain a < a", "possible"),
 ]
-# What joins two statements fails through the one or the other: (statement changed, from, to, statement that fails, premise)
+# What joins two statements fails through the one or the other: (statement changed, from, to,
+# statement that fails, premise)
 JOINS = [
     ("contracts", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "attracts", "inside"),
     ("contracts", "on x < 1", "on x < 3/4", "attracts", "enters"),
@@ -63,7 +65,11 @@ def test_every_rule_holds_on_another_map(text: str) -> None:
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
 
 
-@pytest.mark.parametrize(("kind", "old", "new", "premise"), FAILING, ids=[f"{row[0]}: {row[3]} ({row[2][:24]})" for row in FAILING])
+@pytest.mark.parametrize(
+    ("kind", "old", "new", "premise"),
+    FAILING,
+    ids=[f"{row[0]}: {row[3]} ({row[2][:24]})" for row in FAILING],
+)
 def test_a_rule_fails_without_its_premise(kind: str, old: str, new: str, premise: str) -> None:
     text, name = edited(SUBTRACT, kind, old, new), f"demo/{kind}"
     assert searched(text)[name] == {"unknown": f"no proof of the premise {premise} was found"}
@@ -72,28 +78,43 @@ def test_a_rule_fails_without_its_premise(kind: str, old: str, new: str, premise
     assert reason.startswith(("premise ", "the premises of a rule are missing or left over"))
 
 
-@pytest.mark.parametrize(("kind", "old", "new", "joined", "premise"), JOINS, ids=[f"{row[3]}: {row[4]}" for row in JOINS])
-def test_joined_statements_fail_without_what_joins_them(kind: str, old: str, new: str, joined: str, premise: str) -> None:
+@pytest.mark.parametrize(
+    ("kind", "old", "new", "joined", "premise"), JOINS, ids=[f"{row[3]}: {row[4]}" for row in JOINS]
+)
+def test_joined_statements_fail_without_what_joins_them(
+    kind: str, old: str, new: str, joined: str, premise: str
+) -> None:
     text = edited(SUBTRACT, kind, old, new)
     found = searched(text)
     assert found[f"demo/{joined}"] == {"unknown": f"no proof of the premise {premise} was found"}
-    outcome, reason = checked(text, {**found, f"demo/{joined}": searched(SUBTRACT)[f"demo/{joined}"]})[f"demo/{joined}"]
+    outcome, reason = checked(
+        text, {**found, f"demo/{joined}": searched(SUBTRACT)[f"demo/{joined}"]}
+    )[f"demo/{joined}"]
     assert (outcome, reason.split(":")[0]) == ("rejected", f"premise {premise} of demo/{joined}")
 
 
 def test_rejects_a_contraction_of_another_map_of_the_same_text() -> None:
     copy = SUBTRACT.split("\n\n")[0].replace("demo/map", "demo/copy")
     text = copy + "\n\n" + edited(SUBTRACT, "contracts", "map demo/map", "map demo/copy")
-    results = checked(text, {**searched(SUBTRACT), **searched(text.split("statement demo/attracts")[0])})
+    results = checked(
+        text, {**searched(SUBTRACT), **searched(text.split("statement demo/attracts")[0])}
+    )
     assert results["demo/descends"] == results["demo/contracts"] == ("certified", "")
-    assert results["demo/attracts"] == ("rejected", "two statements about different maps are joined: demo/attracts")
+    assert results["demo/attracts"] == (
+        "rejected",
+        "two statements about different maps are joined: demo/attracts",
+    )
 
 
 def test_rejects_one_name_for_the_roots_of_two_terms() -> None:
     """c is 2 in the descent and 1 in the contraction: read as one, x < 2 would lie in x < 1."""
-    text = edited(SUBTRACT, "descends", "rank x\nstage x < 1", "root c = sqrt(4)\nrank x\nstage x < c")
+    text = edited(
+        SUBTRACT, "descends", "rank x\nstage x < 1", "root c = sqrt(4)\nrank x\nstage x < c"
+    )
     text = edited(text, "contracts", "on x < 1", "root c = sqrt(1)\non x < c")
-    results = checked(text, {**searched(SUBTRACT), **searched(text.split("statement demo/attracts")[0])})
+    results = checked(
+        text, {**searched(SUBTRACT), **searched(text.split("statement demo/attracts")[0])}
+    )
     assert results["demo/descends"] == results["demo/contracts"] == ("certified", "")
     statements = read(text)
     enters = checker.premises_of(statements["demo/attracts"], statements)["enters"]
@@ -104,38 +125,107 @@ def test_rejects_one_name_for_the_roots_of_two_terms() -> None:
 def test_rejects_a_missing_or_left_over_premise() -> None:
     for name, certificate in searched(SUBTRACT).items():
         for premise in certificate["certified"]:
-            fewer = {"certified": {key: proof for key, proof in certificate["certified"].items() if key != premise}}
+            fewer = {
+                "certified": {
+                    key: proof for key, proof in certificate["certified"].items() if key != premise
+                }
+            }
             outcome, reason = checked(SUBTRACT, {**searched(SUBTRACT), name: fewer})[name]
-            assert (outcome, reason) == ("rejected", f"the premises of a rule are missing or left over: ['{premise}']")
+            assert (outcome, reason) == (
+                "rejected",
+                f"the premises of a rule are missing or left over: ['{premise}']",
+            )
         more = {"certified": {**certificate["certified"], "falls-9": ["proof", [], ["close"]]}}
-        assert checked(SUBTRACT, {**searched(SUBTRACT), name: more})[name][1].endswith("left over: ['falls-9']")
+        assert checked(SUBTRACT, {**searched(SUBTRACT), name: more})[name][1].endswith(
+            "left over: ['falls-9']"
+        )
 
 
 def test_rejects_whatever_rests_on_what_is_not_certified() -> None:
-    after = {"map": {"descends", "contracts", "attracts", "escapes", "exactly"}, "descends": {"attracts", "exactly"},
-             "contracts": {"attracts", "exactly"}, "attracts": {"exactly"}, "escapes": {"exactly"}, "exactly": set()}
+    after = {
+        "map": {"descends", "contracts", "attracts", "escapes", "exactly"},
+        "descends": {"attracts", "exactly"},
+        "contracts": {"attracts", "exactly"},
+        "attracts": {"exactly"},
+        "escapes": {"exactly"},
+        "exactly": set(),
+    }
     for kind, resting in after.items():
         without = {name: one for name, one in searched(SUBTRACT).items() if name != f"demo/{kind}"}
-        lost = {name for name, (outcome, _) in checked(SUBTRACT, without).items() if outcome != "certified"}
+        lost = {
+            name
+            for name, (outcome, _) in checked(SUBTRACT, without).items()
+            if outcome != "certified"
+        }
         assert lost == {f"demo/{one}" for one in {kind, *resting}}
 
 
 MALFORMED = [
-    ("descends", "map demo/map", "map demo/descends", "no earlier certified statement of kind map has this name: demo/descends"),  # a circle
-    ("descends", "map demo/map", "map demo/contracts", "no earlier certified statement of kind map has this name: demo/contracts"),
-    ("attracts", "demo/contracts", "demo/descends", "no earlier certified statement of kind contracts has this name"),
-    ("exactly", "demo/attracts", "demo/exactly", "no earlier certified statement of kind attracts has this name"),
-    ("map", "a*x", "a*x, x", "a piece gives one term in parameters and state for each state variable"),
-    ("map", "a*x", "a*x_next", "a piece gives one term in parameters and state for each state variable"),
-    ("map", "a*x", "a*distance", "a piece gives one term in parameters and state for each state variable"),
-    ("map", "x < 1", "x < 1 and z > 0", "a piece gives one term in parameters and state for each state variable"),
+    (
+        "descends",
+        "map demo/map",
+        "map demo/descends",
+        "no earlier certified statement of kind map has this name: demo/descends",
+    ),  # a circle
+    (
+        "descends",
+        "map demo/map",
+        "map demo/contracts",
+        "no earlier certified statement of kind map has this name: demo/contracts",
+    ),
+    (
+        "attracts",
+        "demo/contracts",
+        "demo/descends",
+        "no earlier certified statement of kind contracts has this name",
+    ),
+    (
+        "exactly",
+        "demo/attracts",
+        "demo/exactly",
+        "no earlier certified statement of kind attracts has this name",
+    ),
+    (
+        "map",
+        "a*x",
+        "a*x, x",
+        "a piece gives one term in parameters and state for each state variable",
+    ),
+    (
+        "map",
+        "a*x",
+        "a*x_next",
+        "a piece gives one term in parameters and state for each state variable",
+    ),
+    (
+        "map",
+        "a*x",
+        "a*distance",
+        "a piece gives one term in parameters and state for each state variable",
+    ),
+    (
+        "map",
+        "x < 1",
+        "x < 1 and z > 0",
+        "a piece gives one term in parameters and state for each state variable",
+    ),
     ("descends", "rank x", "rank x_next + x", "premise bounded"),
     ("descends", "rank x", "rank z", "premise bounded"),
     ("descends", "stage x < 1", "stage x_next < 1", "premise falls-1"),
     ("descends", "rank x", "rank 0 <= x", "premise bounded"),
     ("descends", "rank x", "rank x >= 0 and x", "premise bounded"),
-    ("contracts", "point 0", "point x", "one term in the parameters for each state variable is expected"),
-    ("contracts", "point 0", "point 0, 0", "one term in the parameters for each state variable is expected"),
+    (
+        "contracts",
+        "point 0",
+        "point x",
+        "one term in the parameters for each state variable is expected",
+    ),
+    (
+        "contracts",
+        "point 0",
+        "point 0, 0",
+        "one term in the parameters for each state variable is expected",
+    ),
     ("contracts", "weights 1", "weights 1 + x", "one term in the parameters"),
     ("contracts", "rate a", "rate a*x", "premise constants"),
     ("contracts", "radius 1/2", "radius x/2", "premise constants"),
@@ -151,19 +241,31 @@ MALFORMED = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "old", "new", "expected"), MALFORMED, ids=[f"{row[0]}: {row[2]}" for row in MALFORMED])
-def test_rejects_names_that_mean_nothing_there(kind: str, old: str, new: str, expected: str) -> None:
+@pytest.mark.parametrize(
+    ("kind", "old", "new", "expected"), MALFORMED, ids=[f"{row[0]}: {row[2]}" for row in MALFORMED]
+)
+def test_rejects_names_that_mean_nothing_there(
+    kind: str, old: str, new: str, expected: str
+) -> None:
     outcome, reason = checked(edited(SUBTRACT, kind, old, new), searched(SUBTRACT))[f"demo/{kind}"]
-    assert (outcome, reason[:len(expected)]) == ("rejected", expected)
+    assert (outcome, reason[: len(expected)]) == ("rejected", expected)
 
 
-@pytest.mark.parametrize(("kind", "old", "new"), [
-    ("descends", "stage x < 1", "stage x < 1) or (0 = 0"), ("contracts", "rate a", "rate a) - (1"), ("escapes", "word 2", "word"),
-    ("contracts", "point 0", "point 0 -> 1"),
-    ("descends", "rank x", "root u = root(x^2 - 2, 0, 2)\nrank u"),
-    ("map", "piece x < 1 -> a*x", "piece x < 1 a*x"), ("map", "space x >= 0", "space x >= 0\nspace x >= 1"),
-    ("descends", "rank x", "rank x\nrank x - 1"), ("attracts", "descent demo/descends\n", ""), ("escapes", "word 2", "word two"),
-])
+@pytest.mark.parametrize(
+    ("kind", "old", "new"),
+    [
+        ("descends", "stage x < 1", "stage x < 1) or (0 = 0"),
+        ("contracts", "rate a", "rate a) - (1"),
+        ("escapes", "word 2", "word"),
+        ("contracts", "point 0", "point 0 -> 1"),
+        ("descends", "rank x", "root u = root(x^2 - 2, 0, 2)\nrank u"),
+        ("map", "piece x < 1 -> a*x", "piece x < 1 a*x"),
+        ("map", "space x >= 0", "space x >= 0\nspace x >= 1"),
+        ("descends", "rank x", "rank x\nrank x - 1"),
+        ("attracts", "descent demo/descends\n", ""),
+        ("escapes", "word 2", "word two"),
+    ],
+)
 def test_rejects_unreadable_lines(kind: str, old: str, new: str) -> None:
     with pytest.raises(checker.Rejected):
         text = edited(SUBTRACT, kind, old, new)
@@ -172,7 +274,11 @@ def test_rejects_unreadable_lines(kind: str, old: str, new: str) -> None:
         raise checker.Rejected(reason) if outcome == "rejected" else AssertionError(outcome)
 
 
-@given(a=st.fractions(Fraction(1, 100), Fraction(99, 100)), x=st.fractions(0, 30, max_denominator=50), more=st.integers(0, 6))
+@given(
+    a=st.fractions(Fraction(1, 100), Fraction(99, 100)),
+    x=st.fractions(0, 30, max_denominator=50),
+    more=st.integers(0, 6),
+)
 def test_what_the_rules_conclude_holds_of_orbits(a: Fraction, x: Fraction, more: int) -> None:
     def step(y: Fraction) -> Fraction:
         return y - 1 if y >= 1 else a * y

@@ -1,4 +1,5 @@
-"""The checker's reading of a formula agrees with a second one, at random rational points, in both directions."""
+"""The checker's reading of a formula agrees with a second one, at random rational points, in both
+directions."""
 
 from __future__ import annotations
 
@@ -19,19 +20,24 @@ points = st.fixed_dictionaries(dict.fromkeys(NAMES, small))
 def grown(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
     pairs = st.tuples(inner, inner)
     return st.one_of(
-        st.tuples(pairs, st.sampled_from(["{} + {}", "({}) - ({})", "({})*({})", "{} - {}", "({})*({}) + 1"])).map(
-            lambda p: p[1].format(*p[0])
-        ),
-        st.tuples(inner, st.sampled_from(["-({})", "({})^2", "({})^3", "({})/3", "-({})^2", "({})^0"])).map(
-            lambda p: p[1].format(p[0])
-        ),
+        st.tuples(
+            pairs,
+            st.sampled_from(["{} + {}", "({}) - ({})", "({})*({})", "{} - {}", "({})*({}) + 1"]),
+        ).map(lambda p: p[1].format(*p[0])),
+        st.tuples(
+            inner, st.sampled_from(["-({})", "({})^2", "({})^3", "({})/3", "-({})^2", "({})^0"])
+        ).map(lambda p: p[1].format(p[0])),
     )
 
 
 atoms = st.one_of(st.sampled_from(NAMES), st.integers(0, 5).map(str))
 terms = st.recursive(atoms, grown, max_leaves=5)
-relations = st.tuples(terms, st.sampled_from(["<", "<=", "=", "!=", ">=", ">"]), terms).map(" ".join)
-chains = st.tuples(relations, st.sampled_from(["<", "<=", "=", "!=", ">=", ">"]), terms).map(" ".join)
+relations = st.tuples(terms, st.sampled_from(["<", "<=", "=", "!=", ">=", ">"]), terms).map(
+    " ".join
+)
+chains = st.tuples(relations, st.sampled_from(["<", "<=", "=", "!=", ">=", ">"]), terms).map(
+    " ".join
+)
 
 
 def joined(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
@@ -61,7 +67,9 @@ def outcome(text: str, certificate: object) -> str:
 
 @FEW
 @given(terms, points)
-def test_a_term_has_the_value_that_a_second_reading_gives_it(term: str, point: dict[str, Fraction]) -> None:
+def test_a_term_has_the_value_that_a_second_reading_gives_it(
+    term: str, point: dict[str, Fraction]
+) -> None:
     rows = [*(f"let {name} = {value}" for name, value in point.items())]
     value = term_at(term, point)
     assert outcome(lines(*rows, f"show {term} = {value}"), proof(CLOSE)) == "certified"
@@ -70,11 +78,17 @@ def test_a_term_has_the_value_that_a_second_reading_gives_it(term: str, point: d
 
 @FEW
 @given(formulas, points)
-def test_a_formula_is_true_at_a_point_in_both_readings_or_in_none(formula: str, point: dict[str, Fraction]) -> None:
+def test_a_formula_is_true_at_a_point_in_both_readings_or_in_none(
+    formula: str, point: dict[str, Fraction]
+) -> None:
     truth = formula_at(formula, point)
     rows = [f"let {name} = {value}" for name, value in point.items()]
-    assert outcome(lines(*rows, f"show {formula}"), proof(CLOSE)) == ("certified" if truth else "rejected")
-    assert outcome(lines(*rows, f"show not ({formula})"), proof(CLOSE)) == ("rejected" if truth else "certified")
+    assert outcome(lines(*rows, f"show {formula}"), proof(CLOSE)) == (
+        "certified" if truth else "rejected"
+    )
+    assert outcome(lines(*rows, f"show not ({formula})"), proof(CLOSE)) == (
+        "rejected" if truth else "certified"
+    )
 
 
 @FEW
@@ -102,7 +116,13 @@ quotients = st.tuples(terms, st.sampled_from(["x", "y^2", "x*y", "-2*x^3", "x^2*
 def test_quotients_compare_by_the_sign_of_their_denominators(
     left: str, right: str, relation: str, first: str, second: str, point: dict[str, Fraction]
 ) -> None:
-    rows = ["forall x y z", f"given {first}", f"given {second}", f"let q = {left}", f"show q {relation} {right} + z*q"]
+    rows = [
+        "forall x y z",
+        f"given {first}",
+        f"given {second}",
+        f"let q = {left}",
+        f"show q {relation} {right} + z*q",
+    ]
     at = {name: str(value) for name, value in point.items()}
     holds = holds_at(rows, point)
     assert outcome(lines(*rows), refuted(at)) == ("refuted" if holds is False else "rejected")
@@ -117,7 +137,10 @@ def test_an_identity_holds_everywhere(left: str, right: str, point: dict[str, Fr
         (f"({left} - ({right}))^2", f"({right} - ({left}))^2"),
     ):
         if (
-            outcome(lines("forall x y z", f"show {one} = {other}"), proof(CLOSE, at=dict.fromkeys(NAMES, "0")))
+            outcome(
+                lines("forall x y z", f"show {one} = {other}"),
+                proof(CLOSE, at=dict.fromkeys(NAMES, "0")),
+            )
             == "certified"
         ):
             assert term_at(one, point) == term_at(other, point)
@@ -125,18 +148,28 @@ def test_an_identity_holds_everywhere(left: str, right: str, point: dict[str, Fr
 
 @FEW
 @given(
-    st.lists(st.tuples(st.integers(1, 4), st.sets(st.integers(0, 1), max_size=2), terms), min_size=1, max_size=3),
+    st.lists(
+        st.tuples(st.integers(1, 4), st.sets(st.integers(0, 1), max_size=2), terms),
+        min_size=1,
+        max_size=3,
+    ),
     points,
 )
 def test_a_sum_of_products_of_what_is_not_negative_is_not_negative(
     parts: list[tuple[int, set[int], str]], point: dict[str, Fraction]
 ) -> None:
     facts = ["x", "y - z"]
-    total = " + ".join("*".join([str(c), *(f"({facts[i]})" for i in sorted(used)), f"({q})^2"]) for c, used, q in parts)
+    total = " + ".join(
+        "*".join([str(c), *(f"({facts[i]})" for i in sorted(used)), f"({q})^2"])
+        for c, used, q in parts
+    )
     rows = ["forall x y z", *(f"given {fact} >= 0" for fact in facts)]
     products = [[c, [[i, 1] for i in sorted(used)], q] for c, used, q in parts]
     at = {"x": "1", "y": "1", "z": "0"}
-    true, false = lines(*rows, f"show {total} > -1"), lines(*rows, f"show {total} > 0 or {total} < -1")
+    true, false = (
+        lines(*rows, f"show {total} > -1"),
+        lines(*rows, f"show {total} > 0 or {total} < -1"),
+    )
     node = ["psatz", [[1, [[2, 1]], "1"], *products, [1, [], "1"]], []]
     constant = formula_at(f"{total} = {term_at(total, dict.fromkeys(NAMES, Fraction(0)))}", point)
     if not constant:
@@ -146,7 +179,12 @@ def test_a_sum_of_products_of_what_is_not_negative_is_not_negative(
 
 
 @FEW
-@given(st.lists(st.tuples(small, st.integers(1, 3)), min_size=1, max_size=3), small, small, st.sampled_from(["", "-"]))
+@given(
+    st.lists(st.tuples(small, st.integers(1, 3)), min_size=1, max_size=3),
+    small,
+    small,
+    st.sampled_from(["", "-"]),
+)
 def test_the_interval_rule_decides_by_the_roots(
     roots: list[tuple[Fraction, int]], low: Fraction, high: Fraction, sign: str
 ) -> None:
@@ -158,4 +196,6 @@ def test_the_interval_rule_decides_by_the_roots(
     negative = all(formula_at(f"{p} < 0", {"x": at}) for at in (low, high)) and not any(
         low <= root <= high for root, _ in roots
     )
-    assert outcome(text, proof(["interval", 2, 0, 1], at={"x": str(low)})) == ("certified" if negative else "rejected")
+    assert outcome(text, proof(["interval", 2, 0, 1], at={"x": str(low)})) == (
+        "certified" if negative else "rejected"
+    )

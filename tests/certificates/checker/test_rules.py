@@ -1,4 +1,5 @@
-"""Every rule, from its tables: certificates that it accepts, and defects that it rejects with the reason that names them."""
+"""Every rule, from its tables: certificates that it accepts, and defects that it rejects with the
+reason that names them."""
 
 from __future__ import annotations
 

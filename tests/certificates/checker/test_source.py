@@ -1,4 +1,5 @@
-"""The checker's own text: one file, the standard library, no float, no assert, fewer than 600 lines of code."""
+"""The checker's own text: one file, the standard library, no float, no assert, fewer than 600 lines
+of code."""
 
 from __future__ import annotations
 
@@ -12,30 +13,49 @@ import pytest
 
 SOURCE = (Path(__file__).resolve().parents[3] / "certificates" / "checker.py").read_text()
 TREE = ast.parse(SOURCE)
-SILENT = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER)
+SILENT = (
+    tokenize.COMMENT,
+    tokenize.NL,
+    tokenize.NEWLINE,
+    tokenize.INDENT,
+    tokenize.DEDENT,
+    tokenize.ENDMARKER,
+)
 
 
 def code_lines(source: str) -> int:
     """The lines that hold code: no comments, no blank lines, no docstrings."""
     documented: set[int] = set()
     for node in ast.walk(ast.parse(source)):
-        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node) is not None:
+        if (
+            isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef))
+            and ast.get_docstring(node) is not None
+        ):
             documented |= set(range(node.body[0].lineno, (node.body[0].end_lineno or 0) + 1))
-    tokens = [token for token in tokenize.generate_tokens(io.StringIO(source).readline) if token.type not in SILENT]
-    return len({line for token in tokens for line in range(token.start[0], token.end[0] + 1)} - documented)
+    tokens = [
+        token
+        for token in tokenize.generate_tokens(io.StringIO(source).readline)
+        if token.type not in SILENT
+    ]
+    return len(
+        {line for token in tokens for line in range(token.start[0], token.end[0] + 1)} - documented
+    )
 
 
 def test_lines_of_code_are_counted_without_comments_and_docstrings() -> None:
     assert (
         code_lines(
-            '"""One."""\n\n# two\ndef f():\n    """Three,\n    four."""\n    return (1,\n            2)  # five\n'
+            '"""One."""\n\n# two\ndef f():\n    """Three,\n    four."""\n    return (1,\n          '
+            "  2)  # five\n"
         )
         == 3
     )
 
 
 def test_there_are_fewer_than_600_lines_of_code_beside_the_orbit_rules() -> None:
-    before, _, rest = SOURCE.partition("# ------------------------------------------------------------ ORBIT RULES")
+    before, _, rest = SOURCE.partition(
+        "# ------------------------------------------------------------ ORBIT RULES"
+    )
     rules, settling, after = rest.partition("\ndef settle(")
     assert rules and settling
     assert code_lines(before + settling + after) < 600
@@ -43,10 +63,28 @@ def test_there_are_fewer_than_600_lines_of_code_beside_the_orbit_rules() -> None
 
 
 def test_only_the_standard_library_is_imported() -> None:
-    modules = {alias.name for node in ast.walk(TREE) if isinstance(node, ast.Import) for alias in node.names}
-    modules |= {f"{node.module}" for node in ast.walk(TREE) if isinstance(node, ast.ImportFrom) and node.level == 0}
+    modules = {
+        alias.name
+        for node in ast.walk(TREE)
+        if isinstance(node, ast.Import)
+        for alias in node.names
+    }
+    modules |= {
+        f"{node.module}"
+        for node in ast.walk(TREE)
+        if isinstance(node, ast.ImportFrom) and node.level == 0
+    }
     assert not [node for node in ast.walk(TREE) if isinstance(node, ast.ImportFrom) and node.level]
-    assert {name.split(".")[0] for name in modules} <= {"ast", "fractions", "functools", "json", "math", "os", "re", "sys"}
+    assert {name.split(".")[0] for name in modules} <= {
+        "ast",
+        "fractions",
+        "functools",
+        "json",
+        "math",
+        "os",
+        "re",
+        "sys",
+    }
     assert modules <= set(sys.stdlib_module_names)
 
 
@@ -67,18 +105,35 @@ def test_no_float_and_no_complex_number() -> None:
 
 def test_no_assert_and_nothing_that_runs_text() -> None:
     assert not [node for node in ast.walk(TREE) if isinstance(node, ast.Assert)]
-    called = {node.func.id for node in ast.walk(TREE) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
-    assert not called & {"eval", "exec", "compile", "__import__", "getattr", "setattr", "globals", "vars", "input"}
+    called = {
+        node.func.id
+        for node in ast.walk(TREE)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+    }
+    assert not called & {
+        "eval",
+        "exec",
+        "compile",
+        "__import__",
+        "getattr",
+        "setattr",
+        "globals",
+        "vars",
+        "input",
+    }
     assert "__debug__" not in SOURCE
 
 
 @pytest.mark.parametrize("kind", [ast.FunctionDef, ast.ClassDef])
-def test_every_rule_is_stated_where_it_is_applied(kind: type[ast.FunctionDef] | type[ast.ClassDef]) -> None:
+def test_every_rule_is_stated_where_it_is_applied(
+    kind: type[ast.FunctionDef] | type[ast.ClassDef],
+) -> None:
     named = {node.name: ast.get_docstring(node) for node in TREE.body if isinstance(node, kind)}
     rules = {
         name: said
         for name, said in named.items()
-        if name.startswith(("close", "check_", "find", "prove", "settle", "adjoin")) or name[0].isupper()
+        if name.startswith(("close", "check_", "find", "prove", "settle", "adjoin"))
+        or name[0].isupper()
     }
     assert rules
     assert not [name for name, said in rules.items() if not said]

@@ -1,4 +1,5 @@
-"""Changed certificates and changed statements: whatever is still accepted is still true, by the second reading at sample points."""
+"""Changed certificates and changed statements: whatever is still accepted is still true, by the
+second reading at sample points."""
 
 from __future__ import annotations
 
@@ -15,7 +16,10 @@ from tests.certificates.checker.claims import contradiction
 from tests.certificates.checker.harness import Case, Json, verdict
 from tests.certificates.checker.rules import TABLES
 
-CASES = {rule: [case for case in module.ACCEPTED if case.expected != "unknown"] for rule, module in TABLES.items()}
+CASES = {
+    rule: [case for case in module.ACCEPTED if case.expected != "unknown"]
+    for rule, module in TABLES.items()
+}
 SEEN: dict[str, object] = {}
 
 
@@ -29,7 +33,13 @@ def replaced(data: Json, path: list[Any], value: Json) -> Json:
 
 
 def places(data: Json, path: list[Any]) -> Iterator[tuple[list[Any], Json]]:
-    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else []
+    items = (
+        data.items()
+        if isinstance(data, dict)
+        else enumerate(data)
+        if isinstance(data, list)
+        else []
+    )
     for key, value in items:
         yield [*path, key], value
         yield from places(value, [*path, key])
@@ -39,7 +49,8 @@ MOST = 40  # changes tried of one certificate, evenly spread
 
 
 def tampered(certificate: Json) -> list[Json]:
-    """Changes of every place of a certificate: digits and indices, signs, keys and entries removed, doubled or swapped."""
+    """Changes of every place of a certificate: digits and indices, signs, keys and entries removed,
+    doubled or swapped."""
     changes = list(changed_somewhere(certificate))
     return changes[:: 1 + len(changes) // MOST]
 
@@ -58,7 +69,14 @@ def changed_somewhere(certificate: Json) -> Iterator[Json]:
             ]
             changes += [f"({value})^2", None]
         elif isinstance(value, list):
-            changes = [value[:-1], value[1:], value[::-1], [*value, *value[-1:]], [*value[:1], *value], []]
+            changes = [
+                value[:-1],
+                value[1:],
+                value[::-1],
+                [*value, *value[-1:]],
+                [*value[:1], *value],
+                [],
+            ]
             changes += [*value, {}, [0], None]
         else:
             changes = [{k: v for k, v in value.items() if k != gone} for gone in value]
@@ -95,7 +113,8 @@ SWAPS = [
 
 
 def altered(text: str) -> Iterator[str]:
-    """Every statement that differs by one mark in the last statement of a text, or by a line left out."""
+    """Every statement that differs by one mark in the last statement of a text, or by a line left
+    out."""
     rows = text.strip().splitlines()
     last = max(k for k, row in enumerate(rows) if row.startswith("statement "))
     for k in range(last + 1, len(rows)):
@@ -108,16 +127,23 @@ def altered(text: str) -> Iterator[str]:
 
 def one_mark(rest: str) -> set[str]:
     changes = {
-        rest[: m.start()] + swap + rest[m.end() :] for old, swap in SWAPS for m in re.finditer(re.escape(old), rest)
+        rest[: m.start()] + swap + rest[m.end() :]
+        for old, swap in SWAPS
+        for m in re.finditer(re.escape(old), rest)
     }
     for m in re.finditer(r"\d+", rest):
-        changes |= {rest[: m.start()] + str(value) + rest[m.end() :] for value in (int(m[0]) + 1, abs(int(m[0]) - 1))}
+        changes |= {
+            rest[: m.start()] + str(value) + rest[m.end() :]
+            for value in (int(m[0]) + 1, abs(int(m[0]) - 1))
+        }
     return changes
 
 
 def last_of(case: Case, text: str, certificate: Json) -> tuple[str, str, str]:
     """(name, outcome, text) of the last statement; a text that cannot be read is rejected."""
-    name = [row for row in text.splitlines() if row.startswith("statement ")][-1].removeprefix("statement ")
+    name = [row for row in text.splitlines() if row.startswith("statement ")][-1].removeprefix(
+        "statement "
+    )
     try:
         outcome, _ = verdict(text, case.earlier | {name: certificate})[name]
     except checker.Rejected:
@@ -126,11 +152,14 @@ def last_of(case: Case, text: str, certificate: Json) -> tuple[str, str, str]:
 
 
 def wrong(text: str, outcome: str, certificate: Json, whole: str) -> object:
-    """A point at which an accepted certificate is wrong; what a plain proof claims depends on the statement alone."""
+    """A point at which an accepted certificate is wrong; what a plain proof claims depends on the
+    statement alone."""
     plain = outcome == "certified" and list(certificate["certified"])[:1] == ["proof"]
     key = json.dumps([whole, outcome, None if plain else certificate])
     if key not in SEEN:
-        earlier = {block.split("\n")[0]: "statement " + block for block in whole.split("statement ")[1:]}
+        earlier = {
+            block.split("\n")[0]: "statement " + block for block in whole.split("statement ")[1:]
+        }
         SEEN[key] = contradiction(text, outcome, certificate, earlier)
     return SEEN[key]
 
@@ -156,7 +185,10 @@ def test_a_changed_statement_is_rejected_unless_it_is_true(rule: str) -> None:
             _, outcome, text = last_of(case, changed, case.certificate)
             rejected += outcome == "rejected"
             if outcome != "rejected":
-                assert wrong(text, outcome, case.certificate, changed) is None, (text, case.certificate)
+                assert wrong(text, outcome, case.certificate, changed) is None, (
+                    text,
+                    case.certificate,
+                )
     assert rejected > len(CASES[rule])
 
 
@@ -166,7 +198,9 @@ def test_the_second_reading_knows_a_wrong_outcome() -> None:
         for changed in list(altered(case.text))[::3]:
             text = "statement " + changed.split("statement ")[-1]
             try:
-                found[case.expected] += wrong(text, case.expected, case.certificate, changed) is not None
+                found[case.expected] += (
+                    wrong(text, case.expected, case.certificate, changed) is not None
+                )
             except (ValueError, KeyError, ZeroDivisionError, IndexError):
                 continue  # a change that is no statement any more
     assert found["certified"] > 100

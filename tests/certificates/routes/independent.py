@@ -1,4 +1,5 @@
-"""An evaluator of statement texts at rational points that shares no code with the checker or the routes."""
+"""An evaluator of statement texts at rational points that shares no code with the checker or the
+routes."""
 
 from __future__ import annotations
 
@@ -7,7 +8,8 @@ from typing import Any
 
 
 def fails_at(text: str, model: tuple[tuple[str, str], ...]) -> bool:
-    """Whether every assumption of the (universal) statement holds at the point and what it shows does not."""
+    """Whether every assumption of the (universal) statement holds at the point and what it shows
+    does not."""
     scope: dict[str, Any] = {name: Fraction(value) for name, value in model}
     scope |= {"implies": lambda p, q: not p or q, "iff": lambda p, q: p == q}
     for line in text.splitlines()[1:]:
@@ -31,7 +33,11 @@ def fails_at(text: str, model: tuple[tuple[str, str], ...]) -> bool:
 def value_of(text: str, scope: dict[str, Any]) -> Any:
     spaced = text.replace("^", "**").replace(" = ", " == ")
     numbers = "".join(f"F({part})" if part.isdigit() else part for part in _tokens(spaced))
-    return eval(numbers.replace("**F(", "**int("), {"__builtins__": {}}, {**scope, "F": Fraction, "int": int})
+    return eval(
+        numbers.replace("**F(", "**int("),
+        {"__builtins__": {}},
+        {**scope, "F": Fraction, "int": int},
+    )
 
 
 def _tokens(text: str) -> list[str]:

@@ -1,4 +1,5 @@
-"""The boxes' votes: never wrong on the corpus, decisive on bounded strict statements, an enclosure where equality is attained."""
+"""The boxes' votes: never wrong on the corpus, decisive on bounded strict statements, an enclosure
+where equality is attained."""
 
 from fractions import Fraction
 from functools import cache
@@ -12,8 +13,17 @@ from certificates.routes.votes import Budget, Disagreement, Vote
 from tests.certificates.routes.corpus import FALSE, STATEMENTS, TRUE
 from tests.certificates.routes.independent import fails_at
 
-BOUNDED_AND_STRICT = ["square", "circle", "p-outside-R", "e1-in-R", "sup-negative", "third-outside-loses", "third-f1-R-in-R",
-                      "third-physical-f1-R", "third-near-in-B1"]
+BOUNDED_AND_STRICT = [
+    "square",
+    "circle",
+    "p-outside-R",
+    "e1-in-R",
+    "sup-negative",
+    "third-outside-loses",
+    "third-f1-R-in-R",
+    "third-physical-f1-R",
+    "third-near-in-B1",
+]
 ATTAINED = ["bump", "third-gain-at-most-max", "third-B1-plus-in-Emax"]
 
 
@@ -60,13 +70,20 @@ def test_the_width_is_the_one_that_is_asked_for() -> None:
     for width in (Fraction(1, 4), Fraction(1, 256)):
         cast = vote(*rows, budget=Budget(width=width))
         assert cast.answer in ("enclosed", "holds")
-        assert all(e.low <= 0 <= e.high and e.high - e.low <= width + Fraction(2, 1 << 20) for e in cast.enclosures)
+        assert all(
+            e.low <= 0 <= e.high and e.high - e.low <= width + Fraction(2, 1 << 20)
+            for e in cast.enclosures
+        )
 
 
-@pytest.mark.parametrize("rows, reason", [
-    (("forall x", "given x >= 0", "show x^2 + 1 > x - 1/2*x^3"), "not bounded in x"),
-    (("forall x", "exists y", "show y > x"), "exist"),
-    (("forall K", "integer K", "given 0 <= K and K <= 1", "show K < 3/2"), "integer")])
+@pytest.mark.parametrize(
+    "rows, reason",
+    [
+        (("forall x", "given x >= 0", "show x^2 + 1 > x - 1/2*x^3"), "not bounded in x"),
+        (("forall x", "exists y", "show y > x"), "exist"),
+        (("forall K", "integer K", "given 0 <= K and K <= 1", "show K < 3/2"), "integer"),
+    ],
+)
 def test_what_boxes_cannot_do_has_its_reason(rows: tuple[str, ...], reason: str) -> None:
     cast = vote(*rows)
     assert cast.answer == "holds" or cast.answer == "not applicable" and reason in cast.detail
@@ -75,7 +92,9 @@ def test_what_boxes_cannot_do_has_its_reason(rows: tuple[str, ...], reason: str)
 def test_an_unbounded_true_statement_is_not_applicable() -> None:
     cast = vote("forall x y", "given x >= 0 and y >= 0", "show x*y + 1 > x - x^2*y")
     assert cast.answer in ("not applicable", "fails")
-    assert vote("forall x y", "show x^4 + y^2 + 1 > x").answer == "holds"  # its denial bounds both variables
+    assert (
+        vote("forall x y", "show x^4 + y^2 + 1 > x").answer == "holds"
+    )  # its denial bounds both variables
 
 
 def test_an_undecided_comparison_is_no_vote(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -87,9 +106,22 @@ def test_an_undecided_comparison_is_no_vote(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_touching_the_edge_of_a_fact_decides_nothing() -> None:
-    assert vote("forall x y", "given 0 <= x and x <= 1 and 0 <= y and y <= 1", "show x + y + x*y < 3").answer != "holds"
-    assert vote("forall x y", "given x^2 + y^2 <= 1 and x + y >= 0", "show 5*x + 12*y < 13").answer != "holds"
-    assert vote("forall x y", "given x^2 + y^2 <= 1 and x + y >= 0", "show 5*x + 12*y < 13 + 1/4").answer == "holds"
+    assert (
+        vote(
+            "forall x y", "given 0 <= x and x <= 1 and 0 <= y and y <= 1", "show x + y + x*y < 3"
+        ).answer
+        != "holds"
+    )
+    assert (
+        vote("forall x y", "given x^2 + y^2 <= 1 and x + y >= 0", "show 5*x + 12*y < 13").answer
+        != "holds"
+    )
+    assert (
+        vote(
+            "forall x y", "given x^2 + y^2 <= 1 and x + y >= 0", "show 5*x + 12*y < 13 + 1/4"
+        ).answer
+        == "holds"
+    )
 
 
 def test_undecided_second_opinions_confirm_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -100,7 +132,9 @@ def test_undecided_second_opinions_confirm_nothing(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_second_opinion_that_contradicts_stops(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(arithmetic.Ends, "ends", lambda self, value: (Fraction(10**9), Fraction(10**9 + 1)))
+    monkeypatch.setattr(
+        arithmetic.Ends, "ends", lambda self, value: (Fraction(10**9), Fraction(10**9 + 1))
+    )
     with pytest.raises(Disagreement, match=r"true/circle: arb discards .* but mpmath.iv"):
         boxes_route.vote(STATEMENTS["circle"][0])
 
@@ -114,7 +148,10 @@ def test_the_same_leaves_are_replayed_by_both_arithmetics() -> None:
     facts, box = [fact_of("forall x y", "given x*y + x - 3 > 0")], ((1, 1, -1), (1, 1, -1))
     found = search_boxes.refute(facts, box, 100, lambda point: False)
     assert found.empty and found.leaves
-    assert search_boxes.second_opinion(facts, found.leaves)[:2] == (len(found.leaves), len(found.leaves))
+    assert search_boxes.second_opinion(facts, found.leaves)[:2] == (
+        len(found.leaves),
+        len(found.leaves),
+    )
 
 
 def fact_of(*rows: str) -> Atom:

@@ -1,4 +1,5 @@
-"""The exact parts that votes rest on: polynomials, formulas, algebraic signs, units, bounds and reductions."""
+"""The exact parts that votes rest on: polynomials, formulas, algebraic signs, units, bounds and
+reductions."""
 
 from fractions import Fraction
 from random import Random
@@ -78,7 +79,9 @@ def test_three_valued_truth() -> None:
 
 
 def test_branches_drop_contradictions_and_stop_at_the_limit() -> None:
-    question = goal("forall x y", "given x > 0 or y > 0", "given not (x > 0) or y > 1", "show x + y > 5")
+    question = goal(
+        "forall x y", "given x > 0 or y > 0", "given not (x > 0) or y > 1", "show x + y > 5"
+    )
     parts = branches(question.matrix(), 8)
     assert parts is not None and len(parts) == 3
     assert branches(question.matrix(), 1) is None
@@ -102,8 +105,13 @@ def test_units_are_found_only_where_everything_is_homogeneous() -> None:
     assert fixed_by_units(goal(*physical, "show g*b/2 + r*v < r^2 + 1")) == ("g",)
     assert fixed_by_units(goal(*physical, "show g*b/2 + r*v < r^2 + g")) == ("r",)
     assert fixed_by_units(goal(*physical, "show g*b/2 + r*v < r^2 + b + v + g + r")) == ()
-    assert fixed_by_units(goal("forall b v r g", "given r >= 0 and g != 0", "show g*b/2 + r*v < r^2")) == ()
-    assert fixed_by_units(goal("forall K r x", "integer K", "given r > 0 and K > 0", "show K*x < K*r")) == ("r",)
+    assert (
+        fixed_by_units(goal("forall b v r g", "given r >= 0 and g != 0", "show g*b/2 + r*v < r^2"))
+        == ()
+    )
+    assert fixed_by_units(
+        goal("forall K r x", "integer K", "given r > 0 and K > 0", "show K*x < K*r")
+    ) == ("r",)
 
 
 def test_units_do_not_change_the_truth() -> None:
@@ -113,8 +121,10 @@ def test_units_do_not_change_the_truth() -> None:
         b, v, r, g = (F(random.randint(-6, 6), random.randint(1, 5)) for _ in range(4))
         if r > 0 and g > 0:
             scaled = [b * g / r**2, v / r, F(1), F(1)]
-            one, two = (truth(q.matrix(), lambda fact, at=at: fact.holds(fact.poly.at(at)))  # type: ignore[misc]
-                        for q, at in ((question, [b, v, r, g]), (smaller, scaled)))
+            one, two = (
+                truth(q.matrix(), lambda fact, at=at: fact.holds(fact.poly.at(at)))  # type: ignore[misc]
+                for q, at in ((question, [b, v, r, g]), (smaller, scaled))
+            )
             assert one == two
 
 
@@ -128,16 +138,29 @@ def test_energy_bounds_both_variables() -> None:
     assert x_high >= F(3, 2) and w_low <= F(-144, 100) and w_high >= F(344, 100) and w_high < 10
 
 
-@pytest.mark.parametrize("rows, point", [
-    (("forall x y", "given x*y >= 1 and y <= 0 and x >= -2"), (F(-1), F(-1))),
-    (("forall x y", "given y - x*y^2 + 3 >= 0 and x >= 0 and x <= 1"), (F(0), F(50))),
-    (("forall x y", "given 5 - x - y >= 0 and x >= 3 and y >= -4"), (F(9), F(-4))),
-    (("forall x y", "given x + x^2*y >= 0 and y <= 0 and x >= -3 and y >= -1"), (F(1, 2), F(-1)))])
+@pytest.mark.parametrize(
+    "rows, point",
+    [
+        (("forall x y", "given x*y >= 1 and y <= 0 and x >= -2"), (F(-1), F(-1))),
+        (("forall x y", "given y - x*y^2 + 3 >= 0 and x >= 0 and x <= 1"), (F(0), F(50))),
+        (("forall x y", "given 5 - x - y >= 0 and x >= 3 and y >= -4"), (F(9), F(-4))),
+        (
+            ("forall x y", "given x + x^2*y >= 0 and y <= 0 and x >= -3 and y >= -1"),
+            (F(1, 2), F(-1)),
+        ),
+    ],
+)
 def test_bounds_keep_every_solution(rows: tuple[str, ...], point: tuple[Fraction, ...]) -> None:
     found, random = facts(*rows), Random(3)
     box = bounding_box(found, 2)
     assert box is not None
-    points = [point, *(tuple(F(random.randint(-80, 80), random.randint(1, 8)) for _ in range(2)) for _ in range(400))]
+    points = [
+        point,
+        *(
+            tuple(F(random.randint(-80, 80), random.randint(1, 8)) for _ in range(2))
+            for _ in range(400)
+        ),
+    ]
     met = [p for p in points if all(fact.holds(fact.poly.at(p)) for fact in found)]
     assert point in met
     for p in met:
@@ -158,7 +181,10 @@ def test_spans_hold_all_values() -> None:
         assert value <= 0
 
 
-@pytest.mark.parametrize("low, high", [(F(0), F(1, 3)), (F(-7, 3), F(1000001, 7)), (F(1, 3), F(1, 3)), (F(10**20), F(10**20 + 1))])
+@pytest.mark.parametrize(
+    "low, high",
+    [(F(0), F(1, 3)), (F(-7, 3), F(1000001, 7)), (F(1, 3), F(1, 3)), (F(10**20), F(10**20 + 1))],
+)
 def test_dyadic_sides_hold_the_interval(low: Fraction, high: Fraction) -> None:
     side = dyadic(low, high)
     assert ends(side)[0] <= low <= high <= ends(side)[1]
@@ -167,7 +193,9 @@ def test_dyadic_sides_hold_the_interval(low: Fraction, high: Fraction) -> None:
 def test_halves_cover_the_box() -> None:
     box = (dyadic(F(0), F(1, 3)), dyadic(F(-1), F(5)))
     first, second = split(box, 0)
-    assert (ends(first[0])[0], ends(second[0])[1]) == ends(box[0]) and ends(first[0])[1] == ends(second[0])[0]
+    assert (ends(first[0])[0], ends(second[0])[1]) == ends(box[0]) and ends(first[0])[1] == ends(
+        second[0]
+    )[0]
     assert first[1] == second[1] == box[1]
 
 
@@ -175,10 +203,16 @@ def test_halves_cover_the_box() -> None:
 
 
 def test_factors_of_known_sign_go() -> None:
-    found = reduce_factors(facts("forall a x", "given a > 0 and 1 - a > 0", "given a^2*(1 - a)*(x - 1) >= 0"))
+    found = reduce_factors(
+        facts("forall a x", "given a > 0 and 1 - a > 0", "given a^2*(1 - a)*(x - 1) >= 0")
+    )
     assert found is not None and str(found[-1]) == "x - 1 >= 0"
-    assert reduce_factors(facts("forall a x", "given a > 0", "given x >= 0", "given -a*x > 0")) is None
-    assert [str(f) for f in reduce_factors(facts("forall x y", "given -(x - y)^2 >= 0")) or []] == ["x - y = 0"]
+    assert (
+        reduce_factors(facts("forall a x", "given a > 0", "given x >= 0", "given -a*x > 0")) is None
+    )
+    assert [str(f) for f in reduce_factors(facts("forall x y", "given -(x - y)^2 >= 0")) or []] == [
+        "x - y = 0"
+    ]
 
 
 def test_a_square_factor_is_not_dropped_from_a_weak_fact() -> None:
@@ -190,7 +224,9 @@ def test_equations_are_solved_and_points_completed() -> None:
     solution = solve_equations(facts("forall s a x", "given s^2 = 2*(1 + a)", "given a*x > 1"))
     assert solution is not None
     left, (step,) = solution
-    assert [str(fact) for fact in left] == ["s^2*x - 2*x - 2 > 0"] and str(step.value) == "1/2*s^2 - 1"
+    assert [str(fact) for fact in left] == ["s^2*x - 2*x - 2 > 0"] and str(
+        step.value
+    ) == "1/2*s^2 - 1"
     assert solve_equations(facts("forall x", "given x = 3", "given x^2 < 4")) is None
 
 
@@ -219,7 +255,9 @@ def test_enclosures_hold_exact_values_and_undecided_is_no_answer(kernel: Balls |
             span_of = kernel.ends(value)
             assert span_of is not None
             for _ in range(6):
-                point = [low + (high - low) * F(random.randint(0, 8), 8) for low, high in map(ends, box)]
+                point = [
+                    low + (high - low) * F(random.randint(0, 8), 8) for low, high in map(ends, box)
+                ]
                 assert span_of[0] <= fact.atom.poly.at(point) <= span_of[1]
             if span_of[0] < 0 < span_of[1]:
                 assert not fact.fails(value) and not fact.holds(value)

@@ -1,4 +1,5 @@
-"""The SMT-LIB text: deterministic, without divisions, of the right logic, and read by other solvers as it is meant."""
+"""The SMT-LIB text: deterministic, without divisions, of the right logic, and read by other solvers
+as it is meant."""
 
 from collections.abc import Callable
 
@@ -17,14 +18,29 @@ def test_scripts_are_deterministic_balanced_and_free_of_divisions(name: str) -> 
     text = script(statement)
     assert text == script(statement) and text.endswith("\n")
     body = "\n".join(line for line in text.splitlines() if not line.startswith(";"))
-    assert body.count("(") == body.count(")") and "/" not in body and statement.name in text.splitlines()[0]
-    assert body.count("(reset)") == body.count("(set-logic ") == body.count("(check-sat)") == len(questions(statement))
+    assert (
+        body.count("(") == body.count(")")
+        and "/" not in body
+        and statement.name in text.splitlines()[0]
+    )
+    assert (
+        body.count("(reset)")
+        == body.count("(set-logic ")
+        == body.count("(check-sat)")
+        == len(questions(statement))
+    )
 
 
-@pytest.mark.parametrize("rows, expected", [
-    (("forall x", "show x^2 >= 0"), "QF_NRA"), (("forall K", "integer K", "show K^2 >= 0"), "QF_NIA"),
-    (("forall K x", "integer K", "show K*x^2 + K^2 >= 0"), "QF_NIRA"), (("forall x", "exists y", "show y > x"), "NRA"),
-    (("forall x K", "integer K", "exists y", "show y > K*x"), "UFNIRA")])
+@pytest.mark.parametrize(
+    "rows, expected",
+    [
+        (("forall x", "show x^2 >= 0"), "QF_NRA"),
+        (("forall K", "integer K", "show K^2 >= 0"), "QF_NIA"),
+        (("forall K x", "integer K", "show K*x^2 + K^2 >= 0"), "QF_NIRA"),
+        (("forall x", "exists y", "show y > x"), "NRA"),
+        (("forall x K", "integer K", "exists y", "show y > K*x"), "UFNIRA"),
+    ],
+)
 def test_logics(rows: tuple[str, ...], expected: str) -> None:
     statement = read_statement("\n".join(("statement t/t", *rows)))
     assert logic(questions(statement)[-1]) == expected
@@ -32,13 +48,21 @@ def test_logics(rows: tuple[str, ...], expected: str) -> None:
 
 
 def test_integers_are_declared_and_lifted_only_beside_reals() -> None:
-    text = script(read_statement("statement t/t\nforall K x\ninteger K\ngiven K >= 2\nshow K*x^2 >= 0"))
-    assert "(declare-const K Int)" in text and "(assert (>= (+ K (- 2)) 0))" in text and "(* (- 1) (to_real K) x x)" in text
+    text = script(
+        read_statement("statement t/t\nforall K x\ninteger K\ngiven K >= 2\nshow K*x^2 >= 0")
+    )
+    assert (
+        "(declare-const K Int)" in text
+        and "(assert (>= (+ K (- 2)) 0))" in text
+        and "(* (- 1) (to_real K) x x)" in text
+    )
 
 
 def test_denominators_are_cleared_with_their_signs() -> None:
     text = script(read_statement("statement t/t\nforall x y\ngiven y < 0\nshow x/y > 1"))
-    assert "(assert (>= (+ x (* (- 1) y)) 0))" in text  # not (x/y > 1) is x/y <= 1, that is x >= y, because y < 0
+    assert (
+        "(assert (>= (+ x (* (- 1) y)) 0))" in text
+    )  # not (x/y > 1) is x/y <= 1, that is x >= y, because y < 0
 
 
 def test_names_that_solvers_have_taken_are_told_apart() -> None:
@@ -49,7 +73,11 @@ def test_names_that_solvers_have_taken_are_told_apart() -> None:
 def test_sharp_ranges_are_exported_inside_and_outside() -> None:
     statements = checker.read_statements(SHARP)
     text = script(statements["sharp/trap-range"], statements)
-    assert "; inside, sharp/trap: goal" in text and "; outside: a solution is a parameter" in text and "(forall ((x Real) (w Real))" in text
+    assert (
+        "; inside, sharp/trap: goal" in text
+        and "; outside: a solution is a parameter" in text
+        and "(forall ((x Real) (w Real))" in text
+    )
 
 
 SQUARE = """statement square/exists
@@ -139,13 +167,19 @@ WRONG_FLIGHT = ITERATES.replace("iterates/flight", "iterates/wrong").replace("K*
 
 def test_sharp_ranges_of_what_exists_assume_it_under_both_quantifiers() -> None:
     statements = checker.read_statements(SQUARE)
-    assert "(forall ((p Real)) (exists ((y Real)) (or " in script(statements["square/range"], statements)
+    assert "(forall ((p Real)) (exists ((y Real)) (or " in script(
+        statements["square/range"], statements
+    )
 
 
 def test_names_of_two_sorts_are_told_apart_outside_a_range() -> None:
     statements = checker.read_statements(WHOLE)
     text = script(statements["whole/range"], statements)
-    assert "(forall ((K Int))" in text and "(forall ((K_ Real))" in text and "(set-logic UFNIRA)" in text
+    assert (
+        "(forall ((K Int))" in text
+        and "(forall ((K_ Real))" in text
+        and "(set-logic UFNIRA)" in text
+    )
     assert "(declare-const K Int)" in script(statements["whole/parameter"], statements)
 
 
@@ -183,27 +217,57 @@ for source in (SHARP, SQUARE, WHOLE, NUMBER, ITERATES, WRONG_FLIGHT):
     read = checker.read_statements(source)
     CORPUS |= {name: (read, statement) for name, statement in read.items()}
 ANSWERS = {
-    "f1-in-H": ["unsat"], "collision-time": ["unsat"], "e1-in-B1": ["unsat", "unsat"], "open-H-invariant": ["sat"],
-    "e2-always": ["unsat", "sat"], "B1-plus-not-empty": ["unsat"], "square": ["unsat"],
-    "sharp/trap-range": ["unsat", "unsat"], "sharp/trap-wrong": ["unsat", "sat"], "sharp/trap-wide": ["sat", "unsat"],
-    "square/exists": ["sat"], "square/range": ["unsat", "unsat"], "square/wrong": ["unsat", "sat"], "square/wide": ["sat", "unsat"],
-    "whole/range": ["unsat", "unsat", "unsat"], "whole/wide": ["unsat", "sat", "unsat"], "whole/parameter": ["unsat", "unsat"],
-    "number/range": ["unsat", "unsat", "unsat", "unsat"], "number/no-sign": ["unsat", "unsat", "sat", "unsat"],
-    "number/three": ["unsat", "unsat", "unsat", "sat"], "iterates/flight": ["unsat"], "iterates/wrong": ["sat"],
+    "f1-in-H": ["unsat"],
+    "collision-time": ["unsat"],
+    "e1-in-B1": ["unsat", "unsat"],
+    "open-H-invariant": ["sat"],
+    "e2-always": ["unsat", "sat"],
+    "B1-plus-not-empty": ["unsat"],
+    "square": ["unsat"],
+    "sharp/trap-range": ["unsat", "unsat"],
+    "sharp/trap-wrong": ["unsat", "sat"],
+    "sharp/trap-wide": ["sat", "unsat"],
+    "square/exists": ["sat"],
+    "square/range": ["unsat", "unsat"],
+    "square/wrong": ["unsat", "sat"],
+    "square/wide": ["sat", "unsat"],
+    "whole/range": ["unsat", "unsat", "unsat"],
+    "whole/wide": ["unsat", "sat", "unsat"],
+    "whole/parameter": ["unsat", "unsat"],
+    "number/range": ["unsat", "unsat", "unsat", "unsat"],
+    "number/no-sign": ["unsat", "unsat", "sat", "unsat"],
+    "number/three": ["unsat", "unsat", "unsat", "sat"],
+    "iterates/flight": ["unsat"],
+    "iterates/wrong": ["sat"],
 }
 
 
-@pytest.mark.parametrize("solve, name", [  # cvc5 has no count that would stop it where a square is to be found
-    (solve, name) for solve in (by_z3, by_cvc5) for name in ANSWERS if solve is by_z3 or not name.startswith("square/")])
-def test_a_solver_reads_the_whole_script_as_it_is_meant(name: str, solve: Callable[[str], list[str]]) -> None:
+@pytest.mark.parametrize(
+    "solve, name",
+    [  # cvc5 has no count that would stop it where a square is to be found
+        (solve, name)
+        for solve in (by_z3, by_cvc5)
+        for name in ANSWERS
+        if solve is by_z3 or not name.startswith("square/")
+    ],
+)
+def test_a_solver_reads_the_whole_script_as_it_is_meant(
+    name: str, solve: Callable[[str], list[str]]
+) -> None:
     earlier, statement = CORPUS[name]
     found = solve(script(statement, earlier))
-    assert len(found) == len(ANSWERS[name]) and all(a in (b, "unknown") for a, b in zip(found, ANSWERS[name])), found
+    assert len(found) == len(ANSWERS[name]) and all(
+        a in (b, "unknown") for a, b in zip(found, ANSWERS[name])
+    ), found
     assert solve is by_cvc5 or "unknown" not in found, found
 
 
 STORED = checker.read_statements("\n\n".join(Store(DEFAULT).texts.values()))
-SPECIAL = [name for name, statement in STORED.items() if statement.kind != "universal" or statement.get("exists") or statement.get("integer")]
+SPECIAL = [
+    name
+    for name, statement in STORED.items()
+    if statement.kind != "universal" or statement.get("exists") or statement.get("integer")
+]
 
 
 def test_both_solvers_accept_the_scripts_of_stored_statements() -> None:

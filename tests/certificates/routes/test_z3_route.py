@@ -1,4 +1,5 @@
-"""Z3's votes: right on the whole corpus, exact where it says `fails`, silent where it does not know."""
+"""Z3's votes: right on the whole corpus, exact where it says `fails`, silent where it does not
+know."""
 
 import subprocess
 import sys
@@ -54,10 +55,15 @@ def test_strict_and_weak_are_told_apart() -> None:
     weak = vote("forall x", "given x >= 0", "show x > 0")
     assert (weak.answer, weak.model) == ("fails", (("x", "0"),))
     assert vote("forall x y", "given x^2 + y^2 <= 1", "show x + y < 3/2").answer == "holds"
-    assert vote("forall x y", "given x^2 + y^2 <= 2", "show x + y < 2").model == (("x", "1"), ("y", "1"))
+    assert vote("forall x y", "given x^2 + y^2 <= 2", "show x + y < 2").model == (
+        ("x", "1"),
+        ("y", "1"),
+    )
 
 
-def test_an_algebraic_model_counts_only_after_exact_evaluation(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_algebraic_model_counts_only_after_exact_evaluation(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     rows = ("forall x y", "given x^2 = 2 and x > 0 and y^3 = x", "show y^6 != 2")
     cast = vote(*rows)
     assert cast.answer == "fails" and "root of" in dict(cast.model)["y"]
@@ -74,8 +80,13 @@ def test_a_have_line_that_does_not_follow_leaves_the_statement_undecided() -> No
 def test_integers_are_integers() -> None:
     assert vote("forall K", "integer K", "given 0 < K and K < 2", "show K = 1").answer == "holds"
     assert vote("forall K", "integer K", "given K > 0", "show K >= 1").answer == "holds"
-    assert vote("forall K", "integer K", "given 0 <= K and K <= 3", "show K^2 != 2").answer != "fails"
-    assert vote("forall K x", "integer K", "given K >= 2 and x > 0", "show K*x^2 != 2").answer == "fails"
+    assert (
+        vote("forall K", "integer K", "given 0 <= K and K <= 3", "show K^2 != 2").answer != "fails"
+    )
+    assert (
+        vote("forall K x", "integer K", "given K >= 2 and x > 0", "show K*x^2 != 2").answer
+        == "fails"
+    )
 
 
 def test_what_exists_is_found_and_refuted() -> None:
@@ -86,11 +97,23 @@ def test_what_exists_is_found_and_refuted() -> None:
 
 def test_sharp_ranges_are_asked_inside_and_outside() -> None:
     statements = checker.read_statements(SHARP)
-    answers = {name: z3_route.vote(statements[name], statements) for name in statements if "-" in name}
+    answers = {
+        name: z3_route.vote(statements[name], statements) for name in statements if "-" in name
+    }
     assert {name: cast.answer for name, cast in answers.items()} == {
-        "sharp/trap-range": "holds", "sharp/trap-wrong": "fails", "sharp/trap-wide": "fails"}
-    assert "outside" in answers["sharp/trap-wrong"].detail and "inside" in answers["sharp/trap-wide"].detail
-    assert Fraction(1, 3) <= Fraction(dict(answers["sharp/trap-wrong"].model)["alpha"]) <= Fraction(1, 2)
+        "sharp/trap-range": "holds",
+        "sharp/trap-wrong": "fails",
+        "sharp/trap-wide": "fails",
+    }
+    assert (
+        "outside" in answers["sharp/trap-wrong"].detail
+        and "inside" in answers["sharp/trap-wide"].detail
+    )
+    assert (
+        Fraction(1, 3)
+        <= Fraction(dict(answers["sharp/trap-wrong"].model)["alpha"])
+        <= Fraction(1, 2)
+    )
 
 
 def test_recurrences_are_asked_as_identities() -> None:
@@ -100,10 +123,16 @@ def test_recurrences_are_asked_as_identities() -> None:
 
 
 def test_work_is_counted_and_its_end_says_nothing() -> None:
-    hard = ("forall a b c x y z", "given a^2 + b^2 + c^2 = 1 and x^2 + y^2 + z^2 = 1", "show (a*x + b*y + c*z)^2 <= 1")
+    hard = (
+        "forall a b c x y z",
+        "given a^2 + b^2 + c^2 = 1 and x^2 + y^2 + z^2 = 1",
+        "show (a*x + b*y + c*z)^2 <= 1",
+    )
     cast = vote(*hard, budget=Budget(rlimit=20_000))
     assert cast.answer == "unknown" and cast.work <= 22_000
-    assert vote("forall x y", "show x^2 + y^2 >= 2*x*y", budget=Budget(rlimit=1)).answer == "unknown"
+    assert (
+        vote("forall x y", "show x^2 + y^2 >= 2*x*y", budget=Budget(rlimit=1)).answer == "unknown"
+    )
 
 
 def test_votes_are_the_same_from_run_to_run_and_in_other_processes() -> None:
@@ -119,6 +148,14 @@ def _vote_on(text: str) -> Vote:
 
 
 def test_solvers_are_loaded_only_when_they_are_asked() -> None:
-    code = ("import sys, certificates.routes.votes, certificates.routes.z3_route, certificates.routes.boxes_route\n"
-            "print([name for name in ('z3', 'flint', 'mpmath') if name in sys.modules])")
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip() == "[]"
+    code = (
+        "import sys, certificates.routes.votes, certificates.routes.z3_route,"
+        " certificates.routes.boxes_route\nprint([name for name in ('z3', 'flint', 'mpmath') if"
+        " name in sys.modules])"
+    )
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        ).stdout.strip()
+        == "[]"
+    )

@@ -1,4 +1,5 @@
-"""The parts of the proof search: polynomials, units, eliminations, linear programs, interior points."""
+"""The parts of the proof search: polynomials, units, eliminations, linear programs, interior
+points."""
 
 from __future__ import annotations
 
@@ -22,7 +23,9 @@ from certificates.search.sturm import positive_between, univariate
 
 RING = Ring(("x", "y", "z"))
 monomials = st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(0, 2))
-polynomials = st.dictionaries(monomials, st.integers(-5, 5).filter(bool), min_size=1, max_size=5).map(RING.ctx.from_dict)
+polynomials = st.dictionaries(
+    monomials, st.integers(-5, 5).filter(bool), min_size=1, max_size=5
+).map(RING.ctx.from_dict)
 
 
 def state_of(text: str, names: str, integers: str = "") -> checker.State:
@@ -34,7 +37,9 @@ def state_of(text: str, names: str, integers: str = "") -> checker.State:
 
 @settings(max_examples=50, deadline=None)
 @given(polynomials, polynomials, polynomials)
-def test_pseudo_division_is_an_identity(poly: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly) -> None:
+def test_pseudo_division_is_an_identity(
+    poly: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly
+) -> None:
     x = RING.gens[0]
     lead, rest = lead.subs({"x": 2}), rest.subs({"x": 1})
     if not lead:
@@ -66,38 +71,52 @@ def test_what_is_lowered_is_lifted_back(poly: fmpz_mpoly) -> None:
     x, y, z = RING.gens
     scaling = Scaling(RING, [x**2 - y * z], [0])  # x a unit: y + z has its weight twice
     assert scaling.units == (0,)
-    lifted = scaling.lift(scaling.lower(poly), scaling.largest(scaling.lower(poly))) if scaling.lower(poly) else None
+    lifted = (
+        scaling.lift(scaling.lower(poly), scaling.largest(scaling.lower(poly)))
+        if scaling.lower(poly)
+        else None
+    )
     assert lifted is None or scaling.lower(lifted) == scaling.lower(poly)
 
 
 def test_units_are_found_for_lengths_and_times() -> None:
     ring = Ring(("b", "v", "r", "g", "t"))
     b, v, r, g, t = ring.gens
-    scaling = Scaling(ring, [g * b + 2 * r * v - 2 * r**2, 2 * b + 2 * v * t - g * t**2, r, g], [2, 3])
+    scaling = Scaling(
+        ring, [g * b + 2 * r * v - 2 * r**2, 2 * b + 2 * v * t - g * t**2, r, g], [2, 3]
+    )
     assert scaling.units == (2, 3)
     assert str(scaling.lower(g * b + 2 * r * v - 2 * r**2)) == "b + 2*v - 2"
     assert scaling.lift(b + 2 * v - 2, (2, 0)) == g * b + 2 * r * v - 2 * r**2
 
 
-@pytest.mark.parametrize("text", [
-    "x + y = 3 and x - y = 1 and x != 2",
-    "x*y = 0 and x != 0 and y != 0",
-    "z > 0 and z*x = y and z*x < y",
-    "x^2 = 2 and x^4 != 4",
-    "z > 0 and x*z = 1 and y*z = 1 and x != y",
-    "x = y and y = z and z = x + 1",
-    "z != 0 and z*(x - 1) = 0 and x > 1",
-    "x >= 0 and y >= 0 and z >= 0 and x^2 = y^2 + z and x < y",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x + y = 3 and x - y = 1 and x != 2",
+        "x*y = 0 and x != 0 and y != 0",
+        "z > 0 and z*x = y and z*x < y",
+        "x^2 = 2 and x^4 != 4",
+        "z > 0 and x*z = 1 and y*z = 1 and x != y",
+        "x = y and y = z and z = x + 1",
+        "z != 0 and z*(x - 1) = 0 and x > 1",
+        "x >= 0 and y >= 0 and z >= 0 and x^2 = y^2 + z and x < y",
+    ],
+)
 def test_equations_are_used_up(text: str) -> None:
     state = state_of(text, "x y z")
     node = search_closing(state, {}, Budget(10**6))
     assert node is not None and accepted(checker.close, state, node, {})
 
 
-@pytest.mark.parametrize(("text", "integers"), [
-    ("x > 0 and x < 1", "x"), ("2*x + 4*y > 0 and x + 2*y < 1", "x y"), ("z > 0 and z < 3 and x*z >= z and x < 2 and x != 1", "x"),
-])
+@pytest.mark.parametrize(
+    ("text", "integers"),
+    [
+        ("x > 0 and x < 1", "x"),
+        ("2*x + 4*y > 0 and x + 2*y < 1", "x y"),
+        ("z > 0 and z < 3 and x*z >= z and x < 2 and x != 1", "x"),
+    ],
+)
 def test_strict_facts_in_integers_are_rounded(text: str, integers: str) -> None:
     state = state_of(text, "x y z", integers)
     node = search_closing(state, {}, Budget(10**6))
@@ -106,7 +125,12 @@ def test_strict_facts_in_integers_are_rounded(text: str, integers: str) -> None:
 
 
 def test_a_state_with_points_is_never_closed() -> None:
-    for text in ("x > 0 and y > 0", "x^2 + y^2 = 1 and x > y", "(x > 1 or x < 0) and x*y = 1", "x^2*y >= 1 and y <= 1"):
+    for text in (
+        "x > 0 and y > 0",
+        "x^2 + y^2 = 1 and x > y",
+        "(x > 1 or x < 0) and x*y = 1",
+        "x^2*y >= 1 and y <= 1",
+    ):
         assert search_closing(state_of(text, "x y"), {}, Budget(10**6)) is None
 
 
@@ -132,12 +156,14 @@ def test_a_program_without_solution_has_none() -> None:
 @given(st.lists(st.integers(-4, 4), min_size=2, max_size=6).filter(lambda c: bool(c[-1])))
 def test_positivity_on_an_interval_agrees_with_samples(coefficients: list[int]) -> None:
     ring = Ring(("x",))
-    x, = ring.gens
+    (x,) = ring.gens
     poly = sum((c * x**k for k, c in enumerate(coefficients)), ring.zero)
     values = [sum(c * Fraction(k, 16) ** n for n, c in enumerate(coefficients)) for k in range(17)]
     if positive_between(univariate(poly, 0), Fraction(0), Fraction(1)):
         assert min(values) > 0
-    if min(values) > 3:  # the derivative is at most 4 * (1 + .. + 5) = 60 and samples are 1/16 apart
+    if (
+        min(values) > 3
+    ):  # the derivative is at most 4 * (1 + .. + 5) = 60 and samples are 1/16 apart
         assert positive_between(univariate(poly, 0), Fraction(0), Fraction(1))
 
 

@@ -1,4 +1,5 @@
-"""Sums of squares as multipliers: the steps from a semidefinite hint to an identity that the checker accepts, and points with several roots."""
+"""Sums of squares as multipliers: the steps from a semidefinite hint to an identity that the
+checker accepts, and points with several roots."""
 
 from __future__ import annotations
 
@@ -35,7 +36,10 @@ def test_a_gram_matrix_is_the_sum_of_its_squares_holds(vectors: list[list[int]])
     matrix = gram(vectors)
     squares = as_squares(matrix)
     assert squares is not None and all(c > 0 for c, _ in squares)
-    assert [[sum((c * row[i] * row[j] for c, row in squares), Fraction(0)) for j in range(4)] for i in range(4)] == matrix
+    assert [
+        [sum((c * row[i] * row[j] for c, row in squares), Fraction(0)) for j in range(4)]
+        for i in range(4)
+    ] == matrix
 
 
 @settings(max_examples=60, deadline=None)
@@ -54,7 +58,13 @@ def test_the_image_of_a_matrix_is_found_again_as_integers_holds(vectors: list[li
     image = rational_image(left[:, values > 1e-9])
     rank = int((values > 1e-9).sum())
     if image is not None:
-        assert len(image) == rank == np.linalg.matrix_rank(np.vstack([matrix, np.array(image, dtype=float).reshape(-1, 4)]))
+        assert (
+            len(image)
+            == rank
+            == np.linalg.matrix_rank(
+                np.vstack([matrix, np.array(image, dtype=float).reshape(-1, 4)])
+            )
+        )
 
 
 def test_an_irrational_direction_is_refused_holds() -> None:
@@ -65,14 +75,20 @@ def test_a_semidefinite_program_without_a_solution_has_none_holds() -> None:
     trace = np.eye(2).reshape(1, 2, 2)
     assert feasible([trace], np.zeros((1, 0)), np.array([-1.0]), Budget(10**6), 1e-4, 1e-9) is None
     found = feasible([trace], np.zeros((1, 0)), np.array([1.0]), Budget(10**6), 1e-4, 1e-9)
-    assert found is not None and abs(np.trace(found[0]) - 1) < 1e-5 and np.linalg.eigvalsh(found[0])[0] > 0
+    assert (
+        found is not None
+        and abs(np.trace(found[0]) - 1) < 1e-5
+        and np.linalg.eigvalsh(found[0])[0] > 0
+    )
 
 
 TRUE = {
     "motzkin": "forall x y\nshow x^4*y^2 + x^2*y^4 + 1 >= 3*x^2*y^2",
     "choi-lam": "forall x y z\nshow x^2*y^2 + y^2*z^2 + z^2*x^2 + 1 >= 4*x*y*z",
     "positive": "forall x\nshow x^8 - x^5 + x^2 - x + 1 > 0",
-    "schur": "forall x y z\nshow x^2*(x - y)*(x - z) + y^2*(y - x)*(y - z) + z^2*(z - x)*(z - y) >= 0",
+    "schur": (
+        "forall x y z\nshow x^2*(x - y)*(x - z) + y^2*(y - x)*(y - z) + z^2*(z - x)*(z - y) >= 0"
+    ),
     "modulo-equations": "forall x y z\ngiven x^2 + y^2 + z^2 = 1\nshow x + y + z < 174/100",
     "disjunction": "forall x y\ngiven x != 0 or y != 0\nshow x^2 - x*y + y^2 > 0",
     "root-that-occurs-once": "forall x y\ngiven x >= 0\ngiven x^2 = 3 - y\nshow y <= 3",
@@ -98,7 +114,10 @@ def test_squares_close_what_is_true_holds(name: str) -> None:
 def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
     story = checker.Unfolding(statement(FALSE[name]), checker.Context())
     try:
-        assert search_closing(story.state().assume(story.goal(False)), {}, Budget(200_000), SQUARED) is None
+        assert (
+            search_closing(story.state().assume(story.goal(False)), {}, Budget(200_000), SQUARED)
+            is None
+        )
     except Exhausted:
         pass
 
@@ -109,24 +128,35 @@ def test_rejects_squares_whose_sum_is_changed() -> None:
     node = search_closing(state, {}, Budget(2_000_000), SQUARED)
     assert node is not None
     for k, (c, factors, root) in enumerate(node[1]):
-        for changed in ([str(Fraction(c) * 2), factors, root], [c, factors, f"{root} + 1"], [f"-{c}", factors, root]):
+        for changed in (
+            [str(Fraction(c) * 2), factors, root],
+            [c, factors, f"{root} + 1"],
+            [f"-{c}", factors, root],
+        ):
             checker.work_left[0] = checker.MAX_WORK
             with pytest.raises(checker.Rejected):
-                checker.close(state, ["psatz", [*node[1][:k], changed, *node[1][k + 1:]], node[2]], {})
+                checker.close(
+                    state, ["psatz", [*node[1][:k], changed, *node[1][k + 1 :]], node[2]], {}
+                )
 
 
 POINTS = {
     "two roots": "forall a b\nshow not (a^2 = 2 and b^2 = 3 and a > 0 and b > 0)",
     "a root of a root": "forall a b\nshow not (a^2 = 2 and b^2 = a + 1 and a > 0 and b < 0)",
     "two curves": "forall x y\nshow not (x^2 + 2*y^2 = 2 and 3*x^2 + x*y + y^2 = 3 and y > 0)",
-    "four on a circle": "forall p q r s t u\nshow not (p^2 + q^2 = 1 and r^2 + s^2 = 1 and t^2 + u^2 = 1 and p + r + t = 0 and q > 0 and 3*p = 1)",
+    "four on a circle": (
+        "forall p q r s t u\nshow not (p^2 + q^2 = 1 and r^2 + s^2 = 1 and t^2 + u^2 = 1 and p + r"
+        " + t = 0 and q > 0 and 3*p = 1)"
+    ),
 }
 
 
 @pytest.mark.parametrize("name", POINTS)
 def test_points_with_irrational_values_are_found_holds(name: str) -> None:
     one = statement(POINTS[name])
-    found = search_found(one, checker.State(checker.Context()), "counterexample", {}, {}, Budget(2_000_000), effort=1)
+    found = search_found(
+        one, checker.State(checker.Context()), "counterexample", {}, {}, Budget(2_000_000), effort=1
+    )
     assert found is not None and found[1]
     checker.work_left[0] = checker.MAX_WORK
     checker.find(checker.State(checker.Context()), found, {}, "counterexample", {one.name: one}, {})
@@ -134,11 +164,24 @@ def test_points_with_irrational_values_are_found_holds(name: str) -> None:
 
 def test_a_condition_without_points_has_none_holds() -> None:
     one = statement("forall a b\nshow not (a^2 = 2 and b^2 = a - 2)")
-    assert search_found(one, checker.State(checker.Context()), "counterexample", {}, {}, Budget(300_000), effort=1) is None
+    assert (
+        search_found(
+            one,
+            checker.State(checker.Context()),
+            "counterexample",
+            {},
+            {},
+            Budget(300_000),
+            effort=1,
+        )
+        is None
+    )
 
 
 def test_a_search_is_the_same_every_time_holds() -> None:
     one = statement(TRUE["choi-lam"])
     first = search_certificate(one, {}, Budget(2_000_000), attempts=SQUARES_FIRST)
-    again = search_certificate(one, {}, Budget(2_000_001), attempts=SQUARES_FIRST)  # another budget, so that it is sought anew
+    again = search_certificate(
+        one, {}, Budget(2_000_001), attempts=SQUARES_FIRST
+    )  # another budget, so that it is sought anew
     assert first == again and "certified" in first

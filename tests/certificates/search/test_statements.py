@@ -1,4 +1,5 @@
-"""Every statement of `statements.txt` is proved, but for those whose names end in -false: they have no proof."""
+"""Every statement of `statements.txt` is proved, but for those whose names end in -false: they have
+no proof."""
 
 from __future__ import annotations
 
@@ -41,13 +42,18 @@ def test_a_false_statement_is_refuted() -> None:
 def test_a_true_statement_is_certified_with_a_point() -> None:
     certificate = search_certificate(STATEMENTS["map/h-invariant"], {}, Budget(BUDGET))
     assert sorted(certificate) == ["certified", "point"]
-    assert checker.check_one(STATEMENTS["map/h-invariant"], certificate, {}, {}) == ("certified", "")
+    assert checker.check_one(STATEMENTS["map/h-invariant"], certificate, {}, {}) == (
+        "certified",
+        "",
+    )
 
 
 def test_too_small_a_budget_ends_as_unknown() -> None:
     with pytest.raises(Exhausted):
         search_proof(STATEMENTS["rank/falls"], {}, Budget(1000))
-    assert search_certificate(STATEMENTS["rank/falls"], {}, Budget(1000)) == {"unknown": "the budget of counted work ran out"}
+    assert search_certificate(STATEMENTS["rank/falls"], {}, Budget(1000)) == {
+        "unknown": "the budget of counted work ran out"
+    }
 
 
 def test_a_hint_brings_in_an_earlier_statement() -> None:

@@ -67,7 +67,8 @@ forall alpha x w
 given 0 <= x and x < w and w < 3
 show alpha*w < 2 and alpha*(w - x) <= 1"""
 
-# The image's velocity is misprinted here: the region is left through a corner whose place is a square root in alpha.
+# The image's velocity is misprinted here: the region is left through a corner whose place is a
+# square root in alpha.
 VERTEX = f"""statement paper/vertex
 forall alpha r g beta v
 {UNIT}

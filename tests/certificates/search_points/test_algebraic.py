@@ -22,7 +22,10 @@ def test_rational_roots_are_found_in_order(roots):
 
 @given(fractions, st.fractions(min_value=Fraction(1, 500), max_value=2, max_denominator=500))
 def test_nothing_simpler_lies_between(low, width):
-    bottom, top = fmpq(low.numerator, low.denominator), fmpq((low + width).numerator, (low + width).denominator)
+    bottom, top = (
+        fmpq(low.numerator, low.denominator),
+        fmpq((low + width).numerator, (low + width).denominator),
+    )
     middle = simplest_between(bottom, top)
     assert bottom < middle < top
     for q in range(1, int(middle.q)):
@@ -45,6 +48,9 @@ def test_equal_numbers_with_other_intervals():
 
 
 def test_decimals_are_rounded_exactly():
-    assert AlgebraicNumber([-2, 0, 1], Fraction(1), Fraction(2)).decimal(20) == "1.41421356237309504880"
+    assert (
+        AlgebraicNumber([-2, 0, 1], Fraction(1), Fraction(2)).decimal(20)
+        == "1.41421356237309504880"
+    )
     assert AlgebraicNumber.rational(Fraction(-2, 3)).decimal(3) == "-0.667"
     assert candidate_numbers([], "alpha") == []

@@ -1,4 +1,5 @@
-"""States on borders: families of counterexamples that begin where inequalities meet, an adjoined root among them."""
+"""States on borders: families of counterexamples that begin where inequalities meet, an adjoined
+root among them."""
 
 import pytest
 
@@ -10,7 +11,8 @@ from tests.certificates.search_points import cases
 (alpha,) = reals("alpha")
 UNIT = (alpha > 0) & (alpha < 1)
 
-# c is where the energy R leaves the line on which the ball just closes; e_1 flies with -(1 - alpha)/(1 + alpha).
+# c is where the energy R leaves the line on which the ball just closes; e_1 flies with -(1 -
+# alpha)/(1 + alpha).
 LEAVES = """given c < 1 and (2 - 2*c)*(1 - alpha)^2 + c^2*(1 - alpha)^2/2 = 1 + alpha
 have 1 + alpha > 0
 let e = (alpha - 1)/(1 + alpha)"""
@@ -48,7 +50,9 @@ def test_a_family_begins_in_a_corner(case):
     found = find_sharp_range([statement], "alpha", UNIT, "corner/sharp", {}, cases.budget())
     assert (found.failure, str(found.statement.condition)) == ("", condition)
     assert [one.decimal(12) for one in found.ends] == [end]
-    outcome = checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement})
+    outcome = checker.settle(
+        read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement}
+    )
     assert outcome == "certified"
 
 

@@ -8,45 +8,69 @@ from certificates.search.points import search_found, search_points
 from tests.certificates.search_points.cases import UNIT, budget, read
 
 REFUTED = {
-    "rational": (f"""statement t/f1
+    "rational": (
+        f"""statement t/f1
 forall alpha x w
 {UNIT}
 given 0 <= x and x < w
-show alpha*(w - x) < 2 - alpha*w""", 0),
-    "square root, rational by choice of alpha": (f"""statement t/root
+show alpha*(w - x) < 2 - alpha*w""",
+        0,
+    ),
+    "square root, rational by choice of alpha": (
+        f"""statement t/root
 forall alpha
 {UNIT}
 root s = sqrt(2*(1 + alpha))
-show 3*s < 4""", 0),
-    "physical units": (f"""statement t/units
+show 3*s < 4""",
+        0,
+    ),
+    "physical units": (
+        f"""statement t/units
 forall alpha beta v r g
 {UNIT}
 given r > 0 and g > 0 and beta >= 0
 given g*beta/2 + r*v < r^2
-show v > 0 or beta < 2*r^2/g and v < 0""", 0),
-    "integers": (f"""statement t/integers
+show v > 0 or beta < 2*r^2/g and v < 0""",
+        0,
+    ),
+    "integers": (
+        f"""statement t/integers
 forall alpha x w K
 integer K
 {UNIT}
 given 0 <= x and K >= 2
 root U = sqrt(4*x + (w - 1)^2)
-show U <= K*w + 3""", 0),
-    "algebraic": ("""statement t/algebraic
+show U <= K*w + 3""",
+        0,
+    ),
+    "algebraic": (
+        """statement t/algebraic
 forall x
 given x^2 = 2 and x > 0
-show x > 3/2""", 1),
-    "no variables": ("""statement t/numbers
-show 2 < 1""", 0),
-    "nothing exists": (f"""statement t/exists
+show x > 3/2""",
+        1,
+    ),
+    "no variables": (
+        """statement t/numbers
+show 2 < 1""",
+        0,
+    ),
+    "nothing exists": (
+        f"""statement t/exists
 forall alpha
 {UNIT}
 exists x w
-show x >= 0 and w = 4 - alpha*w and x = alpha*(2*w - x) - 2""", 0),
-    "a corner that sampling misses": (f"""statement t/corner
+show x >= 0 and w = 4 - alpha*w and x = alpha*(2*w - x) - 2""",
+        0,
+    ),
+    "a corner that sampling misses": (
+        f"""statement t/corner
 forall alpha x w v
 {UNIT}
 given x^3 + w*v^2 + alpha*x = 17 and v*w*x = 3 and w > v and v > 0
-show x < 0""", 1),
+show x < 0""",
+        1,
+    ),
 }
 
 
@@ -56,21 +80,38 @@ def test_refuted(case):
     statement = read(text)
     point, counterexample = search_points(statement, {}, budget(), effort)
     named = {statement.name: statement}
-    assert accepted(checker.find, checker.State(checker.Context()), counterexample, {}, "counterexample", named, {})
+    assert accepted(
+        checker.find,
+        checker.State(checker.Context()),
+        counterexample,
+        {},
+        "counterexample",
+        named,
+        {},
+    )
     assert accepted(checker.find, checker.State(checker.Context()), point, {}, "point", named, {})
     assert checker.settle(statement, {"refuted": counterexample}, {}, {}) == "refuted"
 
 
 TRUE = {
-    "squares": ("""statement t/squares
+    "squares": (
+        """statement t/squares
 forall x y
-show x^2 + y^2 >= 2*x*y""", {"x": "1", "y": "1"}),
-    "far away": ("""statement t/far
+show x^2 + y^2 >= 2*x*y""",
+        {"x": "1", "y": "1"},
+    ),
+    "far away": (
+        """statement t/far
 forall x y
 given x > 1000 and y = 3*x + 1/7
-show y > 3000""", {"x": "1001", "y": "21022/7"}),
-    "no variables": ("""statement t/numbers
-show 1 < 2""", {}),
+show y > 3000""",
+        {"x": "1001", "y": "21022/7"},
+    ),
+    "no variables": (
+        """statement t/numbers
+show 1 < 2""",
+        {},
+    ),
 }
 
 
@@ -95,7 +136,9 @@ def test_nothing_meets_contradictory_premises():
 
 
 def test_the_counterexample_is_the_one_a_reader_would_take():
-    statement = read(f"statement t/simple\nforall alpha r x\n{UNIT}\ngiven r > 0 and x >= 0\nshow alpha*x <= r")
+    statement = read(
+        f"statement t/simple\nforall alpha r x\n{UNIT}\ngiven r > 0 and x >= 0\nshow alpha*x <= r"
+    )
     _, counterexample = search_points(statement, {}, budget())
     assert counterexample[2] == {"alpha": "1/2", "r": "1", "x": "3"}
 
@@ -104,6 +147,9 @@ def test_a_witness_in_numbers():
     statement = read("statement t/two\nexists y\nshow y^2 = 2 and y > 0")
     story = checker.Unfolding(statement, checker.Context())
     found = search_found(statement, story.state(), "witness", {}, {}, budget())
-    certificate = {"certified": ["witness", [], found], "point": [statement.name, [], {}, ["close"]]}
+    certificate = {
+        "certified": ["witness", [], found],
+        "point": [statement.name, [], {}, ["close"]],
+    }
     assert checker.settle(statement, certificate, {}, {}) == "certified"
     assert found[1][0][1] == "theta^2 - 2"

@@ -1,4 +1,5 @@
-"""Fast evaluation on samples agrees with plain substitution, and counted work is the same however often a question is asked."""
+"""Fast evaluation on samples agrees with plain substitution, and counted work is the same however
+often a question is asked."""
 
 from __future__ import annotations
 
@@ -19,7 +20,9 @@ from certificates.search.solver import ask
 RING = fmpq_mpoly_ctx.get(["a", "x", "y"], Ordering.lex)
 A, X, Y = RING.gens()
 NUMBERS = st.fractions(-3, 3, max_denominator=4).map(lambda c: fmpq(c.numerator, c.denominator))
-POLYS = st.dictionaries(st.tuples(*[st.integers(0, 3)] * 3), NUMBERS, max_size=5).map(lambda d: RING.from_dict({k: c for k, c in d.items() if c}))
+POLYS = st.dictionaries(st.tuples(*[st.integers(0, 3)] * 3), NUMBERS, max_size=5).map(
+    lambda d: RING.from_dict({k: c for k, c in d.items() if c})
+)
 RELATIONS = st.sampled_from([">", ">=", "=", "!="])
 
 
@@ -45,15 +48,23 @@ def test_coefficients_add_up_to_the_polynomial(poly: fmpq_mpoly) -> None:
     assert all(c == 0 or c.degrees()[1] == 0 for c in parts)
 
 
-@pytest.mark.parametrize("poly", [X**3 + 2 * X**2 - X + 5, X**3 - 1, 3 * X, RING.constant(7), RING.constant(0)])
+@pytest.mark.parametrize(
+    "poly", [X**3 + 2 * X**2 - X + 5, X**3 - 1, 3 * X, RING.constant(7), RING.constant(0)]
+)
 def test_a_dense_polynomial_has_the_same_values(poly: fmpq_mpoly) -> None:
     dense = univariate(poly, "x")
     assert all(dense(fmpq(k)) == valued(poly, {"x": fmpq(k)}) for k in range(-2, 3))
 
 
 @settings(max_examples=200, deadline=None)
-@given(st.lists(st.tuples(POLYS, RELATIONS), min_size=1, max_size=4), st.sampled_from(["and", "or"]), st.lists(NUMBERS, min_size=1, max_size=4))
-def test_a_trial_fails_where_substitution_folds_to_false(facts: list[tuple[fmpq_mpoly, str]], op: str, values: list[fmpq]) -> None:
+@given(
+    st.lists(st.tuples(POLYS, RELATIONS), min_size=1, max_size=4),
+    st.sampled_from(["and", "or"]),
+    st.lists(NUMBERS, min_size=1, max_size=4),
+)
+def test_a_trial_fails_where_substitution_folds_to_false(
+    facts: list[tuple[fmpq_mpoly, str]], op: str, values: list[fmpq]
+) -> None:
     parts = [(k, relation) for k, (_, relation) in enumerate(facts)]
     tree = (op, parts) if len(parts) > 1 else parts[0]
     start = Condition(RING, [poly for poly, _ in facts], tree).substituted({})
@@ -65,7 +76,9 @@ def test_a_trial_fails_where_substitution_folds_to_false(facts: list[tuple[fmpq_
 
 @settings(max_examples=50, deadline=None)
 @given(POLYS, POLYS, POLYS, NUMBERS)
-def test_sums_of_quotients_have_the_sum_of_their_values(top: fmpq_mpoly, other: fmpq_mpoly, more: fmpq_mpoly, a: fmpq) -> None:
+def test_sums_of_quotients_have_the_sum_of_their_values(
+    top: fmpq_mpoly, other: fmpq_mpoly, more: fmpq_mpoly, a: fmpq
+) -> None:
     point = Point.of(RING, {"a": a, "x": fmpq(2, 7), "y": fmpq(-5, 3)})
     p, q = Quotient.reduced(top, 1 + other * other), Quotient.reduced(more, RING.constant(3))
     values = [one.within(point) for one in (p, q, p.plus(q))]
@@ -74,7 +87,9 @@ def test_sums_of_quotients_have_the_sum_of_their_values(top: fmpq_mpoly, other: 
 
 
 def test_z3_spends_the_same_however_many_questions_came_before() -> None:
-    condition = Condition(RING, [X**2 * Y - 2, 1 - Y, X - A], ("and", [(0, "="), (1, ">"), (2, ">=")]))
+    condition = Condition(
+        RING, [X**2 * Y - 2, 1 - Y, X - A], ("and", [(0, "="), (1, ">"), (2, ">=")])
+    )
     spent = []
     budget = Budget(10**7)
     for _ in range(3):
@@ -88,7 +103,9 @@ def test_a_search_that_found_nothing_costs_the_same_again() -> None:
     context = checker.Context()
     for name in ("u", "w"):
         context.declare(name)
-    state = checker.State(context).assume(context.formula(checker.parse("u > 0 and w > u^2 and w < 3 and u*w < 1")))
+    state = checker.State(context).assume(
+        context.formula(checker.parse("u > 0 and w > u^2 and w < 3 and u*w < 1"))
+    )
     costs = []
     for _ in range(2):
         budget = Budget(10**6)

@@ -1,4 +1,5 @@
-"""Sharp ranges: the exact set of alpha, its end points to twelve decimals, and certificates of both sides."""
+"""Sharp ranges: the exact set of alpha, its end points to twelve decimals, and certificates of both
+sides."""
 
 import mpmath
 import pytest
@@ -19,7 +20,10 @@ RANGES = {
     "SUPREMUM": (EVERYWHERE, []),
     "REGION": (EVERYWHERE, []),
     "LEVEL": ("9*alpha^2 - 20*alpha + 7 >= 0", ["0.435248607745"]),
-    "VERTEX": ("81*alpha^6 - 234*alpha^5 + 87*alpha^4 - 164*alpha^3 + 23*alpha^2 + 14*alpha + 1 >= 0", ["0.398910074286"]),
+    "VERTEX": (
+        "81*alpha^6 - 234*alpha^5 + 87*alpha^4 - 164*alpha^3 + 23*alpha^2 + 14*alpha + 1 >= 0",
+        ["0.398910074286"],
+    ),
     "TRAP": ("3*alpha <= 1", ["0.333333333333"]),
 }
 
@@ -31,7 +35,9 @@ def test_range(case):
     found = find_sharp_range([statement], "alpha", UNIT, "paper/sharp", {}, cases.budget())
     assert (found.failure, str(found.statement.condition)) == ("", condition)
     assert [end.decimal(12) for end in found.ends] == ends
-    outcome = checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement})
+    outcome = checker.settle(
+        read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement}
+    )
     assert outcome == "certified"
 
 
@@ -40,13 +46,19 @@ def test_statements_together_hold_where_each_does():
     found = find_sharp_range(chosen, "alpha", UNIT, "paper/sharp", {}, cases.budget())
     assert str(found.statement.condition) == "0 = 1"
     named = {s.name: s for s in chosen}
-    assert checker.settle(read(found.statement), {"certified": found.certificate}, {}, named) == "certified"
+    assert (
+        checker.settle(read(found.statement), {"certified": found.certificate}, {}, named)
+        == "certified"
+    )
 
 
 def test_a_stated_range_is_certified_and_a_wrong_one_is_not():
     statement = cases.read(cases.CONTRACTION)
     named = {statement.name: statement}
-    text = f"statement paper/sharp\nsharp {statement.name}\nover alpha\ndomain 0 < alpha and alpha < 1\nholds "
+    text = (
+        f"statement paper/sharp\nsharp {statement.name}\nover alpha\ndomain 0 < alpha and alpha <"
+        " 1\nholds "
+    )
     right, wrong = cases.read(text + "3*alpha < 1"), cases.read(text + "3*alpha <= 1")
     certificate = search_sharp(right, {}, named, cases.budget())
     assert checker.settle(right, {"certified": certificate}, {}, named) == "certified"
@@ -73,29 +85,37 @@ show 10*alpha^3 - 20*alpha^2 + 10*alpha - 1 > 0""")
         inside = [mpmath.nstr(root, 12) for root in roots if 0 < root < 1]
     assert [end.decimal(12) for end in found.ends] == inside
     assert found.failure == ""
-    outcome = checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement})
+    outcome = checker.settle(
+        read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement}
+    )
     assert outcome == "certified"
 
 
 NOWHERE = {
-    "a root of the parameter": f"""statement x/edge
+    "a root of the parameter": (
+        f"""statement x/edge
 forall alpha v
 {cases.UNIT}
 root s = sqrt(2*(1 + alpha))
 given v^2 = 2*(1 + alpha)
-show v != -s""",
-    "no room at the boundary": f"""statement x/room
+show v != -s"""
+    ),
+    "no room at the boundary": (
+        f"""statement x/room
 forall alpha x
 {cases.UNIT}
 given x >= 0
 exists d
 with d > 0
-show x - d >= 0 and alpha*d < 1""",
-    "an equation times what does not vanish": f"""statement x/quotient
+show x - d >= 0 and alpha*d < 1"""
+    ),
+    "an equation times what does not vanish": (
+        f"""statement x/quotient
 forall alpha h slope v
 {cases.UNIT}
 given h != 0 and alpha*(v + h)^2 - alpha*v^2 - alpha*h^2 = slope*h
-show slope != 2*alpha""",
+show slope != 2*alpha"""
+    ),
 }
 
 
@@ -104,4 +124,9 @@ def test_one_family_breaks_a_statement_everywhere(case):
     statement = cases.read(NOWHERE[case])
     found = find_sharp_range([statement], "alpha", UNIT, "x/sharp", {}, cases.budget())
     assert str(found.statement.condition) == "0 = 1"
-    assert checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement}) == "certified"
+    assert (
+        checker.settle(
+            read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement}
+        )
+        == "certified"
+    )

@@ -29,19 +29,25 @@ show alpha*w < 2"""
 
 
 def settled(statement, found):
-    return checker.settle(read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement})
+    return checker.settle(
+        read(found.statement), {"certified": found.certificate}, {}, {statement.name: statement}
+    )
 
 
 def test_the_orbit_of_period_K_exists_from_its_own_ratio_on():
     statement = cases.read(ORBIT)
-    found = find_sharp_region([statement], ["alpha", "K"], UNIT & (K >= 1), "plane/sharp", {}, cases.budget())
+    found = find_sharp_region(
+        [statement], ["alpha", "K"], UNIT & (K >= 1), "plane/sharp", {}, cases.budget()
+    )
     assert str(found.statement.condition) == "alpha*K + alpha - K + 1 >= 0"
     assert settled(statement, found) == "certified"
 
 
 def test_a_strip_that_grows_with_eps():
     statement = cases.read(STRIP)
-    found = find_sharp_region([statement], ["alpha", "eps"], UNIT & (eps > 0), "plane/sharp", {}, cases.budget())
+    found = find_sharp_region(
+        [statement], ["alpha", "eps"], UNIT & (eps > 0), "plane/sharp", {}, cases.budget()
+    )
     assert str(found.statement.condition) == "-alpha*eps - 2*alpha + 2 >= 0"
     assert settled(statement, found) == "certified"
 
@@ -59,7 +65,9 @@ show n <= x"""
 
 def test_a_range_over_a_whole_number_has_a_whole_sample():
     statement = cases.read(FLIGHTS)
-    found = find_sharp_region([statement], ["alpha", "K"], UNIT & (K >= 1), "plane/sharp", {}, cases.budget())
+    found = find_sharp_region(
+        [statement], ["alpha", "K"], UNIT & (K >= 1), "plane/sharp", {}, cases.budget()
+    )
     assert str(found.statement.condition) == "alpha*K + alpha - K + 1 >= 0"
     assert settled(statement, found) == "certified"
     half = [*found.certificate[:2], {"alpha": "1/2", "K": "3/2"}]

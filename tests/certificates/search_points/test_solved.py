@@ -1,4 +1,5 @@
-"""Conditions solved for alpha: the display says what the certified condition says, and gives up where a slope has no proved sign."""
+"""Conditions solved for alpha: the display says what the certified condition says, and gives up
+where a slope has no proved sign."""
 
 from fractions import Fraction
 from itertools import product
@@ -14,7 +15,11 @@ alpha, K, n = reals("alpha K n")
 UNIT = (alpha > 0) & (alpha < 1)
 SOLVED = {
     "from on": (K >= 1, alpha * K + alpha - K + 1 >= 0, "(K - 1)/(K + 1) <= alpha < 1"),
-    "between": (K >= 1, (alpha * K + alpha - K + 1 >= 0) & (K - alpha * K - 2 * alpha > 0), "(K - 1)/(K + 1) <= alpha < K/(K + 2)"),
+    "between": (
+        K >= 1,
+        (alpha * K + alpha - K + 1 >= 0) & (K - alpha * K - 2 * alpha > 0),
+        "(K - 1)/(K + 1) <= alpha < K/(K + 2)",
+    ),
     "up to": (K >= 1, 1 - 2 * alpha * K >= 0, "0 < alpha <= 1/(2*K)"),
     "halves": (K >= 1, 4 * alpha * K - K - 3 > 0, "(K + 3)/(4*K) < alpha < 1"),
     "at": (K >= 1, alpha * K + alpha - K + 1 <= alpha * 0, "0 < alpha <= (K - 1)/(K + 1)"),
@@ -32,12 +37,19 @@ def test_display_is_the_condition(case):
     assert solved(stated(domain, condition), "alpha", ["K"]) == shown
     for k, numerator in product(range(3, 8), range(1, 40)):
         values = {"K": Fraction(k), "alpha": Fraction(numerator, 40)}
-        there = checker.Context(None, {name: checker.number(value) for name, value in values.items()})
-        means = [there.formula(checker.parse(part.replace("K", f"({k})"))) for part in shown.split(" or ")]
+        there = checker.Context(
+            None, {name: checker.number(value) for name, value in values.items()}
+        )
+        means = [
+            there.formula(checker.parse(part.replace("K", f"({k})")))
+            for part in shown.split(" or ")
+        ]
         assert (there.formula(checker.parse(str(condition))) is True) == (True in means)
 
 
-@pytest.mark.parametrize("condition", [alpha * (K - 2) >= 1, alpha**2 * K >= 1, (alpha * K >= 1) & (2 * alpha * K >= 1)])
+@pytest.mark.parametrize(
+    "condition", [alpha * (K - 2) >= 1, alpha**2 * K >= 1, (alpha * K >= 1) & (2 * alpha * K >= 1)]
+)
 def test_gives_up_without_a_proved_slope(condition):
     assert solved(stated(K >= 1, condition), "alpha", ["K"]) is None
 
@@ -45,6 +57,12 @@ def test_gives_up_without_a_proved_slope(condition):
 def test_a_whole_number_that_the_condition_ties():
     ceiling = (n - alpha * n >= 1 + alpha) & (1 + alpha > (n - 1) * (1 - alpha))
     tied = SharpRange("x/sharp", (), ("alpha", "n"), UNIT & ceiling, alpha * n + alpha - n + 1 >= 0)
-    exact = SharpRange("x/sharp", (), ("alpha", "n"), UNIT & ceiling, ~((alpha * n + alpha - n + 1 < 0) | (alpha * n + alpha - n + 1 > 0)))
+    exact = SharpRange(
+        "x/sharp",
+        (),
+        ("alpha", "n"),
+        UNIT & ceiling,
+        ~((alpha * n + alpha - n + 1 < 0) | (alpha * n + alpha - n + 1 > 0)),
+    )
     assert not says_domain(tied, ["n"])
     assert says_domain(exact, ["n"])

@@ -10,7 +10,19 @@ import numpy as np
 import pytest
 
 from scenes.errors import SceneError
-from scenes.juggler import arrays, boundary, grid, listed, orbit, physical, physical_box, physical_grid, point, random, scene
+from scenes.juggler import (
+    arrays,
+    boundary,
+    grid,
+    listed,
+    orbit,
+    physical,
+    physical_box,
+    physical_grid,
+    point,
+    random,
+    scene,
+)
 from scenes.juggler.motion import heights
 from scenes.juggler.periodic import exists_for, family, orbit_of
 from scenes.juggler.tables import as_arrays
@@ -35,7 +47,10 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "none": (lambda: listed([]), "no states are given"),
     "shape": (lambda: arrays(np.zeros((2, 2)), np.zeros((2, 2))), r"shapes \(2, 2\)"),
     "shapes": (lambda: arrays(np.zeros(2), np.zeros(3)), r"\(2,\) and \(3,\)"),
-    "dtype": (lambda: arrays(np.zeros(2, dtype=np.float32), np.zeros(2, dtype=np.float32)), "float64"),  # type: ignore[arg-type]
+    "dtype": (
+        lambda: arrays(np.zeros(2, dtype=np.float32), np.zeros(2, dtype=np.float32)),
+        "float64",
+    ),  # type: ignore[arg-type]
     "array nan": (lambda: arrays(np.zeros(2), np.array([0, NAN])), "w = nan"),
     "array below": (lambda: arrays(np.array([0.0, -1e-300]), np.zeros(2)), "x = -1e-300 is below"),
     "array empty": (lambda: arrays(np.zeros(0), np.zeros(0)), "n >= 1"),
@@ -49,18 +64,36 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "random box": (lambda: random(1, 1, x=(2, 1)), "x runs from 2 to 1"),
     "boundary": (lambda: boundary("1/3", 1), "whole number from 2"),
     "boundary alpha": (lambda: boundary(2, 5), "alpha = 2"),
-    "steps": (lambda: orbit(scene("1/3", STARTS), steps=-1), "steps = -1 is not a whole number from 0"),
+    "steps": (
+        lambda: orbit(scene("1/3", STARTS), steps=-1),
+        "steps = -1 is not a whole number from 0",
+    ),
     "steps half": (lambda: orbit(scene("1/3", STARTS), steps=0.5), "steps = 0.5"),  # type: ignore[arg-type]
     "steps true": (lambda: orbit(scene("1/3", STARTS), steps=True), "steps = True"),
-    "arithmetic": (lambda: orbit(scene("1/3", STARTS), "double"), "'double' is not one of exact, enclosed, mp, fast"),
-    "precision": (lambda: orbit(scene("1/3", STARTS), "mp", precision=1), "precision = 1 is not a whole number from 2"),
+    "arithmetic": (
+        lambda: orbit(scene("1/3", STARTS), "double"),
+        "'double' is not one of exact, enclosed, mp, fast",
+    ),
+    "precision": (
+        lambda: orbit(scene("1/3", STARTS), "mp", precision=1),
+        "precision = 1 is not a whole number from 2",
+    ),
     "bits": (lambda: orbit(scene("1/3", STARTS), "enclosed", precision=0), "precision = 0"),
-    "no precision": (lambda: orbit(scene("1/3", STARTS), "exact", precision=50), "has no meaning in exact arithmetic"),
-    "radius": (lambda: orbit(scene("1/3", STARTS), "enclosed", radius=Fraction(0)), "radius = 0 is not positive"),
+    "no precision": (
+        lambda: orbit(scene("1/3", STARTS), "exact", precision=50),
+        "has no meaning in exact arithmetic",
+    ),
+    "radius": (
+        lambda: orbit(scene("1/3", STARTS), "enclosed", radius=Fraction(0)),
+        "radius = 0 is not positive",
+    ),
     "row": (lambda: orbit(scene("1/3", STARTS)).row(1), "orbit 1 is not among the 1"),
     "history": (lambda: orbit(scene("1/3", STARTS)).history(0), "keep=True"),
     "long": (lambda: point(Fraction(1, 2**200000), 0), "longer than 14000 bits"),
-    "long power": (lambda: scene("1e999999999", STARTS), "longer than 14000 bits"),  # not written out, which would take all memory
+    "long power": (
+        lambda: scene("1e999999999", STARTS),
+        "longer than 14000 bits",
+    ),  # not written out, which would take all memory
     "long power, parted": (lambda: scene("1e-9_999_999", STARTS), "longer than 14000 bits"),
     "two lines": (lambda: scene("a\nthird", STARTS), "alpha = a third is no finite number"),
     "alpha True": (lambda: scene(True, STARTS), "alpha = True is no finite number"),
@@ -72,24 +105,51 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "ragged": (lambda: arrays([[1.0], [1.0, 2.0]], [1.0]), "is no array"),  # type: ignore[arg-type, list-item]
     "grid none": (lambda: grid(None, None), "x = None has not 3 parts"),  # type: ignore[arg-type]
     "box none": (lambda: random(1, 1, x=None), "x = None has not 2 parts"),  # type: ignore[arg-type]
-    "grid beta": (lambda: physical_grid((-1, 0, 2), (0, 1, 2), 1, 1), "beta = -1 is below the table"),
+    "grid beta": (
+        lambda: physical_grid((-1, 0, 2), (0, 1, 2), 1, 1),
+        "beta = -1 is below the table",
+    ),
     "grid v": (lambda: physical_grid((0, 1, 2), (1, 0, 2), 1, 1), "v runs from 1 to 0"),
     "box beta": (lambda: physical_box((-1, 0), (0, 1), 1, 1), "beta = -1 is below the table"),
     "box r": (lambda: physical_box((0, 1), (0, 1), 0, 1), "r = 0 is not positive"),
-    "radius nan": (lambda: orbit(scene("1/3", STARTS), "enclosed", radius=NAN), "radius = nan is no finite number"),
-    "radius text": (lambda: orbit(scene("1/3", STARTS), "enclosed", radius="wide"), "radius = wide is no finite number"),
-    "steps huge": (lambda: orbit(scene("1/3", STARTS), steps=10**5000), "steps = a number of 16610 bits is not"),
+    "radius nan": (
+        lambda: orbit(scene("1/3", STARTS), "enclosed", radius=NAN),
+        "radius = nan is no finite number",
+    ),
+    "radius text": (
+        lambda: orbit(scene("1/3", STARTS), "enclosed", radius="wide"),
+        "radius = wide is no finite number",
+    ),
+    "steps huge": (
+        lambda: orbit(scene("1/3", STARTS), steps=10**5000),
+        "steps = a number of 16610 bits is not",
+    ),
     "row half": (lambda: orbit(scene("1/3", STARTS)).row(0.5), "orbit 0.5 is not among the 1"),  # type: ignore[arg-type]
-    "arrays in feet": (lambda: as_arrays(orbit(scene("1/3", STARTS)), "feet"), "units = 'feet' is not one of"),
-    "time": (lambda: heights(scene("1/3", STARTS), [-Fraction(1, 10**300)]), "time = a number of 997 bits is before the start"),
+    "arrays in feet": (
+        lambda: as_arrays(orbit(scene("1/3", STARTS)), "feet"),
+        "units = 'feet' is not one of",
+    ),
+    "time": (
+        lambda: heights(scene("1/3", STARTS), [-Fraction(1, 10**300)]),
+        "time = a number of 997 bits is before the start",
+    ),
     "time nan": (lambda: heights(scene("1/3", STARTS), [NAN]), "time = nan is no finite number"),
     "times": (lambda: heights(scene("1/3", STARTS), 1), "times are to be a list"),  # type: ignore[arg-type]
-    "times index": (lambda: heights(scene("1/3", STARTS), [1], 1), "index = 1 is not a whole number from 0 to 0"),
+    "times index": (
+        lambda: heights(scene("1/3", STARTS), [1], 1),
+        "index = 1 is not a whole number from 0 to 0",
+    ),
     "word": (lambda: exists_for(None), "None is no word"),  # type: ignore[arg-type]
     "word text": (lambda: orbit_of("12", "1/2"), "12 is no word"),  # type: ignore[arg-type]
     "word half": (lambda: family((1.5,)), "a flight = 1.5 is not a whole number"),  # type: ignore[arg-type]
-    "many exact": (lambda: orbit(scene("1/3", random(10**7, 1)), "exact", 1), "10000000 starts in exact arithmetic; at most 1000000"),
-    "keep exact": (lambda: orbit(scene("1/3", STARTS), "exact", 10**9, keep=True), "1000000000 steps are more than 4000000"),
+    "many exact": (
+        lambda: orbit(scene("1/3", random(10**7, 1)), "exact", 1),
+        "10000000 starts in exact arithmetic; at most 1000000",
+    ),
+    "keep exact": (
+        lambda: orbit(scene("1/3", STARTS), "exact", 10**9, keep=True),
+        "1000000000 steps are more than 4000000",
+    ),
 }
 
 
@@ -104,4 +164,8 @@ def test_rejects_bad_input_in_one_line(name: str) -> None:
     wrong, told = WRONG[name]
     with pytest.raises(SceneError, match=told) as caught:
         wrong()
-    assert isinstance(caught.value, ValueError) and "\n" not in str(caught.value) and len(str(caught.value)) < 200
+    assert (
+        isinstance(caught.value, ValueError)
+        and "\n" not in str(caught.value)
+        and len(str(caught.value)) < 200
+    )

@@ -1,4 +1,5 @@
-"""Bounded floats: the bound holds of every operation, chunks change nothing, and memory does not grow with the steps."""
+"""Bounded floats: the bound holds of every operation, chunks change nothing, and memory does not
+grow with the steps."""
 
 from __future__ import annotations
 
@@ -13,7 +14,17 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from scenes.errors import SceneError
-from scenes.juggler import arrays, boundary, grid, listed, orbit, physical_grid, point, random, scene
+from scenes.juggler import (
+    arrays,
+    boundary,
+    grid,
+    listed,
+    orbit,
+    physical_grid,
+    point,
+    random,
+    scene,
+)
 from scenes.juggler import fast as engine
 from scenes.juggler.bounded import Bounded, powers
 from scenes.juggler.given import nearest
@@ -28,14 +39,27 @@ OPERATIONS: tuple[Any, ...] = (operator.add, operator.sub, operator.mul, operato
 
 def contains(found: Bounded, exact: Fraction) -> bool:
     value, bound = float(found.v), float(found.e)
-    return bound != bound or bound == float("inf") or abs(Fraction(value) - exact) <= Fraction(bound)
+    return (
+        bound != bound or bound == float("inf") or abs(Fraction(value) - exact) <= Fraction(bound)
+    )
 
 
 @settings(max_examples=400, deadline=None)
-@given(x=FULL, y=FULL, a=SIZES, b=SIZES, ends=st.tuples(st.sampled_from([-1, 0, 1]), st.sampled_from([-1, 0, 1])), which=st.sampled_from(OPERATIONS))
-@example(x=1.0, y=1.0, a=1.0, b=1.0, ends=(1, 1), which=operator.mul)  # the product of both errors counts
+@given(
+    x=FULL,
+    y=FULL,
+    a=SIZES,
+    b=SIZES,
+    ends=st.tuples(st.sampled_from([-1, 0, 1]), st.sampled_from([-1, 0, 1])),
+    which=st.sampled_from(OPERATIONS),
+)
+@example(
+    x=1.0, y=1.0, a=1.0, b=1.0, ends=(1, 1), which=operator.mul
+)  # the product of both errors counts
 @example(x=1.0, y=1.0, a=0.5, b=0.5, ends=(1, -1), which=operator.truediv)
-def test_bound_of_an_operation_holds(x: float, y: float, a: float, b: float, ends: tuple[int, int], which: Any) -> None:
+def test_bound_of_an_operation_holds(
+    x: float, y: float, a: float, b: float, ends: tuple[int, int], which: Any
+) -> None:
     with np.errstate(all="ignore"):
         found = which(Bounded(np.float64(x), np.float64(a)), Bounded(np.float64(y), np.float64(b)))
     true_x, true_y = Fraction(x) + ends[0] * Fraction(a), Fraction(y) + ends[1] * Fraction(b)
@@ -53,7 +77,10 @@ def test_bound_fails_without_the_rounding_term() -> None:
 
 
 @settings(max_examples=60, deadline=None)
-@given(alpha=st.fractions(Fraction(1, 99), Fraction(98, 99), max_denominator=99), exponents=st.lists(st.integers(0, 400), min_size=1, max_size=4))
+@given(
+    alpha=st.fractions(Fraction(1, 99), Fraction(98, 99), max_denominator=99),
+    exponents=st.lists(st.integers(0, 400), min_size=1, max_size=4),
+)
 def test_bound_of_powers_holds(alpha: Fraction, exponents: list[int]) -> None:
     found = powers(-Bounded.of(alpha), np.array(exponents))
     for place, exponent in enumerate(exponents):
@@ -61,15 +88,28 @@ def test_bound_of_powers_holds(alpha: Fraction, exponents: list[int]) -> None:
 
 
 def test_conversion_counts_what_it_misses_holds() -> None:
-    for value in (Fraction(1, 3), Fraction(10) ** 400, Fraction(1, 10**400), Fraction(-7, 10**310), Fraction(2**53 + 1)):
+    for value in (
+        Fraction(1, 3),
+        Fraction(10) ** 400,
+        Fraction(1, 10**400),
+        Fraction(-7, 10**310),
+        Fraction(2**53 + 1),
+    ):
         found, missed = nearest(value)
         assert missed == float("inf") or abs(value - Fraction(found)) <= Fraction(missed)
 
 
 @settings(max_examples=25, deadline=None)
-@given(alpha=st.fractions(Fraction(1, 20), Fraction(19, 20), max_denominator=20), seed=st.integers(0, 999), steps=st.integers(0, 60),
-       until=st.booleans(), keep=st.booleans())
-def test_chunks_change_nothing_holds(alpha: Fraction, seed: int, steps: int, until: bool, keep: bool) -> None:
+@given(
+    alpha=st.fractions(Fraction(1, 20), Fraction(19, 20), max_denominator=20),
+    seed=st.integers(0, 999),
+    steps=st.integers(0, 60),
+    until=st.booleans(),
+    keep=st.booleans(),
+)
+def test_chunks_change_nothing_holds(
+    alpha: Fraction, seed: int, steps: int, until: bool, keep: bool
+) -> None:
     setting, aim = scene(alpha, random(37, seed)), goal(steps, until_trap=until)
     found = []
     for chunk in (1, 10, 37, 1000):
@@ -79,7 +119,9 @@ def test_chunks_change_nothing_holds(alpha: Fraction, seed: int, steps: int, unt
         found.append(ensemble)
     for other in found[1:]:
         for name in ("x", "w", "error_x", "error_w", "periods", "impacts", "end"):
-            assert np.array_equal(getattr(found[0], name), getattr(other, name), equal_nan=name in ("x", "w")), name
+            assert np.array_equal(
+                getattr(found[0], name), getattr(other, name), equal_nan=name in ("x", "w")
+            ), name
         if keep:
             assert np.array_equal(found[0].history, other.history, equal_nan=True)
 
@@ -98,8 +140,12 @@ def test_memory_depends_on_states_only_holds() -> None:
     assert used[1] < 1.5 * used[0]
 
 
-MILLION = {"grid of heights": lambda: grid((0, 10, 10**6), (-5, 5, 1)), "grid of speeds": lambda: grid((0, 10, 1), (-5, 5, 10**6)),
-           "boundary": lambda: boundary("3/10", 10**6), "physical grid": lambda: physical_grid((0, 10, 1), (-5, 5, 10**6), 2, 3)}
+MILLION = {
+    "grid of heights": lambda: grid((0, 10, 10**6), (-5, 5, 1)),
+    "grid of speeds": lambda: grid((0, 10, 1), (-5, 5, 10**6)),
+    "boundary": lambda: boundary("3/10", 10**6),
+    "physical grid": lambda: physical_grid((0, 10, 1), (-5, 5, 10**6), 2, 3),
+}
 
 
 @pytest.mark.parametrize("name", MILLION)
@@ -120,34 +166,51 @@ def test_a_million_starts_are_not_made_before_they_are_asked_for_holds(name: str
 def test_what_is_told_of_many_states_takes_little_beside_them_holds() -> None:
     pytest.importorskip("matplotlib")
     count = 300000
-    found = orbit(scene("3/10", random(count, 1, (0, 0), (0, 0)), r=2, g=3), "fast", 3)  # all on x = w
+    found = orbit(
+        scene("3/10", random(count, 1, (0, 0), (0, 0)), r=2, g=3), "fast", 3
+    )  # all on x = w
     in_the_plane(found)
     used = {}
-    for name, tell in (("undecided", lambda: next(found.each_undecided())), ("arrays", lambda: as_arrays(found, "physical")["v"][-1]),
-                       ("picture", lambda: in_the_plane(found) is not None)):
+    for name, tell in (
+        ("undecided", lambda: next(found.each_undecided())),
+        ("arrays", lambda: as_arrays(found, "physical")["v"][-1]),
+        ("picture", lambda: in_the_plane(found) is not None),
+    ):
         tracemalloc.start()
         assert tell() == {"undecided": (0, 0), "arrays": 2, "picture": True}[name]
         used[name] = tracemalloc.get_traced_memory()[1] / count
         tracemalloc.stop()
     assert found.counts() == {"undecided": count}
-    assert used["undecided"] < 12 and used["arrays"] < 50 and used["picture"] < 60, used  # bytes a state
+    assert used["undecided"] < 12 and used["arrays"] < 50 and used["picture"] < 60, (
+        used
+    )  # bytes a state
 
 
 def test_undecided_states_are_counted_and_listed_holds() -> None:
     found = orbit(scene("1/3", listed([(0, 3), (1, 2), (1, 1), ("1/7", 2)])), "fast", 40)
     assert found.undecided == [(0, 1), (2, 0)] and found.counts() == {"reached": 2, "undecided": 2}
-    assert found.row(0).end == "undecided" and (found.row(0).periods, found.row(0).impacts) == (1, 1)
+    assert found.row(0).end == "undecided" and (found.row(0).periods, found.row(0).impacts) == (
+        1,
+        1,
+    )
 
 
 def test_overflow_is_undecided_holds() -> None:
-    found = orbit(scene("1/3", arrays(np.array([1e308, 0.0, 1e308]), np.array([-1e308, 1e308, 1.0]))), "fast", 10**4, impacts=True)
+    found = orbit(
+        scene("1/3", arrays(np.array([1e308, 0.0, 1e308]), np.array([-1e308, 1e308, 1.0]))),
+        "fast",
+        10**4,
+        impacts=True,
+    )
     assert all(row.end == "undecided" for row in map(found.row, range(3)))
 
 
 def test_a_million_periods_of_one_state_end_in_no_time_holds() -> None:
     row = orbit(scene("3/10", point(1000, -41)), "fast", 10**6).row(0)
     exact = orbit(scene("3/10", point(1000, -41)), "exact", 10**6).row(0)
-    assert row.error is not None and abs(Fraction(row.x) - exact.x) <= Fraction(row.error[0]) < Fraction(1, 10**12)
+    assert row.error is not None and abs(Fraction(row.x) - exact.x) <= Fraction(
+        row.error[0]
+    ) < Fraction(1, 10**12)
 
 
 def test_rejects_a_history_that_does_not_fit() -> None:

@@ -1,4 +1,5 @@
-"""The scene iterates the very map that the proofs are about: its compiled text is the derived expression, and the checker's pieces say the same."""
+"""The scene iterates the very map that the proofs are about: its compiled text is the derived
+expression, and the checker's pieces say the same."""
 
 from __future__ import annotations
 
@@ -34,8 +35,16 @@ speeds = st.fractions(-9, 9, max_denominator=60)
 
 def test_compiled_text_is_the_derived_expression_holds() -> None:
     f = formulas()
-    pairs = [(f.impact, normal_f1()), (f.flight, normal_flight_power()), (f.margin, [normal_margin()]), (f.fixed, normal_e_1()),
-             (f.energy, [normal_energy()]), (f.scaled, scaling()), (f.unscaled, unscaling()), (region(), [region_energy() / r**2])]
+    pairs = [
+        (f.impact, normal_f1()),
+        (f.flight, normal_flight_power()),
+        (f.margin, [normal_margin()]),
+        (f.fixed, normal_e_1()),
+        (f.energy, [normal_energy()]),
+        (f.scaled, scaling()),
+        (f.unscaled, unscaling()),
+        (region(), [region_energy() / r**2]),
+    ]
     for compiled, derived in pairs:
         names, _, body = str(compiled.__doc__).removeprefix("lambda ").partition(": ")
         text = sympify(body, locals={name: Symbol(name) for name in names.split(", ")})
@@ -46,7 +55,9 @@ def test_compiled_text_is_the_derived_expression_holds() -> None:
 
 
 @given(alpha=alphas, x=heights, w=speeds)
-def test_one_period_is_the_map_of_the_statements_holds(alpha: Fraction, x: Fraction, w: Fraction) -> None:
+def test_one_period_is_the_map_of_the_statements_holds(
+    alpha: Fraction, x: Fraction, w: Fraction
+) -> None:
     point = {"alpha": alpha, "x": x, "w": w}
     guard, image = next(piece for piece in PIECES if holds_at(piece[0], point))
     assert strikes(x, w) == (guard == PIECES[0][0])
@@ -55,14 +66,20 @@ def test_one_period_is_the_map_of_the_statements_holds(alpha: Fraction, x: Fract
 
 
 @given(alpha=alphas, x=heights, w=speeds)
-def test_scene_trap_is_the_trap_of_the_theorem_up_to_one_half_holds(alpha: Fraction, x: Fraction, w: Fraction) -> None:
+def test_scene_trap_is_the_trap_of_the_theorem_up_to_one_half_holds(
+    alpha: Fraction, x: Fraction, w: Fraction
+) -> None:
     caught = strikes(x, w) and all(part > 0 for part in formulas().kept(alpha, w))
     of_theorem = holds_at(TRAP, {"alpha": alpha, "x": x, "w": w})
     assert caught == of_theorem if 2 * alpha <= 1 else caught <= of_theorem
 
 
-@given(alpha=alphas, share=st.fractions(0, 1, max_denominator=50), w=speeds, periods=st.integers(0, 12))
-def test_trap_is_invariant_and_its_closed_form_is_the_iteration_holds(alpha: Fraction, share: Fraction, w: Fraction, periods: int) -> None:
+@given(
+    alpha=alphas, share=st.fractions(0, 1, max_denominator=50), w=speeds, periods=st.integers(0, 12)
+)
+def test_trap_is_invariant_and_its_closed_form_is_the_iteration_holds(
+    alpha: Fraction, share: Fraction, w: Fraction, periods: int
+) -> None:
     w = abs(w) / 9 / alpha
     x = share * w
     if not (strikes(x, w) and all(part > 0 for part in formulas().kept(alpha, w))):
@@ -70,10 +87,17 @@ def test_trap_is_invariant_and_its_closed_form_is_the_iteration_holds(alpha: Fra
     place = (x, w)
     for _ in range(periods):
         place = impact(alpha, *place)
-        assert strikes(*place) and place[0] >= 0 and all(part > 0 for part in formulas().kept(alpha, place[1]))
+        assert (
+            strikes(*place)
+            and place[0] >= 0
+            and all(part > 0 for part in formulas().kept(alpha, place[1]))
+        )
     assert later(alpha, x, w, periods) == place
     fixed = [value_of(term(entry), {"alpha": alpha}) for entry in FIXED.entries]
-    offset = [value_of(part, {"p": x - fixed[0], "q": w - fixed[1], "n": Fraction(periods)}) for part in SHEARED]
+    offset = [
+        value_of(part, {"p": x - fixed[0], "q": w - fixed[1], "n": Fraction(periods)})
+        for part in SHEARED
+    ]
     claimed = from_the_fixed_point(term((-alpha) ** periods), (term(offset[0]), term(offset[1])))
     assert tuple(value_of(term(entry), {"alpha": alpha}) for entry in claimed.entries) == place
 
@@ -94,4 +118,6 @@ def test_whole_flight_is_the_single_periods_holds(x: Fraction, w: Fraction, more
         place = flight(*place, 1)
     assert strikes(*place) and place == flight(x, w, length)
     high = flight_length(x + more, w)
-    assert strikes(*flight(x + more, w, high)) and (high == 0 or not strikes(*flight(x + more, w, high - 1)))
+    assert strikes(*flight(x + more, w, high)) and (
+        high == 0 or not strikes(*flight(x + more, w, high - 1))
+    )

@@ -17,9 +17,16 @@ alphas = st.fractions(Fraction(1, 20), Fraction(19, 20), max_denominator=20)
 
 
 @settings(max_examples=40, deadline=None)
-@given(alpha=alphas, x=st.fractions(0, 9, max_denominator=9), w=st.fractions(-4, 4, max_denominator=9),
-       r=st.fractions(Fraction(1, 3), 4, max_denominator=3), g=st.fractions(Fraction(1, 3), 10, max_denominator=3))
-def test_samples_are_the_map_and_the_ball_stays_above_the_table_holds(alpha: Fraction, x: Fraction, w: Fraction, r: Fraction, g: Fraction) -> None:
+@given(
+    alpha=alphas,
+    x=st.fractions(0, 9, max_denominator=9),
+    w=st.fractions(-4, 4, max_denominator=9),
+    r=st.fractions(Fraction(1, 3), 4, max_denominator=3),
+    g=st.fractions(Fraction(1, 3), 10, max_denominator=3),
+)
+def test_samples_are_the_map_and_the_ball_stays_above_the_table_holds(
+    alpha: Fraction, x: Fraction, w: Fraction, r: Fraction, g: Fraction
+) -> None:
     setting, length = scene(alpha, point(x, w), r, g), 2 * r / g
     found = heights(setting, [length * Fraction(k, 7) for k in range(5 * 7 + 1)])
     kept = orbit(setting, "exact", 5, keep=True)
@@ -37,7 +44,11 @@ def test_ball_and_table_meet_at_an_impact_holds() -> None:
 
 def test_rejects_times_before_the_start() -> None:
     setting = scene("1/3", point(0, 3))
-    for wrong, told in ((-1, "before the start"), (float("nan"), "no finite number"), ("x", "no finite number")):
+    for wrong, told in (
+        (-1, "before the start"),
+        (float("nan"), "no finite number"),
+        ("x", "no finite number"),
+    ):
         with pytest.raises(SceneError, match=told):
             heights(setting, [wrong])
     with pytest.raises(SceneError, match="impacts"):

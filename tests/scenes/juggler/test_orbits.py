@@ -35,34 +35,50 @@ def encloses(ball: Any, exact: Fraction) -> bool:
 
 def bound_holds(fast: Row, exact: Row) -> bool:
     assert fast.error is not None
-    return abs(Fraction(fast.x) - exact.x) <= Fraction(fast.error[0]) and abs(Fraction(fast.w) - exact.w) <= Fraction(fast.error[1])
+    return abs(Fraction(fast.x) - exact.x) <= Fraction(fast.error[0]) and abs(
+        Fraction(fast.w) - exact.w
+    ) <= Fraction(fast.error[1])
 
 
 @settings(max_examples=60, deadline=None)
 @given(alpha=alphas, x=heights, w=speeds, count=steps, impacts=st.booleans())
-def test_all_arithmetics_agree_with_exact_numbers_holds(alpha: Fraction, x: Fraction, w: Fraction, count: int, impacts: bool) -> None:
+def test_all_arithmetics_agree_with_exact_numbers_holds(
+    alpha: Fraction, x: Fraction, w: Fraction, count: int, impacts: bool
+) -> None:
     setting = scene(alpha, point(x, w))
     exact = orbit(setting, "exact", count, impacts=impacts).row(0)
     enclosed = orbit(setting, "enclosed", count, impacts=impacts)
     balls = enclosed.row(0)
-    assert (balls.periods, balls.impacts, balls.end) == (exact.periods, exact.impacts, "reached") and holds(balls, exact)
+    assert (balls.periods, balls.impacts, balls.end) == (
+        exact.periods,
+        exact.impacts,
+        "reached",
+    ) and holds(balls, exact)
     assert balls.error is not None and max(balls.error) <= RADIUS
     fast = orbit(setting, "fast", count, impacts=impacts).row(0)
     assert fast.end in ("reached", "undecided")
     if fast.end == "reached":
-        assert (fast.periods, fast.impacts) == (exact.periods, exact.impacts) and bound_holds(fast, exact)
+        assert (fast.periods, fast.impacts) == (exact.periods, exact.impacts) and bound_holds(
+            fast, exact
+        )
     else:  # where it stopped it was right, too
         stopped = orbit(setting, "exact", fast.periods).row(0)
         assert stopped.impacts == fast.impacts and bound_holds(fast, stopped)
     digits = orbit(setting, "mp", count, impacts=impacts, precision=60).row(0)
-    assert enclosed.tracks[0].edges == orbit(setting, "exact", count, impacts=impacts).tracks[0].edges
+    assert (
+        enclosed.tracks[0].edges == orbit(setting, "exact", count, impacts=impacts).tracks[0].edges
+    )
     if not enclosed.tracks[0].edges:  # rounded numbers may err on x = w
-        assert digits.periods == exact.periods and abs(Fraction(str(digits.x)) - exact.x) < Fraction(1, 10**40)
+        assert digits.periods == exact.periods and abs(
+            Fraction(str(digits.x)) - exact.x
+        ) < Fraction(1, 10**40)
 
 
 @settings(max_examples=40, deadline=None)
 @given(alpha=alphas, x=heights, w=speeds, count=st.integers(0, 12))
-def test_whole_flights_and_leaps_equal_single_steps_holds(alpha: Fraction, x: Fraction, w: Fraction, count: int) -> None:
+def test_whole_flights_and_leaps_equal_single_steps_holds(
+    alpha: Fraction, x: Fraction, w: Fraction, count: int
+) -> None:
     setting = scene(alpha, point(x, w))
     for arithmetic in ("exact", "enclosed", "fast"):
         by_impacts = orbit(setting, arithmetic, count, impacts=True)
@@ -85,7 +101,11 @@ def test_whole_flights_and_leaps_equal_single_steps_holds(alpha: Fraction, x: Fr
 def test_enclosed_orbits_of_a_million_steps_holds() -> None:
     for alpha, x, w in (("3/10", 1000, -41), ("1/2", 3, -2), ("9/10", 0, "1/10")):
         row = orbit(scene(alpha, point(x, w)), "enclosed", 10**6).row(0)
-        assert (row.end, row.periods) == ("reached", 10**6) and row.error is not None and max(row.error) <= RADIUS
+        assert (
+            (row.end, row.periods) == ("reached", 10**6)
+            and row.error is not None
+            and max(row.error) <= RADIUS
+        )
     whole = orbit(scene("3/10", point(1000, -41)), "enclosed", 10**6).row(0)
     exact = orbit(scene("3/10", point(1000, -41)), "exact", 10**6).row(0)
     assert holds(whole, exact) and (whole.periods, whole.impacts) == (10**6, exact.impacts)
@@ -96,28 +116,41 @@ def test_enclosed_orbits_of_a_million_steps_holds() -> None:
 def test_energies_from_tiny_to_huge_hold() -> None:
     for power in (-300, -30, 0, 30, 300):
         setting = scene("3/10", point(Fraction(10) ** power / 2, 1))
-        exact, balls = (orbit(setting, kind, 4, impacts=True).row(0) for kind in ("exact", "enclosed"))
+        exact, balls = (
+            orbit(setting, kind, 4, impacts=True).row(0) for kind in ("exact", "enclosed")
+        )
         assert balls.end == "reached" and balls.periods == exact.periods and holds(balls, exact)
     assert exact.periods > 10**150
 
 
 @settings(max_examples=60, deadline=None)
 @given(alpha=alphas, w=st.fractions(-6, 6, max_denominator=6), flown=st.integers(0, 9), count=steps)
-def test_every_state_on_the_edge_is_counted_holds(alpha: Fraction, w: Fraction, flown: int, count: int) -> None:
+def test_every_state_on_the_edge_is_counted_holds(
+    alpha: Fraction, w: Fraction, flown: int, count: int
+) -> None:
     x, w = flight(w, w, -flown)  # on x = w after so many periods, if they are flown
     if x < 0:
         return
     setting = scene(alpha, point(x, w))
     kept = orbit(setting, "exact", count, keep=True)
-    here = sum(row.x == row.w for row in kept.history(0)[:-1])  # the last state is not asked for its branch
-    assert here == kept.tracks[0].edges == orbit(setting, "exact", count).tracks[0].edges == orbit(setting, "enclosed", count).tracks[0].edges
+    here = sum(
+        row.x == row.w for row in kept.history(0)[:-1]
+    )  # the last state is not asked for its branch
+    assert (
+        here
+        == kept.tracks[0].edges
+        == orbit(setting, "exact", count).tracks[0].edges
+        == orbit(setting, "enclosed", count).tracks[0].edges
+    )
 
 
 def test_states_on_the_edge_are_proved_to_be_there_holds() -> None:
     found = orbit(scene("1/3", point(0, 3)), "enclosed", 1000)
     assert found.tracks[0].edges == 500 and (found.row(0).x, found.row(0).w) == (0, 3)
     beside = orbit(scene(Fraction(1, 3) - Fraction(1, 10**300), point(0, 3)), "enclosed", 1000)
-    assert beside.tracks[0].edges == 0 and abs(float(beside.row(0).x) - 0.375) < 1e-12  # e_1, not e_2
+    assert (
+        beside.tracks[0].edges == 0 and abs(float(beside.row(0).x) - 0.375) < 1e-12
+    )  # e_1, not e_2
     # The margin is 10^-3000: far more bits than one begins with, and no edge.
     near = orbit(scene("1/2", point(1 - Fraction(1, 10**3000), 1)), "enclosed", 1, precision=2)
     assert near.tracks[0].edges == 0 and near.row(0).impacts == 1
@@ -130,12 +163,16 @@ def test_exact_numbers_that_grow_too_long_end_the_orbit_holds() -> None:
     leap = orbit(scene("3/10", point(0, 1)), "exact", 10**18).row(0)
     assert leap.end == "too long" and leap.periods == 0
     short = orbit(scene("97/100", point(1, -4)), "enclosed", 10**4, most_bits=128)
-    assert short.row(0).end in ("undecided", "reached") and all(period <= 10**4 for _, period in short.undecided)
+    assert short.row(0).end in ("undecided", "reached") and all(
+        period <= 10**4 for _, period in short.undecided
+    )
 
 
 def test_the_trap_ends_an_orbit_where_it_is_entered_holds() -> None:
     for kind in ("exact", "enclosed", "mp", "fast"):
-        row = orbit(scene("3/10", point(1000, -41)), kind, 1000, impacts=True, until_trap=True).row(0)
+        row = orbit(scene("3/10", point(1000, -41)), kind, 1000, impacts=True, until_trap=True).row(
+            0
+        )
         assert (row.end, row.periods, row.impacts) == ("trap", 87, 3)
     never = orbit(scene("1/3", point(0, 3)), "exact", 50, impacts=True, until_trap=True).row(0)
     assert never.end == "reached" and never.impacts == 50
@@ -147,7 +184,9 @@ def test_boundary_of_the_region_holds() -> None:
     level = region()(alpha)
     for index in range(starts.count):
         x, w = starts.exact(index)
-        assert x >= 0 and (formulas().energy(x, w) == level or (x == 0 and formulas().energy(x, w) < level))
+        assert x >= 0 and (
+            formulas().energy(x, w) == level or (x == 0 and formulas().energy(x, w) < level)
+        )
     assert sum(formulas().energy(*starts.exact(index)) == level for index in range(11)) == 6
 
 
@@ -171,7 +210,15 @@ def test_physical_units_are_the_same_orbit_holds() -> None:
 @settings(max_examples=20, deadline=None)
 @given(data=st.data(), low=st.integers(0, 39), size=st.integers(1, 40))
 def test_starts_are_the_same_in_every_block_holds(data: st.DataObject, low: int, size: int) -> None:
-    starts = data.draw(st.sampled_from([random(40, 7), grid((0, "10/3", 8), (-1, "1/7", 5)), listed([(k, -k) for k in range(40)])]))
+    starts = data.draw(
+        st.sampled_from(
+            [
+                random(40, 7),
+                grid((0, "10/3", 8), (-1, "1/7", 5)),
+                listed([(k, -k) for k in range(40)]),
+            ]
+        )
+    )
     high = min(low + size, 40)
     assume(low < high)
     whole, part = starts.block(0, 40), starts.block(low, high)
@@ -179,10 +226,17 @@ def test_starts_are_the_same_in_every_block_holds(data: st.DataObject, low: int,
     for index in range(low, high):
         x, w = starts.exact(index)
         assert abs(Fraction(float(whole[0][index])) - x) <= Fraction(float(whole[2][index]))
-        assert abs(Fraction(float(whole[1][index])) - w) <= Fraction(float(whole[3][index])) and x >= 0
+        assert (
+            abs(Fraction(float(whole[1][index])) - w) <= Fraction(float(whole[3][index])) and x >= 0
+        )
 
 
 @pytest.mark.parametrize("kind", ["exact", "enclosed", "mp", "fast"])
 def test_no_steps_leave_the_start_holds(kind: str) -> None:
     row = orbit(scene("1/3", point("1/2", "-1/4")), kind, 0).row(0)
-    assert (float(row.x), float(row.w), row.periods, row.end) == (0.5, -0.25, 0, "reached") and math.isfinite(float(row.x))
+    assert (float(row.x), float(row.w), row.periods, row.end) == (
+        0.5,
+        -0.25,
+        0,
+        "reached",
+    ) and math.isfinite(float(row.x))

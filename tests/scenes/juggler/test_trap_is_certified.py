@@ -1,4 +1,5 @@
-"""The trap of the scene, which holds for every alpha, is certified by the checker: it is mapped into itself and every state of it strikes."""
+"""The trap of the scene, which holds for every alpha, is certified by the checker: it is mapped
+into itself and every state of it strikes."""
 
 from __future__ import annotations
 

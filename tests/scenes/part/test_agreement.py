@@ -1,4 +1,5 @@
-"""The fast integrator against the slow reference: the same impacts before chaos parts them, and an error that falls with the tolerance."""
+"""The fast integrator against the slow reference: the same impacts before chaos parts them, and an
+error that falls with the tolerance."""
 
 from __future__ import annotations
 
@@ -16,14 +17,31 @@ from scenes.part.reference import Chatter, State, dropped, reference_orbit, sett
 from scenes.part.strike import strike
 
 UNTIL = 0.2
-MODES = ("sliding", "sticking-in-compression", "sticking-in-restitution", "reversed-in-compression", "reversed-in-restitution")
+MODES = (
+    "sliding",
+    "sticking-in-compression",
+    "sticking-in-restitution",
+    "reversed-in-compression",
+    "reversed-in-restitution",
+)
 TO_REFERENCE = (2, 3, 0, 1)
 TOLERANCES = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6)
-TABLES: tuple[dict[str, float], ...] = ({"A_y": 0.0002, "f_y": 60.0, "A_x": 0.002, "f_x": 15.0},
-          {"A_y": 0.0002, "f_y": 60.0, "A_x": 0.001, "f_x": 60.0},
-          {"A_y": 0.0, "A_x": 0.001, "f_x": 30.0}, {"A_y": 0.0005, "f_y": 30.0, "phase_y": 1.0})
-STARTS = tuple((table, e, mu, theta, omega) for table in TABLES for e, mu, theta, omega in
-               ((0.7, 0.08, 0.3, 0.0), (0.7, 0.5, 1.1, 0.0), (0.9, 0.08, 0.7, 40.0), (0.8, 1.2, -0.4, 5.0)))
+TABLES: tuple[dict[str, float], ...] = (
+    {"A_y": 0.0002, "f_y": 60.0, "A_x": 0.002, "f_x": 15.0},
+    {"A_y": 0.0002, "f_y": 60.0, "A_x": 0.001, "f_x": 60.0},
+    {"A_y": 0.0, "A_x": 0.001, "f_x": 30.0},
+    {"A_y": 0.0005, "f_y": 30.0, "phase_y": 1.0},
+)
+STARTS = tuple(
+    (table, e, mu, theta, omega)
+    for table in TABLES
+    for e, mu, theta, omega in (
+        (0.7, 0.08, 0.3, 0.0),
+        (0.7, 0.5, 1.1, 0.0),
+        (0.9, 0.08, 0.7, 40.0),
+        (0.8, 1.2, -0.4, 5.0),
+    )
+)
 
 
 @cache
@@ -62,10 +80,13 @@ def fast(which: int, tolerance: float) -> list[tuple[int, str, Any]]:
 
 
 def errors(which: int, tolerance: float) -> list[float]:
-    """How far the states after the impacts are from the reference's: times, places and speeds in seconds and metres, angles times half a diagonal."""
+    """How far the states after the impacts are from the reference's: times, places and speeds in
+    seconds and metres, angles times half a diagonal."""
     scale = np.array([1, 1, 1, math.hypot(0.01, 0.02), 1, 1, math.hypot(0.01, 0.02)])
-    return [float(np.abs((ours[2] - np.array([float(one) for one in event.after])) * scale).max())
-            for ours, event in zip(fast(which, tolerance), by_reference(which)[1])]
+    return [
+        float(np.abs((ours[2] - np.array([float(one) for one in event.after])) * scale).max())
+        for ours, event in zip(fast(which, tolerance), by_reference(which)[1])
+    ]
 
 
 @pytest.mark.parametrize("which", range(len(STARTS)))
@@ -74,14 +95,20 @@ def test_fast_has_the_impacts_of_the_reference_holds(which: int) -> None:
     ours = fast(which, 1e-12)
     whole = len(events) > 4
     assert len(events) >= 2 and (len(ours) == len(events) or not whole and len(ours) >= len(events))
-    assert [(corner, mode) for corner, mode, _ in ours[: len(events)]] == [(event.corner, event.mode) for event in events]
+    assert [(corner, mode) for corner, mode, _ in ours[: len(events)]] == [
+        (event.corner, event.mode) for event in events
+    ]
     assert max(errors(which, 1e-12)) < 1e-10
 
 
 def test_error_falls_with_the_tolerance_holds() -> None:
-    """After the fourth impact, in the median over the starts: by Newton's last step with its square, until rounding is all that is left."""
+    """After the fourth impact, in the median over the starts: by Newton's last step with its
+    square, until rounding is all that is left."""
     chosen = [which for which in range(len(STARTS)) if len(by_reference(which)[1]) >= 4]
     assert len(chosen) >= 10
-    found = [float(np.median([errors(which, tolerance)[3] for which in chosen])) for tolerance in TOLERANCES]
+    found = [
+        float(np.median([errors(which, tolerance)[3] for which in chosen]))
+        for tolerance in TOLERANCES
+    ]
     slope = np.polyfit(np.log(TOLERANCES[3:]), np.log(found[3:]), 1)[0]
     assert slope > 1.7 and max(found[:3]) < 1e-13 and found[3] < 1e-11, (slope, found)

@@ -1,4 +1,5 @@
-"""The animation is one file that shows the simulated states, asks for nothing, and is moved by slider, keys and button."""
+"""The animation is one file that shows the simulated states, asks for nothing, and is moved by
+slider, keys and button."""
 
 from __future__ import annotations
 
@@ -65,9 +66,15 @@ def unvaried(text: str) -> list[int]:
 
 
 def test_states_are_those_simulated_to_half_a_unit_holds() -> None:
-    given = json.loads(next(one.text() for one in document().all("script") if one.attributes.get("id") == "states"))
+    given = json.loads(
+        next(one.text() for one in document().all("script") if one.attributes.get("id") == "states")
+    )
     assert (given["frames"], given["blocks"], given["rate"]) == (181, 91, 60)
-    for name, column, unit in (("X", body.X, LENGTH), ("Y", body.Y, LENGTH), ("theta", body.THETA, ANGLE)):
+    for name, column, unit in (
+        ("X", body.X, LENGTH),
+        ("Y", body.Y, LENGTH),
+        ("theta", body.THETA, ANGLE),
+    ):
         places = np.cumsum(np.array(unvaried(given[name])).reshape(181, 91), axis=0) * unit
         assert np.abs(places - seen()[:, :, column]).max() <= unit / 2 * (1 + 1e-9)
 
@@ -83,12 +90,23 @@ def test_file_is_small_and_the_same_from_run_to_run_holds() -> None:
 
 def test_nothing_is_fetched_holds() -> None:
     assert not list(document().all("link", "img", "iframe", "object", "embed", "base"))
-    assert not [name for one in document().all() for name in one.attributes if name in ("src", "href", "style") or name.startswith("on")]
+    assert not [
+        name
+        for one in document().all()
+        for name in one.attributes
+        if name in ("src", "href", "style") or name.startswith("on")
+    ]
     assert not re.findall(rb"https?://|@import|url\(", page())
-    policy = next(one.attributes["content"] for one in document().all("meta") if "Content-Security-Policy" in one.attributes.get("http-equiv", ""))
+    policy = next(
+        one.attributes["content"]
+        for one in document().all("meta")
+        if "Content-Security-Policy" in one.attributes.get("http-equiv", "")
+    )
     style = next(document().all("style")).text()
     script = next(one.text() for one in document().all("script") if "type" not in one.attributes)
-    assert policy.startswith(f"default-src 'none'; style-src '{digest(style)}'; script-src '{digest(script)}';")
+    assert policy.startswith(
+        f"default-src 'none'; style-src '{digest(style)}'; script-src '{digest(script)}';"
+    )
 
 
 @pytest.mark.parametrize("horizon", [0.0, -1.0, 61.0, nan])
@@ -113,7 +131,9 @@ def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
 
 def opened(driver: Any, motion: str = "reduce") -> Any:
     """The page, loaded anew."""
-    driver.execute_cdp_cmd(MEDIA, {"media": "", "features": [{"name": "prefers-reduced-motion", "value": motion}]})
+    driver.execute_cdp_cmd(
+        MEDIA, {"media": "", "features": [{"name": "prefers-reduced-motion", "value": motion}]}
+    )
     resize(driver, 1000, 1000)
     driver.get("about:blank")
     driver.get_log("browser")
@@ -136,7 +156,11 @@ def pixels(driver: Any) -> str:
 
 
 def slide(driver: Any, time: float) -> None:
-    driver.execute_script("const s = document.getElementById('time'); s.value = arguments[0]; s.dispatchEvent(new Event('input'));", str(time))
+    driver.execute_script(
+        "const s = document.getElementById('time'); s.value = arguments[0]; s.dispatchEvent(new"
+        " Event('input'));",
+        str(time),
+    )
 
 
 def press(driver: Any, key: str) -> None:
@@ -169,11 +193,19 @@ def test_blocks_are_drawn_where_they_are_holds(driver: Any) -> None:
     opened(driver)
     for frame in (0, 30):
         slide(driver, TIMES[frame])
-        drawn = driver.execute_script("""
+        drawn = driver.execute_script(
+            """
           const pen = document.getElementById("picture").getContext("2d"), m = pen.getTransform();
           return arguments[0].map(([x, y]) => [...pen.getImageData(m.a * x + m.e, m.d * y + m.f, 1, 1).data.slice(0, 3)]);""",
-                                      [[(k % 10) * pitch(), (k // 10) * pitch() + seen()[frame, k, body.Y]] for k in range(91)])
-        assert drawn == [[0xC7, 0xDF, 0xEE] if down else [0xD5, 0x5E, 0x00] for down in lying(SETTING, seen()[frame])]
+            [
+                [(k % 10) * pitch(), (k // 10) * pitch() + seen()[frame, k, body.Y]]
+                for k in range(91)
+            ],
+        )
+        assert drawn == [
+            [0xC7, 0xDF, 0xEE] if down else [0xD5, 0x5E, 0x00]
+            for down in lying(SETTING, seen()[frame])
+        ]
 
 
 def pitch() -> float:
@@ -186,7 +218,13 @@ def test_keys_move_time_holds(driver: Any) -> None:
     from selenium.webdriver.common.keys import Keys
 
     opened(driver)
-    for key, frame in ((Keys.ARROW_RIGHT, 1), (Keys.PAGE_UP, 16), (Keys.ARROW_LEFT, 15), (Keys.END, 180), (Keys.HOME, 0)):
+    for key, frame in (
+        (Keys.ARROW_RIGHT, 1),
+        (Keys.PAGE_UP, 16),
+        (Keys.ARROW_LEFT, 15),
+        (Keys.END, 180),
+        (Keys.HOME, 0),
+    ):
         press(driver, key)
         assert told(driver) == words(frame)
     press(driver, " ")
@@ -200,10 +238,14 @@ def test_plays_to_the_end_and_again_holds(driver: Any) -> None:
 
     opened(driver)
     slide(driver, 2.8)
-    driver.execute_script("document.getElementById('speed').value = '2'; document.getElementById('play').click();")
+    driver.execute_script(
+        "document.getElementById('speed').value = '2'; document.getElementById('play').click();"
+    )
     WebDriverWait(driver, 20).until(lambda _: told(driver) == words(180))
     assert driver.execute_script("return document.getElementById('play').textContent") == "Play"
-    driver.execute_script("document.getElementById('speed').value = '0.05'; document.getElementById('play').click();")
+    driver.execute_script(
+        "document.getElementById('speed').value = '0.05'; document.getElementById('play').click();"
+    )
     WebDriverWait(driver, 20).until(lambda _: told(driver).startswith("0."))
     assert driver.execute_script("return document.getElementById('play').textContent") == "Pause"
 
@@ -212,7 +254,10 @@ def test_moves_by_itself_only_where_motion_is_not_to_be_reduced_holds(driver: An
     from selenium.webdriver.support.ui import WebDriverWait
 
     opened(driver)
-    still = driver.execute_async_script("const done = arguments[0]; setTimeout(() => done(document.getElementById('told').textContent), 300);")
+    still = driver.execute_async_script(
+        "const done = arguments[0]; setTimeout(() =>"
+        " done(document.getElementById('told').textContent), 300);"
+    )
     assert still == words(0)
     opened(driver, "no-preference")
     WebDriverWait(driver, 20).until(lambda _: told(driver) != words(0))
@@ -228,11 +273,26 @@ def test_drift_is_shown_when_asked_for_holds(driver: Any) -> None:
 
 def test_readers_who_do_not_see_are_told_what_things_are_holds(driver: Any) -> None:
     opened(driver)
-    label = driver.execute_script("return document.getElementById('picture').getAttribute('aria-label')")
-    assert label.startswith("91 rectangles in rows bounce and turn") and f"{int((~lying(SETTING, seen()[-1])).sum())} after 3 s" in label
-    assert driver.execute_script("return document.getElementById('time').getAttribute('aria-valuetext')") == words(0)
-    assert driver.execute_script("return document.getElementById('told').getAttribute('aria-live')") == "polite"
-    assert all(driver.execute_script("return [...document.querySelectorAll('input, select')].map((one) => one.labels.length === 1)"))
+    label = driver.execute_script(
+        "return document.getElementById('picture').getAttribute('aria-label')"
+    )
+    assert (
+        label.startswith("91 rectangles in rows bounce and turn")
+        and f"{int((~lying(SETTING, seen()[-1])).sum())} after 3 s" in label
+    )
+    assert driver.execute_script(
+        "return document.getElementById('time').getAttribute('aria-valuetext')"
+    ) == words(0)
+    assert (
+        driver.execute_script("return document.getElementById('told').getAttribute('aria-live')")
+        == "polite"
+    )
+    assert all(
+        driver.execute_script(
+            "return [...document.querySelectorAll('input, select')].map((one) => one.labels.length"
+            " === 1)"
+        )
+    )
 
 
 def test_fits_a_phone_holds(driver: Any) -> None:

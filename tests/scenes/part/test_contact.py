@@ -1,4 +1,5 @@
-"""Contact that lasts: pivots, which stick or slide, and faces at rest, against mechanics in many digits; coming to rest adds no energy."""
+"""Contact that lasts: pivots, which stick or slide, and faces at rest, against mechanics in many
+digits; coming to rest adds no energy."""
 
 from __future__ import annotations
 
@@ -25,11 +26,21 @@ def place(block: Any, i: int, theta: Any, lib: Any = math) -> tuple[Any, Any]:
     return x * block.a * c - y * block.b * s, x * block.a * s + y * block.b * c
 
 
-def pivoting(block: Any, i: int, theta: float, omega: float, slide: float = 0.0, speed: float = 0.0) -> Any:
+def pivoting(
+    block: Any, i: int, theta: float, omega: float, slide: float = 0.0, speed: float = 0.0
+) -> Any:
     """A block at time 0 with corner i on the table; the corner slides at `speed`."""
     p = block.parameters()
     x, y = place(block, i, theta)
-    z = moving(block, 0.0, 1.0, theta, body.table_glide(p, 0.0) + speed + omega * y, body.table_rise(p, 0.0) - omega * x, omega)[0]
+    z = moving(
+        block,
+        0.0,
+        1.0,
+        theta,
+        body.table_glide(p, 0.0) + speed + omega * y,
+        body.table_rise(p, 0.0) - omega * x,
+        omega,
+    )[0]
     z[body.X], z[body.Y] = body.table_place(p, 0.0) - x, body.table_height(p, 0.0) - y
     z[body.MODE], z[body.CORNER], z[body.SLIDE] = body.PIVOT, i, slide
     return z
@@ -38,7 +49,15 @@ def pivoting(block: Any, i: int, theta: float, omega: float, slide: float = 0.0,
 def lying(block: Any, speed: float = 0.0, slide: float = 0.0, turns: int = 0) -> Any:
     """A block on a face at time 0, sliding at `speed`."""
     p = block.parameters()
-    z = moving(block, 0.0, 1.0, turns * math.pi / 2, body.table_glide(p, 0.0) + speed, body.table_rise(p, 0.0), 0.0)[0]
+    z = moving(
+        block,
+        0.0,
+        1.0,
+        turns * math.pi / 2,
+        body.table_glide(p, 0.0) + speed,
+        body.table_rise(p, 0.0),
+        0.0,
+    )[0]
     z[body.Y] = body.table_height(p, 0.0) + (block.a if turns % 2 else block.b)
     z[body.MODE], z[body.CORNER], z[body.SLIDE] = body.FACE, turns, slide
     return z
@@ -62,19 +81,28 @@ def test_sticking_pivot_on_a_still_table_keeps_the_energy_holds(tolerance: float
 
 
 def by_newton(block: Any, z: Any, i: int, slide: int, until: Any) -> Any:
-    """(X, V_X, theta, omega) by Newton and Euler with the constraint, its forces eliminated by linear algebra; as a function of time."""
+    """(X, V_X, theta, omega) by Newton and Euler with the constraint, its forces eliminated by
+    linear algebra; as a function of time."""
     lib = mpmath
-    g, k2, mu = lib.mpf(block.g), (lib.mpf(block.a) ** 2 + lib.mpf(block.b) ** 2) / 3, lib.mpf(block.mu)
+    g, k2, mu = (
+        lib.mpf(block.g),
+        (lib.mpf(block.a) ** 2 + lib.mpf(block.b) ** 2) / 3,
+        lib.mpf(block.mu),
+    )
     wx, wy = 2 * lib.pi * block.f_x, 2 * lib.pi * block.f_y
 
     def forces(t: Any, theta: Any, omega: Any) -> Any:
         x, y = place(block, i, theta, lib)
         lift = -block.A_y * wy**2 * lib.sin(wy * t + block.phase_y)
         push = -block.A_x * wx**2 * lib.sin(wx * t + block.phase_x)
-        # unknown F, N, alpha; x'' and y'' of the corner are X'' - y alpha - x omega^2 and Y'' + x alpha - y omega^2
+        # unknown F, N, alpha; x'' and y'' of the corner are X'' - y alpha - x omega^2 and Y'' + x
+        # alpha - y omega^2
         last = [1, 0, -y] if slide == 0 else [1, slide * mu, 0]
         right = push + x * omega**2 if slide == 0 else lib.mpf(0)
-        return lib.lu_solve(lib.matrix([[0, 1, x], [-y / k2, x / k2, -1], last]), lib.matrix([lift + g + y * omega**2, 0, right]))
+        return lib.lu_solve(
+            lib.matrix([[0, 1, x], [-y / k2, x / k2, -1], last]),
+            lib.matrix([lift + g + y * omega**2, 0, right]),
+        )
 
     def rates(t: Any, state: Any) -> Any:
         _, v, theta, omega = state
@@ -82,7 +110,15 @@ def by_newton(block: Any, z: Any, i: int, slide: int, until: Any) -> Any:
         return [v, along, omega, alpha]
 
     start = [z[body.X], z[body.V_X], z[body.THETA], z[body.OMEGA]]
-    return mpmath.odefun(rates, z[body.TIME], [mpmath.mpf(float(one)) for one in start], tol=mpmath.mpf(10) ** -17), forces
+    return (
+        mpmath.odefun(
+            rates,
+            z[body.TIME],
+            [mpmath.mpf(float(one)) for one in start],
+            tol=mpmath.mpf(10) ** -17,
+        ),
+        forces,
+    )
 
 
 def state_of(z: Any) -> Any:
@@ -95,9 +131,16 @@ def test_sliding_pivot_is_that_of_newton_and_euler_holds(slide: int) -> None:
     z = pivoting(block, 0, 0.6, -1.0, slide, slide * 0.3)
     with mpmath.workdps(20):
         exact, _ = by_newton(block, z, 0, slide, 0.02)
-        assert pivot(block.parameters(), z, 0.02, fresh_notes(1)[0]) == body.DONE and z[body.SLIDE] == slide and z[body.TIME] == 0.02
+        assert (
+            pivot(block.parameters(), z, 0.02, fresh_notes(1)[0]) == body.DONE
+            and z[body.SLIDE] == slide
+            and z[body.TIME] == 0.02
+        )
         x, v, theta, omega = np.abs(state_of(z) - np.array([float(one) for one in exact(0.02)]))
-        assert max(x, theta * math.hypot(block.a, block.b)) < 5e-12 and max(v, omega * math.hypot(block.a, block.b)) < 2e-10
+        assert (
+            max(x, theta * math.hypot(block.a, block.b)) < 5e-12
+            and max(v, omega * math.hypot(block.a, block.b)) < 2e-10
+        )
 
 
 def test_sticking_pivot_slips_when_friction_is_used_up_holds() -> None:
@@ -119,8 +162,13 @@ def test_sticking_pivot_slips_when_friction_is_used_up_holds() -> None:
         for one, until in ((before, float(slips) - 1e-11), (after, float(slips) + 1e-11)):
             assert pivot(block.parameters(), one, until, fresh_notes(1)[0]) == body.DONE
         assert before[body.SLIDE] == 0 and after[body.SLIDE] != 0
-        x, v, theta, omega = np.abs(state_of(before) - np.array([float(one) for one in exact(before[body.TIME])]))
-        assert max(x, theta * math.hypot(block.a, block.b)) < 5e-12 and max(v, omega * math.hypot(block.a, block.b)) < 2e-10
+        x, v, theta, omega = np.abs(
+            state_of(before) - np.array([float(one) for one in exact(before[body.TIME])])
+        )
+        assert (
+            max(x, theta * math.hypot(block.a, block.b)) < 5e-12
+            and max(v, omega * math.hypot(block.a, block.b)) < 2e-10
+        )
 
 
 def test_pivot_lands_flat_with_both_corners_on_the_table_holds() -> None:
@@ -137,16 +185,29 @@ def test_face_leaves_when_the_table_falls_as_fast_as_the_block_holds() -> None:
     assert lie(block.parameters(), z, 1.0, fresh_notes(1)[0]) == body.DONE
     wy = 2 * math.pi * 60
     assert z[body.MODE] == body.FLIGHT
-    assert z[body.TIME] == pytest.approx((math.asin(9.81 / (2e-4 * wy**2)) - 5.0 + 2 * math.pi) / wy, abs=1e-15)
+    assert z[body.TIME] == pytest.approx(
+        (math.asin(9.81 / (2e-4 * wy**2)) - 5.0 + 2 * math.pi) / wy, abs=1e-15
+    )
     assert lift_off(scene(e=0.5, mu=0.3, A_y=6e-5).parameters(), 0.0) == 1e300  # 8.5 m/s^2
 
 
 def test_face_leaves_at_once_where_rounding_has_passed_the_time_to_holds() -> None:
     """Where it could tip too, and nothing pushes it to a side."""
-    block = scene(e=0.0, mu=1.2, b=0.01, A_y=6.514857454574451e-05, f_y=1000.0, phase_y=1.1821471600847224, g=100.0)
+    block = scene(
+        e=0.0,
+        mu=1.2,
+        b=0.01,
+        A_y=6.514857454574451e-05,
+        f_y=1000.0,
+        phase_y=1.1821471600847224,
+        g=100.0,
+    )
     p, z = block.parameters(), lying(block)
     z[body.TIME] = 0.4168180450698706
-    z[body.Y], z[body.V_Y] = 0.01 + body.table_height(p, z[body.TIME]), body.table_rise(p, z[body.TIME])
+    z[body.Y], z[body.V_Y] = (
+        0.01 + body.table_height(p, z[body.TIME]),
+        body.table_rise(p, z[body.TIME]),
+    )
     assert -1e-8 < 100 + body.table_lift(p, z[body.TIME]) < 0
     assert lie(p, z, 1.0, fresh_notes(1)[0]) == body.DONE and z[body.MODE] == body.FLIGHT
     assert follow(p, z, 0.5, fresh_notes(1)[0]) == body.DONE
@@ -157,7 +218,9 @@ def test_face_slips_and_stops_at_the_roots_of_its_forces_holds() -> None:
     p, (wx, wy) = block.parameters(), (2 * mpmath.pi * 60,) * 2
 
     def left(t: Any) -> Any:
-        return 0.3 * (9.81 - 2e-5 * wy**2 * mpmath.sin(wy * t + 1)) - abs(1e-4 * wx**2 * mpmath.sin(wx * t))
+        return 0.3 * (9.81 - 2e-5 * wy**2 * mpmath.sin(wy * t + 1)) - abs(
+            1e-4 * wx**2 * mpmath.sin(wx * t)
+        )
 
     with mpmath.workdps(30):
         slips = slip_time(p, 0.0, 1.0, 0.3)
@@ -170,12 +233,22 @@ def test_face_slips_and_stops_at_the_roots_of_its_forces_holds() -> None:
         start = mpmath.mpf(slips)
 
         def speed(t: Any) -> Any:
-            glide, rise = (A * w * (mpmath.cos(w * t + phase) - mpmath.cos(w * start + phase)) for A, w, phase in
-                           ((1e-4, wx, 0), (2e-5, wy, 1)))
+            glide, rise = (
+                A * w * (mpmath.cos(w * t + phase) - mpmath.cos(w * start + phase))
+                for A, w, phase in ((1e-4, wx, 0), (2e-5, wy, 1))
+            )
             return -slide * glide - 0.3 * (9.81 * (t - start) + rise)
 
-        assert stops - slips > 1e-3 and all(speed(start + (stops - start) * k / 200) > 0 for k in range(1, 199))
-        assert abs(mpmath.findroot(speed, (stops - 1e-5, stops + 1e-5), solver="anderson", tol=1e-40) - stops) < 1e-11
+        assert stops - slips > 1e-3 and all(
+            speed(start + (stops - start) * k / 200) > 0 for k in range(1, 199)
+        )
+        assert (
+            abs(
+                mpmath.findroot(speed, (stops - 1e-5, stops + 1e-5), solver="anderson", tol=1e-40)
+                - stops
+            )
+            < 1e-11
+        )
 
 
 def test_face_slides_as_the_integral_of_its_forces_holds() -> None:
@@ -189,14 +262,19 @@ def test_face_slides_as_the_integral_of_its_forces_holds() -> None:
 
     lost = 0.3 * mpmath.quad(normal, [0, 0.01])
     moved = 0.3 * mpmath.quad(lambda t: (mpmath.mpf("0.01") - t) * normal(t), [0, 0.01])
-    assert abs(start[body.V_X] - lost - z[body.V_X]) < 1e-14 and abs(start[body.V_X] * 0.01 - moved - z[body.X]) < 1e-15
+    assert (
+        abs(start[body.V_X] - lost - z[body.V_X]) < 1e-14
+        and abs(start[body.V_X] * 0.01 - moved - z[body.X]) < 1e-15
+    )
 
 
 def test_face_that_friction_cannot_hold_does_not_stick_holds() -> None:
     """It comes to lie while the table pushes harder than friction can, and ever less."""
     block = scene(e=0.5, mu=0.1, A_x=1e-3, f_x=60.0, phase_x=2.0, A_y=0.0)
     p, z = block.parameters(), lying(block)
-    assert abs(body.table_push(p, 0.0)) > 0.1 * 9.81 and body.table_push(p, 1e-5) > body.table_push(p, 0.0)
+    assert abs(body.table_push(p, 0.0)) > 0.1 * 9.81 and body.table_push(p, 1e-5) > body.table_push(
+        p, 0.0
+    )
     assert slip_time(p, 0.0, 1.0, 0.1) == 0
     speed = z[body.V_X]
     assert lie(p, z, 1e-4, fresh_notes(1)[0]) == body.DONE
@@ -207,7 +285,11 @@ def test_face_that_rests_for_long_does_not_run_out_of_steps_holds() -> None:
     block = scene(e=0.5, mu=0.3, A_x=2e-6, f_x=60.0, A_y=6e-5, tolerance=1e-9)
     p, z, notes = block.parameters(), lying(block, turns=1), fresh_notes(1)[0]
     assert follow(p, z, 3000.0, notes) == body.DONE
-    assert z[body.MODE] == body.FACE and abs(z[body.X] - 2e-6 * math.sin(120 * math.pi * 3000)) < 1e-9 and notes[body.IMPACTS] == 0
+    assert (
+        z[body.MODE] == body.FACE
+        and abs(z[body.X] - 2e-6 * math.sin(120 * math.pi * 3000)) < 1e-9
+        and notes[body.IMPACTS] == 0
+    )
 
 
 def test_coming_to_lie_adds_no_energy_and_takes_at_most_what_is_stated_holds() -> None:
@@ -224,7 +306,9 @@ def test_coming_to_lie_adds_no_energy_and_takes_at_most_what_is_stated_holds() -
             before = kinetic(block, z)
             lie_down(p, z, 0.0, 0.0, 0.0, notes)
             assert 0 <= before - kinetic(block, z) <= most * (1 + 1e-12)
-            assert notes[body.LARGEST_REMOVED] == pytest.approx(before - kinetic(block, z), abs=1e-18)
+            assert notes[body.LARGEST_REMOVED] == pytest.approx(
+                before - kinetic(block, z), abs=1e-18
+            )
 
 
 @pytest.mark.parametrize("tolerance, mu", [(1e-12, 0.08), (1e-12, 1.2), (1e-8, 0.3)])

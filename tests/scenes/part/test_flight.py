@@ -1,4 +1,5 @@
-"""Flights end at the first corner that meets the table: no meeting is stepped over, and no corner gets below the tolerance's negative."""
+"""Flights end at the first corner that meets the table: no meeting is stepped over, and no corner
+gets below the tolerance's negative."""
 
 from __future__ import annotations
 
@@ -21,17 +22,43 @@ TO_REFERENCE = (2, 3, 0, 1)  # the corner's number there
 
 
 def flights(count: int, tolerance: float) -> list[tuple[Any, Any]]:
-    """Scenes and states in flight: some spin fast, some are near the table, some graze it, some are flat."""
+    """Scenes and states in flight: some spin fast, some are near the table, some graze it, some are
+    flat."""
     dice = np.random.default_rng(7)
     found = []
     for _ in range(count):
         b = dice.choice([0.01, 0.02, 0.2])
-        block = scene(a=0.01, b=b, e=0.7, mu=0.1, A_y=dice.choice([0.0, 2e-4, 2e-3]), f_y=dice.choice([15.0, 60.0]), phase_y=dice.uniform(0, 6),
-                      tolerance=tolerance)
+        block = scene(
+            a=0.01,
+            b=b,
+            e=0.7,
+            mu=0.1,
+            A_y=dice.choice([0.0, 2e-4, 2e-3]),
+            f_y=dice.choice([15.0, 60.0]),
+            phase_y=dice.uniform(0, 6),
+            tolerance=tolerance,
+        )
         theta = dice.choice([dice.uniform(-7, 7), 0.0, math.pi / 2])
-        lowest = 0.01 * abs(math.sin(theta)) + b * abs(math.cos(theta)) + body.table_height(block.parameters(), 0.0)
+        lowest = (
+            0.01 * abs(math.sin(theta))
+            + b * abs(math.cos(theta))
+            + body.table_height(block.parameters(), 0.0)
+        )
         height = dice.choice([1e-9, 1e-5, 1e-3, 1e-2])
-        found.append((block, moving(block, 0.0, lowest + height, theta, 0.1, dice.normal() * 0.3, dice.choice([0, 10, 100, 600]) * dice.normal())[0]))
+        found.append(
+            (
+                block,
+                moving(
+                    block,
+                    0.0,
+                    lowest + height,
+                    theta,
+                    0.1,
+                    dice.normal() * 0.3,
+                    dice.choice([0, 10, 100, 600]) * dice.normal(),
+                )[0],
+            )
+        )
     return found
 
 
@@ -41,7 +68,12 @@ def gaps(p: Any, z: Any, s: Any) -> Any:
     table = p[body.A_Y] * np.sin(p[body.W_Y] * (z[body.TIME] + s) + p[body.PHASE_Y])
     centre = z[body.Y] + z[body.V_Y] * s - p[body.G] * s * s / 2 - table
     a, b = p[body.HALF_SHORT], p[body.HALF_LONG]
-    return np.stack([centre + x * np.sin(theta) + y * np.cos(theta) for x, y in ((-a, -b), (a, -b), (a, b), (-a, b))])
+    return np.stack(
+        [
+            centre + x * np.sin(theta) + y * np.cos(theta)
+            for x, y in ((-a, -b), (a, -b), (a, b), (-a, b))
+        ]
+    )
 
 
 def flown(block: Any, start: Any) -> tuple[Any, float]:
@@ -68,9 +100,23 @@ def test_end_is_the_first_crossing_by_the_reference_holds() -> None:
     landed = 0
     for block, start in flights(60, 1e-12):
         z, _ = flown(block, start)
-        model = Model(setting(block.a, block.b, e=block.e, mu=block.mu, g=block.g, A_y=block.A_y, f_y=block.f_y, phase_y=block.phase_y), 30)
+        model = Model(
+            setting(
+                block.a,
+                block.b,
+                e=block.e,
+                mu=block.mu,
+                g=block.g,
+                A_y=block.A_y,
+                f_y=block.f_y,
+                phase_y=block.phase_y,
+            ),
+            30,
+        )
         flight = Flight(model, model.lifted(State(*map(float, start[:7]))))
-        met = first_crossing(flight.gaps, flight.bound(), flight.start.t, model.lift(UNTIL), model.noise)
+        met = first_crossing(
+            flight.gaps, flight.bound(), flight.start.t, model.lift(UNTIL), model.noise
+        )
         if met is None:
             assert z[body.TIME] == UNTIL
             continue
@@ -88,7 +134,9 @@ def test_flight_keeps_its_parabola_and_its_spin_holds() -> None:
         z, _ = flown(block, start)
         s = z[body.TIME] - start[body.TIME]
         assert z[body.X] == pytest.approx(start[body.X] + start[body.V_X] * s, abs=1e-15)
-        assert z[body.Y] == pytest.approx(start[body.Y] + start[body.V_Y] * s - 9.81 * s * s / 2, abs=1e-15)
+        assert z[body.Y] == pytest.approx(
+            start[body.Y] + start[body.V_Y] * s - 9.81 * s * s / 2, abs=1e-15
+        )
         assert (z[body.V_X], z[body.OMEGA]) == (start[body.V_X], start[body.OMEGA])
 
 
@@ -100,7 +148,10 @@ def test_safe_step_is_the_first_root_of_its_parabola_holds() -> None:
         step = safe_step(value, rate, fall)
         terms = value + abs(rate) * step + fall * step * step / 2
         assert step > 0 and abs(value + rate * step - fall * step * step / 2) <= 1e-14 * terms
-        assert all(value + rate * part * step - fall * (part * step) ** 2 / 2 > 0 for part in (0.1, 0.5, 0.9, 0.999))
+        assert all(
+            value + rate * part * step - fall * (part * step) ** 2 / 2 > 0
+            for part in (0.1, 0.5, 0.9, 0.999)
+        )
     assert safe_step(0.0, -1.0, 2.0) == 0.0 == safe_step(0.0, 0.0, 2.0)
 
 
@@ -113,10 +164,13 @@ def test_least_gap_is_seen_where_a_corner_starts_too_low() -> None:
 @pytest.mark.parametrize("depth", [0.0, 0.5, 0.89])
 @pytest.mark.parametrize("hop", [1e-1, 1e-3, 1e-6])
 def test_hop_below_the_tolerance_does_not_sink_the_corner_holds(depth: float, hop: float) -> None:
-    """It comes down to the height from which it set out, as fast as it went up: hops that sank a little each went through the table in time."""
+    """It comes down to the height from which it set out, as fast as it went up: hops that sank a
+    little each went through the table in time."""
     block = scene(a=0.01, b=0.02, e=0.5, mu=0.0, A_y=0.0, tolerance=1e-7)
     p, theta = block.parameters(), 0.3
-    up = math.sqrt(2 * block.g * hop * block.tolerance)  # the hop is this part of the tolerance high
+    up = math.sqrt(
+        2 * block.g * hop * block.tolerance
+    )  # the hop is this part of the tolerance high
     lowest = 0.01 * math.sin(theta) + 0.02 * math.cos(theta)
     z, notes = moving(block, 0.0, 1.0, theta, 0.0, up, 0.0)[0], fresh_notes(1)[0]
     z[body.Y] = lowest - depth * block.tolerance

@@ -28,12 +28,19 @@ def test_frames_are_of_the_orbit_without_stops_holds(setting: object) -> None:
     start = standing(setting, ANGLES)
     assert seen.shape == (5, 91, body.STATE) and (seen[0] == start).all()
     assert (seen[-1] == run(setting, start, times[-1]).states).all()
-    for frame, time in zip(seen, times):  # the last event before a stop may round otherwise: the stop cuts the step in which it is looked for
+    for frame, time in zip(
+        seen,
+        times,
+        # the last event before a stop may round otherwise: the stop cuts the step in which it is
+        # looked
+        # for
+    ):
         assert np.abs(frame - run(setting, start, time).states).max() < 1e-9
 
 
 def test_orbits_are_the_same_fails_without_one_orbit() -> None:
-    """Why frames are not runs from one time to the next: the stop rounds, and chaos makes that another orbit."""
+    """Why frames are not runs from one time to the next: the stop rounds, and chaos makes that
+    another orbit."""
     half = run(SHAKEN, standing(SHAKEN, ANGLES), 0.8)
     stopped = run(SHAKEN, half.states, 1.5, notes=half.notes).states
     assert np.abs(stopped - frames(SHAKEN, ANGLES, [1.5])[0]).max() > 1e-3

@@ -1,4 +1,5 @@
-"""The compiled impact law is the derived one: exactly, in all five modes, where the corner does not slide at first, and where friction jams it."""
+"""The compiled impact law is the derived one: exactly, in all five modes, where the corner does not
+slide at first, and where friction jams it."""
 
 from __future__ import annotations
 
@@ -15,10 +16,18 @@ import symbolic as s
 from scenes.part import impact
 from scenes.part.compiling import plain
 
-mode_of, first_slide, impulse = plain(impact.mode_of), plain(impact.first_slide), plain(impact.impulse)
-MODES = {impact.SLIDING: "sliding", impact.STICKING_IN_COMPRESSION: "sticking-in-compression", impact.STICKING_IN_RESTITUTION:
-         "sticking-in-restitution", impact.REVERSED_IN_COMPRESSION: "reversed-in-compression", impact.REVERSED_IN_RESTITUTION:
-         "reversed-in-restitution"}
+mode_of, first_slide, impulse = (
+    plain(impact.mode_of),
+    plain(impact.first_slide),
+    plain(impact.impulse),
+)
+MODES = {
+    impact.SLIDING: "sliding",
+    impact.STICKING_IN_COMPRESSION: "sticking-in-compression",
+    impact.STICKING_IN_RESTITUTION: "sticking-in-restitution",
+    impact.REVERSED_IN_COMPRESSION: "reversed-in-compression",
+    impact.REVERSED_IN_RESTITUTION: "reversed-in-restitution",
+}
 SYMBOLS = (s.S0, s.C0, s.B1, s.B2, s.B3, s.e, s.mu, s.sigma)
 
 
@@ -30,7 +39,8 @@ def as_function(which: str, mode: str = "") -> Any:
 
 
 def drawn(count: int) -> list[tuple[Fraction, ...]]:
-    """(S0, C0, B1, B2, B3, e, mu): (B1 - 1)(B2 - 1) = B3^2, C0 < 0; a third without sliding at first, a third near boundaries of modes."""
+    """(S0, C0, B1, B2, B3, e, mu): (B1 - 1)(B2 - 1) = B3^2, C0 < 0; a third without sliding at
+    first, a third near boundaries of modes."""
     dice = random.Random(1992)
 
     def number(low: int, high: int) -> Fraction:
@@ -38,12 +48,25 @@ def drawn(count: int) -> list[tuple[Fraction, ...]]:
 
     found: list[tuple[Fraction, ...]] = []
     while len(found) < count:
-        u, v, mu, e = number(-2, 2), number(0, 2), number(0, 2), dice.choice((Fraction(0), Fraction(1), number(0, 1)))
+        u, v, mu, e = (
+            number(-2, 2),
+            number(0, 2),
+            number(0, 2),
+            dice.choice((Fraction(0), Fraction(1), number(0, 1))),
+        )
         B1, B2, B3 = 1 + u * u, 1 + v * v, u * v
-        S0, C0 = (Fraction(0) if len(found) % 3 == 0 else number(-3, 3)), -number(0, 3) - Fraction(1, 12)
+        S0, C0 = (
+            (Fraction(0) if len(found) % 3 == 0 else number(-3, 3)),
+            -number(0, 3) - Fraction(1, 12),
+        )
         sigma = first_slide(S0, B1, B3, mu)
         if len(found) % 3 == 1 and S0 and B2 + sigma * mu * B3 > 0:
-            edge = (1 + e * dice.choice((0, Fraction(1, 3), Fraction(2, 3), 1))) * (mu * B1 + sigma * B3) * -C0 / (B2 + sigma * mu * B3)
+            edge = (
+                (1 + e * dice.choice((0, Fraction(1, 3), Fraction(2, 3), 1)))
+                * (mu * B1 + sigma * B3)
+                * -C0
+                / (B2 + sigma * mu * B3)
+            )
             S0 = sigma * edge if edge > 0 else S0
         found.append((S0, C0, B1, B2, B3, e, mu))
     return found
@@ -60,9 +83,14 @@ def test_impulse_is_the_derived_one_holds() -> None:
         if mode == impact.JAMMING:
             continue
         seen[MODES[mode] + (" from no sliding" if S0 == 0 else "")] += 1
-        assert list(impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)) == as_function("contact_impulse", MODES[mode])(S0, C0, B1, B2, B3, e, mu, sigma)
+        assert list(impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)) == as_function(
+            "contact_impulse", MODES[mode]
+        )(S0, C0, B1, B2, B3, e, mu, sigma)
     assert sum(seen.values()) >= 500 and all(seen[name] >= 20 for name in MODES.values()), seen
-    assert seen["sliding from no sliding"] >= 20 and seen["sticking-in-compression from no sliding"] >= 20, seen
+    assert (
+        seen["sliding from no sliding"] >= 20
+        and seen["sticking-in-compression from no sliding"] >= 20
+    ), seen
 
 
 def test_mode_is_the_one_whose_criteria_hold_holds() -> None:
@@ -70,8 +98,16 @@ def test_mode_is_the_one_whose_criteria_hold_holds() -> None:
         sigma = first_slide(S0, B1, B3, mu)
         numbers = (S0, C0, B1, B2, B3, e, mu, sigma)
         mode = mode_of(*numbers)
-        restitution, compression, back, closing, stopping = (as_function(name)(*numbers) for name in (
-            "slides_through_restitution", "slides_through_compression", "slides_back", "closing_rate", "stopping_rate"))
+        restitution, compression, back, closing, stopping = (
+            as_function(name)(*numbers)
+            for name in (
+                "slides_through_restitution",
+                "slides_through_compression",
+                "slides_back",
+                "closing_rate",
+                "stopping_rate",
+            )
+        )
         if closing <= 0:
             assert mode == impact.JAMMING
             continue
@@ -83,16 +119,24 @@ def test_mode_is_the_one_whose_criteria_hold_holds() -> None:
 
 
 def test_jams_exactly_where_the_closing_rate_is_not_positive_holds() -> None:
-    jammed = [case for case in CASES if as_function("closing_rate")(*case, first_slide(case[0], case[2], case[4], case[6])) <= 0]
+    jammed = [
+        case
+        for case in CASES
+        if as_function("closing_rate")(*case, first_slide(case[0], case[2], case[4], case[6])) <= 0
+    ]
     assert len(jammed) >= 20
     for S0, C0, B1, B2, B3, e, mu in CASES:
         met = mode_of(S0, C0, B1, B2, B3, e, mu, first_slide(S0, B1, B3, mu)) == impact.JAMMING
         assert met == ((S0, C0, B1, B2, B3, e, mu) in jammed)
-    assert mode_of(1, -1, 2, 2, 1, 0, 2, -1) == impact.JAMMING and mode_of(1, -1, 2, 3, 1, 0, 2, -1) != impact.JAMMING
+    assert (
+        mode_of(1, -1, 2, 2, 1, 0, 2, -1) == impact.JAMMING
+        and mode_of(1, -1, 2, 3, 1, 0, 2, -1) != impact.JAMMING
+    )
 
 
 def test_corner_that_does_not_slide_at_first_slides_where_friction_fails_holds() -> None:
-    """Friction needs B3/B1 of the normal impulse: with less it slides against it, with more it sticks, and exactly between both are one."""
+    """Friction needs B3/B1 of the normal impulse: with less it slides against it, with more it
+    sticks, and exactly between both are one."""
     for B3 in (Fraction(1), Fraction(-1)):
         for mu, sticks in ((Fraction(1, 4), False), (Fraction(1, 2), None), (Fraction(3, 4), True)):
             given = (Fraction(0), Fraction(-1), Fraction(2), Fraction(2), B3, Fraction(1, 2), mu)
@@ -111,5 +155,7 @@ def test_mirror_image_of_an_impact_is_one_holds(sign: int) -> None:
         modes = [mode_of(*given, way) for given, way in zip((here, there), ways)]
         assert modes[0] == modes[1]
         if modes[0] != impact.JAMMING:
-            (x, y), (left, up) = (impulse(modes[0], *given, way) for given, way in zip((here, there), ways))
+            (x, y), (left, up) = (
+                impulse(modes[0], *given, way) for given, way in zip((here, there), ways)
+            )
             assert (x, y) == (-left, up)

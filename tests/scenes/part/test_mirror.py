@@ -1,4 +1,5 @@
-"""A mirrored start on the mirrored table gives the mirrored orbit, bit for bit: impacts, contact and rest prefer no side."""
+"""A mirrored start on the mirrored table gives the mirrored orbit, bit for bit: impacts, contact
+and rest prefer no side."""
 
 from __future__ import annotations
 
@@ -15,10 +16,18 @@ EVEN = [body.TIME, body.Y, body.V_Y, body.MODE]
 ODD = [body.X, body.THETA, body.V_X, body.OMEGA, body.SLIDE]
 COUNTED = [body.IMPACTS, body.STEPS, body.CONTACTS, body.LEAST_GAP, body.LARGEST_REMOVED]
 MIRRORED_CORNER = np.array([1, 0, 3, 2])
-SCENES: list[dict[str, Any]] = [*({"e": 0.7, "mu": 0.08, "row": row} for row in range(6)), {"e": 0.7, "mu": 0.08, "row": 2, "tolerance": 1e-9},
-          {"e": 0.7, "mu": 0.08, "row": 3, "tolerance": 1e-6}, {"e": 0.4, "mu": 1.2, "row": 3}, {"e": 0.7, "mu": 1.2, "row": 4},
-          {"e": 0.0, "mu": 0.08, "row": 1}, {"e": 1.0, "mu": 0.08, "row": 5}, {"e": 0.0, "mu": 0.0, "row": 0},
-          {"e": 0.5, "mu": 0.3, "row": 2, "a": 0.02, "b": 0.02}, {"e": 0.7, "mu": 0.3, "row": 1, "launch": "table", "phase_x": 1.0}]
+SCENES: list[dict[str, Any]] = [
+    *({"e": 0.7, "mu": 0.08, "row": row} for row in range(6)),
+    {"e": 0.7, "mu": 0.08, "row": 2, "tolerance": 1e-9},
+    {"e": 0.7, "mu": 0.08, "row": 3, "tolerance": 1e-6},
+    {"e": 0.4, "mu": 1.2, "row": 3},
+    {"e": 0.7, "mu": 1.2, "row": 4},
+    {"e": 0.0, "mu": 0.08, "row": 1},
+    {"e": 1.0, "mu": 0.08, "row": 5},
+    {"e": 0.0, "mu": 0.0, "row": 0},
+    {"e": 0.5, "mu": 0.3, "row": 2, "a": 0.02, "b": 0.02},
+    {"e": 0.7, "mu": 0.3, "row": 1, "launch": "table", "phase_x": 1.0},
+]
 
 
 @pytest.mark.parametrize("given", SCENES, ids=str)

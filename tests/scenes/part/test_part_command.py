@@ -1,4 +1,5 @@
-"""`juggleproof simulate part`: what it prints and writes, and one line for every wish that cannot be carried out."""
+"""`juggleproof simulate part`: what it prints and writes, and one line for every wish that cannot
+be carried out."""
 
 from __future__ import annotations
 
@@ -38,7 +39,10 @@ BAD = [
     (["--sweep", "e=0:1:2"], "has not e and mu"),
     (["--sweep", "e=0:1:2,mu=0:1"], "--sweep mu: '0:1' is not FROM:TO:COUNT"),
     (["--sweep", "e=0:1:0,mu=0:1:2"], "a count of 0 is not a whole number from 1 to 1000"),
-    (["--sweep", "e=0:2:2,mu=0:0:1", "--ensembles", "1", "--horizon", "0.01"], "e = 2 is outside [0, 1]"),
+    (
+        ["--sweep", "e=0:2:2,mu=0:0:1", "--ensembles", "1", "--horizon", "0.01"],
+        "e = 2 is outside [0, 1]",
+    ),
     (["--sweep", "e=0:1:2,mu=0:0:1", "--e", "0.5"], "--sweep takes e and mu itself"),
     (["--still", "--sweep", "e=0:1:2,mu=0:0:1"], "do not go together"),
     (["-o", "table.svg"], "table.svg: the name is to end in .csv or .npz"),
@@ -48,13 +52,17 @@ BAD = [
 
 
 @pytest.mark.parametrize(("options", "told"), BAD, ids=[" ".join(options) for options, _ in BAD])
-def test_rejects_a_wish_that_cannot_be_carried_out(options: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rejects_a_wish_that_cannot_be_carried_out(
+    options: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run([*SMALL, *options]) == 2
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1 and told in lines[0]
 
 
-def test_table_is_told_with_what_it_assumes_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_table_is_told_with_what_it_assumes_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     written = {}
     for name in ("table.csv", "table.npz"):
         for jobs in "12":
@@ -64,22 +72,41 @@ def test_table_is_told_with_what_it_assumes_holds(tmp_path: Path, capsys: pytest
         assert written["1", name] == written["2", name]
     told = capsys.readouterr().out
     assert all(f"{f:g} Hz {1000 * a:g} mm" in told for f, a, _ in PAPER)
-    assert all(word in told for word in ("given", "inferred", "chosen", "0 impulses that pull", "0 energy gained"))
+    assert all(
+        word in told
+        for word in ("given", "inferred", "chosen", "0 impulses that pull", "0 energy gained")
+    )
     lines = list(csv.DictReader((tmp_path / "1" / "table.csv").open()))
-    assert len(lines) == 12 and all(one["onset [s]"] == "" for one in lines)  # nothing settles in so short a run, and nothing is dropped
+    assert len(lines) == 12 and all(
+        one["onset [s]"] == "" for one in lines
+    )  # nothing settles in so short a run, and nothing is dropped
     assert all({one["censored"], one["chaotic"]} == {"0", "1"} for one in lines)
     arrays = np.load(tmp_path / "1" / "table.npz")
-    assert arrays["onset"].shape == (6, 2) and np.isinf(arrays["onset"]).all() and arrays["theta"].shape == (6, 2, 91)
+    assert (
+        arrays["onset"].shape == (6, 2)
+        and np.isinf(arrays["onset"]).all()
+        and arrays["theta"].shape == (6, 2, 91)
+    )
 
 
-def test_sweep_is_recorded_and_the_pair_with_the_least_misfit_told_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_sweep_is_recorded_and_the_pair_with_the_least_misfit_told_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "sweep.json"
     assert run([*SMALL, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path)]) == 0
     record = json.loads(path.read_text())
-    assert [(p["e"], p["mu"]) for p in record["points"]] == [(0.6, 0.0), (0.6, 0.5), (0.8, 0.0), (0.8, 0.5)]
+    assert [(p["e"], p["mu"]) for p in record["points"]] == [
+        (0.6, 0.0),
+        (0.6, 0.5),
+        (0.8, 0.0),
+        (0.8, 0.5),
+    ]
     assert record["ensembles"] == 2 and record["horizon"] == 0.05
     best = min(record["points"], key=lambda point: point["misfit"])
-    assert f"least misfit: e = {best['e']:g}, mu = {best['mu']:g}, {best['misfit']:.3f}" in capsys.readouterr().out
+    assert (
+        f"least misfit: e = {best['e']:g}, mu = {best['mu']:g}, {best['misfit']:.3f}"
+        in capsys.readouterr().out
+    )
 
 
 def test_stored_sweep_gives_the_pair_of_the_scene_holds(capsys: pytest.CaptureFixture[str]) -> None:
@@ -101,19 +128,40 @@ def test_difference_from_the_paper_is_told_holds() -> None:
     late = row(2.0, [3.0, np.inf, np.inf], (False, False, True))
     assert discrepancies((settled, wild)) == []
     assert discrepancies((late,)) == ["15 Hz 2 mm: 2 s in the paper, outside of 3 to inf s"]
-    assert discrepancies((row(None, [3.0] * 3, (False,) * 3),)) == ["15 Hz 2 mm: chaotic in the paper, 0 of 3 ensembles are chaotic here"]
-    assert discrepancies((row(4.0, [np.inf] * 3, (True,) * 3),)) == ["15 Hz 2 mm: 4 s in the paper, 3 of 3 ensembles are chaotic here"]
-    assert (late.censored(), wild.censored(), late.quantile(0.33), late.quantile(0.5)) == (1, 0, 3.0, np.inf)
+    assert discrepancies((row(None, [3.0] * 3, (False,) * 3),)) == [
+        "15 Hz 2 mm: chaotic in the paper, 0 of 3 ensembles are chaotic here"
+    ]
+    assert discrepancies((row(4.0, [np.inf] * 3, (True,) * 3),)) == [
+        "15 Hz 2 mm: 4 s in the paper, 3 of 3 ensembles are chaotic here"
+    ]
+    assert (late.censored(), wild.censored(), late.quantile(0.33), late.quantile(0.5)) == (
+        1,
+        0,
+        3.0,
+        np.inf,
+    )
 
 
 def test_still_table_is_told_holds(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*SMALL, "--still", "--e", "0.7", "--mu", "0.08"]) == 0
     told = capsys.readouterr().out
-    assert "27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the paper says" in told and "26.56505117" in told
+    assert (
+        "27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the paper says"
+        in told
+        and "26.56505117" in told
+    )
 
 
 @pytest.mark.parametrize("name", ["f.svg", "f.pdf", "f.html"])
-def test_pictures_are_written_holds(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    wish, begins = {"svg": ("--figure", b"<?xml"), "pdf": ("--figure", b"%PDF"), "html": ("--animation", b"<!DOCTYPE html>")}[name[2:]]
+def test_pictures_are_written_holds(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wish, begins = {
+        "svg": ("--figure", b"<?xml"),
+        "pdf": ("--figure", b"%PDF"),
+        "html": ("--animation", b"<!DOCTYPE html>"),
+    }[name[2:]]
     assert run([*SMALL, wish, str(tmp_path / name), "--e", "0.7", "--mu", "0.08"]) == 0
-    assert (tmp_path / name).read_bytes().startswith(begins) and "written" in capsys.readouterr().out
+    assert (tmp_path / name).read_bytes().startswith(
+        begins
+    ) and "written" in capsys.readouterr().out

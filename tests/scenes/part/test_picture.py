@@ -1,4 +1,5 @@
-"""Figure 2 shows the blocks where they are, in the paper's order, told apart without colour, and is the same to the byte from run to run."""
+"""Figure 2 shows the blocks where they are, in the paper's order, told apart without colour, and is
+the same to the byte from run to run."""
 
 from __future__ import annotations
 
@@ -19,7 +20,9 @@ from scenes.part.turns import side
 from tests.scenes.test_palette import DEFICIENCIES, apart, filled, lab, seen
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
-PathPatch = pytest.importorskip("matplotlib.patches", reason="matplotlib is not installed").PathPatch
+PathPatch = pytest.importorskip(
+    "matplotlib.patches", reason="matplotlib is not installed"
+).PathPatch
 
 SETTING = p.as_in_figure_two(scene(e=0.7, mu=0.08))
 
@@ -37,7 +40,11 @@ def drawn() -> Any:
 def rectangles(name: str) -> np.ndarray[Any, Any]:
     """The corners of the rectangles of this name, in metres: shape (n, 4, 2)."""
     patches = [one for one in drawn().findobj(PathPatch) if one.get_gid() == name]
-    return np.concatenate([patch.get_path().vertices.reshape(-1, 5, 2)[:, :4] for patch in patches]) if patches else np.zeros((0, 4, 2))
+    return (
+        np.concatenate([patch.get_path().vertices.reshape(-1, 5, 2)[:, :4] for patch in patches])
+        if patches
+        else np.zeros((0, 4, 2))
+    )
 
 
 def test_rectangles_are_blocks_at_their_true_angle_and_height_holds() -> None:
@@ -49,10 +56,17 @@ def test_rectangles_are_blocks_at_their_true_angle_and_height_holds() -> None:
             for block, found in zip(np.flatnonzero(chosen), corners):
                 column, row = place(int(block))
                 level = body.table_height(SETTING.parameters(), frame[block, body.TIME])
-                centre = (column * pitch(SETTING), row * pitch(SETTING) + frame[block, body.Y] - level)
+                centre = (
+                    column * pitch(SETTING),
+                    row * pitch(SETTING) + frame[block, body.Y] - level,
+                )
                 assert np.allclose(found.mean(axis=0), centre, atol=1e-12)
                 short, long = found[1] - found[0], found[2] - found[1]
-                assert np.isclose(np.hypot(*short), 0.02) and np.isclose(np.hypot(*long), 0.04) and abs(short @ long) < 1e-12
+                assert (
+                    np.isclose(np.hypot(*short), 0.02)
+                    and np.isclose(np.hypot(*long), 0.04)
+                    and abs(short @ long) < 1e-12
+                )
                 theta = frame[block, body.THETA]
                 assert np.allclose(short / 0.02, (np.cos(theta), np.sin(theta)), atol=1e-9)
                 assert found[:, 1].min() >= row * pitch(SETTING) - 1e-9
@@ -80,7 +94,9 @@ def test_picture_is_of_the_orbit_without_stops_holds() -> None:
 def test_the_two_kinds_differ_in_grey_and_for_the_colour_blind_holds() -> None:
     def worst(one: Look, other: Look) -> tuple[float, float]:
         colours = [filled(one), filled(other)]
-        return abs(lab(colours[0])[0] - lab(colours[1])[0]), min(apart(*(seen(colour, kind) for colour in colours)) for kind in DEFICIENCIES)
+        return abs(lab(colours[0])[0] - lab(colours[1])[0]), min(
+            apart(*(seen(colour, kind) for colour in colours)) for kind in DEFICIENCIES
+        )
 
     grey, blind = worst(p.UPRIGHT, p.LYING)
     assert grey > 20 and blind > 20
@@ -94,7 +110,12 @@ def saved(form: str) -> bytes:
 
 def test_figure_is_the_same_from_run_to_run_holds() -> None:
     first, second = saved("svg"), saved("svg")
-    assert first == second and len(first) < 100_000 and saved("pdf") == saved("pdf") and saved("pdf").startswith(b"%PDF")
+    assert (
+        first == second
+        and len(first) < 100_000
+        and saved("pdf") == saved("pdf")
+        and saved("pdf").startswith(b"%PDF")
+    )
     ids = re.findall(r'id="([^"]*)"', first.decode())
     assert len(ids) == len(set(ids)) and all(one.startswith(p.SLUG) for one in ids)
 

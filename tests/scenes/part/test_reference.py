@@ -1,4 +1,5 @@
-"""The slow reference of the part: its flights, its impacts against the derived modes, its search, and what it refuses."""
+"""The slow reference of the part: its flights, its impacts against the derived modes, its search,
+and what it refuses."""
 
 from __future__ import annotations
 
@@ -26,11 +27,19 @@ from scenes.part.reference.setting import Model, Setting, State, setting
 from scenes.part.reference.stops import Chatter, Simultaneous, Stopped, Undecided
 
 MP = Model(setting(1, 1, e=1, mu=0), 50).context
-SHAKEN = setting("0.01", "0.02", e="0.7", mu="0.08", A_x="0.0003", f_x=60, phase_x="0.4", A_y="0.0002", f_y=60)
+SHAKEN = setting(
+    "0.01", "0.02", e="0.7", mu="0.08", A_x="0.0003", f_x=60, phase_x="0.4", A_y="0.0002", f_y=60
+)
 STILL = setting("0.01", "0.02", e="0.7", mu="0.08")
 MIRROR = (1, 0, 3, 2)
 SMALL = MP.mpf(10) ** -35
-STARTS = ((SHAKEN, "0.3", 0), (SHAKEN, "1.1", 0), (SHAKEN, "0.7", 100), (STILL, "-0.4", 5), (STILL, "2.5", -60))
+STARTS = (
+    (SHAKEN, "0.3", 0),
+    (SHAKEN, "1.1", 0),
+    (SHAKEN, "0.7", 100),
+    (STILL, "-0.4", 5),
+    (STILL, "2.5", -60),
+)
 UNTIL = "0.27"
 
 
@@ -47,7 +56,8 @@ def followed(which: int, digits: int = 50) -> tuple[Model, State, list[Event]]:
 
 
 def flights(which: int) -> list[tuple[Flight, State]]:
-    """Each flight between impacts, the last until the end unless impacts accumulate there, and the state in which it ends."""
+    """Each flight between impacts, the last until the end unless impacts accumulate there, and the
+    state in which it ends."""
     model, start, events = followed(which)
     found = [Flight(model, left) for left in (start, *(event.after for event in events))]
     ended = [event.before for event in events]
@@ -119,21 +129,37 @@ def test_mirrored_start_gives_the_mirrored_orbit_holds(which: int) -> None:
         found = reference_orbit(turned, mirrored(start), UNTIL)
     except Chatter as stopped:
         found = list(stopped.events)
-    assert found == [Event(event.time, MIRROR[event.corner], event.mode, mirrored(event.before), mirrored(event.after)) for event in events]
+    assert found == [
+        Event(
+            event.time,
+            MIRROR[event.corner],
+            event.mode,
+            mirrored(event.before),
+            mirrored(event.after),
+        )
+        for event in events
+    ]
 
 
 @pytest.mark.parametrize("which", range(len(STARTS)))
 def test_more_digits_give_the_same_orbit_holds(which: int) -> None:
     (_, _, coarse), (_, _, fine) = followed(which), followed(which, 70)
-    assert [(event.corner, event.mode) for event in coarse] == [(event.corner, event.mode) for event in fine]
+    assert [(event.corner, event.mode) for event in coarse] == [
+        (event.corner, event.mode) for event in fine
+    ]
     for one, other in zip(coarse, fine):
-        assert max(abs(MP.mpf(ours) - MP.mpf(theirs)) for ours, theirs in zip(one.after, other.after)) < MP.mpf(10) ** -25
+        assert (
+            max(abs(MP.mpf(ours) - MP.mpf(theirs)) for ours, theirs in zip(one.after, other.after))
+            < MP.mpf(10) ** -25
+        )
 
 
 def test_orbit_goes_on_from_the_state_after_an_impact_holds() -> None:
     model, _, events = followed(0)
     rest = reference_orbit(SHAKEN, events[1].after, UNTIL)
-    assert [(event.corner, event.mode) for event in rest] == [(event.corner, event.mode) for event in events[2:]]
+    assert [(event.corner, event.mode) for event in rest] == [
+        (event.corner, event.mode) for event in events[2:]
+    ]
     assert max(abs(ours - theirs) for ours, theirs in zip(rest[-1].after, events[-1].after)) < SMALL
 
 
@@ -154,27 +180,41 @@ def test_turning_part_lands_where_the_gap_has_its_first_root_holds() -> None:
 
         def lowest(t: Any) -> Any:
             theta = mpmath.mpf("0.4") + 80 * t
-            return (mpmath.mpf(start.Y) - mpmath.mpf("9.81") * t**2 / 2
-                    - a * abs(mpmath.sin(theta)) - b * abs(mpmath.cos(theta)))
+            return (
+                mpmath.mpf(start.Y)
+                - mpmath.mpf("9.81") * t**2 / 2
+                - a * abs(mpmath.sin(theta))
+                - b * abs(mpmath.cos(theta))
+            )
 
         steps = [mpmath.mpf(step) / 100000 for step in range(1, 5000)]
         under = next(t for t in steps if lowest(t) < 0)
-        root = mpmath.findroot(lowest, (under - mpmath.mpf("1e-5"), under), solver="anderson", tol=1e-80)
+        root = mpmath.findroot(
+            lowest, (under - mpmath.mpf("1e-5"), under), solver="anderson", tol=1e-80
+        )
         assert abs(mpmath.mpf(event.time) - root) < mpmath.mpf("1e-35")
 
 
 def test_part_on_a_corner_below_its_centre_rebounds_with_e_times_its_speed_holds() -> None:
     half = Fraction(1, 2)
     for speed in (Fraction(2), Fraction(1, 3)):
-        assert impact((0, -speed, 0), (0, -5), Fraction(25, 3), half, half).motion == (0, speed / 2, 0)
+        assert impact((0, -speed, 0), (0, -5), Fraction(25, 3), half, half).motion == (
+            0,
+            speed / 2,
+            0,
+        )
     block = setting("0.03", "0.04", e="0.5", mu="0.3")
     event = reference_orbit(block, dropped(block, MP.atan(MP.mpf(3) / 4), "0.01"), "0.05")[0]
-    assert max(abs(event.after.VY + event.before.VY / 2), abs(event.after.VX), abs(event.after.omega)) < SMALL
+    assert (
+        max(abs(event.after.VY + event.before.VY / 2), abs(event.after.VX), abs(event.after.omega))
+        < SMALL
+    )
     assert event.before.VY < 0
 
 
 def random_impacts(count: int) -> list[tuple[Any, ...]]:
-    """Exact motions of exact rectangles turned by exact angles, at a corner that approaches; some without friction, restitution or sliding."""
+    """Exact motions of exact rectangles turned by exact angles, at a corner that approaches; some
+    without friction, restitution or sliding."""
     dice = random.Random(1992)
 
     def number(low: int, high: int) -> Fraction:
@@ -183,15 +223,25 @@ def random_impacts(count: int) -> list[tuple[Any, ...]]:
     found: list[tuple[Any, ...]] = []
     while len(found) < count:
         a, b, half_tangent = number(0, 1) + 1, number(1, 3), number(-1, 1)
-        cosine, sine = (1 - half_tangent**2) / (1 + half_tangent**2), 2 * half_tangent / (1 + half_tangent**2)
+        cosine, sine = (
+            (1 - half_tangent**2) / (1 + half_tangent**2),
+            2 * half_tangent / (1 + half_tangent**2),
+        )
         along, up = (side * half for side, half in zip(dice.choice(CORNERS), (a, b)))
         place = (cosine * along - sine * up, sine * along + cosine * up)
         motion = (number(-1, 1), number(-2, 1), number(-1, 1))
         if dice.random() < 0.2:
             motion = (motion[2] * place[1], *motion[1:])
         if corner_velocity(motion, place)[1] < 0:
-            found.append((motion, place, (a**2 + b**2) / 3, dice.choice((Fraction(0), Fraction(1), number(0, 1))),
-                          dice.choice((Fraction(0), number(0, 1) * Fraction(9, 10), number(0, 1) / 4))))
+            found.append(
+                (
+                    motion,
+                    place,
+                    (a**2 + b**2) / 3,
+                    dice.choice((Fraction(0), Fraction(1), number(0, 1))),
+                    dice.choice((Fraction(0), number(0, 1) * Fraction(9, 10), number(0, 1) / 4)),
+                )
+            )
     return found
 
 
@@ -204,19 +254,41 @@ def derived(motion: Any, place: Any, k2: Fraction, e: Fraction, mu: Fraction) ->
     x, y = place
     tangential, normal = corner_velocity(motion, place)
     way = sign(tangential) or -sign(x * y) or 1
-    numbers = {s.B1: 1 + y**2 / k2, s.B2: 1 + x**2 / k2, s.B3: x * y / k2, s.S0: tangential, s.C0: normal, s.e: e, s.mu: mu, s.sigma: Fraction(way)}
-    return {name: Rational(number.numerator, number.denominator) for name, number in numbers.items()}
+    numbers = {
+        s.B1: 1 + y**2 / k2,
+        s.B2: 1 + x**2 / k2,
+        s.B3: x * y / k2,
+        s.S0: tangential,
+        s.C0: normal,
+        s.e: e,
+        s.mu: mu,
+        s.sigma: Fraction(way),
+    }
+    return {
+        name: Rational(number.numerator, number.denominator) for name, number in numbers.items()
+    }
 
 
 def modes_that_hold(exact: dict[Any, Any]) -> set[str]:
     """By the derived conditions: all modes whose boundaries the impact lies on, if on any."""
     past_compression, past_restitution, back = (
-        criterion().xreplace(exact) for criterion in (s.slides_through_compression, s.slides_through_restitution, s.slides_back))
+        criterion().xreplace(exact)
+        for criterion in (s.slides_through_compression, s.slides_through_restitution, s.slides_back)
+    )
     if past_restitution > 0:
         return {"sliding"}
-    when = [name for name, holds in (("compression", past_compression <= 0), ("restitution", past_compression >= 0)) if holds]
+    when = [
+        name
+        for name, holds in (
+            ("compression", past_compression <= 0),
+            ("restitution", past_compression >= 0),
+        )
+        if holds
+    ]
     then = [name for name, holds in (("sticking", back <= 0), ("reversed", back > 0)) if holds]
-    return {f"{one}-in-{other}" for one in then for other in when} | ({"sliding"} if past_restitution == 0 else set())
+    return {f"{one}-in-{other}" for one in then for other in when} | (
+        {"sliding"} if past_restitution == 0 else set()
+    )
 
 
 def test_impacts_are_those_of_the_derived_modes_holds() -> None:
@@ -226,17 +298,25 @@ def test_impacts_are_those_of_the_derived_modes_holds() -> None:
         exact = derived(*given)
         seen[met.mode] += 1
         assert met.mode in modes_that_hold(exact), (given, met)
-        assert [Rational(part.numerator, part.denominator) for part in map(Fraction, met.impulse)] == [
-            part.xreplace(exact) for part in s.contact_impulse(met.mode)], (given, met)
-        assert [Rational(part.numerator, part.denominator) for part in corner_velocity(met.motion, given[1])] == [
-            part.xreplace(exact) for part in s.velocity_after_contact(met.mode)]
+        assert [
+            Rational(part.numerator, part.denominator) for part in map(Fraction, met.impulse)
+        ] == [part.xreplace(exact) for part in s.contact_impulse(met.mode)], (given, met)
+        assert [
+            Rational(part.numerator, part.denominator)
+            for part in corner_velocity(met.motion, given[1])
+        ] == [part.xreplace(exact) for part in s.velocity_after_contact(met.mode)]
     assert set(seen) == set(s.MODES), seen
 
 
 def test_corner_that_stops_just_where_a_phase_ends_holds() -> None:
-    """B1 = 4, B2 = 1, B3 = 0 and C0 = -2: with mu = 1/8 a unit of normal impulse takes 1/2 from S; compression ends at 2, the impact at 3."""
+    """B1 = 4, B2 = 1, B3 = 0 and C0 = -2: with mu = 1/8 a unit of normal impulse takes 1/2 from S;
+    compression ends at 2, the impact at 3."""
     below, k2, half = (0, -5), Fraction(25, 3), Fraction(1, 2)
-    for start, mode in ((Fraction(1), "sticking-in-compression"), (Fraction(5, 4), "sticking-in-restitution"), (Fraction(3, 2), "sliding")):
+    for start, mode in (
+        (Fraction(1), "sticking-in-compression"),
+        (Fraction(5, 4), "sticking-in-restitution"),
+        (Fraction(3, 2), "sliding"),
+    ):
         for way in (1, -1):
             met = impact((way * start, -2, 0), below, k2, half, Fraction(1, 8))
             assert (met.mode, corner_velocity(met.motion, below)) == (mode, (0, 1))
@@ -245,30 +325,46 @@ def test_corner_that_stops_just_where_a_phase_ends_holds() -> None:
 
 def test_rounded_impacts_are_the_exact_ones_holds() -> None:
     def rounded(value: Any) -> Any:
-        return tuple(map(rounded, value)) if isinstance(value, tuple) else MP.mpf(value.numerator) / value.denominator
+        return (
+            tuple(map(rounded, value))
+            if isinstance(value, tuple)
+            else MP.mpf(value.numerator) / value.denominator
+        )
 
     moving = [given for given in random_impacts(100) if corner_velocity(given[0], given[1])[0]]
     assert len(moving) > 60
     for given in moving:
         exact, near = impact(*given), impact(*map(rounded, given))
-        assert max(abs(rounded(ours) - theirs) for ours, theirs in zip(exact.motion, near.motion)) < SMALL
+        assert (
+            max(abs(rounded(ours) - theirs) for ours, theirs in zip(exact.motion, near.motion))
+            < SMALL
+        )
 
 
 def dip(depth: str) -> Any:
-    """A gap that touches -depth at t = 1/3 and is high elsewhere, beside one that falls to 0 at t = 3/4."""
+    """A gap that touches -depth at t = 1/3 and is high elsewhere, beside one that falls to 0 at t =
+    3/4."""
+
     def gaps(t: Any) -> list[tuple[Any, Any]]:
-        return [((t - MP.mpf(1) / 3)**2 - MP.mpf(depth), 2 * (t - MP.mpf(1) / 3)), (3 - 4 * t, MP.mpf(-4))]
+        return [
+            ((t - MP.mpf(1) / 3) ** 2 - MP.mpf(depth), 2 * (t - MP.mpf(1) / 3)),
+            (3 - 4 * t, MP.mpf(-4)),
+        ]
 
     return gaps
 
 
 def test_search_finds_the_first_of_two_close_roots_holds() -> None:
-    time, corner = first_crossing(dip("1e-20"), MP.mpf(2), MP.mpf(0), MP.mpf(1), MP.mpf("1e-40")) or (0, None)
+    time, corner = first_crossing(
+        dip("1e-20"), MP.mpf(2), MP.mpf(0), MP.mpf(1), MP.mpf("1e-40")
+    ) or (0, None)
     assert corner == 0 and abs(time - MP.mpf(1) / 3 + MP.mpf("1e-10")) < MP.mpf("1e-28")
 
 
 def test_search_passes_a_gap_that_only_comes_close_holds() -> None:
-    time, corner = first_crossing(dip("-1e-20"), MP.mpf(2), MP.mpf(0), MP.mpf(1), MP.mpf("1e-40")) or (0, None)
+    time, corner = first_crossing(
+        dip("-1e-20"), MP.mpf(2), MP.mpf(0), MP.mpf(1), MP.mpf("1e-40")
+    ) or (0, None)
     assert corner == 1 and abs(time - MP.mpf("0.75")) < SMALL
 
 
@@ -283,7 +379,8 @@ def test_rejects_two_corners_that_strike_together() -> None:
 
 
 def tipping() -> State:
-    """Lying on its long side: corner 1 strikes at once, while corner 2, as good as on the table, rises until then."""
+    """Lying on its long side: corner 1 strikes at once, while corner 2, as good as on the table,
+    rises until then."""
     return dropped(STILL, MP.pi / 2 + MP.mpf("1e-14"), "1e-20", VY="-0.1", omega="5.1")
 
 
@@ -309,7 +406,11 @@ def test_rejects_chatter_with_the_impacts_until_then() -> None:
     with pytest.raises(Chatter, match="more than 20 impacts within") as stopped:
         reference_orbit(upright, dropped(upright, MP.atan(MP.mpf(3) / 4), "0.001"), 1)
     times = [event.time for event in stopped.value.events]
-    assert len(times) > 20 and times[-1] - times[-21] < 1e-6 and all(early < late for early, late in pairwise(times))
+    assert (
+        len(times) > 20
+        and times[-1] - times[-21] < 1e-6
+        and all(early < late for early, late in pairwise(times))
+    )
 
 
 def test_rejects_a_corner_that_stays_on_the_table() -> None:
@@ -319,10 +420,20 @@ def test_rejects_a_corner_that_stays_on_the_table() -> None:
     assert len(stopped.value.events) == 1 and isinstance(stopped.value, Stopped)
 
 
-@pytest.mark.parametrize("wrong, told", [
-    ({"a": 0}, "a must be > 0"), ({"b": -1}, "b must be > 0"), ({"e": "1.1"}, "e must be from 0 to 1"), ({"mu": "4/3"}, "can jam"),
-    ({"mu": -1}, "mu must be from 0"), ({"g": 0}, "g must be > 0"), ({"f_y": -60}, "f_y must be >= 0"), ({"e": "soft"}, "is not a number"),
-    ({"A_y": math.nan}, "is not a number")])
+@pytest.mark.parametrize(
+    "wrong, told",
+    [
+        ({"a": 0}, "a must be > 0"),
+        ({"b": -1}, "b must be > 0"),
+        ({"e": "1.1"}, "e must be from 0 to 1"),
+        ({"mu": "4/3"}, "can jam"),
+        ({"mu": -1}, "mu must be from 0"),
+        ({"g": 0}, "g must be > 0"),
+        ({"f_y": -60}, "f_y must be >= 0"),
+        ({"e": "soft"}, "is not a number"),
+        ({"A_y": math.nan}, "is not a number"),
+    ],
+)
 def test_rejects_a_setting_that_is_not_allowed(wrong: dict[str, Any], told: str) -> None:
     allowed: dict[str, Any] = {"a": "0.01", "b": "0.02", "e": "0.7", "mu": "0.08"}
     with pytest.raises(SceneError, match=told):
@@ -355,10 +466,23 @@ def test_rejects_a_corner_that_jams() -> None:
 
 
 def test_reference_shares_nothing_with_what_it_measures_holds() -> None:
-    files = sorted((Path(__file__).resolve().parents[3] / "scenes" / "part" / "reference").glob("*.py"))
-    nodes = [node for path in files for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
+    files = sorted(
+        (Path(__file__).resolve().parents[3] / "scenes" / "part" / "reference").glob("*.py")
+    )
+    nodes = [
+        node for path in files for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    ]
     named = {name.name for node in nodes if isinstance(node, ast.Import) for name in node.names}
     named |= {str(node.module) for node in nodes if isinstance(node, ast.ImportFrom)}
     ours = {name for name in named if name.startswith("scenes.")}
-    assert len(files) >= 6 and all(name == "scenes.errors" or name.startswith("scenes.part.reference.") for name in ours)
-    assert named - ours == {"__future__", "collections.abc", "dataclasses", "fractions", "mpmath", "typing"}
+    assert len(files) >= 6 and all(
+        name == "scenes.errors" or name.startswith("scenes.part.reference.") for name in ours
+    )
+    assert named - ours == {
+        "__future__",
+        "collections.abc",
+        "dataclasses",
+        "fractions",
+        "mpmath",
+        "typing",
+    }

@@ -1,4 +1,5 @@
-"""Bad input is told in one line; executors do not change a byte; the juggler's scenes load nothing of the part."""
+"""Bad input is told in one line; executors do not change a byte; the juggler's scenes load nothing
+of the part."""
 
 from __future__ import annotations
 
@@ -21,16 +22,37 @@ ROOT = Path(__file__).resolve().parents[3]
 BLOCK = scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3)
 
 
-@pytest.mark.parametrize("wrong, told", [
-    ({"mu": -0.1}, "mu = -0.1 is below 0"), ({"mu": 4 / 3}, "not below 4/3: from there on a corner can jam"),
-    ({"mu": math.nan}, "mu = nan is not finite"),
-    ({"e": -0.1}, "e = -0.1 is outside"), ({"e": 1.01}, "e = 1.01 is outside"), ({"e": "soft"}, "e = 'soft' is no number"),
-    ({"e": math.inf}, "not finite"), ({"a": 0}, "a = 0 is not positive"), ({"b": -1}, "b = -1 is not positive"), ({"a": 0.03}, "longer than b"),
-    ({"a": 1e-9}, "a = 1e-09 m is outside"), ({"b": 100}, "b = 100 m is outside"), ({"g": 0}, "g = 0 is not positive"), ({"g": 1e9}, "outside"),
-    ({"A_y": -1e-4}, "A_y = -0.0001 is below 0"), ({"A_y": 5}, "A_y = 5 m is outside"), ({"f_x": -1}, "f_x = -1 is below 0"),
-    ({"f_y": 1e9}, "f_y = 1e+09 Hz is outside"), ({"A_x": math.nan}, "A_x = nan"), ({"phase_y": 1e9}, "phase_y"), ({"rest_speed": 0}, "not positive"),
-    ({"rest_speed": 50}, "rest_speed = 50 m/s is outside"), ({"tolerance": 1e-20}, "tolerance = 1e-20 m is outside"),
-    ({"tolerance": 1}, "tolerance = 1 m is outside"), ({"a": 1e-4, "tolerance": 1e-5}, "above 0.01 of a"), ({"launch": "throw"}, "'throw'")])
+@pytest.mark.parametrize(
+    "wrong, told",
+    [
+        ({"mu": -0.1}, "mu = -0.1 is below 0"),
+        ({"mu": 4 / 3}, "not below 4/3: from there on a corner can jam"),
+        ({"mu": math.nan}, "mu = nan is not finite"),
+        ({"e": -0.1}, "e = -0.1 is outside"),
+        ({"e": 1.01}, "e = 1.01 is outside"),
+        ({"e": "soft"}, "e = 'soft' is no number"),
+        ({"e": math.inf}, "not finite"),
+        ({"a": 0}, "a = 0 is not positive"),
+        ({"b": -1}, "b = -1 is not positive"),
+        ({"a": 0.03}, "longer than b"),
+        ({"a": 1e-9}, "a = 1e-09 m is outside"),
+        ({"b": 100}, "b = 100 m is outside"),
+        ({"g": 0}, "g = 0 is not positive"),
+        ({"g": 1e9}, "outside"),
+        ({"A_y": -1e-4}, "A_y = -0.0001 is below 0"),
+        ({"A_y": 5}, "A_y = 5 m is outside"),
+        ({"f_x": -1}, "f_x = -1 is below 0"),
+        ({"f_y": 1e9}, "f_y = 1e+09 Hz is outside"),
+        ({"A_x": math.nan}, "A_x = nan"),
+        ({"phase_y": 1e9}, "phase_y"),
+        ({"rest_speed": 0}, "not positive"),
+        ({"rest_speed": 50}, "rest_speed = 50 m/s is outside"),
+        ({"tolerance": 1e-20}, "tolerance = 1e-20 m is outside"),
+        ({"tolerance": 1}, "tolerance = 1 m is outside"),
+        ({"a": 1e-4, "tolerance": 1e-5}, "above 0.01 of a"),
+        ({"launch": "throw"}, "'throw'"),
+    ],
+)
 def test_rejects_a_scene_that_is_not_one(wrong: dict[str, Any], told: str) -> None:
     with pytest.raises(SceneError, match=told.replace("(", r"\(").replace("+", r"\+")) as refused:
         scene(**{"e": 0.7, "mu": 0.08, **wrong})
@@ -61,30 +83,48 @@ def test_rejects_a_run_that_is_not_one() -> None:
     assert "time = -1 s is outside" in refused(lambda: run(BLOCK, states, -1))
     assert "time = nan" in refused(lambda: run(BLOCK, states, math.nan))
     assert "too late for a tolerance of 1e-12 m" in refused(lambda: run(BLOCK, states, 9e4))
-    assert "is needed" in refused(lambda: run(BLOCK, states[0], 1)) and "is needed" in refused(lambda: run(BLOCK, states[:, :7], 1))
-    assert "finite" in refused(lambda: run(BLOCK, states * math.nan, 1)) and "finite" in refused(lambda: run(BLOCK, states[:0], 1))
+    assert "is needed" in refused(lambda: run(BLOCK, states[0], 1)) and "is needed" in refused(
+        lambda: run(BLOCK, states[:, :7], 1)
+    )
+    assert "finite" in refused(lambda: run(BLOCK, states * math.nan, 1)) and "finite" in refused(
+        lambda: run(BLOCK, states[:0], 1)
+    )
     assert "notes of shape" in refused(lambda: run(BLOCK, states, 1, notes=fresh_notes(3)))
-    assert "horizon = 0" in refused(lambda: table_one(BLOCK, ensembles=1, horizon=0)) and "outside" in refused(lambda: table_one(BLOCK, horizon=-2))
+    assert "horizon = 0" in refused(
+        lambda: table_one(BLOCK, ensembles=1, horizon=0)
+    ) and "outside" in refused(lambda: table_one(BLOCK, horizon=-2))
     assert "ensembles = 0" in refused(lambda: table_one(BLOCK, ensembles=0))
-    assert "sweep of 0 by 1" in refused(lambda: sweep(BLOCK, [], [0.1], ensembles=1, horizon=1, seed=1))
+    assert "sweep of 0 by 1" in refused(
+        lambda: sweep(BLOCK, [], [0.1], ensembles=1, horizon=1, seed=1)
+    )
 
 
 def test_run_that_cannot_go_on_is_told_in_one_line_holds() -> None:
     p, states = BLOCK.parameters(), standing(BLOCK, [0.0, 0.6])
     p[body.FRICTION] = 5.0
-    assert "block 0, at t = " in (said := refused(lambda: moved((p, states, 1.0, fresh_notes(2))))) and "friction is too large" in said
+    assert (
+        "block 0, at t = " in (said := refused(lambda: moved((p, states, 1.0, fresh_notes(2)))))
+        and "friction is too large" in said
+    )
 
 
 def test_start_is_left_as_it_is_holds() -> None:
     states = standing(BLOCK, [0.1, 0.2])
     kept, after = states.copy(), run(BLOCK, states, 0.05)
-    assert (states == kept).all() and (after.states[:, body.TIME] == 0.05).all() and not (after.states == kept).all()
+    assert (
+        (states == kept).all()
+        and (after.states[:, body.TIME] == 0.05).all()
+        and not (after.states == kept).all()
+    )
 
 
 def same_as_alone(executor: Any) -> bool:
     states = standing(BLOCK, np.radians(np.linspace(0, 90, 300)))
     alone, shared = run(BLOCK, states, 0.5), run(BLOCK, states, 0.5, executor=executor)
-    return alone.states.tobytes() == shared.states.tobytes() and alone.notes.tobytes() == shared.notes.tobytes()
+    return (
+        alone.states.tobytes() == shared.states.tobytes()
+        and alone.notes.tobytes() == shared.notes.tobytes()
+    )
 
 
 @pytest.mark.parametrize("workers", [1, 2, 5])
@@ -100,18 +140,33 @@ def test_spawned_processes_give_the_same_bytes_holds() -> None:
 
 def test_dask_cluster_gives_the_same_bytes_holds() -> None:
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None) as cluster:
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None
+    ) as cluster:
         with cluster.get_client() as client:
             assert same_as_alone(client.get_executor())
 
 
 def loaded_by(code: str) -> set[str]:
-    shown = subprocess.run([sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"], cwd=ROOT, capture_output=True, text=True, check=True)
+    shown = subprocess.run(
+        [sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     return set(shown.stdout.split())
 
 
-@pytest.mark.parametrize("code", ["import scenes.juggler; scenes.juggler.orbit, scenes.juggler.scene", "import proofs.command.main",
-                                  "import scenes.figures", "import symbolic"])
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import scenes.juggler; scenes.juggler.orbit, scenes.juggler.scene",
+        "import proofs.command.main",
+        "import scenes.figures",
+        "import symbolic",
+    ],
+)
 def test_scenes_of_one_degree_of_freedom_load_nothing_of_the_part_holds(code: str) -> None:
     loaded = loaded_by(code)
     assert "numba" not in loaded and not [name for name in loaded if name.startswith("scenes.part")]
@@ -122,9 +177,24 @@ def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
     assert "numba" in loaded_by("from scenes.part import scene")
 
 
-@pytest.mark.parametrize("first", ["import scenes.part.onsets, scenes.part.sweeping", "from scenes.part import sweep, table_one", "pass"])
+@pytest.mark.parametrize(
+    "first",
+    [
+        "import scenes.part.onsets, scenes.part.sweeping",
+        "from scenes.part import sweep, table_one",
+        "pass",
+    ],
+)
 def test_names_of_the_door_mean_the_same_whatever_is_imported_first_holds(first: str) -> None:
-    code = f"{first}\nimport scenes.part\nassert all(callable(getattr(scenes.part, name)) for name in scenes.part.__all__ if name.islower())"
-    assert loaded_by(code) and set(dir(__import__("scenes.part", fromlist=["part"]))) >= {"run", "scene", "table_one", "sweep"}
+    code = (
+        f"{first}\nimport scenes.part\nassert all(callable(getattr(scenes.part, name)) for name in"
+        " scenes.part.__all__ if name.islower())"
+    )
+    assert loaded_by(code) and set(dir(__import__("scenes.part", fromlist=["part"]))) >= {
+        "run",
+        "scene",
+        "table_one",
+        "sweep",
+    }
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         getattr(__import__("scenes.part", fromlist=["part"]), "nothing")  # noqa: B009

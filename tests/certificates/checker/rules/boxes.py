@@ -1,4 +1,5 @@
-"""["boxes", i, [[j, k], ...], tree]: fact i fails on the whole box that the facts j and k bound (Bernstein coefficients)."""
+"""["boxes", i, [[j, k], ...], tree]: fact i fails on the whole box that the facts j and k bound
+(Bernstein coefficients)."""
 
 from tests.certificates.checker.harness import Case, Json, lines, proof
 
@@ -14,7 +15,14 @@ SADDLE = lines(*BOX, "show x*y <= 1/2")
 HILLS = lines(*BOX, "show x^3 - 2*x*y^2 + x*y <= 6/5")
 NOT_ON_FACE = lines(*BOX, "show x*(1 - x)*(y + 2) <= 4/5")
 MIDDLE = lines("forall x", "given x >= 1", "given 3*x <= 4", "show x^2*(4 - 3*x) <= 1")
-POINT = lines("forall x y", "given x >= 1/2", "given x <= 1/2", "given y >= 0", "given y <= 1", "show x*y*(1 - y) <= 1/8")
+POINT = lines(
+    "forall x y",
+    "given x >= 1/2",
+    "given x <= 1/2",
+    "given y >= 0",
+    "given y <= 1",
+    "show x*y*(1 - y) <= 1/8",
+)
 
 
 def tree(text: Json, fact: Json = 2, bounds: Json = ((0, 1),), at: Json = None) -> Json:
@@ -36,27 +44,87 @@ ACCEPTED = [
     Case("a saddle at a corner", SADDLE, plane(".")),
     Case("an axis that was halved becomes the first", HILLS, plane("bA.b.AaA.a.A.")),
     Case("an end that is no integer", MIDDLE, tree("A.", at={"x": "1"})),
-    Case("strict bounds", lines("forall x", "given 0 < x", "given x < 1", "show x*(1 - x) <= 1/4"), tree("a..", at={"x": "1/2"})),
+    Case(
+        "strict bounds",
+        lines("forall x", "given 0 < x", "given x < 1", "show x*(1 - x) <= 1/4"),
+        tree("a..", at={"x": "1/2"}),
+    ),
     Case("a degenerate box", POINT, tree("b..", 4, ((0, 1), (2, 3)), {"x": "1/2", "y": "0"})),
-    Case("a degenerate axis as a face", POINT, tree("Aa..", 4, ((0, 1), (2, 3)), {"x": "1/2", "y": "0"})),
+    Case(
+        "a degenerate axis as a face",
+        POINT,
+        tree("Aa..", 4, ((0, 1), (2, 3)), {"x": "1/2", "y": "0"}),
+    ),
     Case("a box where the polynomial vanishes", lines(*FLAT, "show x*y^2 <= 0"), plane("b..")),
-    Case("a box where the polynomial loses a variable", lines(*FLAT, "show x*y^2 <= 1"), plane("BA.")),
-    Case("an empty box", lines("forall x", "show not (x >= 2 and x <= 1 and x^2 > 10)"), tree(".", 2)),
-    Case("bounds that exclude one another", lines(*UNIT, "show x^2 <= 9"), tree(".", bounds=((0, 1),))),
-    Case("a variable that the polynomial does not have", lines(*BOX, "show y^2 <= 1"), plane("a..", 4, ((2, 3),))),
+    Case(
+        "a box where the polynomial loses a variable", lines(*FLAT, "show x*y^2 <= 1"), plane("BA.")
+    ),
+    Case(
+        "an empty box", lines("forall x", "show not (x >= 2 and x <= 1 and x^2 > 10)"), tree(".", 2)
+    ),
+    Case(
+        "bounds that exclude one another",
+        lines(*UNIT, "show x^2 <= 9"),
+        tree(".", bounds=((0, 1),)),
+    ),
+    Case(
+        "a variable that the polynomial does not have",
+        lines(*BOX, "show y^2 <= 1"),
+        plane("a..", 4, ((2, 3),)),
+    ),
     Case("a fact that is weak", lines(*UNIT, "show x^2 - x < 1/100"), tree(".")),
 ]
 
 REJECTED = [
-    Case("a coefficient that is positive", PARABOLA, tree("."), "a Bernstein coefficient of a leaf has the wrong sign"),
-    Case("a coefficient 0 against a weak fact", STRICT_PARABOLA, tree("a.."), "a Bernstein coefficient of a leaf has the wrong sign: 0"),
-    Case("a weak fact that touches at a corner", lines(*UNIT, "show x < 1"), tree("."), "a Bernstein coefficient of a leaf has the wrong sign: 0"),
-    Case("a weak fact that touches on a face", lines(*UNIT, "show x < 1"), tree("A."), "a Bernstein coefficient of a leaf has the wrong sign: 0"),
-    Case("a statement that is false on one half", lines(*UNIT, "show x <= 1/2"), tree("a.."), "a Bernstein coefficient of a leaf has the wrong sign"),
+    Case(
+        "a coefficient that is positive",
+        PARABOLA,
+        tree("."),
+        "a Bernstein coefficient of a leaf has the wrong sign",
+    ),
+    Case(
+        "a coefficient 0 against a weak fact",
+        STRICT_PARABOLA,
+        tree("a.."),
+        "a Bernstein coefficient of a leaf has the wrong sign: 0",
+    ),
+    Case(
+        "a weak fact that touches at a corner",
+        lines(*UNIT, "show x < 1"),
+        tree("."),
+        "a Bernstein coefficient of a leaf has the wrong sign: 0",
+    ),
+    Case(
+        "a weak fact that touches on a face",
+        lines(*UNIT, "show x < 1"),
+        tree("A."),
+        "a Bernstein coefficient of a leaf has the wrong sign: 0",
+    ),
+    Case(
+        "a statement that is false on one half",
+        lines(*UNIT, "show x <= 1/2"),
+        tree("a.."),
+        "a Bernstein coefficient of a leaf has the wrong sign",
+    ),
     Case("the wrong axis", HILLS, plane("aA.A."), "not monotone along an axis: A"),
-    Case("a face of an axis that is not monotone", PARABOLA, tree("A."), "not monotone along an axis: A"),
-    Case("a face that hides what is inside", NOT_ON_FACE, plane("AA."), "not monotone along an axis: A"),
-    Case("a leaf after the face of another axis", NOT_ON_FACE, plane("B."), "a Bernstein coefficient of a leaf has the wrong sign"),
+    Case(
+        "a face of an axis that is not monotone",
+        PARABOLA,
+        tree("A."),
+        "not monotone along an axis: A",
+    ),
+    Case(
+        "a face that hides what is inside",
+        NOT_ON_FACE,
+        plane("AA."),
+        "not monotone along an axis: A",
+    ),
+    Case(
+        "a leaf after the face of another axis",
+        NOT_ON_FACE,
+        plane("B."),
+        "a Bernstein coefficient of a leaf has the wrong sign",
+    ),
     Case("a tree too short", PARABOLA, tree("a."), "a box tree is too short: a."),
     Case("a tree that ends in a halving", PARABOLA, tree("aa"), "a box tree is too short: aa"),
     Case("an empty tree", LINEAR, tree(""), "a box tree is too short"),
@@ -70,23 +138,79 @@ REJECTED = [
     Case("a digit", LINEAR, tree("0."), "nothing has this number: -17"),
     Case("a digit of another script", LINEAR, tree("\u0661."), "nothing has this number: 1536"),
     Case("a letter that looks like A", LINEAR, tree("\u0410."), "nothing has this number: 943"),
-    Case("a letter whose small form is a", lines(*UNIT, "show x <= 1"), tree("\u212b."), "nothing has this number: 8394"),
+    Case(
+        "a letter whose small form is a",
+        lines(*UNIT, "show x <= 1"),
+        tree("\u212b."),
+        "nothing has this number: 8394",
+    ),
     Case("a blank", LINEAR, tree(" ."), "nothing has this number: -33"),
     Case("a list for a tree", PARABOLA, tree(["a", ".", "."]), "a box tree is a text"),
     Case("nothing for a tree", PARABOLA, tree(None), "a box tree is a text"),
-    Case("bounds swapped", PARABOLA, tree("a..", bounds=((1, 0),)), "not a bound of the right sense"),
-    Case("one bound used twice", PARABOLA, tree("a..", bounds=((0, 0),)), "not a bound of the right sense"),
-    Case("the fact itself as a bound", PARABOLA, tree("a..", bounds=((0, 2),)), "not a bound of the right sense"),
-    Case("bounds of the variables in the wrong order", HILLS, plane("bbA.A.bA.A.", 4, ((2, 3), (0, 1))), "expected a polynomial in x alone"),
-    Case("a variable without bounds", PLANE, plane(".", 4, ((0, 1),)), "malformed certificate (ValueError)"),
-    Case("bounds left over", LINEAR, tree(".", bounds=((0, 1), (0, 1))), "malformed certificate (ValueError)"),
+    Case(
+        "bounds swapped", PARABOLA, tree("a..", bounds=((1, 0),)), "not a bound of the right sense"
+    ),
+    Case(
+        "one bound used twice",
+        PARABOLA,
+        tree("a..", bounds=((0, 0),)),
+        "not a bound of the right sense",
+    ),
+    Case(
+        "the fact itself as a bound",
+        PARABOLA,
+        tree("a..", bounds=((0, 2),)),
+        "not a bound of the right sense",
+    ),
+    Case(
+        "bounds of the variables in the wrong order",
+        HILLS,
+        plane("bbA.A.bA.A.", 4, ((2, 3), (0, 1))),
+        "expected a polynomial in x alone",
+    ),
+    Case(
+        "a variable without bounds",
+        PLANE,
+        plane(".", 4, ((0, 1),)),
+        "malformed certificate (ValueError)",
+    ),
+    Case(
+        "bounds left over",
+        LINEAR,
+        tree(".", bounds=((0, 1), (0, 1))),
+        "malformed certificate (ValueError)",
+    ),
     Case("no bounds", LINEAR, tree(".", bounds=()), "malformed certificate (ValueError)"),
-    Case("one bound alone", LINEAR, tree(".", bounds=((0,),)), "malformed certificate (ValueError)"),
-    Case("three bounds", LINEAR, tree(".", bounds=((0, 1, 1),)), "malformed certificate (ValueError)"),
-    Case("numbers for bounds", LINEAR, proof(["boxes", 2, [0, 1], "."], at={"x": "0"}), "malformed certificate (TypeError)"),
-    Case("a bound that is not there", LINEAR, tree(".", bounds=((0, 3),)), "nothing has this number: 3"),
-    Case("a negative number of a bound", LINEAR, tree(".", bounds=((-3, 1),)), "nothing has this number: -3"),
-    Case("a truth value for a bound", LINEAR, tree(".", bounds=((False, 1),)), "nothing has this number: False"),
+    Case(
+        "one bound alone", LINEAR, tree(".", bounds=((0,),)), "malformed certificate (ValueError)"
+    ),
+    Case(
+        "three bounds", LINEAR, tree(".", bounds=((0, 1, 1),)), "malformed certificate (ValueError)"
+    ),
+    Case(
+        "numbers for bounds",
+        LINEAR,
+        proof(["boxes", 2, [0, 1], "."], at={"x": "0"}),
+        "malformed certificate (TypeError)",
+    ),
+    Case(
+        "a bound that is not there",
+        LINEAR,
+        tree(".", bounds=((0, 3),)),
+        "nothing has this number: 3",
+    ),
+    Case(
+        "a negative number of a bound",
+        LINEAR,
+        tree(".", bounds=((-3, 1),)),
+        "nothing has this number: -3",
+    ),
+    Case(
+        "a truth value for a bound",
+        LINEAR,
+        tree(".", bounds=((False, 1),)),
+        "nothing has this number: False",
+    ),
     Case("text for a bound", LINEAR, tree(".", bounds=(("0", 1),)), "nothing has this number: 0"),
     Case("a fact that is not there", LINEAR, tree(".", 3), "nothing has this number: 3"),
     Case("a truth value for the fact", LINEAR, tree(".", True), "nothing has this number: True"),
@@ -108,17 +232,46 @@ REJECTED = [
         tree(".", at={"x": "0", "y": "0"}),
         "expected a polynomial in x alone",
     ),
-    Case("an equation for a bound", lines("forall x", "given x = 0", "given x <= 1", "show x <= 1"), tree("."), "not a bound of the right sense"),
+    Case(
+        "an equation for a bound",
+        lines("forall x", "given x = 0", "given x <= 1", "show x <= 1"),
+        tree("."),
+        "not a bound of the right sense",
+    ),
     Case(
         "what is not zero for a bound",
         lines("forall x", "given x != 0", "given x <= 1", "show x <= 1"),
         tree(".", at={"x": "1"}),
         "not a bound of the right sense",
     ),
-    Case("an equation for the fact", lines(*UNIT, "show x != 2"), tree("."), "a box tree is a text about a fact p > 0 or p >= 0: ="),
-    Case("what is not zero for the fact", lines(*UNIT, "show x = x^2"), tree("."), "a box tree is a text about a fact p > 0 or p >= 0: !="),
-    Case("a missing tree", LINEAR, proof(["boxes", 2, [[0, 1]]], at={"x": "0"}), "malformed certificate (TypeError)"),
-    Case("an entry too many", LINEAR, proof(["boxes", 2, [[0, 1]], ".", []], at={"x": "0"}), "malformed certificate (TypeError)"),
-    Case("one point, where the fact holds", lines("forall x", "given x >= 1", "given x <= 1", "show x^2 < 1"),
-         tree("a..", at={"x": "1"}), "a Bernstein coefficient of a leaf has the wrong sign"),
+    Case(
+        "an equation for the fact",
+        lines(*UNIT, "show x != 2"),
+        tree("."),
+        "a box tree is a text about a fact p > 0 or p >= 0: =",
+    ),
+    Case(
+        "what is not zero for the fact",
+        lines(*UNIT, "show x = x^2"),
+        tree("."),
+        "a box tree is a text about a fact p > 0 or p >= 0: !=",
+    ),
+    Case(
+        "a missing tree",
+        LINEAR,
+        proof(["boxes", 2, [[0, 1]]], at={"x": "0"}),
+        "malformed certificate (TypeError)",
+    ),
+    Case(
+        "an entry too many",
+        LINEAR,
+        proof(["boxes", 2, [[0, 1]], ".", []], at={"x": "0"}),
+        "malformed certificate (TypeError)",
+    ),
+    Case(
+        "one point, where the fact holds",
+        lines("forall x", "given x >= 1", "given x <= 1", "show x^2 < 1"),
+        tree("a..", at={"x": "1"}),
+        "a Bernstein coefficient of a leaf has the wrong sign",
+    ),
 ]

@@ -2,7 +2,9 @@
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof
 
-ORDER = lines("forall x y", "given x < y or y < x", "show x != y")  # choice 0: y - x > 0, x - y > 0; fact 0: x - y = 0
+ORDER = lines(
+    "forall x y", "given x < y or y < x", "show x != y"
+)  # choice 0: y - x > 0, x - y > 0; fact 0: x - y = 0
 SIGNS = lines("forall x", "show x^2 > 0 or x = 0")  # facts 0: -x^2 >= 0, 1: x != 0
 AT = {"x": "0", "y": "1"}
 APART = ["psatz", [[1, [[1, 1]], "1"]], [[0, "1"]]]
@@ -20,23 +22,47 @@ def by_sign(text: Json, *nodes: Json) -> Json:
 
 ACCEPTED = [
     Case("both alternatives", ORDER, by_cases(APART, TURNED)),
-    Case("three signs", SIGNS, by_sign("x", STRICT, ["psatz", [[1, [[1, 2]], "1"]], [[2, "-x"]]], STRICT)),
+    Case(
+        "three signs",
+        SIGNS,
+        by_sign("x", STRICT, ["psatz", [[1, [[1, 2]], "1"]], [[2, "-x"]]], STRICT),
+    ),
     Case("the signs of a constant", lines("show 0 < 1"), proof(["sign", "3", CLOSE, CLOSE, CLOSE])),
 ]
 
 REJECTED = [
-    Case("an alternative left out", ORDER, by_cases(APART), "a disjunction needs one node for each alternative: 2"),
+    Case(
+        "an alternative left out",
+        ORDER,
+        by_cases(APART),
+        "a disjunction needs one node for each alternative: 2",
+    ),
     Case(
         "an alternative too many",
         ORDER,
         by_cases(APART, TURNED, APART),
         "a disjunction needs one node for each alternative: 2",
     ),
-    Case("alternatives swapped", ORDER, by_cases(TURNED, APART), "the certificate's sum is not zero"),
-    Case("an alternative left open", ORDER, by_cases(APART, OPEN), "no term of the certificate is strictly positive"),
-    Case("a disjunction that is not there", ORDER, by_cases(APART, TURNED, number=1), "nothing has this number: 1"),
     Case(
-        "a negative number of a disjunction", ORDER, by_cases(APART, TURNED, number=-1), "nothing has this number: -1"
+        "alternatives swapped", ORDER, by_cases(TURNED, APART), "the certificate's sum is not zero"
+    ),
+    Case(
+        "an alternative left open",
+        ORDER,
+        by_cases(APART, OPEN),
+        "no term of the certificate is strictly positive",
+    ),
+    Case(
+        "a disjunction that is not there",
+        ORDER,
+        by_cases(APART, TURNED, number=1),
+        "nothing has this number: 1",
+    ),
+    Case(
+        "a negative number of a disjunction",
+        ORDER,
+        by_cases(APART, TURNED, number=-1),
+        "nothing has this number: -1",
     ),
     Case(
         "a truth value for a disjunction",
@@ -45,7 +71,10 @@ REJECTED = [
         "nothing has this number: False",
     ),
     Case(
-        "a disjunction used twice", ORDER, by_cases(["cases", 0, [APART, TURNED]], TURNED), "nothing has this number: 0"
+        "a disjunction used twice",
+        ORDER,
+        by_cases(["cases", 0, [APART, TURNED]], TURNED),
+        "nothing has this number: 0",
     ),
     Case(
         "a fact of another alternative",
@@ -53,10 +82,34 @@ REJECTED = [
         by_cases(APART, ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]),
         "nothing has this number: 2",
     ),
-    Case("a sign left out", SIGNS, by_sign("x", STRICT, STRICT), "malformed certificate (TypeError)"),
-    Case("a fourth sign", SIGNS, by_sign("x", STRICT, OPEN, STRICT, OPEN), "malformed certificate (TypeError)"),
-    Case("a case of zero treated as strict", SIGNS, by_sign("x", STRICT, STRICT, STRICT), "a factor of unknown sign"),
-    Case("the sign of a quotient", SIGNS, by_sign("1/x", STRICT, STRICT, STRICT), "expected a polynomial: 1/x"),
-    Case("the sign of nothing", SIGNS, by_sign(None, STRICT, STRICT, STRICT), "unreadable text: None"),
-    Case("the sign of a relation", SIGNS, by_sign("x > 0", STRICT, STRICT, STRICT), "not a term: x > 0"),
+    Case(
+        "a sign left out", SIGNS, by_sign("x", STRICT, STRICT), "malformed certificate (TypeError)"
+    ),
+    Case(
+        "a fourth sign",
+        SIGNS,
+        by_sign("x", STRICT, OPEN, STRICT, OPEN),
+        "malformed certificate (TypeError)",
+    ),
+    Case(
+        "a case of zero treated as strict",
+        SIGNS,
+        by_sign("x", STRICT, STRICT, STRICT),
+        "a factor of unknown sign",
+    ),
+    Case(
+        "the sign of a quotient",
+        SIGNS,
+        by_sign("1/x", STRICT, STRICT, STRICT),
+        "expected a polynomial: 1/x",
+    ),
+    Case(
+        "the sign of nothing", SIGNS, by_sign(None, STRICT, STRICT, STRICT), "unreadable text: None"
+    ),
+    Case(
+        "the sign of a relation",
+        SIGNS,
+        by_sign("x > 0", STRICT, STRICT, STRICT),
+        "not a term: x > 0",
+    ),
 ]

@@ -5,7 +5,9 @@ from tests.certificates.checker.harness import CLOSE, OPEN, Case, lines, proof
 ACCEPTED = [
     Case("a true constant", lines("show 1 < 2"), proof(CLOSE)),
     Case(
-        "an identity", lines("forall x y", "show (x + y)^2 = x^2 + 2*x*y + y^2"), proof(CLOSE, at={"x": "0", "y": "0"})
+        "an identity",
+        lines("forall x y", "show (x + y)^2 = x^2 + 2*x*y + y^2"),
+        proof(CLOSE, at={"x": "0", "y": "0"}),
     ),
     Case(
         "an identity with a licensed denominator",
@@ -14,10 +16,14 @@ ACCEPTED = [
     ),
     Case("a chain", lines("show 0 <= 1 < 3/2 != 2 = 4/2 > 1 >= 1"), proof(CLOSE)),
     Case(
-        "connectives", lines("show iff(1 < 2, not 2 < 1) and implies(1 = 2, 3 = 4) and (0 = 1 or 0 = 0)"), proof(CLOSE)
+        "connectives",
+        lines("show iff(1 < 2, not 2 < 1) and implies(1 = 2, 3 = 4) and (0 = 1 or 0 = 0)"),
+        proof(CLOSE),
     ),
     Case(
-        "an abbreviation", lines("forall x", "let a = x + 1", "show a^2 - 1 = x*(a + 1)"), proof(CLOSE, at={"x": "0"})
+        "an abbreviation",
+        lines("forall x", "let a = x + 1", "show a^2 - 1 = x*(a + 1)"),
+        proof(CLOSE, at={"x": "0"}),
     ),
 ]
 
@@ -29,7 +35,9 @@ REJECTED = [
         "a polynomial is too large: degree 8000",
     ),
     Case("a false constant", lines("show 2 < 1"), proof(CLOSE), "nothing false is assumed"),
-    Case("a false end of a chain", lines("show 0 < 1 < 1"), proof(CLOSE), "nothing false is assumed"),
+    Case(
+        "a false end of a chain", lines("show 0 < 1 < 1"), proof(CLOSE), "nothing false is assumed"
+    ),
     Case(
         "an equation with a wrong coefficient",
         lines("forall x", "show (x + 1)^2 = x^2 + x + 1"),
@@ -42,10 +50,22 @@ REJECTED = [
         proof(CLOSE, at={"x": "0"}),
         "nothing false is assumed: -x^2 > 0",
     ),
-    Case("something left over", lines("show 1 < 2"), proof([*CLOSE, 1]), "malformed certificate (TypeError)"),
-    Case("an unknown rule", lines("show 1 < 2"), proof(["trust me"]), "an unknown rule: ['trust me']"),
+    Case(
+        "something left over",
+        lines("show 1 < 2"),
+        proof([*CLOSE, 1]),
+        "malformed certificate (TypeError)",
+    ),
+    Case(
+        "an unknown rule", lines("show 1 < 2"), proof(["trust me"]), "an unknown rule: ['trust me']"
+    ),
     Case("a rule that is no text", lines("show 1 < 2"), proof([["close"]]), "an unknown rule"),
     Case("a node that is no list", lines("show 1 < 2"), proof("close"), "an unknown rule: close"),
     Case("an empty node", lines("show 1 < 2"), proof([]), "an unknown rule: []"),
-    Case("no term at all", lines("show 1 < 2"), proof(OPEN), "no term of the certificate is strictly positive"),
+    Case(
+        "no term at all",
+        lines("show 1 < 2"),
+        proof(OPEN),
+        "no term of the certificate is strictly positive",
+    ),
 ]

@@ -1,4 +1,5 @@
-"""A refutation: values that meet the premises, and a node that shows that the goals fail whatever the `exists` variables are."""
+"""A refutation: values that meet the premises, and a node that shows that the goals fail whatever
+the `exists` variables are."""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, refuted
 
@@ -12,7 +13,10 @@ MET = ["psatz", [[1, [[3, 2]], "1"]], [[2, "2 - s^2"]]]
 FAILS = [
     "cases",
     0,
-    [["psatz", [[1, [[3, 2]], "1"]], [[2, "2 - s^2"]]], ["psatz", [[1, [[0, 1]], "1"], [1, [[3, 1]], "1"]], []]],
+    [
+        ["psatz", [[1, [[3, 2]], "1"]], [[2, "2 - s^2"]]],
+        ["psatz", [[1, [[0, 1]], "1"], [1, [[3, 1]], "1"]], []],
+    ],
 ]
 
 
@@ -31,7 +35,12 @@ ACCEPTED = [
         "refuted",
     ),
     Case("an integer", GAP, refuted(values(n="1")), "refuted"),
-    Case("an adjoined number", IRRATIONAL, refuted(values(x="s"), goals=FAILS, adjoined=[SQRT2]), "refuted"),
+    Case(
+        "an adjoined number",
+        IRRATIONAL,
+        refuted(values(x="s"), goals=FAILS, adjoined=[SQRT2]),
+        "refuted",
+    ),
     Case(
         "no integer exists",
         lines("forall x", "integer n", "exists n", "show 2*n = x"),
@@ -50,7 +59,9 @@ ACCEPTED = [
 ]
 
 REJECTED = [
-    Case("a premise that fails", GREATER, refuted(values(x="-2", y="1")), "nothing false is assumed"),
+    Case(
+        "a premise that fails", GREATER, refuted(values(x="-2", y="1")), "nothing false is assumed"
+    ),
     Case("a goal that holds", GREATER, refuted(values(x="2", y="1")), "nothing false is assumed"),
     Case(
         "a premise left open",
@@ -65,7 +76,10 @@ REJECTED = [
         "no term of the certificate is strictly positive",
     ),
     Case(
-        "a value left out", GREATER, refuted(values(x="1")), "every variable needs one value, an integer one an integer"
+        "a value left out",
+        GREATER,
+        refuted(values(x="1")),
+        "every variable needs one value, an integer one an integer",
     ),
     Case(
         "a value too many",
@@ -73,7 +87,9 @@ REJECTED = [
         refuted(values(x="1", y="-2", z="0")),
         "an integer, or a value, for what is not a variable",
     ),
-    Case("a free variable as value", GREATER, refuted(values(x="x", y="-2")), "an undeclared name: x"),
+    Case(
+        "a free variable as value", GREATER, refuted(values(x="x", y="-2")), "an undeclared name: x"
+    ),
     Case(
         "no second node",
         GREATER,
@@ -92,7 +108,12 @@ REJECTED = [
         refuted(values(x="1", y="-2"), name="rule/other"),
         "a witness of the wrong shape",
     ),
-    Case("a case that is not empty", GREATER, {"refuted": ["empty", CLOSE]}, "nothing false is assumed"),
+    Case(
+        "a case that is not empty",
+        GREATER,
+        {"refuted": ["empty", CLOSE]},
+        "nothing false is assumed",
+    ),
     Case("the other root", ROOT, refuted(values(x="16", s="-4")), "nothing false is assumed"),
     Case(
         "a value for what exists",
@@ -100,7 +121,9 @@ REJECTED = [
         refuted(values(x="1", y="0")),
         "every variable needs one value, an integer one an integer",
     ),
-    Case("only one candidate excluded", INVERSE, refuted(values(x="1")), "nothing false is assumed"),
+    Case(
+        "only one candidate excluded", INVERSE, refuted(values(x="1")), "nothing false is assumed"
+    ),
     Case(
         "a half for an integer",
         GAP,
@@ -145,7 +168,11 @@ REJECTED = [
         "the certificate's sum is not zero",
         {
             "rule/gap": {
-                "certified": ["proof", [], ["integral", 0, ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]]],
+                "certified": [
+                    "proof",
+                    [],
+                    ["integral", 0, ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]],
+                ],
                 "point": ["rule/gap", [], {"n": "0"}, CLOSE],
             }
         },
@@ -160,8 +187,16 @@ REJECTED = [
 
 ADJOINED: list[tuple[str, Json, str]] = [
     ("no change of sign", ["s", "s^2 + 1", "0", "2", CLOSE, CLOSE], "nothing false is assumed"),
-    ("the sign changes the other way", ["s", "2 - s^2", "0", "2", CLOSE, CLOSE], "nothing false is assumed"),
-    ("ends swapped, signs that suit", ["s", "1 - s", "2", "0", CLOSE, CLOSE], "nothing false is assumed"),
+    (
+        "the sign changes the other way",
+        ["s", "2 - s^2", "0", "2", CLOSE, CLOSE],
+        "nothing false is assumed",
+    ),
+    (
+        "ends swapped, signs that suit",
+        ["s", "1 - s", "2", "0", CLOSE, CLOSE],
+        "nothing false is assumed",
+    ),
     ("ends swapped", ["s", "s^2 - 2", "2", "0", CLOSE, CLOSE], "nothing false is assumed"),
     ("both ends above", ["s", "s^2 - 2", "2", "3", CLOSE, CLOSE], "nothing false is assumed"),
     (
@@ -174,15 +209,28 @@ ADJOINED: list[tuple[str, Json, str]] = [
         ["s", "s^2 - 2", "0", "2", CLOSE, OPEN],
         "no term of the certificate is strictly positive",
     ),
-    ("an end that mentions itself", ["s", "s^2 - 2", "0", "s", CLOSE, CLOSE], "an undeclared name: s"),
-    ("a pole between the ends", ["s", "1/s", "-1", "1", CLOSE, CLOSE], "division by what may vanish"),
+    (
+        "an end that mentions itself",
+        ["s", "s^2 - 2", "0", "s", CLOSE, CLOSE],
+        "an undeclared name: s",
+    ),
+    (
+        "a pole between the ends",
+        ["s", "1/s", "-1", "1", CLOSE, CLOSE],
+        "division by what may vanish",
+    ),
     ("a name that is none", ["2", "s^2 - 2", "0", "2", CLOSE, CLOSE], "an undeclared name: s"),
     ("a name with a blank", ["s t", "4", "0", "2", CLOSE, CLOSE], "nothing false is assumed"),
     ("a missing node", ["s", "s^2 - 2", "0", "2", CLOSE], "malformed certificate (TypeError)"),
     ("a decimal end", ["s", "s^2 - 2", "0", "2.0", CLOSE, CLOSE], "unreadable text: 2.0"),
 ]
 REJECTED += [
-    Case(f"an adjoined number, {defect}", IRRATIONAL, refuted(values(x="s"), MET, FAILS, [entry]), reason)
+    Case(
+        f"an adjoined number, {defect}",
+        IRRATIONAL,
+        refuted(values(x="s"), MET, FAILS, [entry]),
+        reason,
+    )
     for defect, entry, reason in ADJOINED
 ]
 REJECTED += [

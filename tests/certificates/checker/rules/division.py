@@ -1,4 +1,5 @@
-"""Division: only by what an earlier strict line makes nonzero, at top level or inside a top-level `and`."""
+"""Division: only by what an earlier strict line makes nonzero, at top level or inside a top-level
+`and`."""
 
 from tests.certificates.checker.harness import CLOSE, Case, lines, proof
 
@@ -18,7 +19,11 @@ LICENSED = [
     ("a negative line", same("given x < 0"), {"x": "-1"}),
     ("a line that says not zero", same("given x != 0"), ONE),
     ("a negated equation", same("given not x = 0"), ONE),
-    ("a sign told after all", lines("forall x", "given x != 0", "given x > 0", "show 1/x > 0"), ONE),
+    (
+        "a sign told after all",
+        lines("forall x", "given x != 0", "given x > 0", "show 1/x > 0"),
+        ONE,
+    ),
     ("a conjunct", same("given x > 0 and x < 2"), ONE),
     ("a chain", same("given 0 < x < 2"), ONE),
     ("a range", same("range x > 0"), ONE),
@@ -52,8 +57,16 @@ UNLICENSED = [
     ("the goal itself", lines("forall x", "show x != 0 and 1/x != 0")),
     ("an expanded product", same("given x > 0 and x + 1 > 0", divisor="x^2 + x")),
 ]
-REJECTED = [Case(defect, text, proof(CLOSE, at=ONE), "division by what may vanish") for defect, text in UNLICENSED] + [
-    Case("division by zero", lines("forall x", "show 1/0 = 1/0"), proof(CLOSE, at=ONE), "division by zero"),
+REJECTED = [
+    Case(defect, text, proof(CLOSE, at=ONE), "division by what may vanish")
+    for defect, text in UNLICENSED
+] + [
+    Case(
+        "division by zero",
+        lines("forall x", "show 1/0 = 1/0"),
+        proof(CLOSE, at=ONE),
+        "division by zero",
+    ),
     Case(
         "division by what is identically zero",
         lines("forall x", "show 1/(x - x) = 1"),
@@ -66,15 +79,30 @@ REJECTED = [Case(defect, text, proof(CLOSE, at=ONE), "division by what may vanis
         proof(CLOSE, at=ONE),
         "not a term: x ** (-1)",
     ),
-    Case("a variable exponent", lines("forall x", "show 2^x = 2^x"), proof(CLOSE, at=ONE), "not a term: 2 ** x"),
-    Case("a fractional exponent", lines("forall x", "show x^(1/2) = x^(1/2)"), proof(CLOSE, at=ONE), "not a term"),
+    Case(
+        "a variable exponent",
+        lines("forall x", "show 2^x = 2^x"),
+        proof(CLOSE, at=ONE),
+        "not a term: 2 ** x",
+    ),
+    Case(
+        "a fractional exponent",
+        lines("forall x", "show x^(1/2) = x^(1/2)"),
+        proof(CLOSE, at=ONE),
+        "not a term",
+    ),
     Case(
         "an exponent beyond the limit",
         lines("forall x", "show x^4001 = x^4001"),
         proof(CLOSE, at=ONE),
         "an exponent is too large: 4001",
     ),
-    Case("a tower of exponents", lines("forall x", "show x^2^3 = x^8"), proof(CLOSE, at=ONE), "not a term"),
+    Case(
+        "a tower of exponents",
+        lines("forall x", "show x^2^3 = x^8"),
+        proof(CLOSE, at=ONE),
+        "not a term",
+    ),
     Case(
         "a quotient whose sign is unknown",
         lines("forall x", "given x != 0", "show 1/x > 0"),

@@ -1,8 +1,11 @@
-"""Obligations: every `have` line follows from the lines before it, and so does it that the term under a root is not negative."""
+"""Obligations: every `have` line follows from the lines before it, and so does it that the term
+under a root is not negative."""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof
 
-HAVE = lines("forall x", "given x > 1", "have x > 0", "show 1/x < 1")  # goal, negated: (x - 1... ) <= 0 over x
+HAVE = lines(
+    "forall x", "given x > 1", "have x > 0", "show 1/x < 1"
+)  # goal, negated: (x - 1... ) <= 0 over x
 ROOT = lines("forall x", "given x >= 1", "root s = sqrt(x - 1)", "show s >= 0")
 POSITIVE = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"], [1, [], "1"]], []]  # x > 1 and x <= 0
 GOAL = ["psatz", [[1, [[0, 1]], "1"], [1, [[2, 1]], "1"]], []]
@@ -29,7 +32,11 @@ ACCEPTED = [
             [
                 "sign",
                 "s - 3/2",
-                ["psatz", [[1, [[3, 1]], "1"], [1, [], "0"], ["2/3", [[0, 1], [3, 1]], "1"]], [[1, "2/3"]]],
+                [
+                    "psatz",
+                    [[1, [[3, 1]], "1"], [1, [], "0"], ["2/3", [[0, 1], [3, 1]], "1"]],
+                    [[1, "2/3"]],
+                ],
                 ["psatz", [[1, [[2, 2]], "1"]], [[3, "3/2 - s"]]],
                 ["psatz", [[1, [[3, 1]], "1"], ["2/3", [[0, 1], [3, 1]], "1"]], [[1, "-2/3"]]],
             ],
@@ -42,7 +49,12 @@ ACCEPTED = [
 REJECTED = [
     Case("a consequence without proof", HAVE, have(), "malformed certificate (ValueError)"),
     Case("a proof too many", HAVE, have(POSITIVE, POSITIVE), "malformed certificate (ValueError)"),
-    Case("a consequence left open", HAVE, have(OPEN), "no term of the certificate is strictly positive"),
+    Case(
+        "a consequence left open",
+        HAVE,
+        have(OPEN),
+        "no term of the certificate is strictly positive",
+    ),
     Case(
         "a consequence proved from itself",
         lines("forall x", "have x > 0", "show x > 0"),
@@ -93,7 +105,10 @@ REJECTED = [
         "nothing false is assumed",
     ),
     Case(
-        "a wrong value of a root at the point", ROOT, root(UNDER, at={"x": "2", "s": "2"}), "nothing false is assumed"
+        "a wrong value of a root at the point",
+        ROOT,
+        root(UNDER, at={"x": "2", "s": "2"}),
+        "nothing false is assumed",
     ),
     Case(
         "a root without value at the point",

@@ -1,4 +1,5 @@
-"""["integral", i, node]: a strict fact with integer coefficients in integer variables is at least one."""
+"""["integral", i, node]: a strict fact with integer coefficients in integer variables is at least
+one."""
 
 from tests.certificates.checker.harness import OPEN, Case, Json, lines, proof
 
@@ -32,7 +33,12 @@ ACCEPTED = [
 ]
 
 REJECTED = [
-    Case("what remains is left open", GAP, integral(0, OPEN), "no term of the certificate is strictly positive"),
+    Case(
+        "what remains is left open",
+        GAP,
+        integral(0, OPEN),
+        "no term of the certificate is strictly positive",
+    ),
     Case(
         "a real variable",
         lines("forall n", "show n <= 0 or n >= 1"),
@@ -60,7 +66,9 @@ REJECTED = [
         "not a strict fact with integer coefficients",
     ),
     Case("a fact that is not there", GAP, integral(2, BOTH), "nothing has this number: 2"),
-    Case("no node", GAP, proof(["integral", 0], at={"n": "0"}), "malformed certificate (TypeError)"),
+    Case(
+        "no node", GAP, proof(["integral", 0], at={"n": "0"}), "malformed certificate (TypeError)"
+    ),
     Case(
         "a root that is called an integer",
         lines("forall x", "integer s", "root s = sqrt(2)", "show x = x"),

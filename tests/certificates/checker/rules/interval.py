@@ -1,4 +1,5 @@
-"""["interval", i, j, k]: fact i is negative on the whole interval that facts j and k bound (Sturm)."""
+"""["interval", i, j, k]: fact i is negative on the whole interval that facts j and k bound
+(Sturm)."""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof
 
@@ -66,7 +67,12 @@ REJECTED = [
         "not a bound of the right sense",
     ),
     Case("a root that touches", TOUCHING, on(0, 1), "the fact does not fail on the whole interval"),
-    Case("a root at the lower end", ROOT_AT_END, on(0, 1), "the fact does not fail on the whole interval"),
+    Case(
+        "a root at the lower end",
+        ROOT_AT_END,
+        on(0, 1),
+        "the fact does not fail on the whole interval",
+    ),
     Case(
         "a root at the upper end",
         lines(*BOUNDED, "show (x - 1)*(x + 1) < 0"),
@@ -110,7 +116,12 @@ REJECTED = [
         "not a bound of the right sense",
     ),
     Case("a negative number", LINEAR, on(0, 1, -1), "nothing has this number: -1"),
-    Case("a missing bound", LINEAR, proof(["interval", 2, 0], at={"x": "0"}), "malformed certificate (TypeError)"),
+    Case(
+        "a missing bound",
+        LINEAR,
+        proof(["interval", 2, 0], at={"x": "0"}),
+        "malformed certificate (TypeError)",
+    ),
     Case(
         "a number too many",
         LINEAR,
@@ -118,5 +129,10 @@ REJECTED = [
         "malformed certificate (TypeError)",
     ),
     Case("nothing but text", LINEAR, on("0", "1"), "nothing has this number: 0"),
-    Case("an open node instead", LINEAR, proof(OPEN, at={"x": "0"}), "no term of the certificate is strictly positive"),
+    Case(
+        "an open node instead",
+        LINEAR,
+        proof(OPEN, at={"x": "0"}),
+        "no term of the certificate is strictly positive",
+    ),
 ]

@@ -4,7 +4,12 @@ from tests.certificates.checker.harness import CLOSE, Case, Json, lines
 
 DONE: Json = {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}
 MORE: Json = {"certified": {**DONE["certified"], "more": ["proof", [], CLOSE]}}
-SHIFT = ("forall x w K", "integer K", "iterates (x, w) -> (x - w, w + 2)", "after K -> (x - K*w - K*(K - 1), w + 2*K)")
+SHIFT = (
+    "forall x w K",
+    "integer K",
+    "iterates (x, w) -> (x - w, w + 2)",
+    "after K -> (x - K*w - K*(K - 1), w + 2*K)",
+)
 
 
 def case(defect: str, *rows: str, expected: str = "certified", certificate: Json = None) -> Case:
@@ -15,25 +20,52 @@ ACCEPTED = [
     case("a triangular map", *SHIFT),
     case("one variable", "forall x K", "integer K", "iterates x -> x + 2", "after K -> x + 2*K"),
     case("a parameter", "forall x a K", "integer K", "iterates x -> x + a", "after K -> x + K*a"),
-    case("an abbreviation", "forall x a K", "integer K", "let b = a^2", "iterates x -> x + b", "after K -> x + K*b"),
     case(
-        "an involution of two", "forall x y K", "integer K", "iterates (x, y) -> (x, y + x)", "after K -> (x, y + K*x)"
+        "an abbreviation",
+        "forall x a K",
+        "integer K",
+        "let b = a^2",
+        "iterates x -> x + b",
+        "after K -> x + K*b",
+    ),
+    case(
+        "an involution of two",
+        "forall x y K",
+        "integer K",
+        "iterates (x, y) -> (x, y + x)",
+        "after K -> (x, y + K*x)",
     ),
 ]
 
-START, STEP = (f"premise {name} of rule/case: nothing false is assumed" for name in ("start", "step"))
+START, STEP = (
+    f"premise {name} of rule/case: nothing false is assumed" for name in ("start", "step")
+)
 UNDECLARED = "an undeclared name in a map"
 NAMES = "a map names its variables first, an image for each, and one integer apart"
 WORD = "premise start of rule/case: a name is declared twice, or is none"
 ORDER = "the lines of a statement are missing or out of order"
 REJECTED = [
     case("a wrong step", *SHIFT[:3], "after K -> (x - K*w - K*(K + 1), w + 2*K)", expected=STEP),
-    case("a wrong start", *SHIFT[:3], "after K -> (x - K*w - K*(K - 1), w + 2*K + 1)", expected=START),
+    case(
+        "a wrong start", *SHIFT[:3], "after K -> (x - K*w - K*(K - 1), w + 2*K + 1)", expected=START
+    ),
     case("the right start only", *SHIFT[:3], "after K -> (x - K*w, w + 2*K)", expected=STEP),
     case(
-        "the right step only", "forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K + 1", expected=START
+        "the right step only",
+        "forall x K",
+        "integer K",
+        "iterates x -> x + 1",
+        "after K -> x + K + 1",
+        expected=START,
     ),
-    case("images swapped", "forall x w K", "integer K", "iterates (x, w) -> (w + 2, x - w)", SHIFT[3], expected=STEP),
+    case(
+        "images swapped",
+        "forall x w K",
+        "integer K",
+        "iterates (x, w) -> (w + 2, x - w)",
+        SHIFT[3],
+        expected=STEP,
+    ),
     case(
         "a map that depends on the number of iterations",
         "forall x K",
@@ -51,12 +83,24 @@ REJECTED = [
         "after K -> x + K*(K - 1)/2",
         expected="a map that is iterated cannot depend on the number of iterations",
     ),
-    case("no variable", "forall K", "integer K", "iterates () -> ()", "after K -> ()", expected=NAMES),
     case(
-        "an image left out", "forall x w K", "integer K", "iterates (x, w) -> (x,)", "after K -> (x, w)", expected=NAMES
+        "no variable", "forall K", "integer K", "iterates () -> ()", "after K -> ()", expected=NAMES
     ),
     case(
-        "a power left out", "forall x w K", "integer K", "iterates (x, w) -> (x, w)", "after K -> (x,)", expected=NAMES
+        "an image left out",
+        "forall x w K",
+        "integer K",
+        "iterates (x, w) -> (x,)",
+        "after K -> (x, w)",
+        expected=NAMES,
+    ),
+    case(
+        "a power left out",
+        "forall x w K",
+        "integer K",
+        "iterates (x, w) -> (x, w)",
+        "after K -> (x,)",
+        expected=NAMES,
     ),
     case(
         "a variable left out",
@@ -82,9 +126,30 @@ REJECTED = [
         "after K -> x + K",
         expected=NAMES,
     ),
-    case("a count that is a state", "forall x K", "integer x", "iterates x -> x", "after x -> x", expected=NAMES),
-    case("a count that is a number", "forall x K", "integer 2", "iterates x -> x", "after 2 -> x", expected=NAMES),
-    case("a count that is a term", "forall x K", "integer -K", "iterates x -> x", "after -K -> x", expected=NAMES),
+    case(
+        "a count that is a state",
+        "forall x K",
+        "integer x",
+        "iterates x -> x",
+        "after x -> x",
+        expected=NAMES,
+    ),
+    case(
+        "a count that is a number",
+        "forall x K",
+        "integer 2",
+        "iterates x -> x",
+        "after 2 -> x",
+        expected=NAMES,
+    ),
+    case(
+        "a count that is a term",
+        "forall x K",
+        "integer -K",
+        "iterates x -> x",
+        "after -K -> x",
+        expected=NAMES,
+    ),
     case(
         "two counts",
         "forall x K n",
@@ -126,14 +191,49 @@ REJECTED = [
         "after K -> x",
         expected="premise step of rule/case: not a term",
     ),
-    case("a name of the premises for an image", "forall x K", "integer K", "iterates x -> x_next", "after K -> x", expected=UNDECLARED),
-    case("a name of the premises for a power", "forall x K", "integer K", "iterates x -> x", "after K -> x_next", expected=UNDECLARED),
-    # were `implies` a name, the map would depend on the number of iterations unseen: 2 steps of x -> x + 2 are x + 4, not x + 1
-    case("a count that is a word", "forall x implies", "integer implies", "iterates x -> x + implies",
-         "after implies -> x + implies*(implies - 1)/2", expected=WORD),
-    case("a state that is a word, in an abbreviation", "forall iff K", "integer K", "let c = iff", "iterates iff -> iff + c",
-         "after K -> iff + K*iff", expected=WORD),
-    case("a starred image", "forall x K", "integer K", "iterates x -> (*x,)", "after K -> x", expected="statements, line 5: unreadable text"),
+    case(
+        "a name of the premises for an image",
+        "forall x K",
+        "integer K",
+        "iterates x -> x_next",
+        "after K -> x",
+        expected=UNDECLARED,
+    ),
+    case(
+        "a name of the premises for a power",
+        "forall x K",
+        "integer K",
+        "iterates x -> x",
+        "after K -> x_next",
+        expected=UNDECLARED,
+    ),
+    # were `implies` a name, the map would depend on the number of iterations unseen: 2 steps of x
+    # -> x + 2 are x + 4, not x + 1
+    case(
+        "a count that is a word",
+        "forall x implies",
+        "integer implies",
+        "iterates x -> x + implies",
+        "after implies -> x + implies*(implies - 1)/2",
+        expected=WORD,
+    ),
+    case(
+        "a state that is a word, in an abbreviation",
+        "forall iff K",
+        "integer K",
+        "let c = iff",
+        "iterates iff -> iff + c",
+        "after K -> iff + K*iff",
+        expected=WORD,
+    ),
+    case(
+        "a starred image",
+        "forall x K",
+        "integer K",
+        "iterates x -> (*x,)",
+        "after K -> x",
+        expected="statements, line 5: unreadable text",
+    ),
     case(
         "an arrow too many",
         "forall x K",
@@ -142,15 +242,32 @@ REJECTED = [
         "after K -> x",
         expected="statements, line 4",
     ),
-    case("no arrow", "forall x K", "integer K", "iterates x", "after K -> x", expected="statements, line 4"),
-    case("a proof left over", *SHIFT, expected="the premises of a rule are missing or left over", certificate=MORE),
+    case(
+        "no arrow",
+        "forall x K",
+        "integer K",
+        "iterates x",
+        "after K -> x",
+        expected="statements, line 4",
+    ),
+    case(
+        "a proof left over",
+        *SHIFT,
+        expected="the premises of a rule are missing or left over",
+        certificate=MORE,
+    ),
     case(
         "a point",
         *SHIFT,
         expected="a certificate with missing or left over keys",
         certificate={**DONE, "point": []},
     ),
-    case("a refutation", *SHIFT, expected="a certificate with missing or left over keys", certificate={"refuted": []}),
+    case(
+        "a refutation",
+        *SHIFT,
+        expected="a certificate with missing or left over keys",
+        certificate={"refuted": []},
+    ),
     case("a given line", *SHIFT, "given x > 0", expected=ORDER),
     case("no count", "forall x K", "integer K", "iterates x -> x", expected=ORDER),
 ]

@@ -1,4 +1,5 @@
-"""The point of a certified statement: values that meet its premises, so that it says something; and the keys of a certificate."""
+"""The point of a certified statement: values that meet its premises, so that it says something; and
+the keys of a certificate."""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, refuted
 
@@ -9,7 +10,11 @@ BELOW = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"]], []]
 
 
 def at(values: Json, adjoined: Json = (), node: Json = CLOSE, **more: Json) -> Json:
-    return {"certified": ["proof", [], EQUAL], "point": [NAME, list(adjoined), values, node], **more}
+    return {
+        "certified": ["proof", [], EQUAL],
+        "point": [NAME, list(adjoined), values, node],
+        **more,
+    }
 
 
 SQRT2 = ["s", "s^2 - 2", "1", "2", CLOSE, CLOSE]
@@ -24,16 +29,33 @@ ACCEPTED = [
     Case(
         "premises only, where something exists",
         lines("forall x", "given x > 1", "exists y", "show y > x"),
-        {"certified": ["witness", [], [NAME, [], {"y": "x + 1"}, CLOSE]], "point": [NAME, [], {"x": "2"}, CLOSE]},
+        {
+            "certified": ["witness", [], [NAME, [], {"y": "x + 1"}, CLOSE]],
+            "point": [NAME, [], {"x": "2"}, CLOSE],
+        },
     ),
-    Case("no variable", lines("show 1 < 2"), {"certified": ["proof", [], CLOSE], "point": [NAME, [], {}, CLOSE]}),
+    Case(
+        "no variable",
+        lines("show 1 < 2"),
+        {"certified": ["proof", [], CLOSE], "point": [NAME, [], {}, CLOSE]},
+    ),
     Case("nothing is said", PREMISES, {"unknown": "the search ended"}, "unknown"),
 ]
 
 REJECTED = [
     Case("a premise that fails", PREMISES, at({"x": "0", "y": "0"}), "nothing false is assumed"),
-    Case("a premise that is not exact", PREMISES, at({"x": "2", "y": "14142136/10000000"}), "nothing false is assumed"),
-    Case("a variable left out", PREMISES, at({"x": "1"}), "every variable needs one value, an integer one an integer"),
+    Case(
+        "a premise that is not exact",
+        PREMISES,
+        at({"x": "2", "y": "14142136/10000000"}),
+        "nothing false is assumed",
+    ),
+    Case(
+        "a variable left out",
+        PREMISES,
+        at({"x": "1"}),
+        "every variable needs one value, an integer one an integer",
+    ),
     Case(
         "a variable too many",
         PREMISES,
@@ -63,10 +85,30 @@ REJECTED = [
         {"point": [NAME, [], {"x": "1", "y": "1"}, CLOSE]},
         "a certificate with missing or left over keys",
     ),
-    Case("another key", PREMISES, {"proved": True}, "a certificate with missing or left over keys: ['proved']"),
-    Case("a list for a certificate", PREMISES, ["unknown"], "a certificate with missing or left over keys: []"),
-    Case("a text for a certificate", PREMISES, "unknown", "a certificate with missing or left over keys: []"),
-    Case("a number for a certificate", PREMISES, 0, "a certificate with missing or left over keys: []"),
+    Case(
+        "another key",
+        PREMISES,
+        {"proved": True},
+        "a certificate with missing or left over keys: ['proved']",
+    ),
+    Case(
+        "a list for a certificate",
+        PREMISES,
+        ["unknown"],
+        "a certificate with missing or left over keys: []",
+    ),
+    Case(
+        "a text for a certificate",
+        PREMISES,
+        "unknown",
+        "a certificate with missing or left over keys: []",
+    ),
+    Case(
+        "a number for a certificate",
+        PREMISES,
+        0,
+        "a certificate with missing or left over keys: []",
+    ),
     Case(
         "premises that exclude one another",
         lines("forall x", "given x > 0", "given x < 0", "show 0 = 1"),

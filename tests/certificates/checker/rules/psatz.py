@@ -1,9 +1,12 @@
-"""["psatz", products, equations]: a sum of nonnegative products and multiples of equations is zero, yet strictly positive."""
+"""["psatz", products, equations]: a sum of nonnegative products and multiples of equations is zero,
+yet strictly positive."""
 
 from tests.certificates.checker.harness import Case, Json, lines, proof
 
 SQUARE = lines("forall x", "show x^2 >= 0")  # fact 0: -x^2 > 0
-AMGM = lines("forall x y", "given x >= 0", "given y > 0", "show x*y + x^2 >= 0")  # facts: x >= 0, y > 0, -x*y - x^2 > 0
+AMGM = lines(
+    "forall x y", "given x >= 0", "given y > 0", "show x*y + x^2 >= 0"
+)  # facts: x >= 0, y > 0, -x*y - x^2 > 0
 EQUATION = lines("forall x y", "given x*y = 1", "show x != 0")  # facts: x*y - 1 = 0, x = 0
 UNEQUAL = lines("forall x", "given x != 0", "show x^2 > 0")  # facts: x != 0, -x^2 >= 0
 ORIGIN, UNITS = {"x": "0"}, {"x": "1", "y": "1"}
@@ -24,8 +27,16 @@ def with_units(products: Json, equations: Json = ()) -> Json:
 ACCEPTED = [
     Case("a square", SQUARE, square([[1, [[0, 1]], "1"], [1, [], "x"]])),
     Case("rational coefficients", SQUARE, square([["2/3", [[0, 1]], "1"], ["6", [], "x/3"]])),
-    Case("a product of facts", AMGM, with_units([[1, [[2, 1]], "1"], [1, [[0, 1], [1, 1]], "1"], [1, [], "x"]])),
-    Case("a power of a fact", AMGM, with_units([[1, [[2, 1]], "1"], [1, [[0, 1], [1, 1]], "1"], [1, [[0, 2]], "1"]])),
+    Case(
+        "a product of facts",
+        AMGM,
+        with_units([[1, [[2, 1]], "1"], [1, [[0, 1], [1, 1]], "1"], [1, [], "x"]]),
+    ),
+    Case(
+        "a power of a fact",
+        AMGM,
+        with_units([[1, [[2, 1]], "1"], [1, [[0, 1], [1, 1]], "1"], [1, [[0, 2]], "1"]]),
+    ),
     Case("multiples of equations", EQUATION, with_units([[1, [], "1"]], [[0, "1"], [1, "-y"]])),
     Case(
         "an even power of what is not zero",
@@ -52,7 +63,12 @@ REJECTED = [
         square([[1, [[0, 1]], "1"], [-1, [], "x"]]),
         "a coefficient is not positive: -1",
     ),
-    Case("a coefficient zero", SQUARE, square([[0, [[0, 1]], "1"]]), "a coefficient is not positive: 0"),
+    Case(
+        "a coefficient zero",
+        SQUARE,
+        square([[0, [[0, 1]], "1"]]),
+        "a coefficient is not positive: 0",
+    ),
     Case(
         "a float as coefficient",
         SQUARE,
@@ -78,7 +94,10 @@ REJECTED = [
         "expected an exact rational: 1/0",
     ),
     Case(
-        "blanks in a coefficient", SQUARE, square([[" 1", [[0, 1]], "1"], [1, [], "x"]]), "expected an exact rational"
+        "blanks in a coefficient",
+        SQUARE,
+        square([[" 1", [[0, 1]], "1"], [1, [], "x"]]),
+        "expected an exact rational",
     ),
     Case(
         "digits of another script",
@@ -110,7 +129,12 @@ REJECTED = [
         proof(psatz([[1, [[0, 1], [1, 1]], "1"], [1, [], "x"]]), at={"x": "1"}),
         "no term of the certificate is strictly positive",
     ),
-    Case("an equation as a factor", EQUATION, with_units([[1, [[0, 1]], "1"]]), "a factor of unknown sign"),
+    Case(
+        "an equation as a factor",
+        EQUATION,
+        with_units([[1, [[0, 1]], "1"]]),
+        "a factor of unknown sign",
+    ),
     Case(
         "an odd power of what is not zero",
         UNEQUAL,
@@ -118,13 +142,45 @@ REJECTED = [
         "a factor of unknown sign",
     ),
     Case("an exponent zero", AMGM, with_units([[1, [[0, 0]], "1"]]), "a factor of unknown sign"),
-    Case("a negative exponent", AMGM, with_units([[1, [[0, -2]], "1"]]), "a factor of unknown sign"),
-    Case("a truth value as exponent", AMGM, with_units([[1, [[0, True]], "1"]]), "a factor of unknown sign"),
-    Case("an exponent beyond the limit", AMGM, with_units([[1, [[0, 10**30]], "1"]]), "a factor of unknown sign"),
-    Case("a fact that is not there", AMGM, with_units([[1, [[3, 1]], "1"]]), "nothing has this number: 3"),
-    Case("a negative number of a fact", AMGM, with_units([[1, [[-1, 1]], "1"]]), "nothing has this number: -1"),
-    Case("a truth value for a fact", AMGM, with_units([[1, [[True, 1]], "1"]]), "nothing has this number: True"),
-    Case("an inequality as equation", AMGM, with_units([[1, [], "1"]], [[0, "1"]]), "not an equation: x"),
+    Case(
+        "a negative exponent", AMGM, with_units([[1, [[0, -2]], "1"]]), "a factor of unknown sign"
+    ),
+    Case(
+        "a truth value as exponent",
+        AMGM,
+        with_units([[1, [[0, True]], "1"]]),
+        "a factor of unknown sign",
+    ),
+    Case(
+        "an exponent beyond the limit",
+        AMGM,
+        with_units([[1, [[0, 10**30]], "1"]]),
+        "a factor of unknown sign",
+    ),
+    Case(
+        "a fact that is not there",
+        AMGM,
+        with_units([[1, [[3, 1]], "1"]]),
+        "nothing has this number: 3",
+    ),
+    Case(
+        "a negative number of a fact",
+        AMGM,
+        with_units([[1, [[-1, 1]], "1"]]),
+        "nothing has this number: -1",
+    ),
+    Case(
+        "a truth value for a fact",
+        AMGM,
+        with_units([[1, [[True, 1]], "1"]]),
+        "nothing has this number: True",
+    ),
+    Case(
+        "an inequality as equation",
+        AMGM,
+        with_units([[1, [], "1"]], [[0, "1"]]),
+        "not an equation: x",
+    ),
     Case(
         "a negative number of an equation",
         EQUATION,
@@ -137,9 +193,24 @@ REJECTED = [
         with_units([[1, [], "1"]], [[1, "1/y"]]),
         "division by what may vanish",
     ),
-    Case("an undeclared name", SQUARE, square([[1, [[0, 1]], "1"], [1, [], "z"]]), "an undeclared name: z"),
-    Case("a term missing its root", SQUARE, square([[1, [[0, 1]]]]), "malformed certificate (ValueError)"),
-    Case("a fourth entry", SQUARE, square([[1, [[0, 1]], "1", "1"]]), "malformed certificate (ValueError)"),
+    Case(
+        "an undeclared name",
+        SQUARE,
+        square([[1, [[0, 1]], "1"], [1, [], "z"]]),
+        "an undeclared name: z",
+    ),
+    Case(
+        "a term missing its root",
+        SQUARE,
+        square([[1, [[0, 1]]]]),
+        "malformed certificate (ValueError)",
+    ),
+    Case(
+        "a fourth entry",
+        SQUARE,
+        square([[1, [[0, 1]], "1", "1"]]),
+        "malformed certificate (ValueError)",
+    ),
     Case("a number for a root", SQUARE, square([[1, [[0, 1]], 1]]), "unreadable text: 1"),
     Case("nothing for a list", SQUARE, square(None), "malformed certificate (TypeError)"),
 ]

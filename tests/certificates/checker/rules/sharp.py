@@ -1,4 +1,5 @@
-"""Sharp ranges: for all parameters in the domain, the statements named hold <=> the condition holds."""
+"""Sharp ranges: for all parameters in the domain, the statements named hold <=> the condition
+holds."""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines
 
@@ -6,15 +7,26 @@ SQUARES = lines("forall a x", "range a > 5", "given x >= 1", "show x^2 >= a", na
 SHARP = ("sharp rule/squares", "over a", "domain a > 0 and a < 9", "holds a <= 1")
 TEXT = SQUARES + "\n" + lines(*SHARP)
 # facts inside: a > 0, 9 - a > 0, 1 - a >= 0, x - 1 >= 0, a - x^2 > 0
-INSIDE = ["proof", [], ["psatz", [[1, [[4, 1]], "1"], [1, [[2, 1]], "1"], [2, [[3, 1]], "1"], [1, [[3, 2]], "1"]], []]]
+INSIDE = [
+    "proof",
+    [],
+    ["psatz", [[1, [[4, 1]], "1"], [1, [[2, 1]], "1"], [2, [[3, 1]], "1"], [1, [[3, 2]], "1"]], []],
+]
 # facts outside: a > 0, 9 - a > 0, a - 1 > 0
 MET = [
     "cases",
     0,
-    [["psatz", [[1, [[0, 1]], "1"], [1, [[3, 1]], "1"]], []], ["psatz", [[1, [[1, 1]], "1"], [1, [[3, 1]], "1"]], []]],
+    [
+        ["psatz", [[1, [[0, 1]], "1"], [1, [[3, 1]], "1"]], []],
+        ["psatz", [[1, [[1, 1]], "1"], [1, [[3, 1]], "1"]], []],
+    ],
 ]
 FAILS = ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"]], []]
-LOOSE = ["proof", [], ["psatz", [[1, [[4, 1]], "1"], [1, [[2, 1]], "1"], [1, [[3, 1]], "1"], [1, [[3, 2]], "1"]], []]]
+LOOSE = [
+    "proof",
+    [],
+    ["psatz", [[1, [[4, 1]], "1"], [1, [[2, 1]], "1"], [1, [[3, 1]], "1"], [1, [[3, 2]], "1"]], []],
+]
 HALF = {"a": "1/2"}
 EARLIER = {name: {"unknown": "holds only in a range"} for name in ("rule/squares", "rule/counts")}
 
@@ -36,20 +48,42 @@ def over(*rows: str) -> str:
 
 
 VALID = sharp({"rule/squares": INSIDE}, found())
-SQRT = ("sharp rule/squares", "over a", "domain a > 0 and a < 9", "number c = root(a^2 - a, 1/2, 2)", "holds a <= 1")
+SQRT = (
+    "sharp rule/squares",
+    "over a",
+    "domain a > 0 and a < 9",
+    "number c = root(a^2 - a, 1/2, 2)",
+    "holds a <= 1",
+)
 
 # n <= x for all x >= 1 exactly where n < 2, which is so for integers only
 COUNTS = ("forall n x", "integer n", "given x >= 1", "show x >= n")
 BELOW_2 = ("over n", "domain n > 0 and n < 9", "holds n < 2")
-# facts inside: n > 0, 9 - n > 0, 2 - n > 0, x - 1 >= 0, n - x > 0, 1 - n >= 0; outside: n > 0, 9 - n > 0, n - 2 >= 0, 1 - n >= 0
+# facts inside: n > 0, 9 - n > 0, 2 - n > 0, x - 1 >= 0, n - x > 0, 1 - n >= 0; outside: n > 0, 9 -
+# n > 0, n - 2 >= 0, 1 - n >= 0
 COUNTED = ["proof", [], ["integral", 2, ["psatz", [[1, [[k, 1]], "1"] for k in (3, 4, 5)], []]]]
 BEYOND = ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"], [1, [], "1"]], []]
 
 
-def counted(defect: str, expected: str = "certified", rows: tuple[str, ...] = COUNTS, sample: str = "1") -> Case:
+def counted(
+    defect: str, expected: str = "certified", rows: tuple[str, ...] = COUNTS, sample: str = "1"
+) -> Case:
     text = lines(*rows, name="rule/squares") + "\n" + lines("sharp rule/squares", *BELOW_2)
-    met = ["cases", 0, [["psatz", [[1, [[0, 1]], "1"], [1, [[3, 1]], "1"]], []], ["psatz", [[1, [[1, 1]], "1"], [1, [[3, 1]], "1"]], []]]]
-    return Case(defect, text, sharp({"rule/squares": COUNTED}, found(BEYOND, met), {"n": sample}), expected, EARLIER)
+    met = [
+        "cases",
+        0,
+        [
+            ["psatz", [[1, [[0, 1]], "1"], [1, [[3, 1]], "1"]], []],
+            ["psatz", [[1, [[1, 1]], "1"], [1, [[3, 1]], "1"]], []],
+        ],
+    ]
+    return Case(
+        defect,
+        text,
+        sharp({"rule/squares": COUNTED}, found(BEYOND, met), {"n": sample}),
+        expected,
+        EARLIER,
+    )
 
 
 ACCEPTED = [
@@ -85,14 +119,21 @@ MAP = lines("forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K"
 EMPTY = ["empty", CLOSE]
 
 REJECTED = [
-    counted("a parameter that is no integer", "not a strict fact with integer coefficients in integers", (COUNTS[0], *COUNTS[2:])),
+    counted(
+        "a parameter that is no integer",
+        "not a strict fact with integer coefficients in integers",
+        (COUNTS[0], *COUNTS[2:]),
+    ),
     counted("a sample between integers", "the sample is not in the domain", sample="3/2"),
     case(
         "a parameter that is an integer in one statement only",
         sharp({"rule/squares": INSIDE, "rule/counts": COUNTED}, found()),
         "a parameter is an integer in one statement of a sharp range and not in another",
-        SQUARES + "\n" + lines("forall a x", "integer a", "given x >= 1", "show x >= a", name="rule/counts")
-        + "\n" + lines("sharp rule/squares rule/counts", *SHARP[1:]),
+        SQUARES
+        + "\n"
+        + lines("forall a x", "integer a", "given x >= 1", "show x >= a", name="rule/counts")
+        + "\n"
+        + lines("sharp rule/squares rule/counts", *SHARP[1:]),
     ),
     Case(
         "a statement of another kind",
@@ -107,10 +148,23 @@ REJECTED = [
         "a sharp range proves each of its earlier statements",
         over("sharp rule/none", *SHARP[1:]),
     ),
-    case("a condition too wide", VALID, "the certificate's sum is not zero", over(*SHARP[:3], "holds a <= 2")),
-    case("a condition too narrow", VALID, "the certificate's sum is not zero", over(*SHARP[:3], "holds a < 1/2")),
     case(
-        "a strict condition", VALID, "no term of the certificate is strictly positive", over(*SHARP[:3], "holds a < 1")
+        "a condition too wide",
+        VALID,
+        "the certificate's sum is not zero",
+        over(*SHARP[:3], "holds a <= 2"),
+    ),
+    case(
+        "a condition too narrow",
+        VALID,
+        "the certificate's sum is not zero",
+        over(*SHARP[:3], "holds a < 1/2"),
+    ),
+    case(
+        "a strict condition",
+        VALID,
+        "no term of the certificate is strictly positive",
+        over(*SHARP[:3], "holds a < 1"),
     ),
     case(
         "an empty domain",
@@ -123,14 +177,26 @@ REJECTED = [
         sharp({"rule/squares": INSIDE}, found(), {"a": "10"}),
         "the sample is not in the domain",
     ),
-    case("a sample without value", sharp({"rule/squares": INSIDE}, found(), {}), "the sample is not in the domain"),
     case(
-        "a sample with a value too many", sharp({"rule/squares": INSIDE}, found(), {"a": "1/2", "x": "1"}), "the sample"
+        "a sample without value",
+        sharp({"rule/squares": INSIDE}, found(), {}),
+        "the sample is not in the domain",
     ),
     case(
-        "a float for a sample", sharp({"rule/squares": INSIDE}, found(), {"a": 0.5}), "expected an exact rational: 0.5"
+        "a sample with a value too many",
+        sharp({"rule/squares": INSIDE}, found(), {"a": "1/2", "x": "1"}),
+        "the sample",
     ),
-    case("no sample", {"certified": [{"rule/squares": INSIDE}, found()]}, "malformed certificate (ValueError)"),
+    case(
+        "a float for a sample",
+        sharp({"rule/squares": INSIDE}, found(), {"a": 0.5}),
+        "expected an exact rational: 0.5",
+    ),
+    case(
+        "no sample",
+        {"certified": [{"rule/squares": INSIDE}, found()]},
+        "malformed certificate (ValueError)",
+    ),
     case(
         "nothing outside",
         sharp({"rule/squares": INSIDE}, ["empty", OPEN]),
@@ -142,14 +208,18 @@ REJECTED = [
         "no term of the certificate is strictly positive",
     ),
     case(
-        "premises that fail outside", sharp({"rule/squares": INSIDE}, found(premises=CLOSE)), "nothing false is assumed"
+        "premises that fail outside",
+        sharp({"rule/squares": INSIDE}, found(premises=CLOSE)),
+        "nothing false is assumed",
     ),
     case(
         "a value for the parameter",
         sharp({"rule/squares": INSIDE}, found(values={"x": "1", "a": "2"})),
         "every variable needs one value, an integer one an integer",
     ),
-    case("nothing inside", sharp({}, found()), "a sharp range proves each of its earlier statements"),
+    case(
+        "nothing inside", sharp({}, found()), "a sharp range proves each of its earlier statements"
+    ),
     case(
         "a proof too many",
         sharp({"rule/squares": INSIDE, "rule/other": INSIDE}, found()),
@@ -196,12 +266,30 @@ REJECTED = [
         "an undeclared name: x",
         over(*SHARP[:3], "holds a <= x"),
     ),
-    case("a parameter twice", VALID, "a name is declared twice", over("sharp rule/squares", "over a a", *SHARP[2:])),
-    case("two statements for a name", VALID, "a sharp range", over("sharp rule/squares rule/more", *SHARP[1:])),
     case(
-        "a number with two roots", VALID, "not one root", over(*SHARP[:3], "number c = root(a^2 - 1, -2, 2)", SHARP[3])
+        "a parameter twice",
+        VALID,
+        "a name is declared twice",
+        over("sharp rule/squares", "over a a", *SHARP[2:]),
     ),
-    case("a number with no root", VALID, "not one root", over(*SHARP[:3], "number c = root(a^2 + 1, -2, 2)", SHARP[3])),
+    case(
+        "two statements for a name",
+        VALID,
+        "a sharp range",
+        over("sharp rule/squares rule/more", *SHARP[1:]),
+    ),
+    case(
+        "a number with two roots",
+        VALID,
+        "not one root",
+        over(*SHARP[:3], "number c = root(a^2 - 1, -2, 2)", SHARP[3]),
+    ),
+    case(
+        "a number with no root",
+        VALID,
+        "not one root",
+        over(*SHARP[:3], "number c = root(a^2 + 1, -2, 2)", SHARP[3]),
+    ),
     case(
         "a number with a root of even order",
         VALID,
@@ -226,8 +314,26 @@ REJECTED = [
         "an undeclared name: x",
         over(*SHARP[:3], "number c = root(a - x, 0, 2)", SHARP[3]),
     ),
-    case("a refutation", {"refuted": found()}, "a certificate with missing or left over keys: ['refuted']"),
-    case("a point", {"certified": VALID["certified"], "point": []}, "a certificate with missing or left over keys"),
-    case("no domain", VALID, "the lines of a statement are missing or out of order", over(*SHARP[:2], "holds a <= 1")),
-    case("a given line", VALID, "the lines of a statement are missing or out of order", over(*SHARP, "given a > 0")),
+    case(
+        "a refutation",
+        {"refuted": found()},
+        "a certificate with missing or left over keys: ['refuted']",
+    ),
+    case(
+        "a point",
+        {"certified": VALID["certified"], "point": []},
+        "a certificate with missing or left over keys",
+    ),
+    case(
+        "no domain",
+        VALID,
+        "the lines of a statement are missing or out of order",
+        over(*SHARP[:2], "holds a <= 1"),
+    ),
+    case(
+        "a given line",
+        VALID,
+        "the lines of a statement are missing or out of order",
+        over(*SHARP, "given a > 0"),
+    ),
 ]

@@ -1,4 +1,5 @@
-"""The text of statements: what is no term, no formula, no name or no line in its place is refused."""
+"""The text of statements: what is no term, no formula, no name or no line in its place is
+refused."""
 
 from tests.certificates.checker.harness import CLOSE, Case, lines, proof
 
@@ -143,10 +144,22 @@ LINES = [
     ("an unknown line", ["assume 0 = 1", TRUE], "statements, line 2: an unknown kind of line"),
     ("a keyword in capitals", ["Given 0 = 1", TRUE], "statements, line 2: an unknown kind of line"),
     ("a keyword and a tab", ["given\t0 = 1", TRUE], "statements, line 2: an unknown kind of line"),
-    ("a comment behind a line", ["forall x", "given x > 0 # not really", TRUE], "statements, line 3: unreadable text"),
+    (
+        "a comment behind a line",
+        ["forall x", "given x > 0 # not really", TRUE],
+        "statements, line 3: unreadable text",
+    ),
     ("a root of no call", ["root s = 4", TRUE], "statements, line 2: expected sqrt(term)"),
-    ("a root of a polynomial, which is no square root", ["root r = root(9/4, 0, 1)", TRUE], "statements, line 2: expected sqrt(term)"),
-    ("a root with keywords", ["root s = sqrt(4, ^x)", TRUE], "statements, line 2: expected sqrt(term)"),
+    (
+        "a root of a polynomial, which is no square root",
+        ["root r = root(9/4, 0, 1)", TRUE],
+        "statements, line 2: expected sqrt(term)",
+    ),
+    (
+        "a root with keywords",
+        ["root s = sqrt(4, ^x)", TRUE],
+        "statements, line 2: expected sqrt(term)",
+    ),
     ("an abbreviation without value", ["let a", TRUE], "statements, line 2: unreadable text"),
     ("an abbreviation with two values", ["let a = 1 = 2", TRUE], "not a term"),
     ("an abbreviation by :=", ["let a := 1", TRUE], "statements, line 2: unreadable text"),
@@ -155,20 +168,45 @@ LINES = [
     ("a name with a comma", ["forall x, y", TRUE], "a name is declared twice, or is none: x,"),
     ("a name of another script", ["forall \u03b1", TRUE], "a name is declared twice, or is none"),
     ("a variable twice", ["forall x x", TRUE], "a variable is declared twice: x"),
-    ("an integer that is no variable", ["integer n", TRUE], "an integer, or a value, for what is not a variable"),
+    (
+        "an integer that is no variable",
+        ["integer n", TRUE],
+        "an integer, or a value, for what is not a variable",
+    ),
     (
         "more variables than the limit",
         ["forall " + " ".join(f"x{i}" for i in range(61)), TRUE],
         "too many variables: x60",
     ),
 ]
-NAMES = ["", "case", "rule/", "/case", "rule/case/more", "rule/ca se", "rule\\case", "rule/c\u00e4se", "rule/case?"]
+NAMES = [
+    "",
+    "case",
+    "rule/",
+    "/case",
+    "rule/case/more",
+    "rule/ca se",
+    "rule\\case",
+    "rule/c\u00e4se",
+    "rule/case?",
+]
 
 REJECTED = [
-    *(Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), "not a term") for text in NOT_TERMS),
-    *(Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), "not a formula") for text in NOT_FORMULAS),
     *(
-        Case(ascii(text), lines("forall x", "show " + text), proof(CLOSE, at=AT), "statements, line 3: unreadable text")
+        Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), "not a term")
+        for text in NOT_TERMS
+    ),
+    *(
+        Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), "not a formula")
+        for text in NOT_FORMULAS
+    ),
+    *(
+        Case(
+            ascii(text),
+            lines("forall x", "show " + text),
+            proof(CLOSE, at=AT),
+            "statements, line 3: unreadable text",
+        )
         for text in UNREADABLE
     ),
     *(Case(defect, lines(*rows), proof(CLOSE), reason) for defect, rows, reason in LINES),

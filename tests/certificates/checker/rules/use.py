@@ -1,21 +1,30 @@
-"""["use", name, {variable: term}, {variable: fresh}, node]: an instance of an earlier certified statement."""
+"""["use", name, {variable: term}, {variable: fresh}, node]: an instance of an earlier certified
+statement."""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof, witness
 
 INVERSE = lines("forall a b", "given a*b = 1", "show a != 0", name="rule/inverse")
 BELOW = lines("forall a", "exists b", "show b < a", name="rule/below")
 GAP = lines("forall n", "integer n", "show n <= 0 or n >= 1", name="rule/gap")
-SHIFT = lines("forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K", name="rule/shift")
+SHIFT = lines(
+    "forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K", name="rule/shift"
+)
 SOME = lines("forall a", "integer n", "exists n", "show n = 2", name="rule/some")
 EARLIER = {
     "rule/inverse": proof(
-        ["psatz", [[1, [], "1"]], [[0, "1"], [1, "-b"]]], at={"a": "1", "b": "1"}, name="rule/inverse"
+        ["psatz", [[1, [], "1"]], [[0, "1"], [1, "-b"]]],
+        at={"a": "1", "b": "1"},
+        name="rule/inverse",
     ),
-    "rule/below": witness(["rule/below", [], {"b": "a - 1"}, CLOSE], at={"a": "0"}, name="rule/below"),
+    "rule/below": witness(
+        ["rule/below", [], {"b": "a - 1"}, CLOSE], at={"a": "0"}, name="rule/below"
+    ),
     "rule/shift": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}},
     "rule/some": witness(["rule/some", [], {"n": "2"}, CLOSE], at={"a": "0"}, name="rule/some"),
     "rule/gap": proof(
-        ["integral", 0, ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]], at={"n": "0"}, name="rule/gap"
+        ["integral", 0, ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]],
+        at={"n": "0"},
+        name="rule/gap",
     ),
 }
 TWO = lines("forall x y", "given x*y = 2", "show x != 0")  # facts 0: x*y - 2 = 0, 1: x = 0
@@ -29,9 +38,17 @@ def use(name: Json, arguments: Json, fresh: Json, node: Json) -> Json:
 
 
 def case(
-    defect: str, earlier: str, name: str, statement: str, node: Json, expected: str = "certified", **point: str
+    defect: str,
+    earlier: str,
+    name: str,
+    statement: str,
+    node: Json,
+    expected: str = "certified",
+    **point: str,
 ) -> Case:
-    return Case(defect, earlier + "\n" + statement, proof(node, at=point), expected, {name: EARLIER[name]})
+    return Case(
+        defect, earlier + "\n" + statement, proof(node, at=point), expected, {name: EARLIER[name]}
+    )
 
 
 def inverse(defect: str, node: Json, expected: str = "certified", statement: str = TWO) -> Case:
@@ -39,19 +56,29 @@ def inverse(defect: str, node: Json, expected: str = "certified", statement: str
 
 
 def gap(defect: str, node: Json, expected: str = "certified", integral: bool = True) -> Case:
-    rows = ["forall n", "integer n", "show n <= 0 or n >= 1"] if integral else ["forall n", "show n <= 0 or n >= 1"]
+    rows = (
+        ["forall n", "integer n", "show n <= 0 or n >= 1"]
+        if integral
+        else ["forall n", "show n <= 0 or n >= 1"]
+    )
     return case(defect, GAP, "rule/gap", lines(*rows), node, expected, n="0")
 
 
 BETWEEN = [
     "cases",
     0,
-    [["psatz", [[1, [[0, 1]], "1"], [1, [[2, 1]], "1"]], []], ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]],
+    [
+        ["psatz", [[1, [[0, 1]], "1"], [1, [[2, 1]], "1"]], []],
+        ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []],
+    ],
 ]
 NOTHING_BELOW = lines("forall x", "show not (x >= 0 and x < 0)")
 
 ACCEPTED = [
-    inverse("an instance with terms", use("rule/inverse", {"a": "x", "b": "y/2"}, {}, ["cases", 0, [MET, ZERO]])),
+    inverse(
+        "an instance with terms",
+        use("rule/inverse", {"a": "x", "b": "y/2"}, {}, ["cases", 0, [MET, ZERO]]),
+    ),
     gap("an integer for an integer", use("rule/gap", {"n": "n"}, {}, BETWEEN)),
     gap(
         "a numeral for an integer",
@@ -91,10 +118,14 @@ REJECTED = [
         "no earlier certified statement of this name",
     ),
     inverse(
-        "a statement that does not exist", use("rule/none", {}, {}, ZERO), "no earlier certified statement of this name"
+        "a statement that does not exist",
+        use("rule/none", {}, {}, ZERO),
+        "no earlier certified statement of this name",
     ),
     inverse(
-        "premises that are not met", use("rule/inverse", {"a": "x", "b": "y"}, {}, ZERO), "nothing has this number: 2"
+        "premises that are not met",
+        use("rule/inverse", {"a": "x", "b": "y"}, {}, ZERO),
+        "nothing has this number: 2",
     ),
     inverse(
         "premises that are left open",
@@ -128,7 +159,9 @@ REJECTED = [
     ),
     inverse(
         "a licence that only the line to be shown would give",
-        use("rule/inverse", {"a": "x", "b": "1/x"}, {}, ["psatz", [[1, [[1, 2]], "1"]], [[0, "-x"]]]),
+        use(
+            "rule/inverse", {"a": "x", "b": "1/x"}, {}, ["psatz", [[1, [[1, 2]], "1"]], [[0, "-x"]]]
+        ),
         "division by what may vanish",
         lines("forall x y", "show x != 0"),
     ),
@@ -148,7 +181,11 @@ REJECTED = [
         use("rule/gap", {"n": "n*(n + 1)/2"}, {}, BETWEEN),
         "every variable needs one value, an integer one an integer",
     ),
-    gap("digits and a line break for an integer", use("rule/gap", {"n": "1\n"}, {}, BETWEEN), "unreadable text"),
+    gap(
+        "digits and a line break for an integer",
+        use("rule/gap", {"n": "1\n"}, {}, BETWEEN),
+        "unreadable text",
+    ),
     case(
         "a statement of another kind",
         SHIFT,

@@ -1,4 +1,5 @@
-"""Statements with `exists`: terms for what exists, from all that the premises say; and the point that meets the premises."""
+"""Statements with `exists`: terms for what exists, from all that the premises say; and the point
+that meets the premises."""
 
 from tests.certificates.checker.harness import CLOSE, Case, Json, lines, proof, witness
 
@@ -71,7 +72,9 @@ ACCEPTED.append(
 )
 
 REJECTED = [
-    Case("a term that fails", ABOVE, by(found({"y": "x - 1"}, SQUARE)), "nothing has this number: 0"),
+    Case(
+        "a term that fails", ABOVE, by(found({"y": "x - 1"}, SQUARE)), "nothing has this number: 0"
+    ),
     Case(
         "a proof for a statement with exists",
         ABOVE,
@@ -90,7 +93,9 @@ REJECTED = [
         {"certified": ["", [], CLOSE], "point": [NAME, [], ZERO, CLOSE]},
         "a statement with exists needs",
     ),
-    Case("no term", INVERSE, inverse({}), "every variable needs one value, an integer one an integer"),
+    Case(
+        "no term", INVERSE, inverse({}), "every variable needs one value, an integer one an integer"
+    ),
     Case(
         "a term for a universal variable",
         INVERSE,
@@ -122,8 +127,18 @@ REJECTED = [
         by(found({"y": "1/x"}, name="rule/other"), {"x": "1"}),
         "a witness of the wrong shape",
     ),
-    Case("a node too many", INVERSE, by([*found({"y": "1/x"}), CLOSE], {"x": "1"}), "a witness of the wrong shape"),
-    Case("no node", INVERSE, by([NAME, [], {"y": "1/x"}], {"x": "1"}), "malformed certificate (ValueError)"),
+    Case(
+        "a node too many",
+        INVERSE,
+        by([*found({"y": "1/x"}), CLOSE], {"x": "1"}),
+        "a witness of the wrong shape",
+    ),
+    Case(
+        "no node",
+        INVERSE,
+        by([NAME, [], {"y": "1/x"}], {"x": "1"}),
+        "malformed certificate (ValueError)",
+    ),
     Case(
         "a sign left out",
         INVERSE,
