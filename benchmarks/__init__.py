@@ -1,2 +1,3 @@
 """Comparisons of proof engines, and speed against error; may import everything, and nothing imports
-it but `juggleproof bench`."""
+it but `juggleproof bench`.
+"""

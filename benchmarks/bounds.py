@@ -1,5 +1,6 @@
-"""Minima of the literature, enclosed and checked: seconds, boxes, bytes.  Run:
-OPENBLAS_NUM_THREADS=1 python benchmarks/bounds.py [--width 1e-9]
+"""Minima of the literature, enclosed and checked: seconds, boxes, bytes.
+
+Run: OPENBLAS_NUM_THREADS=1 python benchmarks/bounds.py [--width 1e-9]
 
 Caprasse, Lotka-Volterra, Butcher, magnetism, heart dipole, Schwefel: Munoz and Narkawicz,
 Formalization of Bernstein polynomials and applications to global optimization, J. Automated

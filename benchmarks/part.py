@@ -60,7 +60,8 @@ def slope(sizes: Sequence[float], seconds: Sequence[float]) -> float:
 
 def growth(parts: Sequence[int], horizons: Sequence[float], runs: int) -> tuple[float, float]:
     """The exponents of the seconds in the number of parts, and in the time that they are followed
-    for, on one core."""
+    for, on one core.
+    """
     # with e = 1 blocks do not come to rest, so that every second has about as many impacts as the
     # last
     block = row(e=1.0)
@@ -108,7 +109,8 @@ def accuracy(
     tolerances: Sequence[float], known: Sequence[tuple[Any, Any]], parts: int, runs: int
 ) -> list[tuple[float, float, float]]:
     """For each tolerance: the median error of place and angle against the reference, in metres, and
-    nanoseconds an impact."""
+    nanoseconds an impact.
+    """
     found = []
     for tolerance in tolerances:
         block = row(tolerance=tolerance, rest_speed=1e-6)

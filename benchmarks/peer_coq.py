@@ -19,7 +19,8 @@ from certificates.routes.questions import Question, questions
 HEAD = """From Coq Require Import Reals Psatz.
 Open Scope R_scope.
 Ltac split_up := repeat match goal with
-  | H : _ /\\ _ |- _ => destruct H | H : _ \\/ _ |- _ => destruct H | H : False |- _ => contradiction end.
+  | H : _ /\\ _ |- _ => destruct H | H : _ \\/ _ |- _ => destruct H
+  | H : False |- _ => contradiction end.
 """
 
 
@@ -44,7 +45,8 @@ def goal(question: Question) -> str | None:
     """The question as a goal; p <> 0 is p < 0 or p > 0, since nra does not read it.
 
     >>> from certificates.routes.questions import read_statement
-    >>> print(goal(questions(read_statement("statement a/b\\nforall x\\ngiven x != 0\\nshow x^2/2 > 0"))[0]))
+    >>> text = "statement a/b\\nforall x\\ngiven x != 0\\nshow x^2/2 > 0"
+    >>> print(goal(questions(read_statement(text))[0]))
     Goal forall v0 : R, (v0 < 0 \\/ v0 > 0) -> - v0*v0 >= 0 -> False.
     Proof. intros; split_up; nra. Qed.
     <BLANKLINE>

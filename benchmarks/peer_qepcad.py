@@ -54,7 +54,8 @@ def prenex(question: Question) -> str | None:
     quantifiers.
 
     >>> from certificates.routes.questions import read_statement
-    >>> asked = questions(read_statement("statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nshow y^2 = x/2"))
+    >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nshow y^2 = x/2"
+    >>> asked = questions(read_statement(text))
     >>> print(prenex(asked[0]))
     [ a/b goal ]
     (v0,v1)
@@ -99,7 +100,8 @@ def write(formula: Formula, short: dict[str, str]) -> str:
 
 def polynomial(poly: Polynomial, short: dict[str, str]) -> str:
     """The polynomial times its denominator, which changes no relation to 0; a product is written by
-    a space."""
+    a space.
+    """
     text = ""
     for exponents, c in poly.terms:
         powers = [

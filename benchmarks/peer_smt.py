@@ -1,5 +1,6 @@
 """Z3 alone and cvc5, each in a process of its own, on the SMT-LIB script that
-`juggleproof export smt2` writes."""
+`juggleproof export smt2` writes.
+"""
 
 from __future__ import annotations
 

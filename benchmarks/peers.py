@@ -32,8 +32,10 @@ from certificates.store import DEFAULT, Store
 TRIVIAL = "statement peers/start\nforall x\ngiven x > 0\nshow x + 1 > 0"
 SAID: dict[str, Answer] = {"certified": "holds", "refuted": "fails"}
 NOTES = """\
-settled: of the statements that the method can express (no integers for QEPCAD B; neither integers nor what is said to exist for nra).
-median, total: seconds of those, the limit where nothing was settled in time; start: seconds for x > 0 => x + 1 > 0.  Every peer is a
+settled: of the statements that the method can express (no integers for QEPCAD B; neither \
+integers nor what is said to exist for nra).
+median, total: seconds of those, the limit where nothing was settled in time; start: seconds \
+for x > 0 => x + 1 > 0.  Every peer is a
 process of its own; our search and check run in this one.  nra proves, but refutes nothing."""
 
 
@@ -105,7 +107,8 @@ def methods() -> list[Method]:
 
 def contradictions(name: str, stored: Any, asked: Sequence[Method]) -> list[str]:
     """One line where the stored certificate and the methods do not all say the same of a
-    statement."""
+    statement.
+    """
     said: dict[str, Answer] = {method.title: method.said[name][0] for method in asked}
     if isinstance(stored, dict):
         said["the stored certificate"] = next(
@@ -121,7 +124,8 @@ def contradictions(name: str, stored: Any, asked: Sequence[Method]) -> list[str]
 
 def main() -> int:
     """Runs every method that is present on the sample; prints the table, what contradicts, and what
-    is absent."""
+    is absent.
+    """
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--every", type=int, default=20, help="one statement in so many")
     parser.add_argument(

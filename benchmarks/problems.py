@@ -1,10 +1,12 @@
 """The set of problems in benchmarks/problems: answered by us, voted on by Z3 and cvc5, and counted
 in the README.
 
-python -m benchmarks.problems                 # answers all of them afresh; exit 1 where one is open
-or not as stated, or the README differs python -m benchmarks.problems --readme        # writes the
-counts into the README python -m benchmarks.problems --votes 10      # also asks Z3 and cvc5, 10
-seconds each; exit 1 where one contradicts an answer
+    python -m benchmarks.problems
+        answers all of them afresh; exit 1 where one is open or not as stated, or the README differs
+    python -m benchmarks.problems --readme
+        writes the counts into the README
+    python -m benchmarks.problems --votes 10
+        also asks Z3 and cvc5, 10 seconds each; exit 1 where one contradicts an answer
 """
 
 from __future__ import annotations
@@ -37,7 +39,8 @@ def scripts() -> list[Path]:
 
 def answered(paths: Sequence[Path]) -> list[Answered]:
     """The problems of the scripts, answered afresh at the default budget; what is found is kept
-    nowhere."""
+    nowhere.
+    """
     with tempfile.TemporaryDirectory() as folder:
         return answer_files(paths, store=Path(folder), fresh=True)
 
@@ -45,8 +48,9 @@ def answered(paths: Sequence[Path]) -> list[Answered]:
 def counts(done: Sequence[Answered]) -> str:
     """What the README says of the set.
 
-    >>> counts(answered(scripts()[:1]))
-    '1 problem, stated unsat 1 and sat 0: 1 answered as stated and accepted by the checker, 0 open, 0 otherwise.'
+    >>> counts(answered(scripts()[:1]))  # doctest: +NORMALIZE_WHITESPACE
+    '1 problem, stated unsat 1 and sat 0: 1 answered as stated and accepted by the checker, 0 open,
+    0 otherwise.'
     """
     stated = [one.problem.status for one in done]
     open_, otherwise = (

@@ -1,5 +1,6 @@
 """A peer's program in a process of its own, ended with its children when the seconds of the
-statement are over, or when its caller is."""
+statement are over, or when its caller is.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ class Clock:
 
 def kill_with_children(process: subprocess.Popen[Any]) -> None:
     """Kills a process that leads a session, and those that it started in that session; nothing
-    where it has ended."""
+    where it has ended.
+    """
     if process.poll() is None:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
@@ -47,7 +49,8 @@ def kill_with_children(process: subprocess.Popen[Any]) -> None:
 
 def end_with_children(process: subprocess.Popen[Any]) -> None:
     """Asks a process to end, which gives it time to end what it started; kills it where it does
-    not."""
+    not.
+    """
     if process.poll() is None:
         process.terminate()
         try:

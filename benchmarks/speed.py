@@ -1,5 +1,6 @@
 """Whole commands, each in a process of its own: seconds and peak memory against the aims.  Run:
-python benchmarks/speed.py [--runs 3]"""
+python benchmarks/speed.py [--runs 3]
+"""
 
 from __future__ import annotations
 

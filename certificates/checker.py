@@ -34,7 +34,8 @@ BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keep
 
 class Rejected(Exception):
     """A certificate does not prove its statement, or a statement says nothing: the reason, then the
-    offending object."""
+    offending object.
+    """
 
     def __init__(self, reason, offender=""):
         shown = offender() if callable(offender) else offender
@@ -43,7 +44,8 @@ class Rejected(Exception):
 
 def require(holds, reason, offender=""):
     """A check on which soundness rests: unlike `assert`, it cannot be switched off.  An offender
-    that is long to show is a function."""
+    that is long to show is a function.
+    """
     if not holds:
         raise Rejected(reason, offender)
 
@@ -139,7 +141,8 @@ class Poly:
 
     def primitive(self):
         """(c, p) with terms = c * p, where p has coprime integer coefficients, that of the largest
-        monomial positive."""
+        monomial positive.
+        """
         content = gcd(*self.terms.values()) * (-1 if self.terms[max(self.terms)] < 0 else 1)
         return content, Poly({m: c // content for m, c in self.terms.items()}, 1, self.deg)
 
@@ -191,7 +194,8 @@ ARITHMETIC = {ast.Add: Poly.__add__, ast.Sub: Poly.__sub__, ast.Mult: Poly.__mul
 
 def parse(text):
     """The syntax tree of a term or formula: integers, names, + - * / ^, < <= = != >= >, and, or,
-    not, implies(,), iff(,)."""
+    not, implies(,), iff(,).
+    """
     require(isinstance(text, str) and len(text) <= 1 << 20, "unreadable text", text)
     return tree(text) if len(text) < 200 else tree.__wrapped__(text)  # what is kept is small
 
@@ -226,7 +230,8 @@ def fold(poly, relation):
 
 def join(op, formulas):
     """The conjunction or disjunction, without constants and without joins of the same kind
-    inside."""
+    inside.
+    """
     if any(formula is (op == "or") for formula in formulas):
         return op == "or"
     flat = [
@@ -258,7 +263,8 @@ def conjuncts(formula):
 
 class Context:
     """What has been declared so far: variables, the values of names, and the polynomials that a
-    strict line made nonzero."""
+    strict line made nonzero.
+    """
 
     def __init__(self, outer=None, values=None):
         self.index, self.integers = (
@@ -269,7 +275,8 @@ class Context:
 
     def declare(self, name, integral=False):
         """A fresh variable; where another scope has one of this name, its key grows by underscores,
-        so that the two stay apart."""
+        so that the two stay apart.
+        """
         key = name
         while key in self.index:
             key += "_"
@@ -289,7 +296,8 @@ class Context:
 
     def license(self, formula):
         """A strict line, at top level or inside a top-level `and`, makes its polynomial nonzero
-        (and tells its sign)."""
+        (and tells its sign).
+        """
         for part in conjuncts(formula):
             if not isinstance(part, bool) and part[0] == "atom" and part[2] in (">", "!="):
                 content, key = part[1].primitive()
@@ -299,7 +307,8 @@ class Context:
 
     def reciprocal(self, node):
         """1 / node, where node is a nonzero number, licensed as a whole, or a product or power of
-        such."""
+        such.
+        """
         value = self.value(node)
         require(value.terms, "division by zero", lambda: ast.unparse(node))
         if value.constant():
@@ -347,7 +356,8 @@ class Context:
 
     def atom(self, left, relation, right):
         """left relation right as p > 0, p >= 0, p = 0 or p != 0: the difference times what is
-        positive wherever it is defined."""
+        positive wherever it is defined.
+        """
         value, relation = (
             (right - left, relation.replace("<", ">"))
             if "<" in relation
@@ -362,7 +372,8 @@ class Context:
 
     def formula(self, node):
         """The formula with `not` driven down to atoms: ("atom", p, relation), ("and", ..), ("or",
-        ..) or a bool."""
+        ..) or a bool.
+        """
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
             return negate(self.formula(node.operand))
         if isinstance(node, ast.BoolOp):
@@ -464,7 +475,8 @@ def remainder(p, q):
 
 def count_roots(p, low, high):
     """The number of distinct real roots between two numbers where p is not 0, by Sturm's
-    theorem."""
+    theorem.
+    """
     chain = [p, [k * c for k, c in enumerate(p)][1:]]
     while chain[-1]:
         chain.append([-c for c in remainder(chain[-2], chain[-1])])
@@ -602,7 +614,8 @@ def close_by_sign(state, known, text, below, zero, above):
 
 def bound(state, index, name, side):
     """The number c of fact `index`, which says c <= the variable (side 1) or the variable <= c
-    (side -1), or strictly."""
+    (side -1), or strictly.
+    """
     line, sense = at(state.facts, index)
     constant, slope, *more = univariate(state.context, line, name)
     require(
@@ -693,7 +706,8 @@ def bernstein(poly, axes):
 
 def parts_of_box(sizes, c, letter):
     """The boxes, with their Bernstein coefficients, that a letter of a box tree asks to look at:
-    see `close_by_boxes`."""
+    see `close_by_boxes`.
+    """
     to_end, place = (
         (True, ord(letter) - ord("A")) if letter <= "Z" else (False, ord(letter) - ord("a"))
     )
@@ -774,7 +788,8 @@ def close_by_boxes(state, known, index, bounds, tree):
 
 def close_by_integrality(state, known, index, node):
     """["integral", i, node]: fact i is p > 0 with integer coefficients in integer variables only,
-    so p - 1 >= 0."""
+    so p - 1 >= 0.
+    """
     poly, relation = at(state.facts, index)
     if (
         relation != ">"
@@ -817,7 +832,8 @@ def close_by_use(state, known, name, arguments, fresh, node):
 
 def one_value_each(context, story, terms, others, needed):
     """Every variable has one value, by a term or otherwise, and every integer variable with a term
-    an integer polynomial in integers."""
+    an integer polynomial in integers.
+    """
     values = [context.polynomial(terms[name]) for name in story.integers & set(terms)]
     whole = all(
         value.den == 1 and variables_of(context, value) <= context.integers for value in values
@@ -860,7 +876,8 @@ def definition(text):
 
 def call(text, shape):
     """NAME = sqrt(term), or NAME = root(polynomial, low, high), as the shape says: the name and the
-    arguments."""
+    arguments.
+    """
     (name, node), expected = definition(text), parse(shape)
     same = (
         isinstance(node, ast.Call)
@@ -873,7 +890,8 @@ def call(text, shape):
 
 def written(node):
     """The text of a tree, which `parse` reads back as the same tree: one thing, whatever stands
-    around it in parentheses."""
+    around it in parentheses.
+    """
     return ast.unparse(node).replace(" ** ", "^").replace("==", "=")
 
 
@@ -884,7 +902,8 @@ def listed(text):
 
 def mapping(text):
     """NAMES -> TERMS or GUARD -> TERMS, as text: what the terms are the next state of, or where
-    they are."""
+    they are.
+    """
     left, right = text.split(" -> ")
     return listed(left), listed(right)
 
@@ -922,7 +941,8 @@ ORDERS = {
 
 class Statement:
     """One statement as text: its name, its lines in order as (keyword, what it says), and its kind,
-    which their order tells."""
+    which their order tells.
+    """
 
     def __init__(self, name):
         self.name, self.lines, self.texts, self.kind = name, [], [], ""
@@ -1119,7 +1139,8 @@ def find(state, found, known, purpose, statements, base, sharp=None):
 
 def adjoin(state, known, name, text, low, high, below, above):
     """Adds a variable with p = 0 and low <= it <= high, after showing that low <= high and p(low)
-    <= 0, and that p(high) >= 0."""
+    <= 0, and that p(high) >= 0.
+    """
     context, tree = state.context, parse(text)
     ends = [context.value(parse(end)) for end in (low, high)]
     first, second = (Context(context, {**context.values, name: end}).value(tree) for end in ends)
@@ -1219,7 +1240,8 @@ def names_in(*texts):
 
 def premises_of_iterates(statement, known):
     """The K-th iterate of the map, for every integer K >= 0.  Premises: P(0) is the identity, and
-    map(P(K)) = P(K + 1)."""
+    map(P(K)) = P(K + 1).
+    """
     (variables,), (counts,), ((state, images),), ((count, powers),) = map(
         statement.get, ("forall", "integer", "iterates", "after")
     )
@@ -1265,7 +1287,8 @@ def premises_of_iterates(statement, known):
 
 class Orbits:
     """A map with the lines of a statement about it, from which the text of the premises is
-    written."""
+    written.
+    """
 
     def __init__(self, statement, known):
         self.own, self.map = (
@@ -1326,7 +1349,8 @@ class Orbits:
 
     def step(self, k, *rows, show, extra=()):
         """Where the k-th piece applies: something of the next state, which is in the space by the
-        map's premises."""
+        map's premises.
+        """
         (guard,), images = self.pieces[k]
         known = (
             []
@@ -1543,7 +1567,8 @@ ORBIT_RULES = {
 
 def premises_of(statement, known):
     """The premises of an orbit rule, as statements that a certificate has to prove: {name:
-    statement}."""
+    statement}.
+    """
     premises = {
         name: [f"statement {statement.name}.{name}", *rows]
         for name, rows in ORBIT_RULES[statement.kind](statement, known).items()
@@ -1553,7 +1578,8 @@ def premises_of(statement, known):
 
 def check_orbit_rule(statement, certificate, known, statements):
     """{premise: prove}: each of the premises that the rule asks for is proved, and there is no
-    other."""
+    other.
+    """
     premises = premises_of(statement, known)
     require(
         set(certificate) == set(premises),
@@ -1637,7 +1663,8 @@ def read_certificates(text):
 
 def check_one(statement, certificate, known, earlier):
     """(outcome, reason) of one statement; whatever is wrong with the certificate is a rejection,
-    never a crash."""
+    never a crash.
+    """
     work_left[0] = MAX_WORK
     try:
         return settle(statement, certificate, known, earlier), ""
@@ -1651,7 +1678,8 @@ def check_one(statement, certificate, known, earlier):
 
 def check_folder(folder):
     """[(name, outcome, reason)] for every statement of a folder in order, and for every certificate
-    that has no statement."""
+    that has no statement.
+    """
     statements, files, results, known, earlier = (
         read_statements(load(os.path.join(folder, "statements.txt"))),
         {},
@@ -1680,7 +1708,8 @@ def check_folder(folder):
 
 def report(results):
     """Prints what is rejected, and how many statements have which outcome; 0 where nothing is
-    rejected, else 1."""
+    rejected, else 1.
+    """
     for name, _, reason in (one for one in results if one[1] == "rejected"):
         print("rejected ", ascii(f"{name}: {reason}")[1:-1])
     kinds = ("certified", "refuted", "unknown", "rejected")

@@ -54,7 +54,8 @@ class Branch:
 
 def lemma(statement: Any, certificate: Any) -> str:
     """The Coq lemma of a certified statement without `exists`, with its proof; ClaimError where a
-    rule is not written for Coq."""
+    rule is not written for Coq.
+    """
     if (
         statement.kind != "universal"
         or sorted(certificate or {}) != ["certified", "point"]
@@ -216,7 +217,8 @@ def _uses(rule: str, node: Any) -> bool:
 
 def _psatz(branch: Branch, statement: str, products: list[Any], equations: list[Any]) -> list[str]:
     """The products' signs as one proof term, the sum's being 0 by ring; everything is multiplied
-    until it is whole."""
+    until it is whole.
+    """
     weighed = [_product(branch, *product) for product in products]
     cofactors = [(branch.facts[index], _poly(branch, text)) for index, text in equations]
     shares = [Fraction(1, poly.den * cofactor.den) for (poly, _, _), cofactor in cofactors]
@@ -243,7 +245,8 @@ def _product(
     branch: Branch, coefficient: Any, factors: list[Any], root: str
 ) -> tuple[Fraction, Factors, bool]:
     """The weight of a product of numerators, a proof of the sign of each (and whether it is
-    strict), and whether all are strict."""
+    strict), and whether all are strict.
+    """
     weight, signs = Fraction(checker.rational(coefficient)), []
     for index, exponent in factors:
         poly, relation, name = branch.facts[index]

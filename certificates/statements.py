@@ -1,5 +1,6 @@
 """Statements built from terms and formulas, and written as the text that the checker reads and an
-auditor can read."""
+auditor can read.
+"""
 
 from __future__ import annotations
 
@@ -94,7 +95,8 @@ class SharpRange:
 @dataclass(frozen=True)
 class Iterates:
     """For every integer K >= 0, the K-th iterate of the map state -> images is the map state ->
-    powers."""
+    powers.
+    """
 
     name: str
     state: tuple[str, ...]
@@ -125,7 +127,9 @@ class MapRule:
     """What holds of every orbit of a map, by a rule of the checker that writes its own premises:
     the lines as (keyword, text).
 
-    >>> print(MapRule("demo/halves", (("over", "a"), ("domain", "a > 0"), ("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))).text())
+    >>> over = (("over", "a"), ("domain", "a > 0"))
+    >>> map = (("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))
+    >>> print(MapRule("demo/halves", over + map).text())
     statement demo/halves
     over a
     domain a > 0

@@ -1,5 +1,6 @@
 """The store: the statement file and one certificate file a claim, in canonical bytes, written aside
-and renamed."""
+and renamed.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +62,8 @@ def write_file(path: Path, content: bytes) -> bool:
 
 class Store:
     """The statements and certificates of a folder, as last written; an absent folder is an empty
-    store."""
+    store.
+    """
 
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
@@ -76,7 +78,8 @@ class Store:
 
     def certificate(self, name: str, text: str) -> Any:
         """The stored certificate of a statement, if the stored statement has this very text; else
-        None."""
+        None.
+        """
         if self.texts.get(name) != text:
             return None
         claim = name.split("/")[0]
@@ -110,7 +113,8 @@ def write_store(
     folder: Path, statements: str, certificates: Mapping[str, Mapping[str, Any]]
 ) -> int:
     """Writes the statement file and the certificates of every claim, removes those of claims that
-    are gone; returns the files changed."""
+    are gone; returns the files changed.
+    """
     changed = int(write_file(folder / STATEMENTS, statements.encode()))
     for claim, entries in certificates.items():
         changed += write_file(folder / f"{claim}.json", canonical(entries))

@@ -20,7 +20,8 @@ Number = Union[int, Fraction, "Term"]
 
 class ClaimError(ValueError):
     """A claim cannot be stated as written; the message is one line that says what is wrong and how
-    to mend it."""
+    to mend it.
+    """
 
 
 class Term:
@@ -115,7 +116,8 @@ class Term:
 
 def _is_operand(value: object) -> bool:
     """Whether the term answers for the operation: numbers, also those that it refuses; other
-    classes may know better."""
+    classes may know better.
+    """
     return isinstance(value, (Term, int, Fraction, float, complex, str)) or value is None
 
 
@@ -283,7 +285,8 @@ def iff(left: Formula, right: Formula) -> Formula:
 
 def transform(thing: Any, leaf: Callable[[Term], Term], done: dict[Any, Any] | None = None) -> Any:
     """The same term or formula with `leaf` applied to every variable; parts that are shared are
-    visited once."""
+    visited once.
+    """
     done = {} if done is None else done
     if not isinstance(thing, (Term, Formula)):
         raise ClaimError(f"{thing!r} is neither a term nor a formula")

@@ -1,5 +1,6 @@
 """What the paper says, as claims; the command that derives, proves and checks them; and the
-language for claims of one's own."""
+language for claims of one's own.
+"""
 
 from certificates.statements import Iterates, MapRule, Statement
 from certificates.terms import (

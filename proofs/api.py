@@ -1,5 +1,6 @@
 """The same as `juggleproof certify`, from Python: claims, or scripts of SMT-LIB, judged here or by
-any executor."""
+any executor.
+"""
 
 from __future__ import annotations
 

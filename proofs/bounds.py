@@ -1,5 +1,6 @@
 """A certified enclosure of the minimum of a polynomial over a box: two statements, and the
-checker's word for both."""
+checker's word for both.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ Terms = dict[tuple[int, ...], Fraction]
 @dataclass(frozen=True)
 class Enclosure:
     """low <= minimum <= high, both certified: `point` is where the value is at most high,
-    `statements` and `certificates` are what was checked."""
+    `statements` and `certificates` are what was checked.
+    """
 
     low: Fraction
     high: Fraction
@@ -51,7 +53,8 @@ class Enclosure:
 
     def write(self, folder: Path) -> None:
         """Writes statements and certificates as `juggleproof check` reads them; raises ClaimError
-        where the folder holds others."""
+        where the folder holds others.
+        """
         refuse_other_files(folder)
         write_file(folder / STATEMENTS, self.statements.encode())
         write_file(folder / OWN, canonical(self.certificates))
@@ -59,7 +62,8 @@ class Enclosure:
 
 def refuse_other_files(folder: Path) -> None:
     """Raises ClaimError, one line, where the folder is none, or holds statements or certificates
-    that are not of a bound."""
+    that are not of a bound.
+    """
     if folder.exists() and not folder.is_dir():
         raise ClaimError(f"{folder} is no folder; name one that is new or empty")
     others = (
@@ -122,7 +126,8 @@ def enclose_minimum(
 
 class _Question:
     """The two statements about a polynomial on a box, and what the checker says of their
-    certificates."""
+    certificates.
+    """
 
     def __init__(self, text: str, ends: Ends) -> None:
         self.text, self.ends = text, ends
@@ -180,7 +185,8 @@ class _Question:
 
     def enclosure(self, found: Found, used: list[int]) -> Enclosure:
         """The enclosure, once the checker has accepted both statements; raises ArithmeticError
-        where it does not."""
+        where it does not.
+        """
         point = {name: first for name, (first, _) in self.ends.items()} | dict(
             zip((list(self.ends)[k] for k in used), found.point)
         )
@@ -259,7 +265,8 @@ def _terms(text: str, names: list[str]) -> Terms:
 
 def _refuse_large(terms: Terms, ends: Ends, used: Sequence[int]) -> None:
     """Raises ClaimError, one line that says the limit, for what the search or the checker could not
-    hold."""
+    hold.
+    """
     degrees = [max(exponents[k] for exponents in terms) for k in used]
     if max(degrees, default=0) > MOST_DEGREE:
         raise ClaimError(

@@ -30,7 +30,8 @@ LARGEST = 50_000_000
 
 def folder() -> Path | None:
     """Where records are kept: JUGGLEPROOF_CACHE, or juggleproof in the user's cache folder; None
-    where it is off or there is no home."""
+    where it is off or there is no home.
+    """
     chosen = os.environ.get(VARIABLE, "")
     if chosen == "off":
         return None
@@ -44,7 +45,8 @@ def folder() -> Path | None:
 
 def key(*settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES) -> str:
     """A digest of the packages' sources, the versions of Python and of the libraries, and the
-    settings."""
+    settings.
+    """
     said = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
     )
@@ -70,7 +72,8 @@ def _sources(root: Path, packages: Sequence[str] = SOURCES) -> Iterator[Path]:
 
 def load(key: str) -> list[dict[str, Any]]:
     """The records that were kept under the key; none where there is no such file, or it is not
-    whole, or not the user's own."""
+    whole, or not the user's own.
+    """
     place = folder()
     if place is None:
         return []
@@ -98,7 +101,8 @@ def load(key: str) -> list[dict[str, Any]]:
 
 def keep(key: str, records: Sequence[dict[str, Any]]) -> None:
     """Keeps the records under the key, and only the latest few files; a folder that cannot be
-    written is let be."""
+    written is let be.
+    """
     place = folder()
     if place is None:
         return

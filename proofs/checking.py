@@ -1,5 +1,6 @@
 """The checker's reading of a whole stored folder, in processes of its own while claims are stated;
-every run reads everything."""
+every run reads everything.
+"""
 
 from __future__ import annotations
 
@@ -87,7 +88,8 @@ class Reading:
 
 def results_for(folder: Path, jobs: int) -> Results:
     """What the checker says of a folder: kept from an earlier reading of these very files by this
-    very checker, or found out now."""
+    very checker, or found out now.
+    """
     key = _key(folder)
     kept = cache.load(key) if key else []
     try:
@@ -148,7 +150,8 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
 
 def check_share(folder: Path, share: Set[str]) -> tuple[Results, dict[str, str], dict[str, str]]:
     """What `check_folder` says where outcomes outside the share are assumed to be what their
-    certificates claim; with what was found, and assumed."""
+    certificates claim; with what was found, and assumed.
+    """
     check_one, found, assumed = checker.check_one, dict[str, str](), dict[str, str]()
 
     def check_own(statement: Any, certificate: Any, known: Any, earlier: Any) -> tuple[str, str]:

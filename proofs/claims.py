@@ -65,7 +65,8 @@ Body = Union[Assertion, Readings, Argument, Following]
 @dataclass(frozen=True)
 class Said:
     """What a claim was read to assert, in place of its function: data, which passes between
-    processes."""
+    processes.
+    """
 
     body: Body
     where: str
@@ -160,7 +161,8 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
 
 def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[AnyStatement]:
     """The statements of an assertion under their full names ID/label; two of one label are
-    numbered."""
+    numbered.
+    """
     count: dict[str, int] = {}
     named: list[AnyStatement] = []
     for part in assertion.parts:

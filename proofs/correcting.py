@@ -1,5 +1,6 @@
 """Corrects a claim that is refuted: the first candidate print, or the true assertion nearby, whose
-statements are all certified."""
+statements are all certified.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 
 def correct(judge: Judge) -> None:
     """Keeps the first correction that is certified; what an earlier run found is tried first, of
-    whichever kind."""
+    whichever kind.
+    """
     claim, found = judge.claim, judge.found
     remembered = (judge.options.findings.get(claim.id) or {}).get("correction")
     if remembered and remembered["kind"] == "nearby" and _nearby_is_certified(judge):
@@ -40,7 +42,8 @@ def correct(judge: Judge) -> None:
 
 def _nearby_is_certified(judge: Judge) -> bool:
     """Whether the claim names a true assertion nearby that is certified; if so it is the
-    correction."""
+    correction.
+    """
     if judge.claim.nearby is None:
         return False
     text, state = judge.claim.nearby
@@ -57,7 +60,8 @@ def _nearby_is_certified(judge: Judge) -> bool:
 
 def _certifies(judge: Judge, candidate: Candidate) -> bool:
     """Whether the claim, read with this print, is certified; if so its statements are kept as
-    ID/corrected..."""
+    ID/corrected...
+    """
     try:
         return _certifies_body(judge, judge.claim.body(candidate.printed))
     except (ClaimError, checker.Rejected):
@@ -99,7 +103,8 @@ def _certifies_body(judge: Judge, body: Body) -> bool:
 
 def _is_stored_certified(judge: Judge, statement: AnyStatement) -> bool:
     """Whether the store holds this very statement, and the checker accepted its proof there: no
-    point can then refute it."""
+    point can then refute it.
+    """
     store, name = judge.options.store, statement.name
     return (
         store is not None

@@ -26,7 +26,8 @@ LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
 @dataclass(frozen=True)
 class Candidate:
     """A corrected print: its kind, what was changed, the LaTeX or the text of the corrected right
-    side, and what the claim reads."""
+    side, and what the claim reads.
+    """
 
     kind: str
     change: str
@@ -36,7 +37,8 @@ class Candidate:
     @property
     def possible_transcription_error(self) -> bool:
         """One lost mark mends the print, so the fault may be the transcription's and not the
-        authors'."""
+        authors'.
+        """
         return self.kind in LOST_MARKS
 
 
@@ -157,7 +159,8 @@ def coefficients_on_printed_terms(printed: Term, truth: Term) -> Term | None:
 
 def _sum_inside(expression: Term) -> tuple[list[Term], Any] | None:
     """The first sum inside products and quotients, as its terms with their signs, and how to put
-    another sum in its place."""
+    another sum in its place.
+    """
     if expression.op in ("+", "-"):
         return _terms_of(expression), _total
     if expression.op in ("*", "/"):

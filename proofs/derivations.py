@@ -1,5 +1,6 @@
 """What a claim rests on in `symbolic`: each derivation that it uses, with what this says of itself,
-its result, and what it is made from."""
+its result, and what it is made from.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +90,8 @@ def derivation(name: str, arguments: tuple[Any, ...] = ()) -> Derivation:
     ]  # by rows
     width = value.shape[1] if getattr(value, "shape", (1, 1))[1] > 1 else len(entries)
     manner = tuple(tuple(entries[start : start + width]) for start in range(0, len(entries), width))
-    said = (getattr(symbolic, name).__doc__ or "").strip().splitlines()[0]
+    summary = (inspect.getdoc(getattr(symbolic, name)) or "").partition("\n\n")[0]
+    said = " ".join(summary.split())
     shown = f"({', '.join(map(str, arguments))})" if arguments else ""
     return Derivation(name + shown, said, rows, manner, made_from(name))
 
@@ -99,8 +101,10 @@ def made_from(name: str) -> tuple[str, ...]:
     """The derivations without arguments that this one calls, itself or through functions that take
     some, in the order of its code.
 
-    >>> made_from("E_max"), made_from("total_energy")
-    (('normal_energy_change', 'unscaling', 'collision_margin', 'period', 'normal_energy'), ('acceleration',))
+    >>> made_from("E_max")
+    ('normal_energy_change', 'unscaling', 'collision_margin', 'period', 'normal_energy')
+    >>> made_from("total_energy")
+    ('acceleration',)
     """
     return tuple(dict.fromkeys(_called(getattr(symbolic, name), {name})))
 

@@ -54,7 +54,8 @@ def _sum(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
 
 def _product(expression: Any, roots: Mapping[Any, Term] | None) -> Term:
     """Factors with positive exponents above, those with negative ones below, as SymPy holds them:
-    nothing is multiplied out."""
+    nothing is multiplied out.
+    """
     above: list[Term] = []
     below: list[Term] = []
     negative = False

@@ -1,5 +1,6 @@
 """What follows from map rules: verdicts that wait for rules of other claims, and the range of alpha
-for which a rule speaks."""
+for which a rule speaks.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ def settle_by_rules(
     judgements: Sequence[Judgement], outcomes: Mapping[str, str], texts: Mapping[str, str]
 ) -> None:
     """Gives each judgement that rests on map rules its verdict and range, now that the outcomes of
-    all statements are known."""
+    all statements are known.
+    """
     for one in judgements:
         if one.rests_on and all(outcomes.get(name) == "certified" for name in one.rests_on):
             one.verdict = one.by_rules
@@ -34,7 +36,8 @@ def settle_by_rules(
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
     """The domain of a map rule's conclusion as text, and whether the rule says that outside of it
-    the conclusion is false."""
+    the conclusion is false.
+    """
     rows = dict(row.partition(" ")[::2] for row in texts[name].splitlines())
     for inner in ("attraction", "descent"):
         if inner in rows:
@@ -46,7 +49,8 @@ def range_of_rule(name: str, texts: Mapping[str, str]) -> str:
     """The alpha in (0, 1) for which the rule's conclusion is proved, told as sharp where it is
     refuted for all others.
 
-    >>> range_of_rule("t/map", {"t/map": "statement t/map\\nover alpha r\\ndomain alpha > 0 and 3*alpha < 1 and r > 0"})
+    >>> text = "statement t/map\\nover alpha r\\ndomain alpha > 0 and 3*alpha < 1 and r > 0"
+    >>> range_of_rule("t/map", {"t/map": text})
     'at least 0 < alpha < 1/3'
 
     Nothing is told where the domain does not speak of alpha, and the domain itself where its

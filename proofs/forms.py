@@ -30,7 +30,8 @@ from certificates.terms import (
 @dataclass(frozen=True)
 class Vocabulary:
     """What names mean where nothing is said: order of variables, standing assumptions,
-    abbreviations and roots."""
+    abbreviations and roots.
+    """
 
     order: tuple[str, ...] = ()
     ranges: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
@@ -63,8 +64,8 @@ class _Writer:
         for name in names:
             self.known.add(name)
             self.later.append(
-                lambda context, name=name: context.declare(name, name in self.vocabulary.integers)
-            )  # type: ignore[misc]
+                lambda context, name=name: context.declare(name, name in self.vocabulary.integers)  # type: ignore[misc]
+            )
 
     def add(self, keyword: str, formula: Formula) -> None:
         self.prepare(formula)
@@ -105,7 +106,8 @@ class _Writer:
 
     def license(self, below: Term) -> None:
         """A denominator that no strict line makes nonzero yet gets a `have` line, factor by factor,
-        which the certificate must prove."""
+        which the certificate must prove.
+        """
         if below.op == "num":
             return
         context = self.by_now()
@@ -140,7 +142,8 @@ def _denominators(thing: Term | Formula) -> list[Term]:
 
 def _likely_sign(value: Term, vocabulary: Vocabulary) -> int:
     """The sign at the vocabulary's sample point, 2 for names that it lacks: a guess that the
-    certificate of the `have` line has to confirm."""
+    certificate of the `have` line has to confirm.
+    """
     for _ in range(8):
         hidden = {
             n: vocabulary.abbreviations[n] for n in names_in(value) if n in vocabulary.abbreviations
@@ -230,7 +233,8 @@ def exists_some(
     vocabulary: Vocabulary = PLAIN,
 ) -> Statement:
     """For all values of the other names, under the assumptions, some values of `exists` meet
-    `within` and what is shown."""
+    `within` and what is shown.
+    """
     if isinstance(exists, str) or not all(isinstance(name, str) for name in exists):
         raise ClaimError(
             f'{exists!r} is no list of names; write what exists as names, such as ["x"]'
@@ -295,7 +299,8 @@ def is_maximum(
     in_range: Sequence[Formula] | None = None,
 ) -> list[Statement]:
     """`value` is the maximum of `of` on the region, attained at the state `at`: bound, member,
-    equality."""
+    equality.
+    """
     there = {name: term(place) for name, place in at.items()}
     if set(there) != set(state):
         raise ClaimError("a maximum is attained at a whole state; give every component")
@@ -332,7 +337,8 @@ def is_supremum(
     in_range: Sequence[Formula] | None = None,
 ) -> list[Statement]:
     """`value` is the supremum of `of` on the region: a bound (strict where it is not attained), and
-    states that come within any eps > 0."""
+    states that come within any eps > 0.
+    """
     eps = real("eps")
     bound = of < value if strict else of <= value
     return [

@@ -1,5 +1,6 @@
 """What the hypotheses of a statement say: nothing, where they contradict one another; the whole
-range of alpha, or a part of it."""
+range of alpha, or a part of it.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ def refuse_what_says_nothing(
     statement: Statement, outcome: str, known: dict[str, checker.Statement], budget: int
 ) -> None:
     """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep
-    a denominator from vanishing."""
+    a denominator from vanishing.
+    """
     from certificates.search.certificate import search_certificate
     from certificates.search.closing import search_closing
 
@@ -65,7 +67,8 @@ def refuse_what_says_nothing(
 
 def speaks_of_range(statement: Statement) -> bool:
     """Whether a statement is about a range of alpha: by range lines, or by givens that say 0 <
-    alpha < 1."""
+    alpha < 1.
+    """
     if any(keyword == "range" for keyword, _ in statement.lines):
         return True
     given = [
@@ -102,7 +105,8 @@ def _is_whole_range(variables: tuple[str, ...], said: tuple[str, ...]) -> bool:
 
 def _atoms(context: checker.Context, trees: list[Any]) -> set[Any]:
     """The atoms of a conjunction, each as its primitive polynomial and relation; anything else as
-    itself."""
+    itself.
+    """
     joined = checker.join("and", [context.formula(tree) for tree in trees])
     parts = [joined] if isinstance(joined, bool) or joined[0] != "and" else joined[1]
     found: set[Any] = set()

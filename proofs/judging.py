@@ -1,5 +1,6 @@
 """Judges one claim: states it, finds or reuses certificates, has the checker settle them, corrects
-what is refuted, finds sharp ranges."""
+what is refuted, finds sharp ranges.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +58,8 @@ class Options:
 
     def only(self, claim: Claim) -> Options:
         """What these options say of one claim, with the stored certificates read, so that no folder
-        is needed."""
+        is needed.
+        """
         used = {claim.id, *(name.split("/")[0] for name in claim.hints.get("uses", ()))}
         ours = {name: said for name, said in self.checked.items() if name.split("/")[0] in used}
         findings = {claim.id: self.findings[claim.id]} if claim.id in self.findings else {}
@@ -191,7 +193,8 @@ class Judge:
 
     def settle(self, statement: AnyStatement) -> str:
         """The outcome of one statement, by a stored certificate that is still valid or by a
-        search."""
+        search.
+        """
         name, text = statement.name, statement.text()
         certificate = self.options.store.certificate(name, text) if self.options.store else None
         outcome = self.stored_outcome(name, text, certificate)
@@ -218,7 +221,8 @@ class Judge:
 
     def stored_outcome(self, name: str, text: str, certificate: Any) -> str:
         """What the checker said of the stored certificate when it read the store; asked again where
-        it rejected it there, or read other lemmas."""
+        it rejected it there, or read other lemmas.
+        """
         if certificate is None:
             return "rejected"
         stored = self.options.store.texts if self.options.store else {}
@@ -230,7 +234,8 @@ class Judge:
 
     def votes(self, name: str, text: str, outcome: str) -> Sequence[Vote]:
         """One vote a route; a vote that an earlier run recorded on this very text, with these
-        tools, is not cast again."""
+        tools, is not cast again.
+        """
         routes = [route for route in self.options.routes if route != "exact"]
         earlier = (self.options.findings.get(self.claim.id) or {}).get("votes", {}).get(name)
         if (
@@ -298,7 +303,8 @@ class Judge:
 
     def correct(self) -> None:
         """The first candidate print that the same claim certifies; an earlier finding is tried
-        first."""
+        first.
+        """
         from proofs.correcting import correct
 
         correct(self)
@@ -441,7 +447,8 @@ class Judge:
         self, name: str, stored: str, certificate: Any, ranged: Sequence[Statement]
     ) -> str:
         """What the checker said of a stored sharp range; it is asked again where a statement that
-        is ranged over is not as stored."""
+        is ranged over is not as stored.
+        """
         texts = self.options.store.texts if self.options.store else {}
         if self.options.checked.get(name) == "certified" and all(
             texts.get(part.name) == part.text() for part in ranged

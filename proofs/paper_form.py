@@ -1,5 +1,6 @@
 """Derived expressions as the paper writes such: collected by what varies, each coefficient
-factored, 1 - alpha below the line, T for 2 r/g."""
+factored, 1 - alpha below the line, T for 2 r/g.
+"""
 
 from __future__ import annotations
 
@@ -83,7 +84,8 @@ def _root(base: Expr, s: Symbol) -> Expr:
 
 def _addends(above: Expr, below: Expr, states: list[Symbol]) -> list[tuple[Expr, Expr]]:
     """The coefficients of the monomials in the states, in the order of these, what is constant
-    last."""
+    last.
+    """
     ordered = sorted(
         _by_monomial(expand(above), states).items(), key=lambda one: _order(one[0], states)
     )
@@ -121,7 +123,8 @@ def _with_period(coefficient: Expr) -> Expr:
 
 def _coefficient(coefficient: Expr) -> tuple[bool, Term]:
     """Whether the coefficient is negative as written, and the rest of it as one quotient, 1 - alpha
-    standing for alpha - 1 below."""
+    standing for alpha - 1 below.
+    """
     above, below = fraction(coefficient)
     negative = False
     upper, lower = list[tuple[Term, int]](), list[tuple[Term, int]]()

@@ -44,7 +44,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     """Takes from the arguments what names claims: pytest itself would look for files of these
-    names."""
+    names.
+    """
     files = [
         config.invocation_params.dir / name for name in config.getoption("--juggleproof-claims")
     ]
@@ -80,7 +81,8 @@ def _is_for_tests(config: pytest.Config, path: Path) -> bool:
 
 class Claims:
     """The claims that a session has asked for, and their results, which are found once, when the
-    first item runs."""
+    first item runs.
+    """
 
     def __init__(self, of_paper: bool, files: Sequence[Path], chosen: Sequence[str]) -> None:
         self.of_paper, self.files, self.chosen = of_paper, files, chosen
@@ -115,7 +117,8 @@ class Claims:
 
     def results(self, own: bool) -> Results:
         """The results; the same problem is raised to every item where the claims cannot be
-        judged."""
+        judged.
+        """
         if own not in self.found:
             try:
                 self.found[own] = _judged(self.files if own else [])
@@ -129,7 +132,8 @@ class Claims:
 
 def _judged(files: Sequence[Path]) -> Results:
     """A run as `certify` makes it; the paper's on a copy of the store, so that tests leave the tree
-    as it is."""
+    as it is.
+    """
     from certificates.store import DEFAULT
     from proofs.command.certify import run
     from proofs.command.main import build_parser
@@ -185,7 +189,8 @@ class ClaimItem(pytest.Item):
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
         """Shown by its node id; the heading is no ending of it, or pytest would write its dots as
-        colons."""
+        colons.
+        """
         return self.config.rootpath / NAME, None, f"claim {self.name}"
 
 
@@ -225,7 +230,8 @@ def pytest_make_collect_report(
 
 def told(results: Results, name: str) -> list[str]:
     """What is wrong with a claim, with before and after and where it fails; nothing where it is as
-    it should be."""
+    it should be.
+    """
     from proofs.reports.junit import failing, fails_at
 
     one = next((one for one in results.claims if one.id == name), None)

@@ -87,7 +87,8 @@ def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
     that it is everything or nothing.
 
     >>> alpha, size = real("alpha"), real("eps")
-    >>> told_plainly(SharpRange("x/sharp", (), ("alpha", "eps"), (alpha > 0) & (size > 0), alpha**2 * size > 1))
+    >>> domain = (alpha > 0) & (size > 0)
+    >>> told_plainly(SharpRange("x/sharp", (), ("alpha", "eps"), domain, alpha**2 * size > 1))
     'alpha^2*eps > 1'
     """
     text = str(statement.condition)
@@ -101,7 +102,8 @@ def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
 
 def told_of_pairs(statement: SharpRange, number: str) -> str:
     """A range over alpha and a whole number that is tied to it; what ties them is told where the
-    condition does not say it."""
+    condition does not say it.
+    """
     text = told_plainly(statement, [number])
     if text == "nowhere":
         return text

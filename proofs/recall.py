@@ -1,5 +1,6 @@
 """Judges a claim again from its record and the store: nothing is stated, searched or voted on anew;
-where that would be needed, it gives up."""
+where that would be needed, it gives up.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ Judged = tuple[list[Judgement], dict[str, float]]
 
 class Records:
     """The records of the paper's claims that were kept by an earlier run of the same sources at
-    this budget; none without a budget."""
+    this budget; none without a budget.
+    """
 
     def __init__(self, budget: int | None, read: bool = True) -> None:
         self.budget, self.by_claim, self.claims = (
@@ -50,7 +52,8 @@ class Records:
 
     def keep(self, judgements: Sequence[Judgement], count: int) -> None:
         """Keeps the records of a whole run, unless they are kept already or the sources changed
-        meanwhile."""
+        meanwhile.
+        """
         records = [judgement.record for judgement in judgements]
         if (
             self.key
@@ -69,7 +72,8 @@ def judge_with_records(
     judge_rest: Callable[[Sequence[Claim], Options], Judged],
 ) -> Judged:
     """The judgements on the claims in order: again by their records where these agree with the
-    store, else from their sources."""
+    store, else from their sources.
+    """
     stored: dict[str, set[str]] = {}
     for name in options.store.texts if options.store else ():
         stored.setdefault(name.split("/")[0], set()).add(name)
@@ -136,7 +140,8 @@ class _Again(Judge):
 
     def correct(self) -> None:
         """The correction that the record knows, if the checker certified every statement of it and
-        an earlier run found it too."""
+        an earlier run found it too.
+        """
         remembered = (self.options.findings.get(self.claim.id) or {}).get("correction")
         if remembered != self.known_by["correction"] or bool(remembered) != bool(
             self.known_by["corrected"]

@@ -22,7 +22,8 @@ _BODIES = {kind.__name__: kind for kind in get_args(Body)}
 
 class Forgotten(Exception):
     """The record does not agree with the store, or with the work at hand: the claim has to be
-    stated from its sources."""
+    stated from its sources.
+    """
 
 
 @dataclasses.dataclass(frozen=True)
@@ -119,7 +120,8 @@ def _plain(value: Any, named: Mapping[int, list[Any]]) -> Any:
 
 def claim_of(record: Mapping[str, Any]) -> Claim:
     """The claim as a table tells it; what it asserts is not here, and to ask for it raises
-    Forgotten."""
+    Forgotten.
+    """
 
     def read(*_: object) -> Any:
         raise Forgotten
@@ -135,7 +137,8 @@ def claim_of(record: Mapping[str, Any]) -> Claim:
 
 def body_of(record: Mapping[str, Any], texts: Mapping[str, str]) -> Body:
     """The body of a claim from its record and the store's texts; raises Forgotten where they do not
-    agree."""
+    agree.
+    """
     body: Body = _body(record["body"], texts)
     return body
 
@@ -160,7 +163,8 @@ def _body(data: Any, texts: Mapping[str, str]) -> Any:
 
 def stored_as(name: str, text: str, marked: str, kind: str) -> Any:
     """A stored text as a statement of this name; raises Forgotten where the text is not the one
-    that was marked."""
+    that was marked.
+    """
     if digest(text) != marked:
         raise Forgotten
     rest = text.partition("\n")[2]

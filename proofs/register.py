@@ -1,5 +1,6 @@
 """The register: the verdicts that stand, committed; only `certify --accept` writes it, showing
-before and after."""
+before and after.
+"""
 
 from __future__ import annotations
 
@@ -95,7 +96,8 @@ def registered(
 @dataclass(frozen=True)
 class Change:
     """What differs between the register and a run, about one claim; None where the claim is
-    absent."""
+    absent.
+    """
 
     claim: str
     before: Mapping[str, Any] | None
@@ -113,7 +115,8 @@ def differences(
     before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool
 ) -> list[Change]:
     """Each claim whose verdict, correction or sharp range differs, or that is new or gone;
-    `partial` leaves absent claims alone."""
+    `partial` leaves absent claims alone.
+    """
     names = [name for name in sorted({*before, *after}) if name in after or not partial]
     return [
         Change(name, before.get(name), after.get(name))

@@ -1,5 +1,6 @@
 """Runs the judgement of many claims over processes, or over any executor; results come in order and
-do not depend on who does the work."""
+do not depend on who does the work.
+"""
 
 from __future__ import annotations
 
@@ -73,7 +74,8 @@ def spread(
 @dataclass(frozen=True)
 class Sent:
     """A claim as it goes to another process: one of the paper by its name, another by what it
-    asserts; with what its judge is told."""
+    asserts; with what its judge is told.
+    """
 
     claim: str | Claim
     options: Options

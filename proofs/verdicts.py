@@ -22,7 +22,8 @@ def outcome_of(
     claim_id: str, prefix: str, assertion: Assertion, outcomes: Mapping[str, str]
 ) -> str:
     """certified, refuted or unknown: an assertion is refuted by any of its statements, and
-    certified by all."""
+    certified by all.
+    """
     found = [
         outcomes.get(part.name, "unknown") for part in named_statements(claim_id, prefix, assertion)
     ]
@@ -42,7 +43,8 @@ def verdict_of(
     claim_id: str, body: Body, outcomes: Mapping[str, str], corrected: bool = False
 ) -> Verdict:
     """The verdict on a claim from the outcomes of its statements; `corrected` where a corrected
-    print has been certified."""
+    print has been certified.
+    """
 
     def word(prefix: str, assertion: Assertion) -> str:
         return _WORD[outcome_of(claim_id, prefix, assertion, outcomes)]

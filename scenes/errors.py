@@ -1,5 +1,6 @@
 """The one error of the scenes: a scene, a state or a wish that cannot be carried out, told in one
-line."""
+line.
+"""
 
 from __future__ import annotations
 

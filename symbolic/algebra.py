@@ -1,5 +1,6 @@
 """Exact algebra that every derivation uses: states, maps in (beta, v), linear systems, unipotent
-powers."""
+powers.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The energy bounds E_max, Delta E_max and Delta E_sup, for all 0 < alpha < 1 (section 4.1,
-appendix A)."""
+appendix A).
+"""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ from symbolic.table import period
 
 class Extremum(NamedTuple):
     """The least upper bound of a function on a set: its value, the state it belongs to, and whether
-    it is reached."""
+    it is reached.
+    """
 
     value: Expr
     state: State
@@ -136,8 +138,8 @@ def least_energy_loss() -> Extremum:
 
     >>> from sympy import Rational
     >>> from symbolic.symbols import alpha
-    >>> found = least_energy_loss()
-    >>> found.state.T.subs(alpha, Rational(1, 8)), found.value.subs(alpha, Rational(1, 8)), found.attained
+    >>> found, eighth = least_energy_loss(), Rational(1, 8)
+    >>> found.state.T.subs(alpha, eighth), found.value.subs(alpha, eighth), found.attained
     (Matrix([[0, -12*r/7]]), -513*r**2/896, False)
     """
     change = normal_energy_change()

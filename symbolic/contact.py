@@ -102,7 +102,8 @@ def kinetic_energy_gained() -> Expr:
     """What an impulse at the corner adds to the kinetic energy of the body in the table's frame,
     per unit of mass (rigid body).
 
-    >>> kinetic_energy_gained().xreplace({x_c: 2, y_c: 1, J: 1, c_x: 0, c_y: -1, omega: 0, P_x: 0, P_y: 1})
+    >>> values = {x_c: 2, y_c: 1, J: 1, c_x: 0, c_y: -1, omega: 0, P_x: 0, P_y: 1}
+    >>> kinetic_energy_gained().xreplace(values)
     3/2
     """
     energy = (c_x**2 + c_y**2 + J * omega**2) / 2

@@ -64,14 +64,16 @@ def _mirrored_pair(tangential: Expr, normal: Expr) -> State:
 @cache
 def _stop() -> Expr:
     """The normal impulse at which a corner that slides to the right stops: S = 0 on the line of
-    sliding."""
+    sliding.
+    """
     return root_of(_at(velocity_after_impulse()[0], -mu * P_y), P_y)
 
 
 @cache
 def _line(name: str) -> Expr:
     """The tangential impulse at the normal impulse P_y on one of the three lines, for a corner that
-    slides to the right."""
+    slides to the right.
+    """
     if name == "sliding":
         return -mu * P_y
     if name == "reversed":
@@ -244,7 +246,8 @@ def newton_impulse() -> State:
     restitution).
 
     >>> from symbolic.contact import B1, B2
-    >>> newton_impulse().xreplace({B1: 2, B2: 2, B3: 1, S0: 0, C0: -3, e: 0}).T  # e = 0: as by Poisson's
+    >>> values = {B1: 2, B2: 2, B3: 1, S0: 0, C0: -3, e: 0}  # e = 0: as by Poisson's
+    >>> newton_impulse().xreplace(values).T
     Matrix([[1, 2]])
     """
     law = velocity_after_impulse()[1] + e * C0

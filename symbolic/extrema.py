@@ -21,7 +21,8 @@ from symbolic.symbols import w, x
 
 class Candidate(NamedTuple):
     """A point (x, w) with the value there and the constraints that hold with equality by its
-    construction."""
+    construction.
+    """
 
     x: Expr
     w: Expr

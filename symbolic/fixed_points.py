@@ -35,7 +35,8 @@ def impact_fixed_point() -> State:
 
     >>> from sympy import Rational
     >>> from symbolic.symbols import g
-    >>> impact_fixed_point().xreplace({K: 2, alpha: Rational(1, 2), r: 1, g: 1}).applyfunc(lowest_terms).T
+    >>> values = {K: 2, alpha: Rational(1, 2), r: 1, g: 1}
+    >>> impact_fixed_point().xreplace(values).applyfunc(lowest_terms).T
     Matrix([[8/9, -5/3]])
     """
     return apply(flight_power(K - 1), fixed_point())

@@ -1,5 +1,6 @@
 """Impact of a light body on a heavy one: momentum balance and restitution, solved (section
-2.2.2)."""
+2.2.2).
+"""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ def speeds_after_impact() -> tuple[Expr, Expr]:
     The momentum m v + u is kept, and the bodies part at alpha times the speed at which they met
     (equation 2).
 
-    >>> [speed.xreplace({mass_ratio: 1, alpha: 1}) for speed in speeds_after_impact()]  # equal masses swap speeds
+    >>> # Equal masses swap speeds.
+    >>> [speed.xreplace({mass_ratio: 1, alpha: 1}) for speed in speeds_after_impact()]
     [u, v]
     """
     ball, table = Symbol("ball"), Symbol("table")

@@ -1,5 +1,6 @@
 """The region R, its corner, the point p, and how long an orbit takes to enter R (sections 4.1 to
-4.3, appendix A)."""
+4.3, appendix A).
+"""
 
 from __future__ import annotations
 

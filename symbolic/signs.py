@@ -1,5 +1,6 @@
 """Exact signs of algebraic functions of alpha on the open interval 0 < alpha < 1, by Sturm's
-count."""
+count.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +52,8 @@ def reduced(expression: Expr) -> Expr:
 
 def _name_root(expression: Expr) -> tuple[Expr, Expr]:
     """The expression as a fraction in alpha and the symbol of its only root, and what stands below
-    that root."""
+    that root.
+    """
     if S(expression).free_symbols - {alpha}:
         raise DerivationError(f"not a function of alpha alone: {expression}")
     powers = [
@@ -83,7 +85,8 @@ def _sign(expression: Expr, radicand: Expr) -> int:
 
 def _vanishes(polynomial: Poly) -> bool:
     """Whether a polynomial in alpha has a zero in the open interval (the ends are divided out
-    before counting)."""
+    before counting).
+    """
     ends = (Poly(alpha, alpha), Poly(alpha - 1, alpha))
     inner = (part for part, _ in polynomial.factor_list()[1] if part not in ends)
     return any(part.count_roots(0, 1) for part in inner)

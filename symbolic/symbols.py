@@ -1,5 +1,6 @@
 """The symbols of the paper, without assumptions: what a step needs of them is stated where it is
-needed."""
+needed.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The suite neither reads nor writes the user's kept records, unless a test asks for a folder of
-its own; kernels are compiled once for all tests."""
+its own; kernels are compiled once for all tests.
+"""
 
 import os
 from pathlib import Path

@@ -14,7 +14,8 @@ class GaveUp(Exception):
 @dataclass(frozen=True)
 class Answer:
     """low <= supremum <= high as the method says; without `high` it is a value and no bound.
-    `note` tells what else there is to say."""
+    `note` tells what else there is to say.
+    """
 
     low: Fraction
     high: Fraction | None = None
@@ -40,7 +41,8 @@ class Answer:
 @dataclass(frozen=True)
 class Strayed:
     """How far a state is from the exact one, and what the method says of that: a bound, or None
-    where it says nothing."""
+    where it says nothing.
+    """
 
     distance: Fraction
     bound: Fraction | None

@@ -25,7 +25,8 @@ REPEATS, LONG = (
 
 class Over(BaseException):
     """The seconds are over, or the parent wants an end: raised wherever the method is, so that it
-    ends its own programs."""
+    ends its own programs.
+    """
 
 
 def _over(*_: object) -> None:

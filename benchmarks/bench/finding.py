@@ -101,7 +101,8 @@ class _Quotient:
 
     def start(self) -> tuple[float, Floats]:
         """(value, place), the best of all ends and middles of few axes at a time, from the middle
-        of the box until nothing is gained."""
+        of the box until nothing is gained.
+        """
         ends = list(
             zip(self.low, [(low + high) / 2 for low, high in zip(self.low, self.high)], self.high)
         )
@@ -134,7 +135,8 @@ class _Quotient:
 
     def excess(self, x: Floats, value: float) -> tuple[Floats, list[Floats], float]:
         """Gradient and Hessian of value * under - over at a place, and what rounding may change in
-        it."""
+        it.
+        """
         axes = range(len(x))
         powers = [[v**e for e in range(self.most + 1)] for v in x]
         slope, bend, noise = [0.0 for _ in axes], [[0.0 for _ in axes] for _ in axes], 0.0

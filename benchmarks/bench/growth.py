@@ -1,5 +1,6 @@
 """Work that grows by one number at a time: variables of a bound, states of an ensemble; and the
-slope of seconds against size."""
+slope of seconds against size.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +58,8 @@ class Ensemble:
 
 def ensemble(work: Ensemble, size: Fraction) -> Strayed:
     """So many states in float64 with their bounds; the answer is the largest bound, the note counts
-    what is undecided."""
+    what is undecided.
+    """
     import numpy as np
 
     from scenes.juggler import orbit, random, scene

@@ -1,5 +1,6 @@
 """The methods by name: what each is worth, where its code is, and what it needs; their code is
-loaded where it runs."""
+loaded where it runs.
+"""
 
 from __future__ import annotations
 
@@ -13,17 +14,23 @@ from typing import Any, Literal
 
 Worth = Literal["certificate", "rigorous", "unchecked", "no proof"]
 NOTES = """\
-certificate: what is printed was accepted by certificates/checker.py in this run, and that time is counted; the certificate can be read again.
-rigorous: enclosed by arithmetic that rounds outwards (coq-interval: by Coq's kernel); to believe it again is to run it again.
-unchecked: the answer of a solver.  no proof: floating point; its error is the distance to the truth, which it does not know itself.
-The aim is judged against the certified peers and against Z3.  Certified peers: coq-interval, cvc5 where it writes its proof (nothing here reads it;
-some of its steps say trust), and QEPCAD, whose answers are taken at their word.  Boxes in Arb and mpmath.iv are our own, measured beside."""
+certificate: what is printed was accepted by certificates/checker.py in this run, and that time \
+is counted; the certificate can be read again.
+rigorous: enclosed by arithmetic that rounds outwards (coq-interval: by Coq's kernel); to \
+believe it again is to run it again.
+unchecked: the answer of a solver.  no proof: floating point; its error is the distance to the \
+truth, which it does not know itself.
+The aim is judged against the certified peers and against Z3.  Certified peers: coq-interval, \
+cvc5 where it writes its proof (nothing here reads it;
+some of its steps say trust), and QEPCAD, whose answers are taken at their word.  Boxes in Arb \
+and mpmath.iv are our own, measured beside."""
 
 
 @dataclass(frozen=True)
 class Method:
     """A way to answer; `place` is module:function, `package` what to install where it is absent,
-    `peer` whether it is a certified peer of the aim."""
+    `peer` whether it is a certified peer of the aim.
+    """
 
     name: str
     title: str

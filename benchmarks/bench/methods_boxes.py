@@ -25,7 +25,8 @@ Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put
 
 class Intervals(Protocol):
     """Numbers that enclose: made from rationals, and asked for their least and their greatest
-    value."""
+    value.
+    """
 
     def over(self, low: Fraction, high: Fraction) -> Any: ...
 
@@ -94,7 +95,8 @@ class Enclosed:
 
     def powers(self, sides: Sequence[Side]) -> list[list[Any]]:
         """The powers of each variable, as products: quicker here than powers of rational ends, and
-        no box has a variable of both signs."""
+        no box has a variable of both signs.
+        """
         table = []
         for side, most in zip(sides, self.most):
             row = [None, self.numbers.over(*side)]
@@ -115,7 +117,8 @@ class Enclosed:
 
 def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> int | None:
     """How many boxes show that the polynomial is >= 0 on the box; None where it is not, or where a
-    point was met that is undecided."""
+    point was met that is undecided.
+    """
     excess, boxes, stack = Enclosed(terms, len(box), numbers), 0, [box]
     while stack:
         sides, boxes = stack.pop(), boxes + 1

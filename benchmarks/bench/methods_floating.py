@@ -1,5 +1,6 @@
 """Floating point without proof: random samples, and an optimiser of SciPy; what they miss by is
-measured, not known to them."""
+measured, not known to them.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Our method: a box tree of exact Bernstein coefficients, and the checker's word for it; the time
-of both counts."""
+of both counts.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ FEW, MANY = (
 
 def bernstein(problem: Problem, width: Fraction) -> Answer:
     """Certifies that the value at a rational point is attained, and that nothing exceeds it by more
-    than the width, or at all where that succeeds."""
+    than the width, or at all where that succeeds.
+    """
     point, low = best_point(problem, width / SHARE)
     wider = low + width * (SHARE - 1) / SHARE
     for high, most in ([(low, FEW)] if can_be_a_corner(problem, point) else []) + [(wider, MANY)]:
@@ -34,14 +36,16 @@ def bernstein(problem: Problem, width: Fraction) -> Answer:
 
 def can_be_a_corner(problem: Problem, point: Point) -> bool:
     """Whether few halvings lead to boxes with the point at a corner: only there is a Bernstein
-    coefficient the value at the point."""
+    coefficient the value at the point.
+    """
     places = [(x - low) / (high - low) for x, (low, high) in zip(point, problem.box)]
     return all(2**FEW % place.denominator == 0 for place in places)
 
 
 def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree: str) -> int:
     """The bytes of the certificate that the checker accepts, read back from what would be stored;
-    ArithmeticError where it rejects it."""
+    ArithmeticError where it rejects it.
+    """
     (statement,) = checker.read_statements(problem.of_box(low, high)).values()
     excess, size = problem.excess(high), len(problem.names)
     bounds = [[2 * k, 2 * k + 1] for k in range(size) if any(e[k] for e in excess)]

@@ -33,7 +33,8 @@ def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
 
 def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
     """One question, a little above the value at a point, which floating point finds and exact
-    arithmetic evaluates."""
+    arithmetic evaluates.
+    """
     from benchmarks.bench.finding import best_point  # NumPy, which bisection has no need of
 
     low = best_point(problem, width / SHARE)[1]
@@ -98,7 +99,8 @@ def by_qepcad(problem: Problem, bound: Fraction) -> bool:
 
 def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
     """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
-    Its proof is checked by Coq's kernel."""
+    Its proof is checked by Coq's kernel.
+    """
     from benchmarks.bench.coq_interval import goal, proves
 
     if not proves(goal(problem, bound), ENOUGH):

@@ -1,5 +1,6 @@
 """The state after so many periods in each arithmetic of the scene, and in float64 alone; how far it
-is from the exact one is computed untimed."""
+is from the exact one is computed untimed.
+"""
 
 from __future__ import annotations
 
@@ -119,7 +120,8 @@ def mp(start: Start, size: Fraction) -> Later:
 
 def floats(start: Start, size: Fraction) -> Later:
     """float64 period by period, as one writes it down: every branch is what rounding makes of
-    it."""
+    it.
+    """
     from scenes.juggler.formulas import formulas
 
     map_of, alpha, x, w = formulas(), float(start.alpha), float(start.x), float(start.w)

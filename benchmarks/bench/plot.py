@@ -27,7 +27,8 @@ def can_plot() -> bool:
 
 def plot(title: str, methods: Sequence[Method], results: Results, truth: Fraction) -> bytes:
     """The plot: a line a method, its warm seconds across, its errors upwards; filled marks and full
-    lines are certificates."""
+    lines are certificates.
+    """
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 

@@ -1,5 +1,6 @@
 """A question as plain data, which a process of its own can read without SymPy: the least upper
-bound of a fraction of polynomials on a box."""
+bound of a fraction of polynomials on a box.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ class Problem:
 
     def excess(self, bound: Fraction) -> dict[Exponents, Fraction]:
         """bound * under - over, which is >= 0 on the box if and only if the supremum is at most the
-        bound."""
+        bound.
+        """
         total = {exponents: c * bound for exponents, c in self.under.items()}
         for exponents, c in self.over.items():
             total[exponents] = total.get(exponents, Fraction(0)) - c
@@ -49,12 +51,14 @@ class Problem:
 
     def of_set(self, bound: Fraction) -> str:
         """The statement that nothing in the set exceeds the bound (or is below its negative, where
-        the question is for the infimum)."""
+        the question is for the infimum).
+        """
         return self.statement.format(bound=self.sign * bound)
 
     def asked(self, bound: Fraction) -> str:
         """Whether something in the set exceeds the bound (is below its negative), in SMT-LIB
-        without a check."""
+        without a check.
+        """
         value = self.sign * bound
         size = f"(/ {abs(value.numerator)}.0 {value.denominator}.0)"
         return self.smt.format(bound=size if value >= 0 else f"(- {size})")
@@ -97,7 +101,8 @@ class Problem:
 
 def _shortest(terms: Terms, names: Sequence[str]) -> str:
     """The polynomial nested by its variables in the order in which the text is shortest, where they
-    are few."""
+    are few.
+    """
     orders = permutations(range(len(names))) if len(names) < 5 else [tuple(range(len(names)))]
     texts = [
         horner(

@@ -44,7 +44,8 @@ p, q, s = sympy.symbols(
 @dataclass(frozen=True)
 class Question:
     """What is sought, the fraction and the variables of its box, the statement of its set, the
-    closed form, and how the set became a box."""
+    closed form, and how the set became a box.
+    """
 
     name: str
     title: str
@@ -58,7 +59,8 @@ class Question:
 
     def truth(self) -> Fraction:
         """The closed form at the end of ALPHAS where it is greatest (least, where the infimum is
-        sought)."""
+        sought).
+        """
         return truth_at_ends(self.closed_form, self.sign)
 
     def problem(self) -> Problem:
@@ -102,7 +104,8 @@ class Question:
 
 def bounding(name: str, names: str, givens: Iterable[str], over: str, under: str, sign: int) -> str:
     """The statement that over/under, whose denominator is positive, is at most (at least, where
-    sign is -1) {bound}, which is still to be put in."""
+    sign is -1) {bound}, which is still to be put in.
+    """
     shown = f"show {over} {'<=' if sign > 0 else '>='} {{bound}}*({under})"
     return "\n".join(
         [
@@ -117,7 +120,8 @@ def bounding(name: str, names: str, givens: Iterable[str], over: str, under: str
 
 def denial(statement: str) -> str:
     """The denial of a statement of `bounding` in SMT-LIB, likewise with {bound} still to be put
-    in."""
+    in.
+    """
     text = statement.format(bound=BOUND).replace("forall ", f"forall {BOUND} ")
     (asked,) = solver_questions(read_statement(text))
     return question_text(asked).replace(
@@ -127,7 +131,8 @@ def denial(statement: str) -> str:
 
 def truth_at_ends(closed_form: Any, sign: int) -> Fraction:
     """The greatest value (least, where sign is -1) on ALPHAS of a function that is monotone there;
-    DerivationError where it may not be."""
+    DerivationError where it may not be.
+    """
     rises = sign_for_lossy_impacts(closed_form.diff(alpha)) * sign > 0
     return fraction(closed_form.subs(alpha, rational(ALPHAS[1 if rises else 0])))
 
@@ -170,7 +175,8 @@ def put(expression: Any, height: Any, speed: Any) -> Any:
 @cache
 def kept_curve() -> tuple[Any, Any]:
     """(x, w): the curve B1^0, where the energy change is 0, from the origin (p = 0) to its other
-    zero on x = 0 (p = 1)."""
+    zero on x = 0 (p = 1).
+    """
     height = root_of(symbolic.normal_energy_change(), x)
     speed = p * root_of(lowest_terms(height / w), w)
     return lowest_terms(height.subs(w, speed)), speed
@@ -179,7 +185,8 @@ def kept_curve() -> tuple[Any, Any]:
 @cache
 def outside_region() -> tuple[Any, Any]:
     """(x, w): B1 beyond the edge of R. U = sqrt(2 E) is its value on that edge divided by p; w = U
-    - 1 + 2 q, from x = w (q = 0) to x = 0 (q = 1)."""
+    - 1 + 2 q, from x = w (q = 0) to x = 0 (q = 1).
+    """
     U = sympy.Symbol("U")
     edge = (
         (-symbolic.region_corner()[1] / r)

@@ -1,5 +1,6 @@
 """The whole benchmark: questions in turn, each measured, judged against its closed form, printed
-and drawn."""
+and drawn.
+"""
 
 from __future__ import annotations
 

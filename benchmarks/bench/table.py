@@ -1,5 +1,6 @@
 """What was measured, as plain text: seconds and errors by method and size, what the aim asks for as
-ratios of this run, and slopes."""
+ratios of this run, and slopes.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ def by_method(found: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
 
 def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
     """The same measurement of work of this size, the answer being told as its distance from the
-    truth, which is then 0."""
+    truth, which is then 0.
+    """
     answer = one.answer
     if isinstance(answer, Answer):
         answer = Answer(
@@ -41,7 +43,8 @@ def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
 def power(value: Fraction) -> str:
     """A size, short.
 
-    >>> power(Fraction(1, 10**9)), power(Fraction(10**6)), power(Fraction(3, 100)), power(Fraction(7))
+    >>> sizes = Fraction(1, 10**9), Fraction(10**6), Fraction(3, 100), Fraction(7)
+    >>> tuple(map(power, sizes))
     ('1e-9', '1e6', '3e-2', '7')
     """
     text = (
@@ -99,7 +102,8 @@ def _cell(one: Measured | None, word: str, truth: Fraction) -> str:
 
 def wrong(methods: Sequence[Method], results: Results, truth: Fraction) -> list[str]:
     """One line for each enclosure that does not hold the closed form (for orbits: whose bound the
-    exact state is beyond)."""
+    exact state is beyond).
+    """
     titles = {method.name: method.title for method in methods}
     return [
         f"WRONG: {titles[name]} at {power(size)} does not enclose the truth {float(truth):.12g}"
@@ -124,7 +128,8 @@ def ratios(
     methods: Sequence[Method], sizes: Sequence[Fraction], results: Results, seconds: float
 ) -> str:
     """How many times the seconds of our best certificate each other method takes; where it gave up,
-    more than its limit."""
+    more than its limit.
+    """
     parts = []
     for time in WORDS:
         rows = [(f"{WORDS[time]}: times ours", "worth", *(power(size) for size in sizes))]
@@ -167,7 +172,8 @@ def ratio(
     time: Time,
 ) -> tuple[float, bool] | None:
     """(times ours, whether it is more than that because the method gave up at this size or before);
-    None where we have nothing ourselves."""
+    None where we have nothing ourselves.
+    """
     base, own = ours(methods, size, results, time), results.get(method.name)
     if base is None or not own:
         return None
@@ -211,7 +217,8 @@ def judged(
     seconds: float,
 ) -> list[Judged]:
     """The aim, by what this run measured: against all certified peers together, and against Z3 in
-    each way of asking it, warm and cold."""
+    each way of asking it, warm and cold.
+    """
     found = []
     for time in WORDS:
         certified = [method for method in methods if method.peer and method.name in results]
@@ -277,7 +284,8 @@ def together(found: Sequence[Judged]) -> list[Judged]:
 
 def slopes(methods: Sequence[Method], results: Results, of: str, inverse: bool) -> str:
     """The slope of log warm seconds against log size for each method, over the sizes that it
-    answered."""
+    answered.
+    """
     rows = [("method", f"slope of seconds against {of}", "over")]
     for method in methods:
         own = [

@@ -1,5 +1,6 @@
 """Measures methods, each answer in a process of its own, which is ended with its children when its
-seconds are over."""
+seconds are over.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ Told = Callable[[str], None]
 
 def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measured:
     """Cold and warm seconds and the answer of one method; `seconds` limits the cold answer, and all
-    answers together."""
+    answers together.
+    """
     environment = {
         **os.environ,
         "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")])),

@@ -1,5 +1,6 @@
 """Real algebraic numbers by polynomial and isolating interval, and exact signs of polynomials at
-them: for models that solvers return."""
+them: for models that solvers return.
+"""
 
 from __future__ import annotations
 

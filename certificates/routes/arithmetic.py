@@ -39,14 +39,16 @@ def middle(box: Box) -> list[Fraction]:
 
 def working_precision() -> AbstractContextManager[Any]:
     """A context in which balls carry 64 bits, whatever is set outside: so votes do not depend on
-    what ran before."""
+    what ran before.
+    """
     context: AbstractContextManager[Any] = import_module("flint").ctx.workprec(PRECISION)
     return context
 
 
 class Balls:
     """python-flint's `arb`: midpoint and radius.  An undecided comparison is False there, whichever
-    way it is asked."""
+    way it is asked.
+    """
 
     name = "arb"
 
@@ -132,7 +134,8 @@ Kernel = Balls | Ends
 
 class Placed:
     """One box in one arithmetic: the powers of its sides and of its middle, computed when they are
-    asked for."""
+    asked for.
+    """
 
     def __init__(self, kernel: Kernel, box: Box) -> None:
         self.kernel, self.box = kernel, box
@@ -140,7 +143,8 @@ class Placed:
 
     def powers(self, needed: Sequence[tuple[int, int]], at_middle: bool) -> dict[int, list[Any]]:
         """Lists of 1, x_i, x_i^2, ... up to the degrees needed; powers are products, because arb(0,
-        1)**2 is nan."""
+        1)**2 is nan.
+        """
         table = self.tables[at_middle]
         for i, degree in needed:
             if i not in table:
@@ -155,7 +159,8 @@ class Placed:
 
     def around(self, value: Any, slopes: dict[int, Any], ends: dict[int, int] | None = None) -> Any:
         """value + sum slope_i (x_i - c_i) over the box, where c_i is the middle, or the low (-1) or
-        high (1) end of the side."""
+        high (1) end of the side.
+        """
         for i, slope in slopes.items():
             _, r, e = self.box[i]
             value = value + slope * self.kernel.side((-r * ends.get(i, 0) if ends else 0, r, e))
@@ -179,7 +184,8 @@ Prepared = tuple[list[tuple[int, int]], list[tuple[Any, list[tuple[int, int]]]]]
 
 def _prepare(kernel: Kernel, poly: Polynomial) -> Prepared:
     """The degree in each variable that occurs, and the terms as (coefficient, [(variable,
-    exponent)])."""
+    exponent)]).
+    """
     terms = [
         (kernel.integer(c), [(i, e) for i, e in enumerate(exponents) if e])
         for exponents, c in poly.terms
@@ -213,7 +219,8 @@ class Fact:
 
     def centred(self, placed: Placed) -> tuple[Any, dict[int, Any], Any]:
         """The mean value form p(m) + sum p_i(box) (x_i - m_i), the enclosures p_i(box) for the
-        sides that are no points, and p(m)."""
+        sides that are no points, and p(m).
+        """
         at_middle = _evaluate(self.kernel, self.terms, placed, True)
         slopes = {
             i: _evaluate(self.kernel, slope, placed, False)
@@ -232,7 +239,8 @@ class Fact:
 
     def sharp_slopes(self, placed: Placed) -> dict[int, Any]:
         """Enclosures of the partial derivatives on the box by their own mean value forms, where
-        these are narrower."""
+        these are narrower.
+        """
         found = {}
         for i, slope in self.curvatures.items():
             if placed.box[i][1]:

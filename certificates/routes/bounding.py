@@ -1,5 +1,6 @@
 """Boxes that hold every solution of some facts: exact propagation of bounds that may be infinite at
-first, rounded outwards."""
+first, rounded outwards.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +64,8 @@ def _signs(fact: Atom) -> list[Polynomial]:
 
 def _shave(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval], i: int) -> bool:
     """Cuts slices from both ends of a bounded side on which some fact fails; False where nothing is
-    left."""
+    left.
+    """
     mine = [(fact, p) for fact, p in sides if i in p.used]
     for at_low in (True, False):
         pieces = 2
@@ -95,7 +97,8 @@ def _fails(fact: Atom, p: Polynomial, box: Sequence[Interval]) -> bool:
 
 def _propagate(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval]) -> bool:
     """Moves ends inwards, in a few rounds, and to finite values where it can; False where an
-    interval becomes empty."""
+    interval becomes empty.
+    """
     known: dict[
         tuple[int, int], tuple[tuple[Interval, ...], tuple[Rational | None, Rational | None]]
     ] = {}
@@ -148,7 +151,8 @@ def _end(
     spans: Sequence[tuple[int, Interval, bool]], degree: int, direction: int, constant: bool
 ) -> Rational | None:
     """t such that p >= 0 fails for direction * x > t, from what the coefficients of the powers of x
-    lie between."""
+    lie between.
+    """
     none = rational(0)
     tops = [none] * (degree + 1)
     for k, (least, most), _ in spans:
@@ -182,7 +186,8 @@ def rounded(value: Rational, up: bool) -> Rational:
     """The value itself where it is short, else a number with few digits beyond it: propagation
     would make the digits grow without end.
 
-    >>> fraction(rounded(rational(Fraction(1, 3)), True)), fraction(rounded(rational(Fraction(10**30 + 1, 3 * 10**30)), True))
+    >>> third, near = Fraction(1, 3), Fraction(10**30 + 1, 3 * 10**30)
+    >>> fraction(rounded(rational(third), True)), fraction(rounded(rational(near), True))
     (Fraction(1, 3), Fraction(11184811, 33554432))
     """
     p, q = int(value.p), int(value.q)

@@ -1,5 +1,6 @@
 """The vote of interval boxes: a proof that no box holds a counterexample, an exact counterexample,
-or the enclosure of a bound."""
+or the enclosure of a bound.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point t
 @dataclass
 class Finding:
     """What became of one question: an exact solution, reasons why nothing was decided, or neither,
-    which says that it has none."""
+    which says that it has none.
+    """
 
     point: list[Fraction] | None = None
     reasons: list[str] = field(default_factory=list)
@@ -54,7 +56,8 @@ def vote(
     attained or approached; `not applicable`, with the reason.
 
     >>> from certificates.routes.questions import read_statement
-    >>> v = vote(read_statement("statement demo/disc\\nforall x y\\ngiven x^2 + y^2 <= 1\\nshow x*y < 3/5"))
+    >>> text = "statement demo/disc\\nforall x y\\ngiven x^2 + y^2 <= 1\\nshow x*y < 3/5"
+    >>> v = vote(read_statement(text))
     >>> v.answer, v.opinions[0][0], v.opinions[1][0]
     ('holds', 'arb', 'mpmath.iv')
     """
@@ -112,7 +115,8 @@ def _vote(name: str, lines: Sequence[Question], goal: Question, budget: Budget) 
 
 def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
     """Whether the question has a solution, branch by branch; what it is, or why nothing was
-    decided."""
+    decided.
+    """
     matrix, finding = question.matrix(), Finding()
     parts = regions(question.names, matrix)
     if parts is None:

@@ -1,5 +1,6 @@
 """Where boxes cannot decide, because equality is attained: enclosures of the infimum of what is
-shown to be positive."""
+shown to be positive.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ from certificates.routes.votes import Enclosure
 @dataclass(frozen=True)
 class GoalBound:
     """Enclosures of inf p for each part p > 0 or p >= 0 of the goal; `positive` where they show the
-    goal, `point` where one refutes it."""
+    goal, `point` where one refutes it.
+    """
 
     enclosures: tuple[Enclosure, ...]
     positive: bool
@@ -160,7 +162,8 @@ def _less(poly: Polynomial, level: Fraction) -> Polynomial:
 
 def _attained(assumed: Formula, poly: Polynomial) -> tuple[Fraction, list[Fraction]] | None:
     """The least value of the polynomial at a few exact points of the region, with its point; None
-    where none is met."""
+    where none is met.
+    """
     parts: list[Region] = regions(poly.names, assumed) or []
     met = [(poly.at(point), point) for region in parts for point in region.samples(assumed)]
     return min(met, key=lambda pair: pair[0]) if met else None

@@ -1,5 +1,6 @@
 """Polynomials with integer coefficients over one positive denominator, and formulas over their
-signs: what the routes compute with."""
+signs: what the routes compute with.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ class Polynomial:
     @staticmethod
     def of(names: tuple[str, ...], terms: Mapping[Exponents, int], den: int = 1) -> Polynomial:
         """The polynomial with these terms, zeros left out, in the one order that makes equal
-        polynomials equal."""
+        polynomials equal.
+        """
         return Polynomial(
             names, tuple(sorted(((e, c) for e, c in terms.items() if c), reverse=True)), den
         )
@@ -52,7 +54,8 @@ class Polynomial:
 
     def collected(self, i: int) -> tuple[tuple[int, Polynomial], ...]:
         """The pairs (k, c_k) with the polynomial = sum c_k x_i^k / den, each c_k not 0 and without
-        x_i, from k = 0 up."""
+        x_i, from k = 0 up.
+        """
         if i not in self._collections:
             parts: dict[int, dict[Exponents, int]] = {}
             for e, c in self.terms:
@@ -95,7 +98,8 @@ class Polynomial:
 
     def with_value(self, i: int, value: Fraction) -> Polynomial:
         """The polynomial with a rational in place of the i-th variable; it stays a polynomial in
-        the same names."""
+        the same names.
+        """
         degree, terms = self.degrees[i], dict[Exponents, int]()
         for e, c in self.terms:
             key = (*e[:i], 0, *e[i + 1 :])
@@ -123,7 +127,8 @@ class Atom:
 
     def holds(self, value: Fraction | int) -> bool:
         """Whether the relation holds where the polynomial has this value (or a number of the same
-        sign)."""
+        sign).
+        """
         return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[self.relation]
 
     def __str__(self) -> str:
@@ -168,7 +173,8 @@ def map_atoms(formula: Formula, change: Callable[[Atom], Formula]) -> Formula:
 
 def join(op: str, formulas: Sequence[Formula]) -> Formula:
     """The conjunction or disjunction, without constants, repetitions and joins of the same kind
-    inside."""
+    inside.
+    """
     flat: list[Formula] = []
     for formula in formulas:
         if isinstance(formula, bool):
@@ -183,7 +189,8 @@ def join(op: str, formulas: Sequence[Formula]) -> Formula:
 
 def atom(poly: Polynomial, relation: str) -> Formula:
     """The atom over coprime integer coefficients, or its truth value where the polynomial is
-    constant."""
+    constant.
+    """
     if not poly.used:
         return Atom(poly, relation).holds(poly.terms[0][1] if poly.terms else 0)
     content = gcd(*(c for _, c in poly.terms))
@@ -212,7 +219,8 @@ def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
     `limit` branches.
 
     >>> x = Polynomial(("x",), (((1,), 1),))
-    >>> [[str(fact) for fact in b] for b in branches(Join("or", (Atom(x, ">"), Atom(x, "="))), 4) or []]
+    >>> either = Join("or", (Atom(x, ">"), Atom(x, "=")))
+    >>> [[str(fact) for fact in b] for b in branches(either, 4) or []]
     [['x > 0'], ['x = 0']]
     """
     if isinstance(formula, bool):

@@ -64,7 +64,8 @@ class Question:
     @property
     def beyond_routes(self) -> bool:
         """Whether it has one alternation of quantifiers more, or integers under a quantifier
-        outside a range: only exported, no route asks."""
+        outside a range: only exported, no route asks.
+        """
         return (
             any(denial.chosen for denial in self.denials)
             or self.part == "outside"
@@ -149,7 +150,8 @@ def _outside(
     name: str, over: Sequence[str], domain: Any, condition: Any, named: Sequence[Any]
 ) -> Question:
     """Is there a parameter in the domain, but outside the range, at which all the named statements
-    hold?"""
+    hold?
+    """
     stories = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
     names, integers = list[str](over), {p for p in over if p in stories[0].integers}
     renamed = list[tuple[str, ...]]()

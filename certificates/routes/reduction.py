@@ -1,5 +1,6 @@
 """Facts made simpler before boxes are cut: equations solved for a variable, factors of known sign
-divided out, contradictions seen."""
+divided out, contradictions seen.
+"""
 
 from __future__ import annotations
 
@@ -58,7 +59,8 @@ def _solution(poly: Polynomial) -> Solved | None:
 
 def insert(poly: Polynomial, solved: Solved) -> Polynomial:
     """The polynomial with the solved variable replaced by its value, times a positive number where
-    that clears denominators."""
+    that clears denominators.
+    """
     degree = poly.degrees[solved.i]
     if not degree:
         return poly
@@ -148,7 +150,8 @@ def _known_sign(
     factor: Polynomial, signs: dict[Polynomial, str], box: Sequence[Interval] | None, relation: str
 ) -> int:
     """1 or -1 where the factor is known to be > 0 or < 0; for a strict product >= 0 or <= 0
-    suffice."""
+    suffice.
+    """
     enough = (">", ">=") if relation == ">" else (">",)
     minus = factor.minus
     if signs.get(factor) in enough:

@@ -1,5 +1,6 @@
 """The region of a question, branch by branch: facts made simple, a box that holds it, and exact
-points of it."""
+points of it.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ SAMPLES = [
 @dataclass(frozen=True)
 class Region:
     """One branch, ready for boxes; variables that an equation gives are `solved` and no longer
-    occur in the facts."""
+    occur in the facts.
+    """
 
     names: tuple[str, ...]
     facts: tuple[Atom, ...]
@@ -54,7 +56,8 @@ class Region:
 
     def box(self) -> Box:
         """Dyadic sides around the intervals; infinite ones are cut, and variables that no longer
-        occur stay at one value."""
+        occur stay at one value.
+        """
         used, sides = self.used(), []
         for i, (low, high) in enumerate(self.bounds):
             a = (
@@ -106,7 +109,8 @@ def holds_at(formula: Formula, point: Sequence[Fraction]) -> bool:
 
 def regions(names: tuple[str, ...], formula: Formula) -> list[Region] | None:
     """The branches of the formula that are not seen to be empty at once; None where there are too
-    many."""
+    many.
+    """
     parts = branches(formula, MOST_BRANCHES)
     if parts is None:
         return None

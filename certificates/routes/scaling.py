@@ -1,5 +1,6 @@
 """Units: which positive variables may be set to 1, because every fact is homogeneous in some
-grading of the variables."""
+grading of the variables.
+"""
 
 from __future__ import annotations
 

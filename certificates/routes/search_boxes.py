@@ -1,5 +1,6 @@
 """Branch and bound on boxes: every box is discarded because some fact surely fails on it, or cut in
-two; counted boxes only."""
+two; counted boxes only.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +31,8 @@ Accept = Callable[[list[Fraction]], bool]
 @dataclass(frozen=True)
 class Leaf:
     """A discarded box: the number of the fact that fails on it, and whether the mean value form was
-    needed to see it."""
+    needed to see it.
+    """
 
     box: Box
     fact: int
@@ -40,7 +42,8 @@ class Leaf:
 @dataclass
 class Emptiness:
     """What became of the search for a solution of all facts: `empty`, `point` (exact) or, with
-    neither, undecided."""
+    neither, undecided.
+    """
 
     boxes: int
     leaves: list[Leaf] = field(default_factory=list)
@@ -91,7 +94,8 @@ def _look(
     ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed
 ) -> tuple[Leaf | None, tuple[int, ...], dict[int, float], bool]:
     """A leaf, or the facts still undecided, how much each side matters to them, and whether the
-    middle may be a solution."""
+    middle may be a solution.
+    """
     left = []
     for k in alive:
         value = ready[k].natural(placed)
@@ -143,7 +147,8 @@ def _enclose(fact: Fact, placed: Placed, centred: bool) -> Any:
 @dataclass
 class Infimum:
     """low <= inf of the polynomial over the region; where a better point than the known one was
-    met, high is its value."""
+    met, high is its value.
+    """
 
     low: Fraction
     high: Fraction
@@ -266,7 +271,8 @@ def _from_corner(
 
 def _weigh(weights: dict[int, float], slopes: dict[int, Any], placed: Placed) -> None:
     """Adds how much each side matters to one polynomial.  Floats choose where to cut; they decide
-    nothing."""
+    nothing.
+    """
     sizes = {i: float(slope.abs_upper()) * placed.half(i) for i, slope in slopes.items()}
     total = sum(sizes.values()) or 1.0
     for i, size in sizes.items():
@@ -285,7 +291,8 @@ def _cut(
 
 def _confirm(poly: Polynomial, found: Infimum, box: Box) -> bool:
     """Whether `mpmath.iv` agrees on the box with the least lower end: its enclosure there does not
-    lie below what is claimed."""
+    lie below what is claimed.
+    """
     kernel = Ends()
     aim = Fact(kernel, Atom(poly, ">="))
     placed = Placed(kernel, box)

@@ -48,7 +48,8 @@ def write_term(tree: Any, values: Mapping[str, str]) -> str:
 
 def recurrence(statement: Any) -> list[str]:
     """P(0) is not the identity, or map(P(K)) is not P(K + 1); for all real K, where what is meant
-    is an integer: it is an identity."""
+    is an integer: it is an identity.
+    """
     (variables,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "iterates", "after")
     )
@@ -78,7 +79,8 @@ def recurrence(statement: Any) -> list[str]:
 
 def number_checks(name: str, polynomial: Any, low: Any, high: Any) -> list[tuple[str, list[str]]]:
     """The polynomial has exactly one root between the ends: its signs at them are opposite, and no
-    two roots lie there."""
+    two roots lie there.
+    """
     (variable,) = {node.id for node in ast.walk(polynomial) if isinstance(node, ast.Name)}
     ends, roots = [write_term(end, {}) for end in (low, high)], [symbol(name), name + "!second"]
     at = {point: write_term(polynomial, {variable: point}) for point in (*ends, *roots)}

@@ -23,7 +23,8 @@ def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
     Source: SMT-LIB 2.6, logics QF_NRA, NRA, QF_NIA, QF_NIRA, UFNIRA.
 
     >>> from certificates.routes.questions import read_statement
-    >>> print(script(read_statement("statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2/2 >= x - 1/2")))
+    >>> text = "statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2/2 >= x - 1/2"
+    >>> print(script(read_statement(text)))
     ; statement demo/square: it holds if and only if every check below answers unsat
     <BLANKLINE>
     ; goal: a solution refutes the statement
@@ -87,7 +88,8 @@ def _meaning(question: Question) -> str:
 
 def logic(question: Question) -> str:
     """The SMT-LIB logic that the question belongs to; there is none with quantifiers and both sorts
-    but without functions."""
+    but without functions.
+    """
     arithmetic = (
         "NRA"
         if not question.integers

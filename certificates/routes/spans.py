@@ -77,7 +77,8 @@ def _bernstein_range(
     coefficients: tuple[int, ...], low: Rational, high: Rational
 ) -> tuple[Rational, Rational]:
     """The least and the largest Bernstein coefficient of a polynomial in one variable on [low,
-    high]: they enclose its values there."""
+    high]: they enclose its values there.
+    """
     moved = shifted([rational(c) for c in coefficients], low)
     n, scaled = len(moved) - 1, [c * (high - low) ** k for k, c in enumerate(moved)]
     bernstein = [

@@ -1,5 +1,6 @@
 """Votes on a statement by routes other than the certificate, and the stop when one of them
-contradicts what was checked."""
+contradicts what was checked.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ class Budget:
 @dataclass(frozen=True)
 class Enclosure:
     """low <= inf of the polynomial over the region <= high, both exact; `wanted` is the width that
-    was asked for."""
+    was asked for.
+    """
 
     polynomial: str
     low: Fraction
@@ -91,7 +93,8 @@ class Vote:
 
 class Disagreement(Exception):
     """Two routes contradict each other about one statement; the message is one line with both
-    sides."""
+    sides.
+    """
 
     def __init__(self, statement: str, first: str, second: str) -> None:
         super().__init__(f"{statement}: {first}, but {second}")

@@ -1,5 +1,6 @@
 """The vote of Z3 on a statement's negation: nlsat for real polynomials, its quantified sibling for
-`exists`, counted work only."""
+`exists`, counted work only.
+"""
 
 from __future__ import annotations
 
@@ -362,7 +363,8 @@ def _by_branches(session: Session, question: Question, engine: str) -> Reply:
 
 def _with_witnesses(session: Session, question: Question) -> Reply:
     """Tries the value 0 for one variable that is said to exist, and asks again: unsat then settles
-    the whole."""
+    the whole.
+    """
     if not question.refutes or question.part == "outside":
         return Reply("unknown", how="undecided within the budget")
     for name in (name for name in question.names if name in question.bound):

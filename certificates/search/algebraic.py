@@ -1,5 +1,6 @@
 """Real algebraic numbers: an irreducible polynomial with an isolating interval, compared and
-rounded exactly."""
+rounded exactly.
+"""
 
 from __future__ import annotations
 
@@ -191,7 +192,8 @@ def enclose(poly: fmpq_poly, low: fmpq, high: fmpq) -> tuple[fmpq, fmpq]:
 
 def integer_polynomial(poly: fmpq_poly) -> fmpz_poly:
     """The primitive integer polynomial with positive leading coefficient that has the same
-    roots."""
+    roots.
+    """
     numerator = poly.numer()
     content = numerator.content()
     numerator = fmpz_poly([c // content for c in numerator.coeffs()])

@@ -1,5 +1,6 @@
 """Exact sample points of a state: for one parameter over every cell and close to its ends,
-otherwise by sampling all variables."""
+otherwise by sampling all variables.
+"""
 
 from __future__ import annotations
 
@@ -72,7 +73,8 @@ def base_samples(state: checker.State, budget: Budget, count: int = 12) -> list[
 
 def _close_to_ends(condition: Condition, names: list[str], used: set[str]) -> list[Sample]:
     """Where units aside there is one variable: points all along its line, close to the ends too, in
-    units of 1."""
+    units of 1.
+    """
     ones = {name: fmpq(1) for name in used & UNITS}
     line = condition.substituted(ones)
     if len(used - UNITS) != 1 or not ones or line.variables() != used - UNITS:
@@ -82,7 +84,8 @@ def _close_to_ends(condition: Condition, names: list[str], used: set[str]) -> li
 
 def _extreme(condition: Condition, samples: list[Sample], names: list[str]) -> list[Sample]:
     """The samples with one variable at a time made very small or very large: what serves by chance
-    does not serve there."""
+    does not serve there.
+    """
     found: list[Sample] = []
     for sample in samples:
         for name in names:
@@ -97,7 +100,8 @@ def _scattered(
     condition: Condition, names: list[str], integers: set[str], count: int
 ) -> list[Sample]:
     """Favourite values combined in a fixed pseudo-random order, so that variables are not all tied
-    to one another."""
+    to one another.
+    """
     found: list[Sample] = []
     state = 20
     for _ in range(10 * count):

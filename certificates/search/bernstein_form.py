@@ -1,5 +1,6 @@
 """Polynomials on a box as tensors of Bernstein coefficients, in floating point or in exact
-integers, by the same steps."""
+integers, by the same steps.
+"""
 
 from __future__ import annotations
 
@@ -73,7 +74,8 @@ def _axis_matrix(n: int, low: Fraction, high: Fraction) -> tuple[list[list[int]]
 @lru_cache(256)
 def halving(n: int, exact: bool) -> tuple[Array, Array]:
     """The matrices that take coefficients of degree n to those on the lower and on the upper half,
-    times 2^n where exact."""
+    times 2^n where exact.
+    """
     lower = np.array(
         [[comb(j, k) * 2 ** (n - j) if k <= j else 0 for k in range(n + 1)] for j in range(n + 1)],
         dtype=object,

@@ -1,5 +1,6 @@
 """Branch and bound with Bernstein coefficients, the box of least bound first: a box tree for the
-checker, and the bound that it shows."""
+checker, and the bound that it shows.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ Improve = Callable[[tuple[float, ...]], None]
 @dataclass
 class Node:
     """A box of the tree: the faces taken on the way to it, its coefficients while it is open, and
-    its place in the whole box."""
+    its place in the whole box.
+    """
 
     prefix: str
     tensor: Array
@@ -43,7 +45,8 @@ class Node:
 @dataclass
 class Tree:
     """What a search has come to: the tree as text, a number below all its leaves, how many boxes it
-    has, and whether it reached its target."""
+    has, and whether it reached its target.
+    """
 
     text: str
     bound: Fraction
@@ -151,7 +154,8 @@ class Branching:
 
     def run(self, budget: int) -> Tree:
         """Goes on until the target is reached, there are `budget` boxes, or halving leads
-        nowhere."""
+        nowhere.
+        """
         goal = self.numbers.goal(self.target())
         while self.heap and self.heap[0][0] < goal and self.boxes < budget and not self.stuck:
             node = self.heap[0][2]

@@ -1,5 +1,6 @@
 """Counted work: every search spends from a budget, so that it ends after the same work on every
-machine."""
+machine.
+"""
 
 from __future__ import annotations
 

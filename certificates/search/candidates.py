@@ -1,5 +1,6 @@
 """Simple values for one variable: the ones that a reader likes best, and the simplest in every
-interval where a condition holds."""
+interval where a condition holds.
+"""
 
 from __future__ import annotations
 
@@ -107,7 +108,8 @@ class Cells:
 
     def intervals(self) -> list[tuple[fmpq, fmpq]]:
         """Rational ends strictly inside, or at, the ends of every open cell; the unbounded cells
-        are cut two units beyond."""
+        are cut two units beyond.
+        """
         if not self.roots:
             return [(fmpq(-2), fmpq(2))]
         outer = [(self.roots[0]._low - 2, self.roots[0]._low)]
@@ -158,7 +160,8 @@ def _gap(roots: list[AlgebraicNumber], root: AlgebraicNumber) -> Fraction:
 
 def spread(low: fmpq, high: fmpq) -> Iterator[fmpq]:
     """Ever more rationals strictly between two, the simplest first: the interval is cut at each in
-    turn."""
+    turn.
+    """
     queue = [(low, high)]
     while queue:
         low, high = queue.pop(0)
@@ -179,7 +182,8 @@ def solutions(
     condition: Condition, name: str, integral: bool, count: int, irrational: bool
 ) -> list[Value]:
     """Values of the one variable left that meet the condition: favourites, the simplest of every
-    open cell, then roots."""
+    open cell, then roots.
+    """
     cells = Cells(condition.in_one_variable(name))
     found: list[Value] = []
 
@@ -212,7 +216,8 @@ def solutions(
 
 def trials(condition: Condition, name: str, integral: bool, count: int) -> list[fmpq]:
     """Values to try for a variable that others still depend on, among those that meet the relations
-    about it alone."""
+    about it alone.
+    """
     place = condition.ring.variable_to_index(name)
     own = [(p, relation) for p, relation in condition.facts() if _only(p, place)]
     if not own:

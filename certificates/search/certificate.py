@@ -1,5 +1,6 @@
 """The certificate of one statement: a proof with a point, a counterexample, or the reason why
-neither was found."""
+neither was found.
+"""
 
 from __future__ import annotations
 
@@ -58,7 +59,8 @@ def search_certificate(
     checker rejects it.
 
     >>> text = "statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2 > x"
-    >>> search_certificate(checker.read_statements(text)["demo/square"], {}, Budget(10**6))["certified"]
+    >>> statement = checker.read_statements(text)["demo/square"]
+    >>> search_certificate(statement, {}, Budget(10**6))["certified"]
     ['proof', [], ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]]
     """
     settings = (str(budget.left), str(hints), str(confirm), str(attempts), *sorted(known))
@@ -89,7 +91,8 @@ def written(said: Any) -> str:
 
 def renamed(part: Any, old: str, new: str) -> Any:
     """A part of a certificate with the statement's name replaced where points and counterexamples
-    name it."""
+    name it.
+    """
     return (
         [renamed(one, old, new) for one in part]
         if isinstance(part, list)
@@ -179,7 +182,8 @@ def search_proof(
     confirm: bool = True,
 ) -> list[Any] | None:
     """["proof" | "witness", nodes of the side conditions, last] that the checker accepts, or None;
-    `confirm=False` leaves that to the caller."""
+    `confirm=False` leaves that to the caller.
+    """
     story = unfolded(statement, sharp)
     steps = []
     for count, negation in story.obligations:

@@ -1,5 +1,6 @@
 """Closing a state: leaves by positive combinations, disjunctions by cases, integers by rounding,
-signs told apart."""
+signs told apart.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 @dataclass(frozen=True)
 class Hints:
     """What a claim may tell the search: earlier statements to use, each with terms for its
-    variables."""
+    variables.
+    """
 
     uses: tuple[tuple[str, Mapping[str, str]], ...] = ()
 
@@ -77,7 +79,8 @@ def with_uses(
     wanted: Sequence[tuple[str, Mapping[str, str]]],
 ) -> tuple[list[tuple[str, dict[str, str]]], checker.State]:
     """The instances of earlier statements that a hint names, as far as they are known and exist,
-    and the state that assumes them."""
+    and the state that assumes them.
+    """
     uses = []
     for name, terms in wanted:
         if name not in known or known[name].get("exists"):
@@ -124,7 +127,8 @@ class Closing:
 
     def cases(self, state: checker.State) -> Node | None:
         """Splits the last disjunction with the fewest alternatives that no fact contradicts at
-        sight."""
+        sight.
+        """
         known = {mark(poly, relation) for poly, relation in state.facts}
         sizes = [
             sum(not contradicted(one, known) for one in alternatives)
@@ -174,7 +178,8 @@ class Closing:
 
     def leaf(self, state: checker.State, depth: int) -> Node | None:
         """A state without disjunctions: positive combinations, then signs told apart, then larger
-        combinations."""
+        combinations.
+        """
         if state.closed:
             return ["close"]
         rounded, inside = self.rounded(state)
@@ -194,7 +199,8 @@ class Closing:
 
     def usual(self, problem: Problem, again: bool) -> Node | None:
         """Products of two facts, and single facts times squares; then the same with facts divided
-        by their positive factors."""
+        by their positive factors.
+        """
         node = search(problem, (*FIRST, *USUAL) if again else USUAL, self.budget)
         if node is None and problem.divide():
             node = search(problem, (*FIRST, *USUAL), self.budget)
@@ -202,7 +208,8 @@ class Closing:
 
     def with_lemmas(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
         """Signs that can be shown are added to the facts; where that is not enough, signs are told
-        apart."""
+        apart.
+        """
         lemmas: list[Lemma] = []
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
             before = len(lemmas)
@@ -237,7 +244,8 @@ class Closing:
         self, state: checker.State, text: str, stages: Sequence[Stage]
     ) -> tuple[Lemma | None, checker.State]:
         """The sign of a polynomial where two of the three cases close quickly, and the state with
-        it."""
+        it.
+        """
         cases = state.by_sign(text)
         nodes = [self.attempt(case, stages) for case in cases]
         open_cases = [k for k, node in enumerate(nodes) if node is None]
@@ -249,7 +257,8 @@ class Closing:
 
     def split(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
         """Tells the sign of a candidate apart: the one of whose cases most close quickly comes
-        first."""
+        first.
+        """
         known = [
             text
             for fact in problem.facts
@@ -280,7 +289,8 @@ class Closing:
 @dataclass
 class Lemma:
     """A sign told apart where one case is left, in which integers are rounded; `node` closes that
-    case too where it is known."""
+    case too where it is known.
+    """
 
     text: str
     nodes: list[Node | None]
@@ -303,7 +313,8 @@ def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
 
 def candidates(state: checker.State, problem: Problem, kind: str) -> list[str]:
     """Polynomials whose sign is worth telling apart: integers and their differences, factors of
-    facts, variables, factors of resultants."""
+    facts, variables, factors of resultants.
+    """
     pool = Pool()
     if kind == "integers":
         integers = [
@@ -350,7 +361,8 @@ CONTRARY = {
 
 def contradicted(formula: Any, known: set[tuple[frozenset[tuple[int, int]], str]]) -> bool:
     """Whether a fact among the known ones is the negation of the formula, or of a part of a
-    conjunction."""
+    conjunction.
+    """
     if formula[0] == "and":
         return any(contradicted(part, known) for part in formula[1])
     return formula[0] == "atom" and any(

@@ -1,5 +1,6 @@
 """The columns of a linear program made from a problem's facts, and the certificate read off its
-solution."""
+solution.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of
 
 class Combination:
     """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable,
-    times squares of the roots."""
+    times squares of the roots.
+    """
 
     def __init__(
         self,
@@ -163,7 +165,8 @@ class Combination:
 @dataclass
 class Block:
     """Columns that were added together: the number of the first, the facts of every product, and
-    what each was multiplied by."""
+    what each was multiplied by.
+    """
 
     start: int
     level: Level
@@ -173,7 +176,8 @@ class Block:
 
 class Products:
     """Products of the same number of facts: what stands in each as rows of keys and values, one
-    after another."""
+    after another.
+    """
 
     def __init__(self, problem: Problem, others: list[int], packing: Packing) -> None:
         rows = [problem.row(problem.facts[k].poly, packing) for k in others]
@@ -259,7 +263,8 @@ def powers_of(chosen: tuple[int, ...]) -> Factors:
 
 class Level:
     """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded
-    variable, and how often."""
+    variable, and how often.
+    """
 
     def __init__(self, problem: Problem, degree: int, packing: Packing) -> None:
         self.degree = degree
@@ -381,7 +386,8 @@ def sum_of(problem: Problem, total: Sum) -> tuple[fmpz_mpoly, Fraction]:
 
 def squared(problem: Problem, place: int) -> tuple[fmpz_mpoly, Factors]:
     """The multiple of an equation left and its facts, squared where a fact in it has no known
-    sign."""
+    sign.
+    """
     equation = problem.reduction.left[place]
     even = any(problem.source.relations[k] == "!=" for k, _ in equation.factors)
     return (

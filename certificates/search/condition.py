@@ -1,5 +1,6 @@
 """Conditions over polynomials: a checker's formula held as flint polynomials, substituted, folded
-and evaluated fast."""
+and evaluated fast.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ def places(ring: fmpq_mpoly_ctx) -> dict[str, int]:
 
 def valued(poly: fmpq_mpoly, given: Mapping[str, fmpq]) -> fmpq | None:
     """The value of a polynomial at a point; None where it has a variable that the point does not
-    give."""
+    give.
+    """
     place = places(poly.context())
     if len(given) < len(place):
         degrees = poly.degrees()
@@ -135,12 +137,14 @@ class Condition:
 
     def replaced(self, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Condition:
         """The condition with top/bottom in place of a variable, every polynomial times a positive
-        power of the bottom."""
+        power of the bottom.
+        """
         return self.mapped(lambda p: replace(p, name, top, bottom))
 
     def mapped(self, change: Any) -> Condition:
         """The condition with polynomials changed by a function that keeps their signs; those that
-        no longer matter are left as they are."""
+        no longer matter are left as they are.
+        """
         polys, done = list(self.polys), set()
 
         def changed(k: int) -> fmpq_mpoly:
@@ -199,7 +203,8 @@ class Condition:
         self, name: str, at: fmpq | AlgebraicNumber, polys: Mapping[int, fmpq_poly]
     ) -> bool:
         """Whether a condition in one variable holds at a number; `polys` are its polynomials in
-        that variable."""
+        that variable.
+        """
         signs = {
             k: at.sign_of(p) if isinstance(at, AlgebraicNumber) else sign(p(at))
             for k, p in polys.items()
@@ -261,7 +266,8 @@ def _join(op: str, parts: Sequence[Tree]) -> Tree:
 
 def fold(tree: Tree, poly_of: Callable[[int], fmpq_mpoly]) -> Tree:
     """The tree with relations between constants decided; polynomials are asked for only as long as
-    they matter."""
+    they matter.
+    """
     if isinstance(tree, bool):
         return tree
     if isinstance(tree[0], int):

@@ -1,5 +1,6 @@
 """States on borders: unknowns put where relations that include equality are equations, the others
-in between, tried on samples of the base."""
+in between, tried on samples of the base.
+"""
 
 from __future__ import annotations
 
@@ -114,7 +115,8 @@ class CornerSearch(TemplateSearch):
 
     def _moves(self, partial: Partial, poly: fmpq_mpoly, unknowns: Sequence[str]) -> list[Move]:
         """The ways to make a polynomial 0 by the value of one unknown: of a factor linear in it, or
-        of degree 2 in it alone."""
+        of degree 2 in it alone.
+        """
         found: list[Move] = []
         for factor, _ in poly.factor()[1] if len(poly) <= MOST_FACTORS else ():
             names = ring_names(factor)

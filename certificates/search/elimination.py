@@ -1,5 +1,6 @@
 """Where a condition can change its verdict as one parameter moves: candidate numbers from iterated
-resultants and discriminants."""
+resultants and discriminants.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ def projected(
     condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly] = ()
 ) -> list[fmpq_mpoly]:
     """Irreducible polynomials in the parameters on whose roots the projection of one condition can
-    change."""
+    change.
+    """
     condition, borders = without_equations(condition, parameters, budget, more)
     equations = [p for p, relation in condition.facts() if relation == "="]
     polys = _factors([*(condition.polys[k] for k in condition.used()), *borders])
@@ -78,7 +80,8 @@ def without_equations(
     condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly]
 ) -> tuple[Condition, list[fmpq_mpoly]]:
     """The condition after every equation linear in a variable is solved for it; where its
-    coefficient vanishes is a border."""
+    coefficient vanishes is a border.
+    """
     borders: list[fmpq_mpoly] = list(more)
     while True:
         best: tuple[tuple[int, int], str, fmpq_mpoly, fmpq_mpoly] | None = None
@@ -107,7 +110,8 @@ def _eliminate(
     polys: list[fmpq_mpoly], equations: list[fmpq_mpoly], name: str, budget: Budget
 ) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
     """The projection along one variable: coefficients, discriminants and resultants; only those
-    with an equation where there is one."""
+    with an equation where there is one.
+    """
     place = polys[0].context().variable_to_index(name)
     mixed = [p for p in polys if p.degrees()[place]]
     result = [p for p in polys if not p.degrees()[place]]
@@ -163,7 +167,8 @@ def _spend(budget: Budget, p: fmpq_mpoly, q: fmpq_mpoly) -> None:
 
 def _factors(polys: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
     """The distinct irreducible factors that are no constants, each with leading coefficient 1; too
-    large ones are left out."""
+    large ones are left out.
+    """
     found: dict[str, fmpq_mpoly] = {}
     for poly in polys:
         if poly == 0 or poly.is_constant() or len(poly) > TERMS:

@@ -1,5 +1,6 @@
 """A lower bound of a polynomial on a box, with its proof, within a width of the value at a rational
-point: the searches, in order."""
+point: the searches, in order.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ SHARE = 8  # of the width, which the value at the point and its rounding may eac
 @dataclass(frozen=True)
 class Found:
     """min >= low by the node, and min <= high at the point; `reached` says whether high - low is
-    within the width that was asked for."""
+    within the width that was asked for.
+    """
 
     low: Fraction
     high: Fraction
@@ -44,7 +46,8 @@ class Found:
 @dataclass(frozen=True)
 class Problem:
     """A polynomial on a box, and how a certificate speaks of it: the numbers of the facts low <= x
-    and x <= high, and of the goal's negation."""
+    and x <= high, and of the goal's negation.
+    """
 
     terms: Terms
     box: Box
@@ -70,7 +73,8 @@ class Best:
 
     def offer(self, place: Sequence[float]) -> None:
         """Takes a point of the unit box: where the polynomial is smaller than anywhere before, it
-        goes down from there."""
+        goes down from there.
+        """
         x = self.low + (self.high - self.low) * np.array(place)
         value = self.polynomial(x)
         if (
@@ -153,7 +157,8 @@ def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prov
 
 def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Found | None:
     """Squares that show that the value at the best point is the minimum; or, for a positive width,
-    that the minimum is near it."""
+    that the minimum is near it.
+    """
     low, high = best.bounds
     for bound, top, point in [
         (best.exact, best.exact, best.point),
@@ -175,7 +180,8 @@ def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Found | N
 
 def _shorter(best: Best) -> Point:
     """A point about as good as the best one, with short binary numbers: around it squares are
-    shorter."""
+    shorter.
+    """
     for bits in range(2, 200, 2):
         unit = Fraction(1, 2**bits)
         point = tuple(
@@ -189,7 +195,8 @@ def _shorter(best: Best) -> Point:
 
 def _reached(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Found | None:
     """What a tree that reached its aim shows: the minimum itself where that is the simple value at
-    the point, else a bound within the width."""
+    the point, else a bound within the width.
+    """
     low, high = best.bounds
     if low < high and best.exact.denominator <= SIMPLE and prove(best.exact, node):
         return Found(best.exact, best.exact, best.point, node, done, True)
@@ -198,7 +205,8 @@ def _reached(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Fou
 
 def _unfinished(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Found | None:
     """What the leaves of a tree show that did not reach its aim, rounded down until the checker
-    accepts it."""
+    accepts it.
+    """
     for digits in (40, 12, 6, 0):
         low = rounded_down(tree.bound, Fraction(1, 10**digits)) - Fraction(1, 10**digits)
         if prove(low, node):

@@ -1,5 +1,6 @@
 """Terms on all of a state: one choice of terms where it serves, and the state split by a sign where
-it does not."""
+it does not.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Points where a polynomial is small on a box, found in floating point: nothing here is believed,
-every value is computed again exactly."""
+every value is computed again exactly.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ NOISE = 2.0**-52
 
 class FloatPolynomial:
     """Value, gradient and Hessian, all from one pass over the monomials of the polynomial and of
-    its derivatives."""
+    its derivatives.
+    """
 
     def __init__(self, terms: Mapping[Exponents, Fraction | float], size: int) -> None:
         self.size = size
@@ -53,7 +55,8 @@ class FloatPolynomial:
 
     def descend(self, x: Array, low: Array, high: Array) -> tuple[float, Array]:
         """(value, point) where a damped Newton method, kept in the box, comes to rest; the damping
-        is Levenberg's."""
+        is Levenberg's.
+        """
         x = np.clip(x, low, high)
         value, damping = self(x), 1e-3
         for _ in range(STEPS):
@@ -95,7 +98,8 @@ def polished(
     bits: int,
 ) -> list[Fraction]:
     """The stationary point near x, in the coordinates that are not at an end of the box, to so many
-    bits: exact gradients, a fixed Hessian."""
+    bits: exact gradients, a fixed Hessian.
+    """
     point = [min(max(Fraction(float(v)), low), high) for v, (low, high) in zip(x, box)]
     free = [i for i, (v, (low, high)) in enumerate(zip(point, box)) if low < v < high]
     slopes = [derivative(terms, i) for i in free]

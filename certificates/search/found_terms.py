@@ -1,5 +1,6 @@
 """Terms as the checker takes them: quotients written with divisions that are licensed, roots
-adjoined, nodes found and confirmed."""
+adjoined, nodes found and confirmed.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ class Renamed:
 
 class TermWriter:
     """Writes quotients of lowered polynomials in a context; a bottom without a licence is adjoined,
-    as a root."""
+    as a root.
+    """
 
     def __init__(self, context: checker.Context, renamed: Renamed, normal: Normal) -> None:
         self.context, self.renamed, self.normal = context, renamed, normal
@@ -79,7 +81,8 @@ class TermWriter:
 
     def text(self, value: Quotient, weight: Weight = ()) -> str:
         """The quotient as text, of this weight; `inverses` grows by what has to be adjoined for
-        it."""
+        it.
+        """
         normal = self.normal
         top, bottoms, inverses = value.top, [], []
         scale, factors = value.bottom.factor()
@@ -143,7 +146,8 @@ def confirmed(
     effort: int,
 ) -> Node | None:
     """The choice as a found with all nodes, accepted by the checker; None where a node is
-    missing."""
+    missing.
+    """
     found = _with_nodes(wanted, state, choice, keys, known, budget, samples, effort, 3)
     named = {wanted.statement.name: wanted.statement}
     ok = found is not None and accepted(
@@ -164,7 +168,8 @@ def _with_nodes(
     depth: int,
 ) -> Node | None:
     """The found; the signs of what it divides by are told apart first where no licence settles
-    them."""
+    them.
+    """
     statement, purpose, base, sharp, normal = (
         wanted.statement,
         wanted.purpose,
@@ -253,7 +258,8 @@ def _adjoined_root(
     effort: int,
 ) -> Node | None:
     """The larger root of a polynomial of degree 2 with leading coefficient 1, between 0 or its
-    vertex and a bound."""
+    vertex and a bound.
+    """
     normal = writer.normal
     name = writer.fresh(root.name)
     renamed.names[root.name] = name

@@ -1,5 +1,6 @@
 """Positive definite Gram matrices with given coefficients: found in floating point, then rounded to
-exact rationals."""
+exact rationals.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ CENTRED = 1e-8
 @dataclass(frozen=True)
 class Block:
     """sum G_ij multiplier b_i b_j, for the monomials b of the basis, each times its scale: a
-    positive definite G is sought."""
+    positive definite G is sought.
+    """
 
     multiplier: Polynomial
     basis: tuple[Exponents, ...]
@@ -184,7 +186,8 @@ def _left(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Matrix]) -> Po
 
 def squares(gram: Matrix) -> list[tuple[Fraction, list[Fraction]]] | None:
     """G = sum d l l^T with d > 0, by elimination; None where G is not positive definite.  An empty
-    G has no squares."""
+    G has no squares.
+    """
     rest, found = [list(row) for row in gram], []
     for k in range(len(gram)):
         pivot = rest[k][k]

@@ -1,5 +1,6 @@
 """The linear equations on the entries of Gram matrices: solved in floats, rounded, and met
-exactly."""
+exactly.
+"""
 
 from __future__ import annotations
 
@@ -96,7 +97,8 @@ class Linear:
 
     def scale(self, block: int) -> float:
         """The largest coefficient of a block's product; strict ones are not scaled, so that their
-        sum is 1."""
+        sum is 1.
+        """
         one = self.blocks[block]
         return 1.0 if one.strict else float(max(abs(int(c)) for c in one.poly.coeffs()))
 
@@ -147,7 +149,8 @@ class Linear:
     @cached_property
     def independent(self) -> tuple[list[int], fmpz_mat, fmpz_mat]:
         """Rows of which no one follows from the others, the matrix of these, and it times its
-        transpose."""
+        transpose.
+        """
         table = [[0] * len(self.terms) for _ in range(self.rows)]
         for at, column in enumerate(self.terms):
             for row, c in column.items():

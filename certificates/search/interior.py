@@ -51,7 +51,8 @@ class Values:
 
     def least(self, points: Array) -> Array:
         """At every point the least of the facts, each divided by the sum of the absolute values of
-        its terms."""
+        its terms.
+        """
         table = np.ones((self.top + 1, *points.shape))
         for k in range(1, self.top + 1):
             table[k] = table[k - 1] * points
@@ -65,7 +66,8 @@ class Values:
 
 def has_interior_point(problem: Problem, budget: Budget) -> bool:
     """Whether a floating point was found at which every fact is positive by a margin; never where
-    an equation is left."""
+    an equation is left.
+    """
     if problem.reduction.left or not problem.facts or len(problem.facts) > 40:
         return False
     values = Values(problem)

@@ -1,5 +1,6 @@
 """Identities of the reduced problem turned into identities between the facts of the state, as the
-checker reads them."""
+checker reads them.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ SWEEPS = 8
 @dataclass
 class Term:
     """coefficient * product of facts * root^2, in the numbers and polynomials of the state with its
-    units set to 1."""
+    units set to 1.
+    """
 
     coefficient: Fraction
     factors: Factors
@@ -30,7 +32,8 @@ class Term:
 @dataclass
 class Source:
     """What the search started from: lowered facts (numerators), their denominators, and which are
-    not known to be positive."""
+    not known to be positive.
+    """
 
     ring: Ring
     scaling: Scaling
@@ -124,7 +127,8 @@ def finish(
 
 def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> list[object]:
     """The node of an identity between lowered facts, every term brought to one weight by powers of
-    the units."""
+    the units.
+    """
     scaling, content = source.scaling, 0
     for t in terms:
         content = gcd(content, t.coefficient.numerator)

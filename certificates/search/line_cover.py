@@ -1,5 +1,6 @@
 """Families over one parameter: where exactly each choice of terms serves, and a cover of the whole
-range by a few of them."""
+range by a few of them.
+"""
 
 from __future__ import annotations
 
@@ -119,7 +120,8 @@ class LineCover:
 
     def _failing(self, choices: Iterator[Choice]) -> Iterator[Choice]:
         """The first choices; where the goals speak of further variables, those at which Z3 sees no
-        values that meet the goals."""
+        values that meet the goals.
+        """
         if self.goal is None:
             yield from islice(choices, 10)
             return
@@ -155,7 +157,8 @@ class LineCover:
 
     def _intervals_of(self, choice: Choice) -> list[Interval]:
         """Where in the state the choice meets the condition, up to the accuracy with which roots
-        are known."""
+        are known.
+        """
         condition = self.condition
         for name, value in choice.values.items():
             condition = condition.replaced(name, value.top, value.bottom)
@@ -181,7 +184,8 @@ class LineCover:
 
     def _plan(self, regions: Sequence[Interval]) -> list[Piece] | Sample:
         """Pieces that cover the regions from left to right, or a sample just where nothing
-        serves."""
+        serves.
+        """
         pieces: list[Piece] = []
         for region in regions:
             low, closed = region.low, region.low_closed
@@ -284,7 +288,8 @@ def _intervals(
     allowed: Condition, parameter: str, whole: Condition | None = None, choice: Choice | None = None
 ) -> list[Interval]:
     """The maximal intervals on which the allowed condition, and the other one where there is one,
-    hold."""
+    hold.
+    """
     numbers: list[AlgebraicNumber] = []
     roots = choice.roots if choice else []
     polys = [univariate(p, parameter) for k in allowed.used() for p in [allowed.polys[k]]]
@@ -318,7 +323,8 @@ def _intervals(
 
 def _norm(poly: fmpq_mpoly, choice: Choice | None) -> fmpq_mpoly:
     """A polynomial in the parameter alone that vanishes where this one does, for some sign of the
-    roots."""
+    roots.
+    """
     for root in reversed(choice.roots if choice else []):
         if poly.degrees()[poly.context().variable_to_index(root.name)]:
             poly = poly.resultant(root.poly, root.name)
@@ -348,7 +354,8 @@ def _holds(
 
 def _starts(interval: Interval, low: AlgebraicNumber | None, closed: bool) -> bool:
     """Whether an interval has the first numbers above `low`, and `low` itself where that is
-    asked."""
+    asked.
+    """
     if low is None:
         return interval.low is None
     if interval.low is None or interval.low < low:

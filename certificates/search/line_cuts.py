@@ -22,7 +22,8 @@ def linear_text(value: fmpq, parameter: str) -> str:
 
 def cut_between(left: Interval, right: Interval, parameter: str) -> tuple[str, int | None] | None:
     """(a polynomial that rises through the border of two pieces, which of them has the border
-    itself; None: neither)."""
+    itself; None: neither).
+    """
     high, low = left.high, right.low
     if high is None or low is None:
         end = high if high is not None else low

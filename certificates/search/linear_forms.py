@@ -1,5 +1,6 @@
 """Coordinates around a point in which a polynomial that is least there shows where its Hessian is
-singular; exact."""
+singular; exact.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ def substituted(terms: Terms, values: Sequence[Polynomial]) -> Polynomial:
 
 def adapted_forms(p: Polynomial, free: Sequence[int], size: int) -> tuple[list[Linear], list[int]]:
     """Linear forms that serve as coordinates, and the numbers of those that only complete the range
-    of the Hessian of the free variables."""
+    of the Hessian of the free variables.
+    """
     units = [[Fraction(int(i == k)) for k in range(size)] for i in range(size)]
     rows = [
         [_second(p, i, j, size) if j in free else Fraction(0) for j in range(size)] for i in free

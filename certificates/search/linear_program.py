@@ -1,5 +1,6 @@
 """Positive combinations of polynomials that vanish identically: floating HiGHS for the support,
-exact rationals on it."""
+exact rationals on it.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ def _no_exponents(keys: Keys) -> Keys:
 
 class Program:
     """Find c >= 0 for the columns and any m for the free ones with sum c * column + sum m * free =
-    0, and a strict c > 0."""
+    0, and a strict c > 0.
+    """
 
     def __init__(self) -> None:
         self.places: list[
@@ -43,7 +45,8 @@ class Program:
 
     def add(self, places: Any, keys: Any, values: Any, strict: Any, costs: Any) -> None:
         """Columns that may be used with positive coefficients; `places` counts them from the first
-        of these."""
+        of these.
+        """
         self._entries(places, keys, values)
         self.strict.append(strict)
         self.costs.append(costs)
@@ -52,7 +55,8 @@ class Program:
 
     def add_free(self, count: int, keys: Any, values: Any) -> None:
         """Columns with the same number of entries that may be used with any coefficients; these
-        come last."""
+        come last.
+        """
         self._entries(np.repeat(np.arange(count), len(keys) // max(1, count)), keys, values)
         self.columns += count
 
@@ -63,7 +67,8 @@ class Program:
 
     def add_rewriting(self, leading: Keys, keys: Keys, values: Any) -> None:
         """An equation, its leading monomial first: columns are compared after its multiples are
-        taken off."""
+        taken off.
+        """
         self.rewritings.append((leading, keys, values))
 
 
@@ -148,7 +153,8 @@ def assemble(program: Program, budget: Budget) -> Matrix | None:
 
 def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> Matrix | None:
     """The columns reduced by the equations: a row of a multiple of a leading monomial is moved to
-    the other monomials."""
+    the other monomials.
+    """
     for _ in range(SWEEPS):
         exponents = program.exponents(keys)
         hits = [(exponents >= leading).all(axis=1) for leading, _, _ in program.rewritings]
@@ -172,7 +178,8 @@ def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> M
 
 def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
     """The columns that may be positive: where all of a row has one sign, its columns are zero.
-    None if no strict one is left."""
+    None if no strict one is left.
+    """
     positive: Mask = matrix > 0
     negative: Mask = matrix < 0
     fixed: Mask = np.asarray(positive[:, count:].any(axis=1) | negative[:, count:].any(axis=1))
@@ -192,7 +199,8 @@ def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
 
 def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple[Any, Any]:
     """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in
-    floats, and its basic columns."""
+    floats, and its basic columns.
+    """
     rows, columns = matrix.shape
     whole = np.vstack([matrix, strict.astype(float)])
     model = highspy.HighsLp()
@@ -236,7 +244,8 @@ def exact(
     matrix: Matrix, inequality: Mask, strict: Mask, near: Any, budget: Budget
 ) -> list[Fraction] | None:
     """Exact coefficients of the columns near the floating ones, or None where the columns allow
-    none."""
+    none.
+    """
     count = matrix.shape[1]
     kept = matrix[matrix.any(axis=1)]
     if not count or kept.size and np.abs(kept).max() >= EXACT or not strict.any():

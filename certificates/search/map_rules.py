@@ -22,8 +22,10 @@ def search_map_rule(
     """{"certified": {premise: proof}}, or {"unknown": the premise for which no proof was found};
     each premise may take the whole budget.
 
-    >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\nspace x >= 0\\npiece x >= 0 -> x/2"
-    >>> sorted(search_map_rule(checker.read_statements(text)["demo/halves"], {}, 10**6)["certified"])
+    >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\n"
+    >>> text += "space x >= 0\\npiece x >= 0 -> x/2"
+    >>> statement = checker.read_statements(text)["demo/halves"]
+    >>> sorted(search_map_rule(statement, {}, 10**6)["certified"])
     ['covers', 'possible', 'stays-1']
     """
     proofs: dict[str, Any] = {}

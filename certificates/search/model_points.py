@@ -1,5 +1,6 @@
 """Points where sampling fails: a model of Z3, its values pinned one after another to the simplest
-that leave the rest possible."""
+that leave the rest possible.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +52,8 @@ def model_assignments(
 
 def _near(condition: Condition, name: str, value: Value, integral: bool) -> list[fmpq]:
     """Values to try in place of a model's: favourites that meet what is said of the variable alone,
-    then simple ones ever nearer."""
+    then simple ones ever nearer.
+    """
     found = list(trials(condition, name, integral, 4))
     if isinstance(value, AlgebraicNumber):
         centre = value.approximation()

@@ -38,7 +38,8 @@ class Trial:
 
     def fails(self, value: fmpq, nearly: bool = False) -> bool:
         """Whether the condition cannot be met with this value of the variable, as far as folding
-        shows."""
+        shows.
+        """
         if self.tree is None:
             self._prepare()
         for place, (poly, relation) in enumerate(self.direct):
@@ -73,7 +74,8 @@ class Trial:
 
     def _prepare(self) -> None:
         """Sets apart the polynomials that the variable decides; what does not speak of it is left
-        open."""
+        open.
+        """
         condition, place = self.condition, self.place
         open_ones = set()
         for k in condition.used():
@@ -168,7 +170,8 @@ def among(ordered: Sequence[Quotient]) -> Iterator[Quotient]:
 
 def between(lines: Sequence[Quotient]) -> list[Quotient]:
     """For three of them, low + (a - low)*(b - low)/((a - low) + (b - low)): above low, and below a
-    and b where both are above it."""
+    and b where both are above it.
+    """
     found = []
     for k, low in enumerate(lines[:3]):
         above = [

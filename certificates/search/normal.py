@@ -1,5 +1,6 @@
 """A state in fewer variables: units set to 1 and linear equations used up, with a way back for the
-terms found there."""
+terms found there.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from .scaling import Scaling, Weight
 
 class Normal:
     """The variables of a state and of the unknowns, lowered: a unit is 1, and a variable that an
-    equation gives is what it gives."""
+    equation gives is what it gives.
+    """
 
     def __init__(self, state: checker.State, condition: Condition, equations: bool = True) -> None:
         self.ring: fmpq_mpoly_ctx = condition.ring
@@ -113,7 +115,8 @@ class Normal:
 
     def weight_of_root(self, root: Root) -> Weight:
         """The weight that makes the polynomial of an adjoined root liftable; from now on that of
-        its name."""
+        its name.
+        """
         if self.units and root.name.startswith("root"):
             self.weights[root.name] = (0,) * len(self.units)
             lower = coefficients_in(root.poly, root.name)
@@ -135,7 +138,8 @@ class Normal:
 
     def lift(self, poly: fmpq_mpoly, weight: Weight | None = None) -> fmpq_mpoly:
         """The homogeneous polynomial of this weight, or the least possible, which lowers to the
-        given one."""
+        given one.
+        """
         if not self.units:
             return poly
         weight = self.weight(poly) if weight is None else weight

@@ -1,5 +1,6 @@
 """Closing a state whose only variable is an adjoined algebraic number: signs on its interval,
-arithmetic modulo its polynomial."""
+arithmetic modulo its polynomial.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ def dense_text(poly: fmpq_poly, name: str) -> str:
 
 class Adjoined:
     """An algebraic number under a name, between decimals, as the checker adjoins it: its polynomial
-    rises through the root."""
+    rises through the root.
+    """
 
     def __init__(
         self, name: str, number: AlgebraicNumber, poly: fmpz_poly, low: Fraction, high: Fraction
@@ -66,7 +68,8 @@ class Adjoined:
 
 def close_at_number(state: checker.State, adjoined: Adjoined) -> list[Any] | None:
     """A node that closes the state, whose only variable is the adjoined number; None where a fact's
-    sign is not yet visible."""
+    sign is not yet visible.
+    """
     if state.closed:
         return ["close"]
     for index, (poly, _) in enumerate(state.facts):

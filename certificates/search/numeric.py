@@ -1,5 +1,6 @@
 """Points in floats that nearly meet a condition, by damped Gauss-Newton steps from counted starts:
-a guide to exact ones, and no more."""
+a guide to exact ones, and no more.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +56,8 @@ def near_points(
     condition: Condition, names: Sequence[str], budget: Budget
 ) -> Iterator[dict[str, fmpq]]:
     """Points near which the condition may be met, as rationals; other alternatives of `or` are
-    taken from start to start."""
+    taken from start to start.
+    """
     variables = [name for name in names if name in condition.variables()]
     at = [places(condition.ring)[name] for name in variables]
     random = np.random.default_rng(11)

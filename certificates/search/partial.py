@@ -1,5 +1,6 @@
 """A condition on its way to terms: what was decided so far, and what is left, at every sample and
-in symbols."""
+in symbols.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ from .quotients import Root
 @dataclass
 class Partial:
     """A condition on its way: at every sample, and symbolic, which is made only where it is asked
-    for."""
+    for.
+    """
 
     make: Callable[[], Condition]
     sampled: list[Condition]

@@ -1,5 +1,6 @@
 """Whole numbers that the hypotheses tie to a parameter, as floor and ceiling do: the pairs of both
-are where a range is sought."""
+are where a range is sought.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ def pinned(
     """(a whole number of all the statements, what their hypotheses say of it and the parameter
     alone), units being 1.
 
-    >>> text = "statement a/b\\nforall alpha n x\\ninteger n\\ngiven n <= 2*alpha and 2*alpha < n + 1\\nshow x*n <= 2*x*alpha"
+    >>> text = "statement a/b\\nforall alpha n x\\ninteger n\\n"
+    >>> text += "given n <= 2*alpha and 2*alpha < n + 1\\nshow x*n <= 2*x*alpha"
     >>> (one,) = checker.read_statements(text).values()
     >>> str(pinned([one], "alpha", checker.parse("alpha > 0"), Budget(10**5))[1])
     '2*alpha - n >= 0 and -2*alpha + n + 1 > 0'

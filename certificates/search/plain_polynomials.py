@@ -1,5 +1,6 @@
 """Polynomials and boxes as plain data, and what is computed of them exactly; nothing here loads
-NumPy."""
+NumPy.
+"""
 
 from __future__ import annotations
 

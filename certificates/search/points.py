@@ -1,5 +1,6 @@
 """Exact points that meet a statement's premises, counterexamples that break its goals, and
-witnesses, as the checker takes them."""
+witnesses, as the checker takes them.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +42,8 @@ def search_points(
     statement: checker.Statement, known: Known, budget: Budget, effort: int = 0
 ) -> tuple[Found | None, Found | None]:
     """(a point that meets the premises, a counterexample), each as the checker accepts it, or
-    None."""
+    None.
+    """
     state: checker.State = checker.State(checker.Context())
     counterexample = search_found(
         statement, state, "counterexample", {}, known, budget, effort=effort
@@ -62,7 +64,8 @@ def search_found(
     effort: int = 1,
 ) -> Found | None:
     """Values as `checker.find` takes them for the purpose "point", "counterexample" or "witness";
-    None where none was found."""
+    None where none was found.
+    """
     if base:
         return _found_terms(Task(statement, purpose, base, known, budget, sharp, effort), state)
     story = unfolded(statement, sharp)
@@ -194,7 +197,8 @@ def _beyond(
     budget: Budget,
 ) -> bool:
     """Whether Z3 thinks that no values of the `exists` variables meet the goals at a rational
-    point."""
+    point.
+    """
     values = {name: assignment.rational(name) for name in names}
     exact = {name: value for name, value in values.items() if value is not None}
     if len(exact) < len(names):
@@ -247,7 +251,8 @@ def as_found(
     effort: int,
 ) -> Found | None:
     """The assignment in the checker's form, with its nodes, confirmed by the checker; None where it
-    does not serve."""
+    does not serve.
+    """
     named = {statement.name: statement}
     nodes = [["close"]] * (2 if purpose == "counterexample" else 1)
     if assignment.number is None:
@@ -278,7 +283,8 @@ def _story(
     statement: checker.Statement, state: checker.State, found: Found, sharp: list[Any] | None
 ) -> tuple[checker.State, checker.Unfolding]:
     """The state and the unfolding that the checker has when it comes to the nodes of a found
-    without a base."""
+    without a base.
+    """
     state = state.branch()
     for entry in found[1]:
         checker.adjoin(state, {}, *entry)

@@ -1,5 +1,6 @@
 """Polynomials of a state as python-flint polynomials, and as arrays of monomial keys and
-coefficients for linear programs."""
+coefficients for linear programs.
+"""
 
 from __future__ import annotations
 
@@ -160,7 +161,8 @@ def pseudo_divide(
     poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly
 ) -> tuple[int, fmpz_mpoly, fmpz_mpoly]:
     """(n, q, r) with lead^n * poly = q * (lead * gen - rest) + r, where gen occurs in none of lead,
-    rest and r."""
+    rest and r.
+    """
     coefficients = coefficients_in(poly, variable, gen)
     degree = len(coefficients) - 1
     if degree == 0:

@@ -1,5 +1,6 @@
 """One leaf of a proof: facts that contradict one another, shown by a positive combination that
-vanishes identically."""
+vanishes identically.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ DEEP: tuple[Stage, ...] = (
 
 def close_by_equations(problem: Problem) -> Node | None:
     """Closes a state whose equations are contradictory, or make a fact false or a nonzero
-    polynomial zero."""
+    polynomial zero.
+    """
     ring, reduction = problem.ring, problem.reduction
     fact, equation = problem.contradiction, reduction.contradiction
     if fact is not None:

@@ -1,5 +1,6 @@
 """The facts of a state made ready for a search: units set to 1, equations used up, each fact once
-and primitive."""
+and primitive.
+"""
 
 from __future__ import annotations
 
@@ -105,7 +106,8 @@ class Problem:
 
     def _take(self, index: int, poly: fmpz_mpoly, relation: str) -> None:
         """Adds the fact as it stands after the eliminations, unless it is there already or says
-        nothing."""
+        nothing.
+        """
         counts, rest = self.reduction.reduce(poly)
         own: Factors = ((index, 1),)
         if relation == "!=":
@@ -163,7 +165,8 @@ class Problem:
 
     def near_goal(self) -> list[int] | None:
         """The facts in the variables of the last one alone; None where that is all of them, or few
-        are."""
+        are.
+        """
         if len(self.facts) < MANY:
             return None
         own = [bool(d) for d in self.facts[-1].poly.degrees()]
@@ -205,7 +208,8 @@ class Problem:
 
     def said_by_bounds(self, index: int, bounded: Bounded) -> bool:
         """Whether a fact is one of the bounds, or in the bounded variable alone and implied by
-        them."""
+        them.
+        """
         if index in (bounded.low, bounded.high):
             return True
         poly = self.facts[index].poly
@@ -221,7 +225,8 @@ class Problem:
 
     def candidates(self, kind: str, most: int = MOST) -> list[fmpz_mpoly]:
         """Polynomials worth squaring: read off the facts before and after the eliminations, and
-        reduced."""
+        reduced.
+        """
         parameter = self.bounded.variable if self.bounded else -1
         find = {"squares": squares, "resultants": resultants}[kind]
         pool = Pool()
@@ -239,7 +244,8 @@ class Problem:
 
     def unsigned_factors(self) -> list[fmpz_mpoly]:
         """The irreducible factors of equations left, and those of facts that have no sign at sight,
-        smallest first."""
+        smallest first.
+        """
         signs, pool = self.signs(), Pool()
         for equation in self.reduction.left:
             found = factors(equation.poly)
@@ -255,7 +261,8 @@ class Problem:
 
     def variables_and_differences(self) -> list[fmpz_mpoly]:
         """Variables of no known sign, and differences of two variables of one weight, but for the
-        bounded variable."""
+        bounded variable.
+        """
         used = [v for v in range(self.ring.size) if any(poly.degrees()[v] for poly in self.polys())]
         used = [v for v in used if self.bounded is None or v != self.bounded.variable]
         signs, alike, gens = self.signs(), self.source.scaling.alike, self.ring.gens
@@ -269,7 +276,8 @@ class Problem:
 
     def divide(self) -> bool:
         """Replaces facts that have a positive factor by what is left without it; whether there were
-        any."""
+        any.
+        """
         signs = self.signs()
         changed = []
         for place, fact in enumerate(self.facts):
@@ -314,7 +322,8 @@ def size(poly: fmpz_mpoly) -> tuple[int, int]:
 
 def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int]:
     """The facts that only say what a root is, where the root occurs nowhere else: root >= 0 and
-    root^2 = term."""
+    root^2 = term.
+    """
     idle: set[int] = set()
     while True:
         degrees = {

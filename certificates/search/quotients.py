@@ -1,5 +1,6 @@
 """Quotients of polynomials in base variables and adjoined roots: the terms that a search proposes
-for unknown variables."""
+for unknown variables.
+"""
 
 from __future__ import annotations
 
@@ -86,7 +87,8 @@ class Quotient:
 @dataclass(frozen=True)
 class Point:
     """Values of all variables of a ring in their order, 0 where none is known, and the numbers of
-    those that are."""
+    those that are.
+    """
 
     values: list[fmpq]
     known: frozenset[int]
@@ -151,7 +153,8 @@ def square_roots(
     factor: fmpq_mpoly, name: str, roots: Sequence[Root]
 ) -> tuple[list[Quotient], Root | None]:
     """Both zeros of a polynomial of degree 2 in a variable, and the square root to be adjoined for
-    them, if none at hand serves."""
+    them, if none at hand serves.
+    """
     c, b, a = coefficients_in(factor, name)
     ring = factor.context()
     scale, factors = (b * b - 4 * a * c).factor()

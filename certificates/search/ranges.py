@@ -1,5 +1,6 @@
 """Sets of one parameter as intervals with exact ends, and as conditions that the language of
-statements can say."""
+statements can say.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +34,8 @@ class Interval:
 @dataclass(frozen=True)
 class Line:
     """The domain cut at numbers: the verdicts on its open cells and at the numbers, in order: cell,
-    number, cell, ..., cell."""
+    number, cell, ..., cell.
+    """
 
     numbers: tuple[AlgebraicNumber, ...]
     verdicts: tuple[bool, ...]
@@ -69,7 +71,8 @@ def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
 
     >>> from certificates.terms import reals
     >>> (a,) = reals("alpha")
-    >>> str(condition_of(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "alpha", a > 0))
+    >>> line = Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False))
+    >>> str(condition_of(line, "alpha", a > 0))
     '3*alpha < 1'
     """
     inside = line.intervals(True)
@@ -98,7 +101,8 @@ def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
     >>> from certificates.terms import reals
     >>> (a,) = reals("alpha")
     >>> ends = real_roots(fmpq_poly([-1, 10, -20, 10]))[:2]
-    >>> str(one_relation(Line(tuple(ends), (False, False, True, False, False)), "alpha", (a > 0) & (a < 1)))
+    >>> line = Line(tuple(ends), (False, False, True, False, False))
+    >>> str(one_relation(line, "alpha", (a > 0) & (a < 1)))
     '10*alpha^3 - 20*alpha^2 + 10*alpha - 1 > 0'
     """
     poly = tuple(line.numbers[0].coefficients) if line.numbers else ()
@@ -157,7 +161,8 @@ def polynomial_term(coefficients: Sequence[int], parameter: str) -> Term:
 
 def _bound(number: AlgebraicNumber, relation: str, domain: Formula, parameter: str) -> Formula:
     """parameter relation number, exact on the domain: by the sign of the polynomial on the interval
-    on which this is its only root."""
+    on which this is its only root.
+    """
     if number.is_rational:
         return Formula(relation, *_rational_sides(number.as_fraction(), parameter))
     rising = number.sign_of(fmpq_poly(number.poly).derivative()) > 0
@@ -205,7 +210,8 @@ def isolated(
 
 def ends_of(domain: Any, parameter: str) -> tuple[Fraction | None, Fraction | None]:
     """The rational ends of a domain, as the checker parses it, that bounds the parameter by
-    relations linear in it; None where it has no such end."""
+    relations linear in it; None where it has no such end.
+    """
     context = checker.Context()
     context.declare(parameter)
     bounds: dict[bool, list[Fraction]] = {True: [], False: []}

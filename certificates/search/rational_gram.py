@@ -16,7 +16,8 @@ NEAR = 2e-3
 
 def rational_image(vectors: Array, near: float = NEAR) -> list[list[int]] | None:
     """A basis of the space that the columns span, as small integers, in echelon form; None where
-    none is near."""
+    none is near.
+    """
     work, pivots = vectors.T.copy(), []
     for row in range(len(work)):
         size = np.abs(work[row:])

@@ -1,5 +1,6 @@
 """Equations used up: variables that an equation gives are eliminated, and identities in what is
-left are lifted back."""
+left are lifted back.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ Combination = dict[int, fmpz_mpoly]  # number of an equation -> cofactor
 @dataclass
 class Step:
     """One eliminated variable: multiple * (lead * variable - rest) = sum of combination, where lead
-    and multiple are products of facts."""
+    and multiple are products of facts.
+    """
 
     variable: int
     lead: fmpz_mpoly
@@ -44,7 +46,8 @@ class Signed:
 @dataclass
 class Equation:
     """multiple * poly = sum of combination, where multiple is a product of facts that are not
-    zero."""
+    zero.
+    """
 
     poly: fmpz_mpoly
     combination: Combination
@@ -194,7 +197,8 @@ class Reduction:
 
     def basis(self) -> list[Equation]:
         """Equations left with pairwise coprime leading monomials: a Groebner basis of the ideal
-        that they generate."""
+        that they generate.
+        """
         chosen: list[Equation] = []
         used: set[int] = set()
         for equation in sorted(self.left, key=lambda e: (len(e.poly), e.poly.total_degree())):
@@ -206,7 +210,8 @@ class Reduction:
 
     def product(self, poly: fmpz_mpoly) -> Factors | None:
         """The facts whose product is the polynomial up to a rational factor, where all are
-        positive; None where there are none."""
+        positive; None where there are none.
+        """
         factors: Factors = ()
         rest = poly
         for fact in self.signed:
@@ -229,7 +234,8 @@ class Reduction:
 
     def reduce(self, poly: fmpz_mpoly) -> tuple[tuple[int, ...], fmpz_mpoly]:
         """(n, r) with prod lead^n * poly = r modulo the equations, the eliminated variables gone
-        from r."""
+        from r.
+        """
         counts = []
         for step in self.steps:
             count = 0

@@ -1,5 +1,6 @@
 """Exact values for all variables of a condition: equations are solved, the other variables sampled,
-the last one decided on its cells."""
+the last one decided on its cells.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +35,8 @@ class Assignment:
 @dataclass
 class Sampler:
     """One search: how many values to try for each variable, and how many substitutions to spend in
-    all."""
+    all.
+    """
 
     budget: Budget
     integers: frozenset[str] = frozenset()
@@ -46,7 +48,8 @@ class Sampler:
 
     def search(self, condition: Condition, names: Sequence[str]) -> Iterator[Assignment]:
         """Assignments of the names that meet the condition, the simplest first as far as the
-        sampling goes."""
+        sampling goes.
+        """
         self.order = list(names)
         yield from self._descend(condition, [], None)
 
@@ -161,7 +164,8 @@ class Sampler:
 
     def _eliminated(self, condition: Condition) -> Condition | None:
         """An equation in one variable that follows from two in the same two variables; none of them
-        linear."""
+        linear.
+        """
         equations = [
             poly
             for poly, relation in condition.facts()
@@ -186,7 +190,8 @@ class Sampler:
         self, condition: Condition, free: Sequence[str], theta: Theta
     ) -> tuple[str, fmpq_mpoly] | None:
         """(variable, value) from an equation that is linear in it with a number as its coefficient;
-        parameters last."""
+        parameters last.
+        """
         for poly, relation in condition.facts():
             if relation != "=":
                 continue
@@ -221,7 +226,8 @@ class Sampler:
 
     def _complete(self, condition: Condition, steps: Steps, theta: Theta) -> Assignment | None:
         """The values of all variables, from the last decided back to the first; what does not
-        matter is 1, or 1/2 for a parameter."""
+        matter is 1, or 1/2 for a parameter.
+        """
         decided = {name for name, _ in steps}
         ring = condition.ring
         values: dict[str, fmpq_mpoly] = {
@@ -249,7 +255,8 @@ class Sampler:
 
 def linear_remainder(p: fmpq_mpoly, q: fmpq_mpoly, name: str) -> fmpq_mpoly:
     """A combination of two polynomials whose degree in a variable is 1 at most, by pseudo-division:
-    it gives the variable where both vanish."""
+    it gives the variable where both vanish.
+    """
     gen = p.context().gen(places(p.context())[name])
     while True:
         one, other = sorted((coefficients_in(p, name), coefficients_in(q, name)), key=len)

@@ -1,5 +1,6 @@
 """Physical units: positive variables that a change of units makes 1, and identities lifted back by
-powers of them."""
+powers of them.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +64,8 @@ class Scaling:
 
     def _choose(self, units: tuple[int, ...]) -> bool:
         """Takes these units, if each has a grading of its own with integer weights for all
-        variables."""
+        variables.
+        """
         size = self.ring.size
         others = [k for k in range(size) if k not in units]
         for first in others if len(units) < len(self.gradings) else others[:1] or [-1]:

@@ -76,7 +76,8 @@ def _independent(
     blocks: list[Array], right: Array, budget: Budget
 ) -> tuple[list[Array], Array] | None:
     """The same equations as orthonormal rows, without those that follow from others; None where
-    they contradict one another."""
+    they contradict one another.
+    """
     budget.spend(20 + len(right) ** 3 // 8000)
     whole = np.hstack([block.reshape(len(right), -1) for block in blocks])
     values, left = np.linalg.eigh(whole @ whole.T)

@@ -21,7 +21,8 @@ from .quotients import SPARE, Choice, Quotient
 @dataclass
 class Task:
     """What terms are sought for: a statement, the purpose, the variables that are given, and those
-    that are unknown."""
+    that are unknown.
+    """
 
     statement: checker.Statement
     purpose: str
@@ -37,7 +38,8 @@ class Task:
 
 def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str], frozenset[str]]:
     """The condition on base and unknowns, the key in the ring of every unknown, and the keys that
-    are integers."""
+    are integers.
+    """
     story = checker.Unfolding(
         task.statement, checker.Context(state.context, dict(task.base)), task.sharp
     )
@@ -78,7 +80,8 @@ def failing_goal(
     task: Task, state: checker.State, condition: Condition, budget: Budget
 ) -> tuple[Condition | None, list[fmpq_mpoly]]:
     """For a counterexample to what is said to exist: the goals, and the borders of where they can
-    be met."""
+    be met.
+    """
     if task.purpose != "counterexample" or not task.statement.get("exists"):
         return None, []
     story = checker.Unfolding(
@@ -96,7 +99,8 @@ def failing_goal(
 
 def margins_of(state: checker.State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
     """What the state says to be positive, lowered, as long as it is short, and products: small
-    where the state ends."""
+    where the state ends.
+    """
     size = len(state.context.index)
     keys = list(state.context.index)
     ring = fmpq_mpoly_ctx.get(keys or ["none"], condition.ring.ordering())

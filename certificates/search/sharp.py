@@ -1,5 +1,6 @@
 """Sharp ranges: exactly for which values of one parameter statements hold; ends by elimination,
-verdicts by Z3, then certificates."""
+verdicts by Z3, then certificates.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ Known = Mapping[str, checker.Statement]
 @dataclass
 class Range:
     """A sharp range as found: its statement, its end points, and its certificate, or the reason why
-    there is none."""
+    there is none.
+    """
 
     statement: SharpRange | None = None
     ends: list[AlgebraicNumber] = field(default_factory=list)
@@ -56,7 +58,8 @@ def find_sharp_range(
     certify: bool = True,
 ) -> Range:
     """The set of one parameter on which all the statements hold, its ends, and a certificate for
-    `checker.check_sharp`."""
+    `checker.check_sharp`.
+    """
     tree, result = (
         checker.parse(str(domain)),
         Range(failure="the budget ran out before the verdicts were known"),
@@ -102,7 +105,8 @@ def stated_range(
     name: str, statements: Sequence[checker.Statement], parameter: str, domain: Formula, line: Line
 ) -> SharpRange:
     """The range as a statement; its `number` lines account for every root in the domain of the
-    polynomials in its condition."""
+    polynomials in its condition.
+    """
     simple = line.simplified()
     numbers: list[tuple[str, Term, Fraction, Fraction]] = []
     for poly in dict.fromkeys(tuple(n.coefficients) for n in simple.numbers if not n.is_rational):
@@ -127,7 +131,8 @@ def find_everywhere(
     budget: Budget,
 ) -> Range | None:
     """The whole domain, where all statements are proved on it with a part of the work; None where
-    they are not."""
+    they are not.
+    """
     stated, line = (
         SharpRange(name, tuple(s.name for s in statements), (parameter,), domain, domain),
         Line((), (True,)),
@@ -152,7 +157,8 @@ def find_nowhere(
     failing: Sequence[str],
 ) -> Range | None:
     """The empty range, where one family breaks a statement on the whole domain; None where a short
-    search finds none."""
+    search finds none.
+    """
     stated = SharpRange(
         name, tuple(s.name for s in statements), (parameter,), domain, disjunction([])
     )

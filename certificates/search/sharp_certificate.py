@@ -1,5 +1,6 @@
 """The certificate of a sharp range: counterexamples on every interval outside on which one
-statement fails, then proofs inside."""
+statement fails, then proofs inside.
+"""
 
 from __future__ import annotations
 
@@ -173,7 +174,8 @@ def _cut(
     domain: Any,
 ) -> tuple[str, list[set[int]]] | None:
     """A polynomial of degree 1 or that of a number, and which cells and numbers lie below, on and
-    above its sign change."""
+    above its sign change.
+    """
     cells = set(range(len(line.verdicts)))
     gaps = [k for k in cells if failing[0] < k < failing[-1] and line.verdicts[k]]
     opened = [k for k in gaps if k % 2 == 0]

@@ -1,5 +1,6 @@
 """On which values of one parameter statements hold: candidate end points by elimination, verdicts
-by Z3 between them and at them."""
+by Z3 between them and at them.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +31,8 @@ class Undecided(Exception):
 @dataclass
 class Verdict:
     """One statement's verdicts on the cells and at the numbers between them; None where Z3 has
-    none."""
+    none.
+    """
 
     violation: Violation
     cells: list[bool]
@@ -89,7 +91,8 @@ class Lines:
         self, violation: Violation, number: AlgebraicNumber, before: bool, after: bool
     ) -> bool | None:
         """The verdict at a number between two cells; theirs if they agree and the number is hard
-        for Z3."""
+        for Z3.
+        """
         if before == after and not number.is_rational:
             verdict = (
                 violation.absent(self.parameter, number, self.budget, QUICK)
@@ -101,7 +104,8 @@ class Lines:
 
     def guesses(self) -> Iterator[tuple[Line, Verdicts]]:
         """The lines to try: undecided numbers held to be in, then out; then with Z3 asked at every
-        number; each line once."""
+        number; each line once.
+        """
         seen: list[Verdicts] = []
         for thorough in (False, True):
             if thorough:

@@ -1,5 +1,6 @@
 """Sharp ranges in several parameters: one polynomial border, or two, whose signs tell where
-statements hold."""
+statements hold.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +44,8 @@ def find_sharp_region(
     budget: Budget,
 ) -> Range:
     """The set of several parameters on which all the statements hold, as at most two relations of
-    border polynomials to 0."""
+    border polynomials to 0.
+    """
     tree = checker.parse(str(domain))
     state: checker.State = checker.State(checker.Context())
     for parameter in parameters:
@@ -88,7 +90,8 @@ def _samples(
     state: checker.State, polys: Sequence[fmpq_mpoly], parameters: Sequence[str], budget: Budget
 ) -> list[Sample]:
     """Points of the domain on both sides of the borders, and on them where a border is linear in a
-    parameter."""
+    parameter.
+    """
     found = base_samples(state, budget, 24)
     inside = [
         Condition.of(

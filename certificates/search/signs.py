@@ -21,7 +21,8 @@ Sum = list[
 @dataclass
 class Fact:
     """leads^counts * facts of the state^factors = scale * multiplier * poly modulo the equations;
-    poly is primitive, scale > 0."""
+    poly is primitive, scale > 0.
+    """
 
     poly: fmpz_mpoly
     strict: bool
@@ -47,7 +48,8 @@ class Fact:
 @dataclass(frozen=True)
 class Bounded:
     """A variable with a fact low = a*z + b that bounds it below, a > 0, and a fact high = d - c*z
-    that bounds it above."""
+    that bounds it above.
+    """
 
     variable: int
     low: int
@@ -80,7 +82,8 @@ class Signs:
 
     def of(self, poly: fmpz_mpoly) -> tuple[int, Sum]:
         """(sign, positive sum equal to sign * poly) with a strict term; (0, []) where none is
-        seen."""
+        seen.
+        """
         for k, fact in enumerate(self.facts):
             if (
                 fact.strict

@@ -53,7 +53,8 @@ def search_tree(terms: Terms, box: Box, most: int) -> str | None:
 
 def _on_a_line(sizes: list[int], c: list[int]) -> tuple[str, list[Part]]:
     """The same as `_treated`, for one axis: which nearly all boxes have that are close to the
-    minimum."""
+    minimum.
+    """
     if max(c) <= 0:
         return ".", []
     if c[0] > 0 or c[-1] > 0:

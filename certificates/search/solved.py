@@ -1,5 +1,6 @@
 """A condition in several parameters, solved for one of them; every step of it is decided by
-certificates that the checker accepts."""
+certificates that the checker accepts.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +33,9 @@ def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -
 
     >>> from certificates.terms import reals
     >>> alpha, K = reals("alpha K")
-    >>> orbit = SharpRange("x/sharp", (), ("alpha", "K"), (alpha > 0) & (alpha < 1) & (K >= 1), alpha*K + alpha - K + 1 >= 0)
+    >>> domain = (alpha > 0) & (alpha < 1) & (K >= 1)
+    >>> condition = alpha*K + alpha - K + 1 >= 0
+    >>> orbit = SharpRange("x/sharp", (), ("alpha", "K"), domain, condition)
     >>> solved(orbit, "alpha", ["K"])
     '(K - 1)/(K + 1) <= alpha < 1'
     """
@@ -47,7 +50,8 @@ def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -
 
 def says_domain(statement: SharpRange, whole: Collection[str]) -> bool:
     """Whether the condition, with 0 < parameter < 1 and the whole numbers being whole, implies the
-    rest of the domain: proved."""
+    rest of the domain: proved.
+    """
     state = checker.State(_state(statement, whole).context)
     context = state.context
     own = [
@@ -72,7 +76,8 @@ def _state(statement: SharpRange, whole: Collection[str]) -> checker.State:
 
 def _interval(atoms: list[Any], parameter: str, state: checker.State) -> str | None:
     """The bounds that relations set, as text; None where one is not linear, has a slope of unknown
-    sign, or repeats a bound."""
+    sign, or repeats a bound.
+    """
     bounds: dict[str, str] = {}
     for atom in atoms:
         bound = _bound(atom[1], atom[2], parameter, state) if atom[0] == "atom" else None
@@ -118,7 +123,8 @@ def _bound(
 
 def _positive(poly: fmpq_mpoly, state: checker.State) -> bool | None:
     """Whether a polynomial is positive on the whole of a state, or negative there; None where
-    neither is proved."""
+    neither is proved.
+    """
     text = str(term_of(poly))
     for relation, verdict in (("<=", True), (">=", False)):
         if _impossible(state.branch(state.context.formula(checker.parse(f"{text} {relation} 0")))):

@@ -1,5 +1,6 @@
 """Asking Z3: a vote on whether a condition can be met, and a model of it.  Nothing that Z3 says is
-believed."""
+believed.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +24,9 @@ RESOURCES = 200_000  # Z3's own unit of work; about a tenth of a second where nu
 
 @dataclass
 class Answer:
-    """ "sat", "unsat" or "unknown", with a value of every variable that occurs where it is
-    "sat"."""
+    """The answer "sat", "unsat" or "unknown", with a value of every variable that occurs where it
+    is "sat".
+    """
 
     verdict: str
     model: dict[str, Value] = field(default_factory=dict)
@@ -82,7 +84,8 @@ def ask(
 
 class _Session:
     """A context of Z3 that the questions of one search share, since it takes longer to make one
-    than to answer most of them."""
+    than to answer most of them.
+    """
 
     def __init__(self) -> None:
         self.context, self.before = (

@@ -1,5 +1,6 @@
 """Polynomials worth squaring, or telling the sign of: candidates read off the facts of a
-problem."""
+problem.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +39,8 @@ def squares(
     ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
 ) -> list[fmpz_mpoly]:
     """Candidates for squares, cheapest first: repeated factors, critical lines, variables,
-    differences of variables."""
+    differences of variables.
+    """
     pool = Pool()
     used = [v for v in range(ring.size) if v != parameter and any(p.degrees()[v] for p in facts)]
     for poly in facts:
@@ -64,7 +66,8 @@ def resultants(
     ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
 ) -> list[fmpz_mpoly]:
     """Factors of resultants of two facts in a variable that is linear in one of them, smallest
-    first."""
+    first.
+    """
     pool = Pool()
     for v in range(ring.size):
         if v == parameter:

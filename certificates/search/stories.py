@@ -1,5 +1,6 @@
 """Statements unfolded once: the searches for points, proofs and witnesses share what the checker
-makes of a text."""
+makes of a text.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ def unfolded(statement: checker.Statement, sharp: list[Any] | None = None) -> ch
     """The statement's variables, premises, obligations and goals in a context of its own; not to be
     changed.
 
-    >>> story = unfolded(checker.read_statements("statement a/b\\nforall x\\ngiven x > 1\\nshow x > 0")["a/b"])
+    >>> text = "statement a/b\\nforall x\\ngiven x > 1\\nshow x > 0"
+    >>> story = unfolded(checker.read_statements(text)["a/b"])
     >>> story.universal, len(story.premises)
     (['x'], 1)
     """

@@ -1,5 +1,6 @@
 """Polynomials in one variable on an interval: exact real root counts, by Descartes' rule with
-bisection."""
+bisection.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> li
 def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
     """Whether the polynomial is positive on the whole closed interval.
 
-    >>> [positive_between(fmpq_poly([-2, 0, 1]), Fraction(low, 10), Fraction(2)) for low in (14, 15)]
+    >>> poly = fmpq_poly([-2, 0, 1])
+    >>> [positive_between(poly, Fraction(low, 10), Fraction(2)) for low in (14, 15)]
     [False, True]
     """
     if low > high:

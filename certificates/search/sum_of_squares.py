@@ -28,7 +28,8 @@ Factors = list[list[int]]  # of a product: facts with exponents
 
 class Around:
     """A polynomial around a point of a box: the part of a sum of squares that is to be found, block
-    by block."""
+    by block.
+    """
 
     def __init__(
         self,
@@ -69,7 +70,8 @@ class Around:
 
     def is_stationary(self) -> bool:
         """Whether p rises, to first order, from the point into the box, or stays level; a gap makes
-        up for what falls."""
+        up for what falls.
+        """
         return self.gap > 0 or all(
             slope == 0 or at == ends[0 if slope > 0 else 1]
             for slope, at, ends in zip(self.slopes, self.point, self.box)

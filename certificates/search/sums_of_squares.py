@@ -86,7 +86,8 @@ class Squares:
 
     def _flips(self, polys: Sequence[fmpz_mpoly]) -> list[Monomial]:
         """The sets of variables whose signs can be changed without changing any fact or equation,
-        but for an equation's own sign."""
+        but for an equation's own sign.
+        """
         odd = [[tuple(e % 2 for e in m) for m in p.monoms()] for p in polys]
         found = []
         for signs in choices((0, 1), repeat=len(self.used)) if len(self.used) <= 9 else ():
@@ -146,7 +147,8 @@ class Squares:
 
     def _prune(self) -> None:
         """Drops squares that nothing can cancel: of a monomial that only squares reach, and all
-        with one sign."""
+        with one sign.
+        """
         while True:
             fixed, signs = set[Monomial](), dict[Monomial, set[int]]()
             owners: dict[Monomial, list[tuple[int, int]]] = {}
@@ -209,7 +211,8 @@ class Squares:
         budget: Budget,
     ) -> Node | None:
         """The node of a solution inside of the cone that is left when kernels are taken off, as
-        long as there are any."""
+        long as there are any.
+        """
         self.blocks = blocks
         for _ in range(ROUNDS):
             confined = self._confined(solved[1], threshold) if solved else []
@@ -248,7 +251,8 @@ class Squares:
 
     def _confined(self, grams: list[Array], threshold: float) -> list[Block]:
         """The blocks, each confined to the complement of its matrix's kernel, where that is a
-        simple rational space."""
+        simple rational space.
+        """
         kept = []
         top = max(float(np.abs(gram).max()) for gram in grams)
         for block, gram in zip(self.blocks, grams):

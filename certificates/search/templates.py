@@ -1,5 +1,6 @@
 """Terms for unknown variables as rational functions of the base variables, tried on samples of the
-base: roots, vertices, averages."""
+base: roots, vertices, averages.
+"""
 
 from __future__ import annotations
 
@@ -72,7 +73,8 @@ class TemplateSearch:
 
     def search(self, condition: Condition, unknowns: Sequence[str]) -> Iterator[Choice]:
         """Choices of terms for the unknowns that meet the condition on enough samples, in the order
-        that they are met."""
+        that they are met.
+        """
         start = Partial(lambda: condition, [condition.substituted(s) for s in self.samples])
         self.ring = condition.ring
         yield from self._descend(start, list(unknowns))
@@ -147,7 +149,8 @@ class TemplateSearch:
         values: dict[tuple[int, int], fmpq | None],
     ) -> bool:
         """Whether value + more may serve at enough samples; `values` keeps what a quotient of this
-        node is at each."""
+        node is at each.
+        """
         missing, points = len(self.samples) - self.least, self._points(partial)
         self.budget.spend(30)
         for k, row in enumerate(rows):
@@ -222,7 +225,8 @@ class TemplateSearch:
         self, partial: Partial, unknowns: Sequence[str]
     ) -> tuple[str, fmpq_mpoly, fmpq_mpoly] | None:
         """An equation linear in an unknown, its coefficient free of unknowns and nonzero at the
-        samples."""
+        samples.
+        """
         place = places(partial.condition.ring)
         best: tuple[tuple[int, int], tuple[str, fmpq_mpoly, fmpq_mpoly]] | None = None
         for poly, relation in partial.condition.facts():
@@ -262,7 +266,8 @@ class TemplateSearch:
 
     def _adjoined(self, partial: Partial, name: str, poly: fmpq_mpoly) -> Partial:
         """The condition with the unknown taken as a root: every polynomial is reduced modulo its
-        equation."""
+        equation.
+        """
         root = Root(name, poly)
         changed = partial.condition.mapped(lambda p: reduced_by(root, p))
         roots = [*partial.roots, root]
@@ -351,7 +356,8 @@ class TemplateSearch:
         self, partial: Partial, name: str, rest: Sequence[str]
     ) -> tuple[list[Quotient], list[tuple[Quotient, Root | None]]]:
         """The zeros, as quotients or with square roots, of polynomials and of resultants of two of
-        them, as functions of the base."""
+        them, as functions of the base.
+        """
         place = places(partial.condition.ring)
         polys = [partial.condition.polys[k] for k in partial.condition.used()]
         polys += self._borders_at(partial)
@@ -410,7 +416,8 @@ class TemplateSearch:
 
     def _completed(self, partial: Partial) -> dict[str, Quotient]:
         """The values of all unknowns: what was solved for earlier may speak of what was chosen
-        later."""
+        later.
+        """
         values: dict[str, Quotient] = {}
         for name, top, bottom in reversed(partial.steps):
             value = Quotient(top, bottom)

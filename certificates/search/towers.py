@@ -30,7 +30,8 @@ DIGITS = (2, 4, 8, 14)
 @dataclass(frozen=True)
 class Tower:
     """Values of variables: terms in the roots, which are given in the order in which each can be
-    adjoined."""
+    adjoined.
+    """
 
     roots: tuple[
         tuple[str, fmpq_mpoly, fmpq], ...
@@ -40,7 +41,8 @@ class Tower:
 
 class Towers:
     """A search for points: equations in one variable give roots, linear ones terms, and the other
-    variables are tried."""
+    variables are tried.
+    """
 
     def __init__(
         self,
@@ -212,7 +214,8 @@ def as_found(
     digits: int,
 ) -> Found | None:
     """The point as `checker.find` takes it, with roots between neighbouring decimals; None where a
-    node is missing."""
+    node is missing.
+    """
     own, entries = state.branch(), []
     for name, poly, near in tower.roots:
         place, ring = places(poly.context()), poly.context()

@@ -1,5 +1,6 @@
 """What a point at which a statement fails meets, and Z3's verdict on whether there is one at a
-value of a parameter."""
+value of a parameter.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ from .solver import RESOURCES, ask
 @dataclass(frozen=True)
 class Violation:
     """What a point at which a statement fails meets: the premises, and no values of the bound
-    variables that meet the goals."""
+    variables that meet the goals.
+    """
 
     name: str
     condition: Condition
@@ -49,7 +51,8 @@ class Violation:
         self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES
     ) -> bool | None:
         """Z3's verdict at one value of the parameter: True where there is no violation, None where
-        it has none."""
+        it has none.
+        """
         condition, goal = self.condition, self.goal
         if isinstance(at, AlgebraicNumber) and at.is_rational:
             at = at._low

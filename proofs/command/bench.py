@@ -1,5 +1,6 @@
 """`juggleproof bench`: speed against error, in one table and plot a question; the engines are in
-`benchmarks`, which only a checkout has."""
+`benchmarks`, which only a checkout has.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ FOLDER = Path("juggleproof-bench")
 
 def bench(options: argparse.Namespace) -> int:
     """Runs the benchmark; 1 where an enclosure does not hold the closed form.  Raises ClaimError,
-    one line, for what cannot be measured."""
+    one line, for what cannot be measured.
+    """
     try:
         from benchmarks.bench.run import Run, wish
     except ModuleNotFoundError as error:

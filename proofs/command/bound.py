@@ -59,8 +59,10 @@ def box(text: str) -> dict[str, tuple[Fraction, Fraction]]:
 def decimals(value: Fraction, digits: int, up: bool) -> str:
     """The value to so many decimals, rounded up or down.
 
-    >>> decimals(Fraction(1, 3), 3, True), decimals(Fraction(-1, 3), 3, True), decimals(Fraction(1, 4), 5, False)
-    ('0.334', '-0.333', '0.25')
+    >>> decimals(Fraction(1, 3), 3, True), decimals(Fraction(-1, 3), 3, True)
+    ('0.334', '-0.333')
+    >>> decimals(Fraction(1, 4), 5, False)
+    '0.25'
     """
     scaled = (ceil if up else floor)(value * 10**digits)
     whole, part = divmod(abs(scaled), 10**digits)
@@ -70,7 +72,8 @@ def decimals(value: Fraction, digits: int, up: bool) -> str:
 
 def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | None) -> int:
     """Prints the enclosure, certified before anything is printed; 0 where it is as narrow as was
-    asked for, else 1."""
+    asked for, else 1.
+    """
     ends, sought = box(sides), number(width, "--width")
     if output is not None:
         refuse_other_files(output)

@@ -1,5 +1,6 @@
 """`juggleproof explain theorem --bounds`: the paper's bounds and ours, and where orbits violate
-what is printed."""
+what is printed.
+"""
 
 from __future__ import annotations
 

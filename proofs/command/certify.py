@@ -1,5 +1,6 @@
 """`juggleproof certify`: judge every claim, store what was found, let the checker read the whole
-store, compare with the register."""
+store, compare with the register.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ TITLE = (
 @dataclass(frozen=True)
 class Run:
     """What a run came to: the claims and the judgements on them, the seconds they took, the
-    theorem's lines, and what the checker rejects."""
+    theorem's lines, and what the checker rejects.
+    """
 
     claims: Sequence[Claim]
     judgements: Sequence[Judgement]
@@ -48,7 +50,8 @@ class Run:
 
 def certify(options: argparse.Namespace, register: Path = PATH) -> int:
     """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where
-    every claim holds), else 1."""
+    every claim holds), else 1.
+    """
     from rich.console import Console
 
     outputs.refuse_unwritable(options)
@@ -227,7 +230,8 @@ def _write(
     judgements: Sequence[Judgement],
 ) -> int:
     """Writes statements, certificates and findings; claims that were not selected keep what is
-    stored of them.  Returns the files changed."""
+    stored of them.  Returns the files changed.
+    """
     fresh = {judgement.id: judgement for judgement in judgements}
     texts: list[str] = []
     certificates: dict[str, Mapping[str, Any]] = {}
@@ -260,7 +264,8 @@ def _accept(
     register: Path,
 ) -> None:
     """Writes the verdicts into the register, and the results into the README where they are those
-    of the stored certificates."""
+    of the stored certificates.
+    """
     from proofs.command import readme
 
     after = {one.id: one.registered() for one in results.claims}

@@ -1,5 +1,6 @@
 """`juggleproof check`: the bare checker over a folder, and what its results mean for the
-theorem."""
+theorem.
+"""
 
 from __future__ import annotations
 

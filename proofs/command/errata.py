@@ -1,5 +1,6 @@
 """`juggleproof errata`: what the paper prints wrongly, with what is wrong, the correction, and
-exact values at which the print fails."""
+exact values at which the print fails.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +19,17 @@ from proofs.register import load_register
 
 ERRORS = ("misprint", "false", "gap")
 HEAD = """\
-What the paper prints wrongly: the print, what is wrong with it, the correction, and exact values at which it fails.
+What the paper prints wrongly: the print, what is wrong with it, the correction, and exact \
+values at which it fails.
   misprint  false as printed, certified as corrected
   false     refuted, and no correction is known
   gap       a step of the argument is refuted; the conclusion may stand by another route
-alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the ball's height and velocity when the table is
-at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our words; a line is one of the transcription.
-`juggleproof explain ID` shows the other names, the derivation, the statements and their certificates.
+alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
+ball's height and velocity when the table is
+at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
+words; a line is one of the transcription.
+`juggleproof explain ID` shows the other names, the derivation, the statements and their \
+certificates.
 """
 GROUPS = {
     "errors": "Errors of the paper",
@@ -82,7 +87,8 @@ def group_of(
     findings: Mapping[str, Mapping[str, Any]],
 ) -> str:
     """The group that lists the claim, or none: a repeat is one only of a print that is itself
-    listed."""
+    listed.
+    """
 
     def wrong(name: str) -> bool:
         return register.get(name, {}).get("verdict") in (*ERRORS, "ambiguous")
@@ -107,7 +113,8 @@ def entry_of(
     store: Store,
 ) -> list[str]:
     """The lines of one entry: place and verdict, what is said, the print, what is wrong, the
-    correction, exact counterexamples."""
+    correction, exact counterexamples.
+    """
     entry = register[claim.id]
     rows = [f"{claim.id}, {_place(claim)}: {entry['verdict']}"]
     if claim.repeats:
@@ -154,7 +161,8 @@ def _place(claim: Claim) -> str:
 
 def what_is_wrong(entry: Mapping[str, Any], sharp: Mapping[str, str]) -> list[str]:
     """One line for each reading where there are several, else one in all, with the alpha for which
-    it holds where that is known."""
+    it holds where that is known.
+    """
     detail, verdict = entry.get("detail", ""), entry["verdict"]
     readings = dict(part.split(": ") for part in detail.split("; ")) if ": " in detail else {}
     if readings:
@@ -207,7 +215,8 @@ def _roots_named(correction: Mapping[str, Any], claim: Claim, store: Store) -> I
 
 def _counterexamples(claim: Claim, store: Store) -> list[str]:
     """The exact values of every refuted statement, with the part of the claim that fails there, and
-    what it says where that is short."""
+    what it says where that is short.
+    """
     found = dict[str, str]()
     for name, text in store.texts.items():
         certificate = store.certificate(name, text) if name.split("/")[0] == claim.id else None
@@ -224,7 +233,8 @@ def said_there(text: str) -> str:
     """What the statement says at a point of its givens, in the statement's own words; nothing where
     that is long.
 
-    >>> said_there("statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nwith y > 0\\nshow y < x - 1")
+    >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nwith y > 0\\nshow y < x - 1"
+    >>> said_there(text)
     'some y has y > 0 and y < x - 1'
     """
     lines = [line.partition(" ") for line in text.splitlines()]

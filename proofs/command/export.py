@@ -1,5 +1,6 @@
 """`juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, the certified ones as
-Coq lemmas with proofs, prints as LaTeX."""
+Coq lemmas with proofs, prints as LaTeX.
+"""
 
 from __future__ import annotations
 

@@ -18,7 +18,8 @@ ROUTES = ("exact", "z3", "boxes")
 
 class _Parser(argparse.ArgumentParser):
     """A parser that tells a wrong argument in one line, and takes all that begins as a negative
-    number, such as -1/3 or -1:2:5, for a value."""
+    number, such as -1/3 or -1:2:5, for a value.
+    """
 
     def __init__(self, *given: Any, **named: Any) -> None:
         super().__init__(*given, **named)
@@ -214,7 +215,8 @@ def build_parser() -> argparse.ArgumentParser:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit code: 0 as registered, 1 not, 2 bad input, 130
-    interrupted."""
+    interrupted.
+    """
     given = list(sys.argv[1:] if arguments is None else arguments)
     if (
         given[:1] == ["bound"]

@@ -82,7 +82,8 @@ def error_told(error: Any) -> str:
 
 def orbits(found: Orbits, units: str) -> None:
     """The table: every state that was kept, or where each orbit stands; the first rows, and the
-    first that were not decided."""
+    first that were not decided.
+    """
     setting = found.scene
     print(
         f"alpha = {_short(setting.alpha)}, {len(found)} start{'s' * (len(found) != 1)},"
@@ -188,7 +189,8 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
 
 def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
     """The orbit of a word, at this alpha or for all; for which alpha it exists, and for which it
-    attracts."""
+    attracts.
+    """
     found, near = exists_for(wanted), attracts_for(wanted)
     at = orbit_of(wanted, alpha) if alpha is not None else None
     print(

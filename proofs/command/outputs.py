@@ -1,5 +1,6 @@
 """The files that `certify` writes beside the store: refused before the run where they could not be
-written after it."""
+written after it.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ OPTIONS = ("json", "junit", "markdown", "timings")
 
 def refuse_unwritable(options: argparse.Namespace) -> None:
     """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
-    be written, or would overwrite another."""
+    be written, or would overwrite another.
+    """
     taken = {path.resolve(): f"the claims of {path}" for path in options.files}
     for option, path in _asked(options).items():
         fault = fault_of(path) or (
@@ -41,7 +43,8 @@ def _asked(options: argparse.Namespace) -> dict[str, Path]:
 
 def fault_of(path: Path) -> str:
     """Why the file cannot be written, found out by a file made beside it and removed; nothing where
-    it can."""
+    it can.
+    """
     try:
         if path.is_dir():
             return "is a folder"
@@ -57,7 +60,8 @@ def fault_of(path: Path) -> str:
 @contextmanager
 def written_aside(path: Path) -> Iterator[BinaryIO]:
     """A file to write to, put in the place of the path when all is written; removed where that
-    fails.  ClaimError for a full disk."""
+    fails.  ClaimError for a full disk.
+    """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.NamedTemporaryFile(

@@ -33,7 +33,8 @@ SUFFIXES = {
 
 def part(options: argparse.Namespace) -> int:
     """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was
-    interrupted."""
+    interrupted.
+    """
     _needed("numba")
     wishes = [name for name in WISHES if getattr(options, name)] or ["table"]
     if len(wishes) > 1:

@@ -41,7 +41,8 @@ def seconds(value: float, horizon: float) -> str:
 
 def line(row: Row) -> tuple[str, ...]:
     """A row of table I: vibration, the paper's onset, median, 16 to 84 percent, chaotic, censored,
-    and the verdict by the rule."""
+    and the verdict by the rule.
+    """
     parts = [seconds(row.quantile(part), row.horizon) for part in (0.5, 0.16, 0.84)]
     found = "chaotic" if row.is_chaotic() else f"{parts[0]} s"
     return (

@@ -1,5 +1,6 @@
 """`juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows what settles
-each."""
+each.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings")
 
 def are_scripts(files: Sequence[Path]) -> bool:
     """Whether the files are scripts of SMT-LIB; raises ClaimError where some are and others are
-    not."""
+    not.
+    """
     scripts = [path for path in files if path.suffix == SUFFIX]
     if scripts and len(scripts) < len(files):
         other = next(path for path in files if path.suffix != SUFFIX)

@@ -1,5 +1,6 @@
 """`juggleproof report`: the stored claims as a page, as LaTeX, as a PDF, and as data for other
-programs."""
+programs.
+"""
 
 from __future__ import annotations
 

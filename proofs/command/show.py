@@ -28,7 +28,8 @@ def list_claims() -> int:
 
 def explain(claim_id: str, with_premises: bool = False) -> int:
     """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
-    sharp range, verdict; the tree of its rules."""
+    sharp range, verdict; the tree of its rules.
+    """
     records = Records(DEFAULT_BUDGET)
     claims = {claim.id: claim for claim in records.claims or paper_claims()}
     if claim_id not in claims:
@@ -68,7 +69,8 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
 
 def kept_claims() -> list[Claim]:
     """The paper's claims as a table tells them: from the records of an earlier run of the same
-    sources, else loaded."""
+    sources, else loaded.
+    """
     return Records(DEFAULT_BUDGET).claims or paper_claims()
 
 
@@ -116,10 +118,9 @@ def _statement(name: str, text: str, store: Store) -> None:
         print(f"    -> refuted at {counterexample(certificate['refuted'])}")
     else:
         shown = json.dumps(certificate["certified"], separators=(",", ":"))
-        print(
-            "    -> certified by"
-            f" {shown if len(shown) < 400 else shown[:400] + '... (' + str(len(shown)) + ' characters)'}"
-        )
+        if len(shown) >= 400:
+            shown = f"{shown[:400]}... ({len(shown)} characters)"
+        print(f"    -> certified by {shown}")
 
 
 def counterexample(found: Any) -> str:

@@ -45,7 +45,8 @@ LISTS: dict[str, tuple[str, ...]] = {
 
 def simulate(options: argparse.Namespace) -> int:
     """Runs a scene; 0, or 130 where it was interrupted.  Raises ClaimError, one line, for what
-    cannot be carried out."""
+    cannot be carried out.
+    """
     scenes: dict[str, Callable[[argparse.Namespace], int]] = {"juggler": juggler, "part": _part}
     try:
         return scenes[options.scene](options)
@@ -83,7 +84,8 @@ def juggler(options: argparse.Namespace) -> int:
 
 def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
     """Raises ClaimError for two lists at once, and for options that a list would leave out in
-    silence."""
+    silence.
+    """
     lists = [name for name in LISTS if getattr(options, name) not in (None, False)]
     if not lists:
         return

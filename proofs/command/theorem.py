@@ -1,5 +1,6 @@
 """`juggleproof explain theorem --alpha A --state S`: what is certified of one state, and its actual
-orbit beside it."""
+orbit beside it.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +36,8 @@ def read_alpha(text: str) -> Fraction:
 
 def read_state(alpha: Fraction, text: str) -> State:
     """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the
-    normal form."""
+    normal form.
+    """
     given = components(text, NORMAL_FORM + UNITS)
     names = UNITS if set(given) & set(UNITS) else NORMAL_FORM
     if set(given) != set(names):
@@ -171,7 +173,8 @@ def _line(move: Move, note: str) -> None:
 
 def _after_the_certified_number(entry: Move, core: int, alpha: Fraction) -> None:
     """Actual distances after the certified number of periods, by the closed form from the entry in
-    the trap on."""
+    the trap on.
+    """
     print(f"after N + k periods, N = {shown(core)}")
     print(f"  {'k':>4} {'actual distance':>20} {'(2 alpha)^k':>20} {'(1 + k) alpha^k':>20}")
     for k in LATER:

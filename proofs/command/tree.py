@@ -1,5 +1,6 @@
 """How the conclusion of a map rule rests on other rules, and on premises that the checker writes:
-down to the inequalities."""
+down to the inequalities.
+"""
 
 from __future__ import annotations
 

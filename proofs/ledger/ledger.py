@@ -1,5 +1,6 @@
 """Load the ledger; check that claims that exist, or a reason from the closed list, settle every
-item in order."""
+item in order.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ class LedgerError(ValueError):
 @dataclass(frozen=True)
 class Row:
     """One item of the paper and what settles it: exactly one of `claims` and `reason` is not
-    empty."""
+    empty.
+    """
 
     key: str
     line: int
@@ -78,7 +80,8 @@ def check_rows(rows: Sequence[Row]) -> None:
 
 def check_claims(rows: Iterable[Row], register: Collection[str]) -> None:
     """Raise unless the rows name registered claims only, and every registered claim that the paper
-    prints has a row."""
+    prints has a row.
+    """
     named: set[str] = set()
     for row in rows:
         for claim in row.claims:
@@ -100,7 +103,8 @@ def check_claims(rows: Iterable[Row], register: Collection[str]) -> None:
 
 def check_against_paper(rows: Sequence[Row], items: Sequence[Item]) -> None:
     """Raise unless key, line, kind and digest of the rows are those of the items that the paper's
-    text holds."""
+    text holds.
+    """
     for row, item in zip(
         rows, items, strict=False
     ):  # a difference in length is told below, once the rest agrees
@@ -133,7 +137,8 @@ def _row(line: str, place: str) -> Row:
 
 def _check_order(rows: Sequence[Row]) -> None:
     """Keys count upward within section and kind, sections are not torn apart, lines never go
-    back."""
+    back.
+    """
     counts: dict[tuple[str, str], int] = {}
     section, line, closed = "", 0, set[str]()
     for row in rows:

@@ -1,5 +1,6 @@
 """Why an item of the paper may need no claim: a closed list, and the claims that no item of the
-paper carries."""
+paper carries.
+"""
 
 from __future__ import annotations
 

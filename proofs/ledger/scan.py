@@ -48,7 +48,8 @@ SENTENCE_END = re.compile(r"""[.?!][)"”]*[⁰¹²³⁴-⁹]*\s+(?=[A-Z\\("“\
 @dataclass(frozen=True)
 class Item:
     """One thing the paper prints: where it stands, what kind of thing it is, and a digest of its
-    text."""
+    text.
+    """
 
     key: str
     section: str
@@ -61,7 +62,8 @@ class Item:
         """The first 16 hexadecimal digits of the SHA-256 of the text, runs of white space counted
         as one space.
 
-        >>> Item("3-s01", "3", 7, "sentence", "a  b ").digest == Item("3-s01", "3", 7, "sentence", "a b").digest
+        >>> kept = Item("3-s01", "3", 7, "sentence", "a  b ")
+        >>> kept.digest == Item("3-s01", "3", 7, "sentence", "a b").digest
         True
         """
         return hashlib.sha256(" ".join(self.text.split()).encode()).hexdigest()[:16]
@@ -73,7 +75,8 @@ def scan(paper: str) -> list[Item]:
 
     >>> demo = "2.2. The Ball\\nIt falls. So $x>0$.\\n$$y$$\\n (4)"
     >>> [(item.key, item.line, item.kind) for item in scan(demo)]  # doctest: +NORMALIZE_WHITESPACE
-    [('2.2-s01', 1, 'sentence'), ('2.2-s02', 2, 'sentence'), ('2.2-s03', 2, 'sentence'), ('2.2-i01', 2, 'inline'),
+    [('2.2-s01', 1, 'sentence'), ('2.2-s02', 2, 'sentence'), ('2.2-s03', 2, 'sentence'),
+     ('2.2-i01', 2, 'inline'),
      ('2.2-d01', 3, 'display')]
     """
     items: list[Item] = []
@@ -101,7 +104,8 @@ def _pieces(paper: str) -> Iterator[tuple[str, int, str, str]]:
 
 def _blocks(paper: str) -> Iterator[tuple[str, int, str]]:
     """Section, first line and text of every display and of every line of prose between displays,
-    within the scope."""
+    within the scope.
+    """
     if paper.count("$$") % 2:
         raise ValueError(
             f"the paper holds {paper.count('$$')} double dollars: some display is never closed"
@@ -138,7 +142,8 @@ def _kind_of_prose(block: str) -> str:
 
 def _sentences(block: str, whole: bool) -> Iterator[str]:
     """The sentences of a block; inline formulas are hidden first, so that no dot inside one ends a
-    sentence."""
+    sentence.
+    """
     if whole:
         yield block
         return

@@ -35,7 +35,8 @@ SECTIONS = (
 
 def load_claims() -> None:
     """Registers every claim of the paper, in the paper's order, and those of the theorem and of the
-    part after them."""
+    part after them.
+    """
     from proofs import part, theorem
 
     loaded = set(sys.modules)

@@ -60,7 +60,8 @@ def struck(before: Number, table_velocity: Number) -> Term:
 @claim("sA.1-max-velocity", "A.1", "line 630")
 def table_is_fastest_at_its_launch() -> Statement:
     """Within a period the table's velocity is never above its launch velocity, and equal to it only
-    at the launch."""
+    at the launch.
+    """
     now = speed(table_at(t))
     return always((now <= r) & iff(equal(now, r), equal(t, 0)), given=[t >= 0, t < T])
 
@@ -74,7 +75,8 @@ def table_is_fastest_at_its_launch() -> Statement:
 )
 def relative_velocity(printed: Printed) -> Statement:
     """The rate at which the distance of ball and table changes in flight is the difference of their
-    velocities."""
+    velocities.
+    """
 
     def distance(time: Term) -> Term:
         return height(ball_at(time)) - height(table_at(time))
@@ -96,7 +98,8 @@ def relative_velocity(printed: Printed) -> Statement:
 )
 def restitution_turns_the_relative_velocity(printed: Printed) -> Statement:
     """With a table that keeps its velocity, the relative velocity is turned and shrunk by alpha
-    exactly as the impact (3) has it."""
+    exactly as the impact (3) has it.
+    """
     return always(
         iff(printed.formula(VELOCITIES), equal(ball_after, struck(ball, table))),
         given=[equal(table_after, table)],
@@ -106,7 +109,8 @@ def restitution_turns_the_relative_velocity(printed: Printed) -> Statement:
 @claim("sA.1-high-mass", "A.1", "line 634", printed=r"\dot{\rho}' = \dot{\rho}")
 def heavy_table_keeps_its_velocity(printed: Printed) -> Statement:
     """When the bodies meet at different velocities, the table keeps its own just if the ball's mass
-    is nothing beside the table's."""
+    is nothing beside the table's.
+    """
     after = at(encoded(symbolic.speeds_after_impact()[1]), {"m": mass, "v": ball, "u": table})
     return always(
         iff(printed.formula(VELOCITIES), equal(mass, 0)),
@@ -136,7 +140,8 @@ def part_lost_on_a_table_at_rest(printed: Printed) -> Statement:
 @claim("sA.1-sustain", "A.1", "line 638")
 def table_gives_back_what_is_lost() -> Statement:
     """The ball's velocity is sustained exactly when the moving table adds to it what a table at
-    rest would take."""
+    rest would take.
+    """
     added = struck(ball, table) - struck(ball, 0)
     return always(iff(equal(struck(ball, table), -ball), equal(added, (1 - alpha) * -ball)))
 
@@ -144,7 +149,8 @@ def table_gives_back_what_is_lost() -> Statement:
 @claim("sA.1-maximise", "A.1", "line 638")
 def fastest_table_gives_most() -> list[Statement]:
     """The ball leaves fastest, and so with the most energy, when the table has its greatest
-    velocity."""
+    velocity.
+    """
     slower, fastest = struck(ball, table), struck(ball, r)
     return [
         always(slower < fastest, given=[table < r], label="velocity"),
@@ -157,7 +163,8 @@ def fastest_table_gives_most() -> list[Statement]:
 )
 def equilibrium_velocity(printed: Printed) -> Statement:
     """The equilibrium velocity is that after an impact, and the flight that follows brings the ball
-    back to the velocity before it."""
+    back to the velocity before it.
+    """
     leaves, wait = Vector((0, equilibrium)), at(derived("hang_time"), {"v": equilibrium})
     after = struck(ball, r)
     names = VELOCITIES.extended({r"\dot\beta'": after})
@@ -177,7 +184,8 @@ def equilibrium_velocity(printed: Printed) -> Statement:
 )
 def equilibrium_balances(printed: Printed) -> Statement:
     """An impact with the fastest table just turns a velocity round if what is lost of it equals
-    what the table adds."""
+    what the table adds.
+    """
     return always(iff(printed.formula(VELOCITIES), equal(struck(-equilibrium, r), equilibrium)))
 
 
@@ -203,7 +211,8 @@ def equilibrium_velocity_solved(printed: Printed) -> Statement:
 )
 def fastest_table_is_met_at_its_launch(printed: Printed) -> Statement:
     """The ball meets the table at its greatest velocity just if that is at once, both on the
-    ground, the ball at its sampled velocity."""
+    ground, the ball at its sampled velocity.
+    """
     there = ball_at(t)
     names = PAPER.extended(
         {
@@ -227,7 +236,8 @@ def fastest_table_is_met_at_its_launch(printed: Printed) -> Statement:
 )
 def energy_of_the_equilibrium(printed: Printed) -> list[Statement]:
     """E_max is the energy at the equilibrium velocity on the ground, and the greatest at which an
-    impact does not lose energy."""
+    impact does not lose energy.
+    """
     defined = printed.formula(UNKNOWN)
     turned = equal(struck(-equilibrium, r), equilibrium)
     both_ways = conjunction(

@@ -48,7 +48,8 @@ ON_EDGE = Vector((0, v))
 @claim("sA.2-upper-bound", "A.2", "line 652")
 def energy_change_is_bounded_above() -> list[Statement]:
     """The energy change of an impact has an upper bound on H; impacts gain at bounded energies
-    only, and lose at all others."""
+    only, and lose at all others.
+    """
     return [
         always(change <= derived("delta_E_max"), given=[H(b)], label="bounded"),
         always(energy(b) <= derived("E_max"), given=[B1_PLUS(b)], label="few-gain"),
@@ -106,7 +107,8 @@ def slope_with_the_velocity(printed: Printed) -> Statement:
 @claim("sA.2-unbounded", "A.2", "line 663")
 def energy_change_falls_steadily_with_the_height() -> list[Statement]:
     """The slope with the height is the same everywhere; the energy change falls faster than
-    potential energy rises, without bound."""
+    potential energy rises, without bound.
+    """
 
     def gained(state: Vector) -> Term:
         raised, before = (
@@ -123,7 +125,8 @@ def energy_change_falls_steadily_with_the_height() -> list[Statement]:
 @claim("sA.2-max-on-edge", "A.2", "line 663", printed=r"\overline{\beta} = 0")
 def maximum_lies_on_the_edge(printed: Printed) -> Statement:
     """Away from this edge of H a state of the same velocity on the edge has a greater energy
-    change."""
+    change.
+    """
     return always(change < impact_energy_change(ON_EDGE), given=[H(b), ~printed.formula(PAPER)])
 
 
@@ -136,7 +139,8 @@ def maximum_lies_on_the_edge(printed: Printed) -> Statement:
 )
 def condition_for_the_maximum(printed: Printed) -> list[Statement]:
     """A state of the edge has the greatest energy change of H exactly if the slope with the
-    velocity vanishes there."""
+    velocity vanishes there.
+    """
     slope, stationary = at(are_slopes(dE_dv), {"beta": 0}), printed.formula(STEEP)
     return [
         always(
@@ -194,7 +198,8 @@ def state_of_the_greatest_energy_change(printed: Printed) -> list[Statement]:
 @claim("sA.2-entire-H", "A.2", "line 675", printed=r"\Delta E_{max} > \Delta_2 E")
 def maximum_holds_without_impacts_too(printed: Printed) -> list[Statement]:
     """Without an impact the energy changes less than that, so that Delta E_max is the greatest
-    change on all of H."""
+    change on all of H.
+    """
     greater = printed.formula(UNKNOWN.extended({r"\Delta_2 E": only_at(b, dE_2)}))
     return [
         always(

@@ -56,7 +56,8 @@ def is_least_bound(
     value: Term, region: Region, given: list[Formula]
 ) -> tuple[Statement, Statement]:
     """The value bounds the energy change of the impacts from the region, and those above the corner
-    come as close to it as one likes."""
+    come as close to it as one likes.
+    """
     above = Vector((height, v0))
     return (
         always(change < value, given=[*given, region(b)], label="bound"),
@@ -79,7 +80,8 @@ def is_least_bound(
 )
 def supremum_outside_the_region(printed: Printed) -> Readings:
     """The energy change at the corner of R is the supremum outside R: over all states there, or
-    over those whose impact comes."""
+    over those whose impact comes.
+    """
     region = value_of(printed, PAPER)
     impacts = is_least_bound(least, region & B1, [CORNER(b_0)])
     flights = always(
@@ -109,7 +111,8 @@ def supremum_outside_the_region(printed: Printed) -> Readings:
 )
 def condition_on_the_boundary(printed: Printed) -> list[Statement]:
     """Along a level line of R the energy change is stationary exactly where both gradients are
-    parallel."""
+    parallel.
+    """
     p, q = reals("p q")
     down, along = (term(entry) for entry in at(derived("region_gradient"), b_0).entries)
     names = {
@@ -182,7 +185,8 @@ def slope_with_the_velocity_recalled(printed: Printed) -> Statement:
 @claim("sA.3.1-not-satisfied", "A.3.1", "line 700", printed=r"\lambda = \alpha + 1")
 def multiplier_does_not_fit(printed: Printed) -> Argument:
     """With this multiplier the gradients are nowhere parallel on R(b) = 0, so that no state there,
-    on B1 or its boundary, is stationary."""
+    on B1 or its boundary, is stationary.
+    """
     parallel = equal(dE_dbeta, lam * dR_dbeta) & equal(dE_dv, lam * dR_dv)
     on_curve = [H(b_0), ON_R(b_0), are_slopes(dE_dbeta, dE_dv, dR_dbeta, dR_dv, state=b_0)]
     return Argument(
@@ -198,7 +202,8 @@ def multiplier_does_not_fit(printed: Printed) -> Argument:
 @claim("sA.3.1-not-on-R0", "A.3.1", "lines 681 and 700", printed=r"R(\overline{b}) = 0")
 def supremum_is_not_on_the_boundary(printed: Printed) -> Readings:
     """On R(b) = 0 no state at the edge of the impacts outside R has the supremal energy change:
-    none at all, or none above the ground."""
+    none at all, or none above the ground.
+    """
     return not_supremal(printed.formula(PAPER))
 
 
@@ -236,7 +241,8 @@ def leftmost_states(printed: Printed) -> Readings:
 @claim("sA.3.2-concave", "A.3.2", "line 702", printed=r"\alpha^2 - 1 < 0 \\ 0 \le \alpha < 1")
 def energy_change_is_concave_on_the_edge(printed: Printed) -> list[Statement]:
     """For these alpha this number is negative: the second derivative of the energy change on the
-    edge, which is concave there."""
+    edge, which is concave there.
+    """
     negative, physical = pieces(printed, 2)
     second = negative.left(PAPER)
     before, here, after = (
@@ -253,7 +259,8 @@ def energy_change_is_concave_on_the_edge(printed: Printed) -> list[Statement]:
 )
 def supremum_belongs_to_the_corner(printed: Printed) -> list[Statement]:
     """The supremum is the energy change where the level line of R meets the edge of H, at the
-    boundary of the impacts outside R."""
+    boundary of the impacts outside R.
+    """
     return list(is_least_bound(least, B1_OUTSIDE, [CLOSED_B1(b_0), printed.formula(AT_CORNER)]))
 
 
@@ -283,7 +290,8 @@ def corner_strikes_at_once(printed: Printed) -> Statement:
 @claim("sA.3.2-sup1", "A.3.2", "line 710", printed=r"\Delta E_{sup} := \Delta_1 E(\overline{b}_s)")
 def supremum_is_the_energy_change_at_the_corner(printed: Printed) -> list[Statement]:
     """The energy change at the corner is the supremum over the impacts outside R, and is not
-    attained there."""
+    attained there.
+    """
     names = PAPER.extended({r"\overline b_s": b_0})
     return [
         always(printed.formula(names), given=[CORNER(b_0)], label="value"),

@@ -61,14 +61,16 @@ def room(*margins: Term) -> Formula:
 @claim("sA.4-distinct", "A.4", "line 716")
 def supremum_and_maximum_differ() -> Statement:
     """The least loss outside R and the greatest gain are different: one is negative and the other
-    positive."""
+    positive.
+    """
     return always((dE_sup < 0) & (term(derived("delta_E_max")) > 0), given=SUPREMAL)
 
 
 @claim("sA.4-leftmost", "A.4", "line 716", repeats="sA.3.2-leftmost")
 def supremum_is_at_the_left() -> list[Statement]:
     """An impact outside R takes less from a lower state of the same velocity, still outside R, so
-    that the supremum is at the left."""
+    that the supremum is at the left.
+    """
     ground = Vector((0, v))
     return [
         always(
@@ -185,7 +187,8 @@ def boundary_of_the_region(printed: Printed) -> Readings:
 @claim("sA.4-not-on-boundary", "A.4", "line 716", repeats="sA.3.1-not-on-R0")
 def supremum_is_not_on_the_boundary_of_the_region() -> Readings:
     """The supremum does not belong to a state of the boundary R(b) = 0: to none at all, or to none
-    above the ground."""
+    above the ground.
+    """
     return not_supremal(ON_R(b))
 
 

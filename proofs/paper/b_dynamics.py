@@ -1,5 +1,6 @@
 """Appendices B.3 to B.6: the maps, the fixed point, the zero energy change boundary and the
-boundary of R, summed up."""
+boundary of R, summed up.
+"""
 
 from __future__ import annotations
 
@@ -47,12 +48,16 @@ u, y, lift, tau, greatest, gain, margin = reals("u y lift tau greatest gain marg
     "B.3",
     "lines 772 to 778",
     repeats="eq-10",
-    printed=r"""\overline{f}_1(\overline{b}_k) := \alpha A_T \overline{b}_k + (\alpha - 1) A_{-\xi_1} r_0 = \overline{b}_{k+1} \\
-       A_t := \begin{bmatrix} 1 & t \\ 0 & 1 \end{bmatrix} \\ \xi_1 := \frac{\alpha T}{1-\alpha}.""",
+    printed=(
+        r"""\overline{f}_1(\overline{b}_k) := \alpha A_T \overline{b}_k"""
+        r""" + (\alpha - 1) A_{-\xi_1} r_0 = \overline{b}_{k+1} \\
+       A_t := \begin{bmatrix} 1 & t \\ 0 & 1 \end{bmatrix} \\ \xi_1 := \frac{\alpha T}{1-\alpha}."""
+    ),
 )
 def map_on_b1_again(printed: Printed) -> list[Statement]:
     """After an impact the state when the table bounces next is this affine image, with these
-    meanings of A_t and xi_1."""
+    meanings of A_t and xi_1.
+    """
     map_, matrix, time = pieces(printed, 3)
     names = {r"\overline b_k": b_0, r"\overline b_{k+1}": next_bounce(b_0, tau)}
     return [
@@ -77,7 +82,8 @@ def map_on_b1_again(printed: Printed) -> list[Statement]:
 )
 def map_on_b2_again(printed: Printed) -> Statement:
     """The dynamics on B2, here under the name of those on B1, take a state x to this affine image
-    at the next bounce."""
+    at the next bounce.
+    """
     flown = StateFunction(lambda state: ball_at(t, state))
     names = {
         r"\overline f_1": flown,
@@ -118,7 +124,8 @@ def what_gravity_takes_off_in_a_period(printed: Printed) -> Statement:
 )
 def map_on_all_of_h_again(printed: Printed) -> Readings:
     """The two cases give every state of H one image, which is the state when the table bounces
-    next."""
+    next.
+    """
     return is_the_map(printed)
 
 
@@ -148,7 +155,8 @@ def fixed_point_again(printed: Printed) -> Statement:
 )
 def states_without_energy_change_again(printed: Printed) -> list[Statement]:
     """The states of B1 whose image has the same energy are those of H whose speed and time to
-    collision meet this equation."""
+    collision meet this equation.
+    """
     region = printed.set_predicate(PAPER, r"\mathcal{B}_1^0")
     return same_set(region(b), B1_ZERO(b), given=[different(v, r)])
 
@@ -181,12 +189,16 @@ def boundary_of_the_region(printed: Printed) -> Readings:
     "B.6",
     "line 811",
     repeats="eq-23b",
-    printed=r"""R(\overline{b}) := E_{max} + \Delta E_{max} - E(\overline{b})
-       = \frac{1+\alpha}{(1-\alpha)^2} \dot{\rho}_0^2 - \gamma \overline{\beta} - \frac{1}{2} \dot{\overline{\beta}}^2""",
+    printed=(
+        r"""R(\overline{b}) := E_{max} + \Delta E_{max} - E(\overline{b})
+       = \frac{1+\alpha}{(1-\alpha)^2} \dot{\rho}_0^2 - \gamma \overline{\beta}"""
+        r""" - \frac{1}{2} \dot{\overline{\beta}}^2"""
+    ),
 )
 def function_of_the_region_again(printed: Printed) -> Statement:
     """The function R is what the energy of a state lacks to the sum of both bounds, in height and
-    speed."""
+    speed.
+    """
     names = {"R": only_at(b, margin), "E_{max}": greatest, r"\Delta E_{max}": gain}
     known = (
         equal(greatest, derived("E_max"))

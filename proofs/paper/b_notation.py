@@ -53,14 +53,16 @@ def period_in_the_table(printed: Printed) -> Statement:
 @claim("sB.7-tau-p", "B.7", "line 828", repeats="s3.1-note3")
 def time_since_the_lowest_point() -> Statement:
     """The time since a period began is the time since the table was last at its lowest: it was
-    higher ever since."""
+    higher ever since.
+    """
     return always(height(table_at(t)) > height(table_at(0)), given=[t > 0, t <= since, since < T])
 
 
 @claim("sB.7-b-bar", "B.7", "line 835", printed=r"(\overline{\beta}, \dot{\beta})")
 def sampled_state_in_the_table(printed: Printed) -> Statement:
     """The pair is the ball's position and velocity as the table is at its lowest; without a bar the
-    velocity is that of any time."""
+    velocity is that of any time.
+    """
     names = PAPER.extended({r"\dot\beta": speed(ball_at(t))})
     return always(equals(vector(value_of(printed, names)), ball_at(0)))
 
@@ -68,7 +70,8 @@ def sampled_state_in_the_table(printed: Printed) -> Statement:
 @claim("sB.7-C", "B.7", "line 844", printed="C_{y}(x)")
 def impact_in_the_table(printed: Printed) -> Statement:
     """In the notation of (3), this is the ball's state after an impact if y is the ball's state
-    before it and x the table's."""
+    before it and x the table's.
+    """
     table = Vector(reals("rho u"))
     names = PAPER.extended({"y": b, "x": table})
     return always(
@@ -86,7 +89,8 @@ def impact_in_the_table(printed: Printed) -> Statement:
 )
 def time_until_the_next_period(printed: Printed) -> Statement:
     """After a collision, the time that is left until the table next touches the ground is one
-    period less the time to collision."""
+    period less the time to collision.
+    """
     names = PAPER.extended({r"\tau_c": only_at(b, t), r"\overline\tau_c": until})
     lands = equal(height(flight(until)(table_at(t))), 0)
     return always(iff(lands, printed.formula(names)), given=[H(b), strikes_at(t), until > 0])
@@ -101,7 +105,8 @@ def time_until_the_next_period(printed: Printed) -> Statement:
 )
 def flight_matrix_in_the_table(printed: Printed) -> list[Statement]:
     """The matrix carries the difference of two states through a flight of time t, in which gravity
-    cancels."""
+    cancels.
+    """
     other = Vector(reals("beta0 v0"))
     matrix = printed.right(PAPER)
     if not isinstance(matrix, Matrix):
@@ -149,7 +154,8 @@ def energy_change_in_the_table(printed: Printed) -> Statement:
 )
 def kinetic_energy_in_the_table(printed: Printed) -> Statement:
     """The kinetic energy is the part of the energy that the ball would not have at rest at its
-    height."""
+    height.
+    """
     moving = StateFunction(lambda state: energy(state) - energy(Vector((state.component(1), 0))))
     return always(printed.formula(PAPER.extended({"K": moving})))
 
@@ -157,14 +163,16 @@ def kinetic_energy_in_the_table(printed: Printed) -> Statement:
 @claim("sB.7-B1", "B.7", "line 854", nearby=NEAR_B1, printed=r"\tau_c < T", repeats="sB.2-B1")
 def b1_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is less than one period
-    are the region B1 of (7)."""
+    are the region B1 of (7).
+    """
     return tells_b1(printed.formula(PAPER))
 
 
 @claim("sB.7-B2", "B.7", "line 855", nearby=NEAR_B2, printed=r"\tau_c \ge T", repeats="s2.2.1-B2")
 def b2_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is one period or more are
-    what B1 leaves of H."""
+    what B1 leaves of H.
+    """
     return tells_b2(printed.formula(PAPER))
 
 

@@ -70,7 +70,8 @@ def collision_equation_with_gravity(printed: Printed) -> Readings:
 )
 def time_to_collision_again(printed: Printed) -> Readings:
     """Ball and table meet at this time and at no other, the table's velocity being that of its
-    launch, or that of the moment."""
+    launch, or that of the moment.
+    """
 
     def reading(names: Environment, *apart: Formula) -> Assertion:
         return Assertion(
@@ -88,7 +89,8 @@ def time_to_collision_again(printed: Printed) -> Readings:
 @claim("sB.1-period", "B.1", "line 740", printed=_PERIOD_EQUATION)
 def period_solves_an_equation(printed: Printed) -> Statement:
     """The table is on the ground again when the nonzero solution of this equation has passed, its
-    velocity being that of its launch."""
+    velocity being that of its launch.
+    """
     return always(
         iff(LANDS, printed.formula(LAUNCH_SPEED.extended({"T": flown}))), given=[flown > 0]
     )
@@ -122,7 +124,8 @@ def period_again(printed: Printed) -> Statement:
 )
 def states_with_a_meaning(printed: Printed) -> list[Statement]:
     """H is the set of states with the ball at or above the table at its lowest, and no state leaves
-    it within a period."""
+    it within a period.
+    """
     region = printed.set_predicate(PAPER, r"\mathcal{H}")
     return [
         always(iff(region(b), height(ball_at(0)) >= height(table_at(0))), label="at-or-above"),
@@ -151,7 +154,8 @@ def b1_strikes_in_less_than_a_period() -> Readings:
 )
 def b1_by_time_to_collision(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is less than one period
-    are the region B1 of (7)."""
+    are the region B1 of (7).
+    """
     return tells_b1(printed.set_predicate(PAPER, r"\mathcal{B}_1")(b))
 
 
@@ -175,7 +179,8 @@ def b2_strikes_in_a_period_at_least() -> Readings:
 )
 def b2_by_time_to_collision(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is one period or more are
-    what B1 leaves of H."""
+    what B1 leaves of H.
+    """
     return tells_b2(printed.set_predicate(PAPER, r"\mathcal{B}_2")(b))
 
 
@@ -189,7 +194,8 @@ def b2_by_time_to_collision(printed: Printed) -> Statement:
 )
 def line_between_the_regions(printed: Printed) -> Readings:
     """The line between B1 and B2, where the ball meets the table as the period ends, holds the
-    states whose time is one period."""
+    states whose time is one period.
+    """
     return line_of_equal_times(printed.set_predicate(PAPER, r"\partial\mathcal{B}_2")(b))
 
 

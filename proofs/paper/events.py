@@ -59,7 +59,8 @@ def meet(time: Number, ball: Vector = b) -> Formula:
 
 def strikes_at(time: Term) -> Formula:
     """The ball strikes the table at this time, which lies within the period: they meet, and
-    approach each other."""
+    approach each other.
+    """
     return conjunction([time >= 0, time < T, meet(time), v < r])
 
 

@@ -1,5 +1,6 @@
 """Impacts that gain, keep or lose energy, the greatest energies that go with them, and how the
-energy change varies (4.1, A.1 to A.3)."""
+energy change varies (4.1, A.1 to A.3).
+"""
 
 from __future__ import annotations
 
@@ -65,7 +66,8 @@ STEEP = with_slopes(UNKNOWN)
 
 def are_slopes(*slopes: Term, state: Vector = b) -> Formula:
     """Each of these names is the slope of its function at the state: by central differences of any
-    width h."""
+    width h.
+    """
     said = [different(h, 0)]
     for slope in slopes:
         of: StateFunction = (

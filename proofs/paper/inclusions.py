@@ -66,7 +66,8 @@ def in_normal_form(name: str, state: Vector) -> Any:
 @claim("region-scaling", "inclusions", "normal form")
 def normal_form_is_conjugate() -> list[Statement]:
     """With heights in units of r T and closing speeds in units of r, maps and regions no longer
-    depend on r and g, only on alpha."""
+    depend on r and g, only on alpha.
+    """
     there = scaled(b)
     x, w = height(there), speed(there)
     return [
@@ -95,7 +96,8 @@ def states_stay_in_h() -> list[Statement]:
 @claim("region-B-partition", "inclusions", "line 315")
 def b1_and_b2_part_h() -> list[Statement]:
     """Each state of H is in exactly one of B1 and B2; the time to collision tells which, where the
-    ball is slower than the launch."""
+    ball is slower than the launch.
+    """
     in_time = term(collision_time(b)) < T
     return [
         always((B1(b) | B2(b)) & ~(B1(b) & B2(b)), given=[H(b)], label="exactly-one"),
@@ -145,7 +147,8 @@ def no_period_gains_more() -> list[Statement]:
 @claim("region-DE-sup", "inclusions", "line 712")
 def impacts_outside_lose_at_least() -> list[Statement]:
     """Delta E_sup is the supremum of the energy change on B1 outside R, and is not attained
-    there."""
+    there.
+    """
     return is_supremum(
         derived("delta_E_sup"),
         term(impact_energy_change(b)),
@@ -159,7 +162,8 @@ def impacts_outside_lose_at_least() -> list[Statement]:
 @claim("region-p", "inclusions", "line 559")
 def point_p_lies_outside() -> Statement:
     """The state that has the velocity of e_1 and meets the table just at its next bounce does not
-    belong to R."""
+    belong to R.
+    """
     return always(~R(on_the_line(speed(e_1))), in_range=RANGE_21)
 
 
@@ -239,5 +243,6 @@ def bands_are_mapped_into_themselves() -> Readings:
 @claim("region-trap", "inclusions", "not printed")
 def trap_is_mapped_into_itself() -> Statement:
     """The states of B1 whose closing speed is below r/alpha are mapped to such states by f, which
-    is f1 there."""
+    is f1 there.
+    """
     return always(TRAP(vector(f1(b))), given=[TRAP(b)], in_range=RANGE_21)

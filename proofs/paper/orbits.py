@@ -66,7 +66,8 @@ exists_integer = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
 
 def strikes_from(start: Vector, time: Term) -> Formula:
     """The ball, in this state when the table is launched, strikes the table at this time of the
-    period."""
+    period.
+    """
     ball, table = ball_at(time, start), table_at(time)
     return conjunction(
         [time >= 0, time < T, equal(height(ball), height(table)), speed(ball) < speed(table)]
@@ -115,7 +116,8 @@ def relations_of(
     printed: Printed, environment: Environment, count: int
 ) -> list[tuple[Any, str, Any]]:
     """The relations of a print that has to have this many, each with the values on its two
-    sides."""
+    sides.
+    """
     chain = printed.relation_chain(environment)
     if len(chain) != count:
         raise ClaimError(f"this print has {len(chain)} relations, where {count} are expected")
@@ -129,7 +131,8 @@ def from_threshold_on(count: Number = K) -> tuple[Formula, ...]:
 
 def eigenvalue_of(matrix: Matrix, real_part: Term, imaginary_part: Term) -> Formula:
     """The complex number is an eigenvalue of the 2 by 2 matrix: real and imaginary part of det(z -
-    M) vanish."""
+    M) vanish.
+    """
     (a, _), (_, d) = ((term(entry) for entry in row) for row in matrix.rows)
     shifted = Matrix(
         tuple(
@@ -152,7 +155,8 @@ def next_state_is(state: Vector, says: Callable[[Vector], Formula]) -> Formula:
 
 def offset_with(time: Term) -> Vector:
     """r_0 flown back for this time, shrunk by 1 - alpha and turned round: the offset of f1 for the
-    time xi_1."""
+    time xi_1.
+    """
     return vector(flight_matrix(-time) * r_0).scaled(alpha - 1)
 
 
@@ -165,7 +169,8 @@ def one_image_for_every_state(
     printed: Printed, environment: Environment, given: tuple[Formula, ...] = ()
 ) -> Assertion:
     """What is printed for f holds of a state and of what becomes of the ball within a period, and
-    of nothing else."""
+    of nothing else.
+    """
     says = printed.formula(environment.extended({r"\overline f": image}))
     return Assertion(
         (

@@ -1,5 +1,6 @@
 """Outside the region R: the states there, how long they may fly, and what an impact takes from them
-(sections 4.2 and A.3)."""
+(sections 4.2 and A.3).
+"""
 
 from __future__ import annotations
 
@@ -88,7 +89,8 @@ def flown(periods: Term) -> Vector:
 
 def strikes_in_period(periods: Term, time: Term) -> Formula:
     """After this many periods without an impact, and this time more, ball and table are at one
-    height and approach each other."""
+    height and approach each other.
+    """
     ball = flown(periods)
     return equal(height(ball_at(time, ball)), height(table_at(time))) & (speed(ball) < r)
 
@@ -101,7 +103,8 @@ def lands(state: Vector, time: Term) -> Formula:
 
 def grounded_after(wait: Term, state: Vector, given: list[Formula], label: str) -> Statement:
     """From this time on the ball of this state would be on or below the ground, so an impact has
-    come before."""
+    come before.
+    """
     return always_counting(
         height(ball_at(t, state)) <= 0, given=[H(state), *given, t >= wait], label=label
     )
@@ -119,7 +122,8 @@ def ceiling_of(value: Term) -> Formula:
 
 def not_supremal(on_boundary: Formula) -> Readings:
     """No state of this boundary of the impacts outside R has the supremal energy change: none at
-    all, or none above the ground."""
+    all, or none above the ground.
+    """
     least_loss = derived("delta_E_sup")
     there = [CLOSED_B1(b), on_boundary]
     return Readings(
@@ -134,7 +138,8 @@ def not_supremal(on_boundary: Formula) -> Readings:
 
 def impacts_suffice(rounding: Formula) -> Assertion:
     """After n impacts the energy of b_0 is down to the level of R: n times the least loss covers
-    what is above it."""
+    what is above it.
+    """
     loss = -term(derived("delta_E_sup"))
     return Assertion(
         (
@@ -149,7 +154,8 @@ def impacts_suffice(rounding: Formula) -> Assertion:
 
 def with_rounding(printed: Printed, environment: Environment) -> tuple[Environment, Term]:
     """The environment in which the square bracket of the print is the integer n, and what stands
-    inside the bracket."""
+    inside the bracket.
+    """
     for group in _square_brackets(printed.tree):
         start = end = group.at
         depth = 0

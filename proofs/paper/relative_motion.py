@@ -60,13 +60,15 @@ def from_e_1(state: Vector) -> Term:
 
 def on_the_line(velocity: Term) -> Vector:
     """The state of this velocity from which ball and table meet just when the table bounces
-    next."""
+    next.
+    """
     return Vector((at(derived("boundary_height"), {"v": velocity}), velocity))
 
 
 def leaves_R_at(velocity: Term) -> Formula:
     """The line between B1 and B2 meets the boundary of R at this velocity, below the table's launch
-    speed."""
+    speed.
+    """
     return conjunction(
         [velocity < r, equal(term(energy(on_the_line(velocity))), derived("region_energy"))]
     )
@@ -107,7 +109,8 @@ def narrow_band_stays(size: Term) -> tuple[Statement, ...]:
 
 def lies_around_e_1(size: Term) -> Statement:
     """The band, however narrow, holds all states of H near e_1: an orbit that tends to e_1 comes
-    into it."""
+    into it.
+    """
     height_off, speed_off = (term(entry) for entry in b - e_1)
     close = [-d <= speed_off, speed_off <= d, d <= r / 16, d**2 <= 2 * size]
     low = height_off * g <= r**2 / 8
@@ -121,7 +124,8 @@ def lies_around_e_1(size: Term) -> Statement:
 
 def boundary_of_band(size: Term) -> Region:
     """What bounds the band: its closure, at height 0, on the line between B1 and B2, at the energy
-    of R, or at `size`."""
+    of R, or at `size`.
+    """
 
     def holds(state: Vector) -> Formula:
         margins = (

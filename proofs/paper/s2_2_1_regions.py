@@ -1,5 +1,6 @@
 """Section 2.2.1: the regions H, B1 and B2, the line between them, and the curve on which an impact
-keeps the energy."""
+keeps the energy.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +56,8 @@ u = real("u")  # the speed at which the line between B1 and B2 passes the height
 @claim("s2.2.1-H", "2.2.1", "line 123", printed=r"\overline{\beta} > 0")
 def states_on_or_above_the_table(printed: Printed) -> list[Statement]:
     """H is the set of states with the ball on or above the table at its lowest, and no state leaves
-    it within a period."""
+    it within a period.
+    """
     inside = printed.formula(PAPER)
     return [
         always(iff(inside, height(ball_at(0)) >= height(table_at(0))), label="on-or-above"),
@@ -144,7 +146,8 @@ def line_between_b1_and_b2(printed: Printed) -> Readings:
 @claim("s2.2.1-dB2-in-B2", "2.2.1", "lines 125 and 137")
 def line_belongs_to_b2() -> list[Statement]:
     """The states at which the time to collision is one period belong to B2, as do all that meet the
-    table when the period ends."""
+    table when the period ends.
+    """
     return [
         always(
             B2(b),
@@ -157,7 +160,8 @@ def line_belongs_to_b2() -> list[Statement]:
 
 def _beside_the_line(axis: Formula, side: Formula, inside: Formula) -> Assertion:
     """States of H on this axis and on this side of the state of the line at their height lie
-    inside."""
+    inside.
+    """
     on_line = meet(T, Vector((beta, u)))
     return Assertion((always(inside, given=[axis, H(b), on_line, side]),))
 
@@ -165,7 +169,8 @@ def _beside_the_line(axis: Formula, side: Formula, inside: Formula) -> Assertion
 @claim("s2.2.1-axis-below", "2.2.1", "line 137", printed=r"\dot{\overline{\beta}} = 0")
 def axis_below_the_line(printed: Printed) -> Readings:
     """What lies on the axis below the line between B1 and B2 belongs to B1: the axis of no speed as
-    printed, or the edge of H."""
+    printed, or the edge of H.
+    """
     return Readings(
         {
             "printed": _beside_the_line(printed.formula(PAPER), v < u, B1(b)),
@@ -177,7 +182,8 @@ def axis_below_the_line(printed: Printed) -> Readings:
 @claim("s2.2.1-axis-above", "2.2.1", "line 137", printed=r"\dot{\overline{\beta}} = 0")
 def axis_above_the_line(printed: Printed) -> Readings:
     """What lies on the axis above the line between B1 and B2 belongs to B2: the axis of no speed as
-    printed, or the edge of H."""
+    printed, or the edge of H.
+    """
     return Readings(
         {
             "printed": _beside_the_line(printed.formula(PAPER), v > u, B2(b)),
@@ -189,7 +195,8 @@ def axis_above_the_line(printed: Printed) -> Readings:
 @claim("s2.2.1-flight-along-level", "2.2.1", "line 139")
 def flight_follows_level_curves() -> list[Statement]:
     """In free flight the state stays on its curve of constant energy, and its speed falls
-    steadily."""
+    steadily.
+    """
     return [
         always(equal(energy(ball_at(t)), energy(b)), label="on-its-curve"),
         always(speed(ball_at(t)) < v, given=[t > 0], label="direction"),
@@ -222,7 +229,8 @@ def states_whose_impact_keeps_the_energy(printed: Printed) -> list[Statement]:
 @claim("s2.2.1-B10-parabolic", "2.2.1", "line 141")
 def energy_is_kept_on_a_parabola() -> list[Statement]:
     """The states of B1 whose energy does not change lie on a curve that gives the height as a
-    quadratic function of the speed."""
+    quadratic function of the speed.
+    """
     d = real("d")
 
     def curve(at_speed: Term) -> Term:

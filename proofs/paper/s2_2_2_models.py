@@ -57,7 +57,8 @@ def newtons_equation(printed: Printed) -> Readings:
 )
 def flight_is_affine(printed: Printed) -> list[Statement]:
     """The flight for any time t is affine in the state: a shear by t, less what gravity takes
-    off."""
+    off.
+    """
     here = PAPER.extended({"x": b})
     whole, matrix, offset = pieces(printed, 3)
     by_print = here.extended({"A_t": matrix.right(here), "a_t": offset.right(here)})
@@ -70,7 +71,8 @@ def flight_is_affine(printed: Printed) -> list[Statement]:
 @claim("s2.2.2-group-law", "2.2.2", "lines 162 and 170")
 def flights_join() -> list[Statement]:
     """To every time belongs one map of the plane: no flight for no time, and two flights in a row
-    are one of the joint time."""
+    are one of the joint time.
+    """
     joint = flight(d)(ball_at(t))
     return [
         always(equals(ball_at(0), b), label="no-time"),
@@ -117,7 +119,8 @@ def relative_velocity_after_impact(printed: Printed) -> Statement:
 @claim("s2.2.2-alpha-range", "2.2.2", "line 176", printed=r"0 < \alpha < 1")
 def impact_rebounds_with_loss(printed: Printed) -> Statement:
     """Exactly for these values of alpha, bodies that approach each other part after the impact, and
-    more slowly."""
+    more slowly.
+    """
     parting = speed(collide(table)(b)) - u
     return always(
         iff(printed.formula(PAPER), conjunction([parting > 0, parting < u - v])),

@@ -1,5 +1,6 @@
 """Section 2.3: the ball from one impact to the next, steered by the table's speed and the time of
-flight."""
+flight.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +51,8 @@ def next_state_by_control(printed: Printed) -> Statement:
 @claim("s2.3-next-state", "2.3", "line 201")
 def next_state_by_impact_and_flight() -> list[Statement]:
     """The state just before the next impact comes of a rebound and a flight, and so does the one
-    after it, steered anew."""
+    after it, steered anew.
+    """
     import symbolic
 
     u3, u4, again = reals("u3 u4 again")

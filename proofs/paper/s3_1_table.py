@@ -45,7 +45,8 @@ GROUND = Vector((0, 0))
 @claim("s3.0-closed-form", "3", "line 220")
 def time_to_collision_is_rational() -> Statement:
     """While their speeds differ, ball and table meet at one time only, and a quotient of
-    polynomials gives it."""
+    polynomials gives it.
+    """
     return always(iff(meet(t), equal(t, collision_time(b))), given=[different(v, r)])
 
 
@@ -74,7 +75,8 @@ def table_velocity_jumps_and_so_does_the_map() -> list[Statement]:
 @claim("s3.1-lossless", "3.1", "line 224")
 def lossless_bounce_has_restitution_one() -> list[Statement]:
     """A bounce off the ground at rest keeps the energy exactly if the restitution, not being
-    negative, is one; it then launches anew."""
+    negative, is one; it then launches anew.
+    """
     after = vector(collide(GROUND)(-r_0))
     return [
         always(
@@ -90,7 +92,8 @@ def lossless_bounce_has_restitution_one() -> list[Statement]:
 @claim("s3.1-minus-r0", "3.1", "line 224", printed=r"-r_0 = (0, -\dot{\rho}_0)")
 def table_comes_down_as_it_went_up(printed: Printed) -> Statement:
     """Whenever the table is back on the ground after its launch, its state is that of the launch
-    with the sign changed."""
+    with the sign changed.
+    """
     lands = equal(height(table_at(t)), 0)
     return always(
         equals(table_at(t), printed.right(PAPER)) & printed.formula(PAPER), given=[t > 0, lands]
@@ -150,7 +153,8 @@ def launch_speed_is_positive(printed: Printed) -> Statement:
 @claim("s3.1-note3", "3.1", "footnote 3", printed=r"0 \le t < T")
 def time_in_period_is_one_function(printed: Printed) -> list[Statement]:
     """Exactly one function of time has the period T and is the identity on this interval: every
-    time has one equal in it."""
+    time has one equal in it.
+    """
 
     def inside(time: Term) -> Formula:
         return printed.formula(PAPER.extended({"t": time}))

@@ -54,7 +54,8 @@ FOLDED = Vector(reals("folded folded_dot"))  # the value of the map in (8)
 
 def _folded(table: Vector) -> Environment:
     """The names of (8), the value of its map being unknown, for a table in this state as the period
-    begins."""
+    begins.
+    """
 
     def family(start: Vector) -> StateFunction:
         if start != table:
@@ -93,7 +94,8 @@ def sampled_state(printed: Printed) -> Statement:
 )
 def b1_collides_before_the_table_lands(printed: Printed) -> list[Statement]:
     """B1 is a part of H, and from its states the ball hits the table before the table next touches
-    the ground."""
+    the ground.
+    """
     subset, member = pieces(printed, 2)
     return [
         always(subset.formula(PAPER), label="part-of-h"),
@@ -130,7 +132,8 @@ def collision_equation(printed: Printed) -> list[Statement]:
 )
 def collision_equation_without_gravity(printed: Printed) -> list[Statement]:
     """That difference is the first component of the sheared difference of the states, in which
-    gravity cancels."""
+    gravity cancels.
+    """
     return _height_above_the_table(printed)
 
 
@@ -143,7 +146,8 @@ def collision_equation_without_gravity(printed: Printed) -> list[Statement]:
 )
 def collision_equation_in_components(printed: Printed) -> list[Statement]:
     """That component is the height of the ball, and the time multiplied by its speed relative to
-    the table."""
+    the table.
+    """
     return _height_above_the_table(printed)
 
 
@@ -159,14 +163,16 @@ def collision_equation_in_components(printed: Printed) -> list[Statement]:
 )
 def time_to_collision(printed: Printed) -> Statement:
     """While the ball's speed differs from the table's launch speed, both are at one height at tau_c
-    and at no other time."""
+    and at no other time.
+    """
     return always(iff(meet(t), printed.formula(AT_TIME)), given=[different(v, r)])
 
 
 @claim("s3.2-bounds", "3.2", "line 248", printed=r"0 \le \tau_c(\overline{b}) \le T")
 def bounds_on_the_time_tell_b1(printed: Printed) -> Statement:
     """Of the states of H in which the bodies approach each other, those with this time to collision
-    make up the region B1 of (7)."""
+    make up the region B1 of (7).
+    """
     return always(iff(printed.formula(PAPER), STRIKES(b)), given=[H(b), v < r])
 
 
@@ -188,7 +194,8 @@ def bounds_on_the_time_tell_b1(printed: Printed) -> Statement:
 )
 def region_b1(printed: Printed) -> list[Statement]:
     """B1 holds those states of H from which the ball strikes the table before the period ends, and
-    no others."""
+    no others.
+    """
     region = printed.set_predicate(PAPER, r"\mathcal{B}_1")
     return [
         *strikes_from(region(b)),
@@ -205,7 +212,8 @@ def region_b1(printed: Printed) -> list[Statement]:
 )
 def state_just_after_the_collision(printed: Printed) -> Statement:
     """At the collision the ball is where the table is, and leaves it at alpha times the speed at
-    which they met."""
+    which they met.
+    """
     after, ball, table = vector(value_of(printed, AT_TIME)), ball_at(t), table_at(t)
     parts = equal(speed(after) - speed(table), -alpha * (speed(ball) - speed(table)))
     return always(equal(height(after), height(table)) & parts, given=[meet(t)])
@@ -220,7 +228,8 @@ def state_just_after_the_collision(printed: Printed) -> Statement:
 )
 def state_at_the_end_of_the_period(printed: Printed) -> Statement:
     """The state at the period's end is that after the collision, flown onward for the rest of the
-    period."""
+    period.
+    """
     onward = flight(T - t)(after_impact(t))
     return always(
         equals(vector(value_of(printed, _folded(r_0))), vector(onward)),
@@ -231,7 +240,8 @@ def state_at_the_end_of_the_period(printed: Printed) -> Statement:
 @claim("s3.2-minus-r0-at-T", "3.2", "line 255", printed="-r_0", repeats="s3.1-minus-r0")
 def table_lands_as_it_was_launched(printed: Printed) -> Statement:
     """The table's state at time T, as it meets the ground, is that of its launch with the sign
-    changed."""
+    changed.
+    """
     return always(
         equals(table_at(T), vector(value_of(printed, PAPER))) & equal(height(table_at(T)), 0)
     )
@@ -254,7 +264,8 @@ def table_lands_as_it_was_launched(printed: Printed) -> Statement:
 )
 def folded_collision(printed: Printed) -> Statement:
     """The map's value is the state that, flying freely from the period's beginning, is the ball's
-    just after the impact."""
+    just after the impact.
+    """
     names = _folded(TABLE).extended({"r": TABLE})
     return always(iff(_flies_to_the_impact(TABLE), printed.formula(names)))
 
@@ -270,7 +281,8 @@ def folded_collision(printed: Printed) -> Statement:
 )
 def folded_collision_is_affine(printed: Printed) -> Statement:
     """For the table launched in the state r_0, which is meant by r, that map is affine; R is the
-    matrix of (3)."""
+    matrix of (3).
+    """
     names = AT_TIME.extended(
         {r"\overline C_r": only_at(b, FOLDED), "R": derived("restitution_matrix")}
     )
@@ -286,12 +298,14 @@ def folded_collision_is_affine(printed: Printed) -> Statement:
         r" \dot{\rho}_0 \end{bmatrix}"
     ),
     as_it_stands=(
-        r"A_{\tau_c}(\overline{b}-r_0)=\left[egin{array}{c}0\ rac{\dot{ar{eta}}-\dot{ho}_0\end{array}ight]"
+        r"A_{\tau_c}(\overline{b}-r_0)=\left[egin{array}{c}0\ rac{\dot{ar{eta}}"
+        r"-\dot{ho}_0\end{array}ight]"
     ),
 )
 def difference_at_the_impact(printed: Printed) -> Statement:
     """At the time when they meet, and only then, the sheared difference of the states is one of
-    speeds alone."""
+    speeds alone.
+    """
     return always(iff(printed.formula(AT_TIME), meet(t)))
 
 
@@ -303,7 +317,8 @@ def difference_at_the_impact(printed: Printed) -> Statement:
 )
 def height_by_time_to_collision(printed: Printed) -> Statement:
     """At the time when they meet, and only then, the height is the time multiplied by the speed of
-    approach, both times alpha."""
+    approach, both times alpha.
+    """
     return always(iff(printed.formula(AT_TIME), meet(t)))
 
 
@@ -315,7 +330,8 @@ def height_by_time_to_collision(printed: Printed) -> Statement:
 )
 def folded_collision_scales_the_difference(printed: Printed) -> Statement:
     """For a ball that meets the table, that map multiplies the difference of their states by
-    -alpha."""
+    -alpha.
+    """
     return always(iff(_flies_to_the_impact(), printed.formula(_folded(r_0))), given=[meet(t)])
 
 
@@ -327,5 +343,6 @@ def folded_collision_scales_the_difference(printed: Printed) -> Statement:
 )
 def state_at_the_end_is_affine(printed: Printed) -> Statement:
     """So the state at the end of a period with a collision is an affine function of that at its
-    beginning."""
+    beginning.
+    """
     return always(printed.formula(_folded(r_0)), given=[meet(t), _flies_to_the_impact()])

@@ -75,7 +75,8 @@ def states_outside_b1_meet_the_table_late(printed: Printed) -> list[Statement]:
 )
 def second_region_by_the_time_to_collision(printed: Printed) -> list[Statement]:
     """The states of H whose time to collision is one period at least are those from which the ball
-    does not strike within a period."""
+    does not strike within a period.
+    """
     late = printed.set_predicate(PAPER, r"\mathcal{B}_2")
     no_strike = H(b) & ~strikes_from(b, t)
     return [
@@ -87,14 +88,16 @@ def second_region_by_the_time_to_collision(printed: Printed) -> list[Statement]:
 @claim("s3.3.1-no-impact", "3.3.1", "line 323", repeats="s2.2.1-B2-no-strike")
 def no_impact_within_a_period_of_b2() -> Statement:
     """From a state of B2 the ball never touches the table, while coming nearer, before the period
-    is over."""
+    is over.
+    """
     return always(~strikes_from(b, t), given=[B2(b)])
 
 
 @claim("eq-12", "3.3.1", "(12)", printed=r"\overline{f}_2 := F^T")
 def period_of_flight(printed: Printed) -> list[Statement]:
     """From a state of B2 the ball flies freely until the table is on the ground next, and is in H
-    then."""
+    then.
+    """
     lands = (t > 0) & equal(height(table_at(t)), 0)
     after = printed.right(PAPER)
     return [
@@ -116,14 +119,16 @@ def period_of_flight(printed: Printed) -> list[Statement]:
 )
 def map_on_all_of_h(printed: Printed) -> Readings:
     """The two cases give every state of H one image, which is the state when the table bounces
-    next."""
+    next.
+    """
     return is_the_map(printed)
 
 
 @claim("s3.3.1-global", "3.3.1", "line 327")
 def map_takes_h_into_itself() -> list[Statement]:
     """From every state of H, with or without an impact, the ball is in H again when the table
-    bounces next."""
+    bounces next.
+    """
     return [
         always(H(f1(b)), given=[B1(b)], label="with-impact"),
         always(H(f2(b)), given=[B2(b)], label="without-impact"),

@@ -1,5 +1,6 @@
 """Section 3.3: the map of a period with an impact, its fixed point e_1, and the neighbourhood that
-stays in B1."""
+stays in B1.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ FIXED, FIXED_0 = equals(f1(b), b), equals(f1(b_0), b_0)  # what e_1 is
 )
 def state_at_the_next_bounce(printed: Printed) -> Statement:
     """After an impact within the period, the state when the table bounces next is this affine image
-    of the state before."""
+    of the state before.
+    """
     names = {r"\overline b_k": b_0, r"\overline b_{k+1}": next_bounce(b_0, t)}
     return always(printed.formula(PAPER.extended(names)), given=[strikes_from(b_0, t)])
 
@@ -61,7 +63,8 @@ def state_at_the_next_bounce(printed: Printed) -> Statement:
 @claim("s3.3-iterate", "3.3", "line 291")
 def impact_in_each_of_two_periods() -> list[Statement]:
     """If the image of a state of B1 is in B1 too, the ball strikes again, and the state after the
-    second period is the image's image."""
+    second period is the image's image.
+    """
     once, twice = vector(f1(b)), f1(f1(b))
     slower = speed(once) < r
     return [
@@ -80,7 +83,8 @@ def impact_in_each_of_two_periods() -> list[Statement]:
 @claim("s3.3-xi1", "3.3", "line 297", printed=r"\xi_1 := \alpha T/(1 - \alpha)")
 def time_in_the_offset(printed: Printed) -> Statement:
     """What an impact adds to the linear part of the map is r_0 flown back for one time only, and
-    shrunk and turned round: for xi_1."""
+    shrunk and turned round: for xi_1.
+    """
     return always(
         iff(
             equals(offset_with(t), f1(Vector((0, 0)))),
@@ -91,7 +95,8 @@ def time_in_the_offset(printed: Printed) -> Statement:
 
 def in_box(state: Vector, center: Vector, size: Term) -> Formula:
     """The open box in which heights may differ by `size`, and speeds by what keeps the image of the
-    box inside it."""
+    box inside it.
+    """
     height, speed = (term(entry) for entry in state - center)
     return within(size, height) & within((1 - alpha) * size, alpha * T * speed)
 
@@ -99,7 +104,8 @@ def in_box(state: Vector, center: Vector, size: Term) -> Formula:
 @claim("s3.3-open-set", "3.3", "line 297")
 def some_open_set_stays_in_b1() -> list[Statement]:
     """The box around e_1 that reaches down to the edge of H is open and not empty, lies in B1, and
-    is mapped into itself."""
+    is mapped into itself.
+    """
     reach = term(b_0.component(1))
     return [
         always(in_box(b, b, beta), given=[FIXED], label="not-empty"),
@@ -139,14 +145,16 @@ def fixed_point_by_the_inverse(printed: Printed) -> Statement:
 )
 def fixed_point_as_a_shifted_launch(printed: Printed) -> Statement:
     """The fixed point is the table's launch state flown back for the time in the index, shrunk and
-    turned round."""
+    turned round.
+    """
     return is_fixed_point(printed)
 
 
 @claim("s3.3-epsilon1", "3.3", "line 304", printed=r"\epsilon_1 := 2\alpha T/(1 - \alpha^2)")
 def time_in_the_fixed_point(printed: Printed) -> Statement:
     """The launch state flown back, shrunk by (1 - alpha)/(1 + alpha) and turned round, is a fixed
-    point for this time only."""
+    point for this time only.
+    """
     shifted = (flight_matrix(-t) * r_0).scaled(-(1 - alpha) / (1 + alpha))
     return always(
         iff(equals(f1(shifted), shifted), printed.formula(PAPER.extended({r"\epsilon_1": t})))
@@ -195,7 +203,8 @@ def fixed_point_lies_above_the_table(printed: Printed) -> list[Statement]:
 @claim("s3.3-e1-tau", "3.3", "line 310", printed=r"\tau_c(e_1) < T")
 def impact_at_the_fixed_point_comes_in_time(printed: Printed) -> list[Statement]:
     """At the fixed point the ball is slower than the table's launch, and meets it before the period
-    is over."""
+    is over.
+    """
     return [
         always(v < r, given=[FIXED], label="approaching"),
         always(printed.formula(PAPER.extended({"e_1": b})), given=[FIXED, v < r], label="in-time"),
@@ -205,7 +214,8 @@ def impact_at_the_fixed_point_comes_in_time(printed: Printed) -> list[Statement]
 @claim("s3.3-e1-in-B1-since", "3.3", "lines 306 to 310")
 def positive_height_and_early_impact_give_b1() -> Argument:
     """A state of positive height whose time to collision is less than a period lies in B1; the
-    fixed point is such a state."""
+    fixed point is such a state.
+    """
     early = collision_time(b) < T
     return Argument(
         steps={
@@ -221,14 +231,16 @@ def positive_height_and_early_impact_give_b1() -> Argument:
 @claim("s3.3-eigenvalues", "3.3", "line 313", printed=r"-\alpha A_T")
 def eigenvalues_lie_in_the_unit_circle(printed: Printed) -> Statement:
     """Every complex eigenvalue of the linear part of the map is less than 1 in absolute value,
-    whatever the launch speed."""
+    whatever the launch speed.
+    """
     return always(p**2 + q**2 < 1, given=[eigenvalue_of(value_of(printed, PAPER), p, q)])
 
 
 @claim("s3.3-neighbourhood", "3.3", "line 313")
 def small_boxes_stay_in_b1() -> Statement:
     """Every box around e_1 that does not reach below the edge of H, however small, lies in B1 and
-    is mapped into itself."""
+    is mapped into itself.
+    """
     return always(
         B1(b) & in_box(f1(b), b_0, size),
         given=[FIXED_0, size <= term(b_0.component(1)), in_box(b, b_0, size)],

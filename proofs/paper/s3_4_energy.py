@@ -40,7 +40,8 @@ FROM_B_0 = Environment(NAMES, points=POINTS, state=r"\overline b_0")
 )
 def total_energy(printed: Printed) -> Statement:
     """The energy is what Newton's equation keeps in flight: half the squared speed, less the work
-    of gravity from the ground up."""
+    of gravity from the ground up.
+    """
     return always(printed.formula(PAPER))
 
 
@@ -61,7 +62,8 @@ def energy_at_the_start(printed: Printed) -> Statement:
 @claim("s3.4.1-flight", "3.4.1", "line 348", printed=r"\overline{b}(t) = F^t \circ \overline{b}_0")
 def state_in_flight(printed: Printed) -> Statement:
     """The state at a time is what flight makes of the first state, also if the flight is looked at
-    in between."""
+    in between.
+    """
     on_the_way = ball_at(t - tau, ball_at(tau, b_0))
     return always(printed.formula(PAPER.extended({r"\overline b(t)": on_the_way})))
 
@@ -119,9 +121,12 @@ def map_keeps_the_energy_on_b2(printed: Printed) -> Statement:
     printed=r"""\Delta E(\overline{b}) := E \circ \overline{f}(\overline{b}) - E(\overline{b})
        = \begin{cases} \Delta_1 E := \Delta E|_{\mathcal{B}_1} : \overline{b} \in \mathcal{B}_1 \\
        \Delta_2 E := \Delta E|_{\mathcal{B}_2} : \overline{b} \in \mathcal{B}_2 \end{cases}""",
-    as_it_stands=r"""\Delta E(\overline{b}) := E \circ \overline{f}(\overline{b}) - E(\overline{b}) \\
+    as_it_stands=(
+        r"""\Delta E(\overline{b}) := """
+        r"""E \circ \overline{f}(\overline{b}) - E(\overline{b}) \\
        = \begin{cases} \Delta_1 E := \Delta E \big|_{\beta_1} : \overline{b} \in \beta_1 \\ \\
-       \Delta_2 E := \Delta E \big|_{\beta_2} : \overline{b} \in \beta_2 \end{cases}""",
+       \Delta_2 E := \Delta E \big|_{\beta_2} : \overline{b} \in \beta_2 \end{cases}"""
+    ),
 )
 def energy_change(printed: Printed) -> list[Statement]:
     """The map changes the energy by what the impact adds to it on B1, and by nothing on B2."""
@@ -156,7 +161,8 @@ def no_energy_change_on_b2(printed: Printed) -> Statement:
 @claim("s3.4.2-only-kinetic", "3.4.2", "line 375")
 def energy_changes_by_the_speed_at_impact() -> list[Statement]:
     """An impact leaves the height, and so the potential energy, as it was; the energy changes by
-    the kinetic energy that it adds."""
+    the kinetic energy that it adds.
+    """
     before, after = ball_at(t), struck(b, t)
     return [
         always(equal(height(after), height(before)), label="height"),
@@ -173,12 +179,16 @@ def energy_changes_by_the_speed_at_impact() -> list[Statement]:
     "eq-16",
     "3.4.2",
     "(16)",
-    printed=r"""\Delta_1 E = \frac{1}{2} \left[ -\alpha \dot{\overline{\beta}} + \alpha\gamma\tau_c
-       + (1 + \alpha)\dot{\rho}_0 - (1 + \alpha)\gamma\tau_c \right]^2 - \frac{1}{2} (\dot{\overline{\beta}} - \gamma\tau_c)^2""",
+    printed=(
+        r"""\Delta_1 E = \frac{1}{2} \left[ -\alpha \dot{\overline{\beta}} + \alpha\gamma\tau_c
+       + (1 + \alpha)\dot{\rho}_0 - (1 + \alpha)\gamma\tau_c \right]^2"""
+        r""" - \frac{1}{2} (\dot{\overline{\beta}} - \gamma\tau_c)^2"""
+    ),
 )
 def energy_change_on_b1(printed: Printed) -> Statement:
     """The energy changes by this expression in the speed and the time to collision, if the ball
-    strikes at that time."""
+    strikes at that time.
+    """
     change = energy(next_bounce(b, t)) - energy(b)
     return always(
         printed.formula(PAPER.extended({r"\Delta_1 E": change, r"\tau_c": t})),

@@ -30,7 +30,8 @@ def threshold(count: int) -> Term:
 
 def allows_just(printed: Printed, rounded: Callable[[Term], Formula]) -> Assertion:
     """The print, with K_max rounded in this way, says that there is an orbit for K and none for K +
-    1."""
+    1.
+    """
     says = printed.formula(PAPER.extended({"K_{max}": n}))
     return Assertion(
         (
@@ -45,7 +46,8 @@ def allows_just(printed: Printed, rounded: Callable[[Term], Formula]) -> Asserti
 @claim("eq-19", "3.5.2", "(19)", printed=r"K \le K_{max} < K + 1", parameters=("alpha", "K"))
 def periods_up_to_k(printed: Printed) -> Readings:
     """There are orbits for the periods up to K, and for no longer one, exactly if the rounded bound
-    lies between K and K + 1."""
+    lies between K and K + 1.
+    """
     return Readings(
         {"floor": allows_just(printed, floor_of), "ceiling": allows_just(printed, ceiling_of)}
     )
@@ -54,7 +56,8 @@ def periods_up_to_k(printed: Printed) -> Readings:
 @claim("eq-20", "3.5.2", "(20)", printed=r"\frac{K-1}{K+1} \le \alpha < \frac{K}{K+2}")
 def restitution_for_periods_up_to_k(printed: Printed) -> list[Statement]:
     """For these restitutions K is the longest period: the left end is where the orbit for K begins
-    to exist, the right that for K + 1."""
+    to exist, the right that for K + 1.
+    """
     from_k_on, to_next = (
         relate(left, sign, right) for left, sign, right in relations_of(printed, PAPER, 2)
     )
@@ -74,7 +77,8 @@ def restitution_for_periods_up_to_k(printed: Printed) -> list[Statement]:
 )
 def periods_that_exist(printed: Printed) -> Statement:
     """For the restitutions of (20), the orbits with one impact are those whose period is not above
-    K."""
+    K.
+    """
     meant = Environment({**NAMES, "k": k}, points={"e_k": ("k",)})
     held = Meaning(meant).of(printed.tree)
     if not isinstance(held, Region):

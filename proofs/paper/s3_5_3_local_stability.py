@@ -61,7 +61,8 @@ def power_of_flight(time: Term, count: Number) -> Matrix:
 
 def is_jacobian(value: Any, count: Number, label: str) -> Statement:
     """The matrix takes the difference of any two states to the difference of their images under the
-    composite."""
+    composite.
+    """
     if not isinstance(value, Matrix):
         raise ClaimError("a matrix is expected here")
     difference = composite(count, b_0) - composite(count, b)
@@ -70,7 +71,8 @@ def is_jacobian(value: Any, count: Number, label: str) -> Statement:
 
 def for_every_k(printed: Printed) -> list[Statement]:
     """What is printed, for every integer K; a power with the exponent K of anything but A_t has a
-    meaning for single K only."""
+    meaning for single K only.
+    """
     chain = printed.tree
     if not isinstance(chain, Chain):
         raise ClaimError("an equation is expected here")
@@ -90,7 +92,8 @@ def for_every_k(printed: Printed) -> list[Statement]:
 )
 def jacobian_of_the_composites(printed: Printed) -> list[AnyStatement]:
     """Both sides are the matrix of the composite for K, which is affine; and the power of A_T on
-    the left is the repeated product."""
+    the left is the repeated product.
+    """
     one, many = (
         tuple(term(entry) for entry in vector(flight_matrix(count * T) * b)) for count in (1, K)
     )
@@ -109,7 +112,8 @@ def jacobian_of_the_composites(printed: Printed) -> list[AnyStatement]:
 @claim("s3.5.3-eigenvalues", "3.5.3", "line 424")
 def eigenvalues_of_the_composites_lie_in_the_unit_circle() -> Statement:
     """For every K, each complex eigenvalue of the matrix of the composite is less than 1 in
-    absolute value."""
+    absolute value.
+    """
     return always_integer(p**2 + q**2 < 1, given=[eigenvalue_of(derived("return_jacobian"), p, q)])
 
 

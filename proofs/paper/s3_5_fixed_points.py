@@ -1,5 +1,6 @@
 """Section 3.5.1: fixed points of f and of its composites, what they ask of ball and table, and for
-which periods they exist."""
+which periods they exist.
+"""
 
 from __future__ import annotations
 
@@ -71,7 +72,8 @@ POWERS = PAPER.extended({r"\overline f_2^{\cdot}": flights})
 @claim("s3.5-fixed-points-of-f", "3.5", "line 382")
 def many_fixed_points() -> Readings:
     """There are further fixed points besides e_1: of the map itself; or of composites, as states
-    that come back after two periods are."""
+    that come back after two periods are.
+    """
     differ = disjunction(
         [different(term(one), term(other)) for one, other in zip(b, b_0, strict=True)]
     )
@@ -95,7 +97,8 @@ def many_fixed_points() -> Readings:
 )
 def composites_have_one_fixed_point(printed: Printed) -> list[AnyStatement]:
     """For every K, exactly one state comes back after K - 1 periods of flight and one with an
-    impact; so does that where the impact is."""
+    impact; so does that where the impact is.
+    """
     composite = function_of(printed, POWERS)
     fixed, fixed_0 = equals(vector(composite(b)), b), equals(vector(composite(b_0)), b_0)
     one, many = (tuple(term(entry) for entry in ball_at(count * T)) for count in (1, K))
@@ -117,7 +120,8 @@ def composites_have_one_fixed_point(printed: Printed) -> list[AnyStatement]:
 @claim("s3.5.1-once-in-K", "3.5.1", "line 384", parameters=("alpha", "K"))
 def one_impact_in_k_periods() -> list[Statement]:
     """From alpha = (K - 1)/(K + 1) on, the state that comes back after K periods lies in B1, and
-    the K - 1 states after it in B2."""
+    the K - 1 states after it in B2.
+    """
     return [
         always_integer(B1(b), given=[comes_back(K)], in_range=from_threshold_on(), label="impact"),
         always_integer(
@@ -132,7 +136,8 @@ def one_impact_in_k_periods() -> list[Statement]:
 @claim("s3.5.1-tf", "3.5.1", "line 386", printed=r"t_f = 2\beta/\gamma")
 def time_of_flight(printed: Printed) -> Statement:
     """A ball is back at the height that it left after this time, and at no other time but that of
-    leaving."""
+    leaving.
+    """
     names = {"t_f": tau, r"\beta": y, r"\dot\beta": u}
     back = equal(height(ball_at(tau, Vector((y, u)))), y)
     return always(iff(back, printed.formula(PAPER.extended(names))), given=[different(tau, 0)])
@@ -141,7 +146,8 @@ def time_of_flight(printed: Printed) -> Statement:
 @claim("s3.5.1-tf-KT", "3.5.1", "line 386", printed="t_f = KT")
 def flight_lasts_k_periods(printed: Printed) -> Statement:
     """On an orbit with one impact in K periods, the ball is back at the height of an impact K
-    periods later."""
+    periods later.
+    """
     back = equal(height(ball_at(tau, struck(b, t))), height(struck(b, t)))
     return always_integer(
         iff(back, printed.formula(PAPER.extended({"t_f": tau}))),
@@ -152,7 +158,8 @@ def flight_lasts_k_periods(printed: Printed) -> Statement:
 @claim("s3.5.1-beta-dot", "3.5.1", "line 388", printed=r"\dot{\beta} = \frac{1}{2} K \gamma T")
 def speed_after_the_impact(printed: Printed) -> list[Statement]:
     """The flight lasts K periods exactly for this launch speed, which the ball has on the orbit
-    that comes back after K periods."""
+    that comes back after K periods.
+    """
     return [
         always_integer(
             iff(UP_AGAIN, printed.formula(PAPER.extended({r"\dot\beta": u}))), label="flight"
@@ -176,7 +183,8 @@ def speed_after_the_impact(printed: Printed) -> list[Statement]:
 )
 def table_speed_at_the_impact(printed: Printed) -> list[Statement]:
     """An impact turns the speed of a flight of K periods round exactly if the table moves at this
-    speed; on the orbit, it does."""
+    speed; on the orbit, it does.
+    """
     (_, sign, value), again = relations_of(printed, PAPER.extended({r"\dot\rho(\tau_c)": m}), 2)
 
     turned = equal(speed(vector(collide(Vector((y, m)))(Vector((y, -u))))), u)
@@ -194,7 +202,8 @@ def table_speed_at_the_impact(printed: Printed) -> list[Statement]:
 @claim("s3.5.1-exists", "3.5.1", "line 397")
 def fast_table_has_the_orbit() -> list[Statement]:
     """Exactly if the table has the speed that (17) asks for at some time of its period, a state of
-    B1 comes back after K periods."""
+    B1 comes back after K periods.
+    """
     needed = term(derived("subharmonic_table_speed"))
     return [
         exists_integer(
@@ -220,7 +229,8 @@ def table_is_fastest_at_its_launch() -> list[Statement]:
 
 def longest_period(printed: Printed, rounded: Callable[[Term], Formula]) -> Assertion:
     """There is an orbit for K exactly up to what stands in the bracket, which, rounded in this way,
-    is the last such K."""
+    is the last such K.
+    """
     greatest: list[tuple[Formula, Term]] = []
 
     def value(found: ExtremalValue) -> Term:
@@ -265,7 +275,8 @@ def longest_period(printed: Printed, rounded: Callable[[Term], Formula]) -> Asse
 )
 def longest_period_by_the_fastest_table(printed: Printed) -> Readings:
     """The longest period of an orbit with one impact is what the fastest table allows by (17),
-    rounded to an integer."""
+    rounded to an integer.
+    """
     return Readings(
         {"floor": longest_period(printed, floor_of), "ceiling": longest_period(printed, ceiling_of)}
     )
@@ -280,7 +291,8 @@ def longest_period_by_the_fastest_table(printed: Printed) -> Readings:
 )
 def longest_period_by_the_restitution(printed: Printed) -> Readings:
     """The longest period of an orbit with one impact is this function of the restitution, rounded
-    to an integer."""
+    to an integer.
+    """
     return Readings(
         {"floor": longest_period(printed, floor_of), "ceiling": longest_period(printed, ceiling_of)}
     )
@@ -289,7 +301,8 @@ def longest_period_by_the_restitution(printed: Printed) -> Readings:
 @claim("s3.5.1-note7", "3.5.1", "note 7", printed=r"\dot{\beta} > \dot{\rho}")
 def no_second_impact_within_the_period(printed: Printed) -> list[Statement]:
     """After an impact the ball is faster than the table, and stays above it until the period is
-    over."""
+    over.
+    """
     after = struck(b, tau)
     names = {r"\dot\beta": speed(after), r"\dot\rho": speed(table_at(tau))}
     return [

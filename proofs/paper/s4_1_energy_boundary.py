@@ -1,5 +1,6 @@
 """Section 4.1: which impacts gain energy, the energy that the table can sustain, and the region
-R."""
+R.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +69,8 @@ def impacts_change_the_energy() -> Readings:
 @claim("s4.1-from-16", "4.1", "line 436", printed=r"\Delta_1 E = 0")
 def curve_of_no_change_from_the_energy_change(printed: Printed) -> Statement:
     """The energy change of an impact vanishes exactly at one speed that depends on the time to
-    collision."""
+    collision.
+    """
     return always(
         iff(printed.formula(PAPER), equal(v, speed_of_no_change())), given=[H(b), different(v, r)]
     )
@@ -90,7 +92,8 @@ def curve_of_no_change_from_the_energy_change(printed: Printed) -> Statement:
 )
 def states_that_keep_their_energy(printed: Printed) -> list[Statement]:
     """The states of B1 that an impact leaves with the same energy are those of H whose speed fits
-    their time to collision so."""
+    their time to collision so.
+    """
     region = printed.set_predicate(PAPER, r"\mathcal{B}_1^0")
     return [
         *same_set(region(b), B1(b) & keeps_energy(b), given=[different(v, r)]),
@@ -101,7 +104,8 @@ def states_that_keep_their_energy(printed: Printed) -> list[Statement]:
 @claim("s4.1-partition", "4.1", "line 441", printed=r"\Delta_1 E > 0 \\ \Delta_1 E < 0")
 def three_regions_of_b1(printed: Printed) -> list[Statement]:
     """The curve of no change parts B1 into states that gain, states that lose and itself, and none
-    of the three is empty."""
+    of the three is empty.
+    """
     gains, loses = (part.formula(PAPER) for part in pieces(printed, 2))
     on_curve = equal(v, speed_of_no_change())
     one_of_them = conjunction(
@@ -158,7 +162,8 @@ def table_maintains_that_energy_at_most() -> list[Statement]:
 )
 def greatest_gain_of_an_impact(printed: Printed) -> list[Statement]:
     """Delta E_max is the greatest energy change of a state of B1 whose impact does not lose
-    energy."""
+    energy.
+    """
     return is_maximum(
         dE_max,
         impact_energy_change(b),
@@ -172,7 +177,8 @@ def greatest_gain_of_an_impact(printed: Printed) -> list[Statement]:
 @claim("s4.1-DEmax-on-H", "4.1", "line 451")
 def greatest_gain_on_the_whole_state_space() -> list[Statement]:
     """Delta E_max is also the greatest energy change of all states of H, with or without an
-    impact."""
+    impact.
+    """
     greatest = derived("delta_E_max")
     return [
         always(energy(f1(b)) - energy(b) <= greatest, given=[B1(b)], label="with-impact"),
@@ -200,7 +206,8 @@ def sum_of_both_bounds(printed: Printed) -> Statement:
 @claim("s4.1-conservative", "4.1", "line 455")
 def level_is_not_reached_by_gaining() -> Statement:
     """The level of R is on the safe side: an impact that does not lose energy ends strictly below
-    it."""
+    it.
+    """
     return always(energy(f1(b)) < derived("E_max") + derived("delta_E_max"), given=[NOT_LOSING(b)])
 
 
@@ -212,7 +219,8 @@ def level_is_not_reached_by_gaining() -> Statement:
 )
 def energy_that_is_left_to_the_level(printed: Printed) -> list[Statement]:
     """R(b) is what the energy of the state lacks to the sum of both bounds: nonnegative up to that
-    level."""
+    level.
+    """
     margin, level = real("margin"), derived("E_max") + derived("delta_E_max")
     defined = [printed.formula(UNKNOWN.extended({r"R": only_at(b, margin)})), *BOTH_BOUNDS]
     return [

@@ -1,5 +1,6 @@
 """Section 4.2: Proposition 1, that every orbit enters the region R and stays there, and each
-sentence of its proof."""
+sentence of its proof.
+"""
 
 from __future__ import annotations
 
@@ -120,14 +121,16 @@ def flights_end_in_b1_outside_the_region() -> Readings:
 @claim("prop-1-lose-energy", "4.2", "line 478")
 def outside_states_are_attracted_as_they_lose() -> Following:
     """Outside R every impact takes energy and flights keep it, so that states outside are attracted
-    to R."""
+    to R.
+    """
     return Following(ATTRACTION, beside=Assertion(loses_outside()))
 
 
 @claim("prop-1-finite", "4.2", "line 478")
 def finite_states_arrive_in_finite_time() -> Following:
     """Every state enters R in finite time: its flights end, and its impacts outside R take an
-    energy bounded away from zero."""
+    energy bounded away from zero.
+    """
     loss = derived("delta_E_sup")
     return Following(
         ATTRACTION,
@@ -148,7 +151,8 @@ def finite_states_arrive_in_finite_time() -> Following:
 @claim("eq-25", "4.2", "(25)", printed=r"\tau_w := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)}.")
 def worst_time_to_impact(printed: Printed) -> list[Statement]:
     """No ball of this energy is above the ground longer than tau_w, and one thrown up from the
-    ground is as long as that."""
+    ground is as long as that.
+    """
     defined = printed.formula(NAMED)
     above = height(ball_at(t, b_0))
     return [
@@ -167,7 +171,8 @@ def worst_time_to_impact(printed: Printed) -> list[Statement]:
 )
 def impacts_before_the_region_is_entered(printed: Printed) -> Readings:
     """The energy above the level of R, over the least loss, tells how many impacts lead into R:
-    rounded down, or rounded up."""
+    rounded down, or rounded up.
+    """
     count = with_rounding(printed, NAMED)[1]
     return Readings(
         {"floor": impacts_suffice(floor_of(count)), "ceiling": impacts_suffice(ceiling_of(count))}
@@ -177,7 +182,8 @@ def impacts_before_the_region_is_entered(printed: Printed) -> Readings:
 @claim("s4.2-less-energy-shorter", "4.2", "line 484")
 def less_energy_makes_flights_shorter() -> Readings:
     """States of less energy have shorter times between impacts: each of them, or the longest among
-    them."""
+    them.
+    """
     less = [H(b), H(b_0), energy(b) < energy(b_0), lands(b, t)]
     return Readings(
         {
@@ -190,7 +196,8 @@ def less_energy_makes_flights_shorter() -> Readings:
 @claim("s4.2-max-time", "4.2", "line 484")
 def longest_time_between_impacts() -> list[Statement]:
     """While an orbit is outside R its energy does not rise, and no ball of that energy or less
-    stays up longer than tau_w."""
+    stays up longer than tau_w.
+    """
     return [
         *loses_outside(),
         grounded_after(worst_wait, b, [energy(b) <= energy(b_0)], "lands-by-then"),
@@ -200,7 +207,8 @@ def longest_time_between_impacts() -> list[Statement]:
 @claim("s4.2-note9-equal", "4.2", "footnote 9", printed=r"\tau_w = \tau_c(\overline{b}_0)")
 def worst_time_is_met(printed: Printed) -> Readings:
     """From the ground in B2, with tau_w a multiple of the period, the time to collision is tau_w:
-    that of (6), or the real one."""
+    that of (6), or the real one.
+    """
     case = [equal(beta0, 0), B2(b_0), equal(tau_w, worst_wait), equal(tau_w, m * T)]
     real_time = printed.formula(NAMED.extended({r"\tau_c": only_at(b_0, tau)}))
     earlier = [j >= 0, t >= 0, t < T, j * T + t < tau]
@@ -356,7 +364,8 @@ def greatest_energy_that_can_gain() -> Readings:
 @claim("s4.2-adding", "4.2", "line 494")
 def greatest_gain_does_not_lead_out() -> list[Statement]:
     """The greatest gain, on top of the greatest energy at which an impact gains, does not lead out
-    of R."""
+    of R.
+    """
     kept, gain = derived("E_max"), derived("delta_E_max")
     return [
         always(impact_energy_change(b) <= gain, given=[B1_PLUS(b)], label="gain"),

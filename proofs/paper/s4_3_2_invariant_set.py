@@ -1,5 +1,6 @@
 """Section 4.3.2: the point p, the band of states whose kinetic energy is close to that of e_1, and
-whether f maps it into itself."""
+whether f maps it into itself.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +58,8 @@ JUST_AT_THE_BOUNCE = equal(term(collision_time(b)), T)  # what the line between 
 )
 def line_between_b1_and_b2(printed: Printed) -> Statement:
     """The states that would meet the table just at its next bounce are those of this line, with the
-    height as its parameter."""
+    height as its parameter.
+    """
     return always(iff(JUST_AT_THE_BOUNCE, printed.formula(PAPER)), given=[different(v, r)])
 
 
@@ -72,7 +74,8 @@ def line_between_b1_and_b2(printed: Printed) -> Statement:
 )
 def point_p_is_the_intersection(printed: Printed) -> Readings:
     """p is where that line meets the states with the kinetic energy of e_1: those of its velocity,
-    or those of its kinetic energy."""
+    or those of its kinetic energy.
+    """
     is_p = printed.formula(PAPER.extended({"p": b}))
     same_energy = equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
     return Readings(
@@ -127,7 +130,8 @@ def slower_states_are_in_b1(
     in_range: tuple[Formula, ...] | None = RANGE_21,
 ) -> tuple[Statement, Statement]:
     """The states of R that are slower than where R leaves B1 are in B1, and e_1 is slower than
-    that."""
+    that.
+    """
     return (
         always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=in_range, label="slower-in-B1"),
         always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=in_range, label="e_1-is-slower"),
@@ -155,7 +159,8 @@ def states_near_e_1_in_kinetic_energy_are_in_b1() -> Readings:
 @claim("s4.3.2-f1-applies", "4.3.2", "line 559", repeats="s4.3.2-near-in-B1")
 def map_of_an_impact_applies_there() -> Statement:
     """f is f1, for they lie in B1, at the states of R whose velocity is nearer to that of e_1 than
-    where R leaves B1."""
+    where R leaves B1.
+    """
     near = from_e_1(b) < from_e_1(on_the_line(c))
     return always(B1(b), given=[leaves_R_at(c), R(b), near], in_range=RANGE_21)
 
@@ -171,7 +176,8 @@ def map_of_an_impact_applies_there() -> Statement:
 )
 def band_around_the_fixed_point(printed: Printed) -> list[Statement]:
     """The set consists of the states of B1 and R whose velocity differs from that of e_1 by at most
-    the root of 2 epsilon; e_1 is one."""
+    the root of 2 epsilon; e_1 is one.
+    """
     region = printed.set_predicate(AROUND_E1, r"\mathcal{K}")
     close = (speed(e_1) - d <= v) & (v <= speed(e_1) + d)
     return [
@@ -191,7 +197,8 @@ def band_around_the_fixed_point(printed: Printed) -> list[Statement]:
 )
 def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
     """f1 maps the boundary of the band into the band: of a band of every size, or of one so narrow
-    that its part of R lies in B1."""
+    that its part of R lies in B1.
+    """
     stays = printed.formula(AROUND_E1)
     return Readings(
         {
@@ -221,7 +228,8 @@ def boundary_of_the_region_is_mapped_into_it(printed: Printed) -> Statement:
 )
 def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
     """On the band f is f1, which is continuous: images differ in each component by no more than a
-    multiple of what the states differ by."""
+    multiple of what the states differ by.
+    """
     other = Vector(reals("beta0 v0"))
     change = vector(f1(b)) - vector(f1(other))
     near = (height(b - other), T * speed(b - other))
@@ -274,7 +282,8 @@ def band_is_mapped_into_itself(printed: Printed) -> Argument:
 @claim("s4.3.2-K-attracts", "4.3.2", "line 565")
 def band_attracts_the_region() -> Argument:
     """The band attracts all of R, since on R the kinetic energy relative to e_1 decreases, at
-    impacts and in flight, unless it is zero."""
+    impacts and in flight, unless it is zero.
+    """
     outside = [R(b), from_e_1(b) > 0]
     return Argument(
         steps={

@@ -1,5 +1,6 @@
 """Sections 4.3 and 4.3.1: coordinates around e_1, the kinetic energy in them, and whether it
-decreases in R."""
+decreases in R.
+"""
 
 from __future__ import annotations
 
@@ -72,7 +73,8 @@ def impact_shrinks() -> Statement:
 @claim("s4.3.1-approach-constant", "4.3.1", "line 500")
 def velocity_at_impacts_settles() -> Following:
     """In R the kinetic energy at the impacts tends to a constant: the orbit tends to e_1, and each
-    impact brings K closer to that of e_1."""
+    impact brings K closer to that of e_1.
+    """
     return Following(STABILITY, Assertion((impact_shrinks(),)))
 
 
@@ -85,7 +87,8 @@ def coordinates_around_the_fixed_point(printed: Printed) -> Statement:
 @claim("s4.3.1-same-linear", "4.3.1", "line 504")
 def relative_motion_is_linear() -> Statement:
     """On B1 the difference to e_1 is mapped by the linear part of the map f1 of the states; R is
-    not needed."""
+    not needed.
+    """
     linear = Matrix(
         tuple(
             tuple(at(term(entry), {"K": 1}) for entry in row)
@@ -153,7 +156,8 @@ def kinetic_energy_of_the_difference(printed: Printed) -> Statement:
 @claim("s4.3.1-DK-def", "4.3.1", "line 523", printed=r"\Delta K = K \circ f - K")
 def change_of_kinetic_energy(printed: Printed) -> Statement:
     """What an impact changes K by is, in the coordinates around e_1, K after it less K before
-    it."""
+    it.
+    """
     before = z + e_1
     return is_change(printed, from_e_1(vector(f1(before))) - from_e_1(before))
 
@@ -198,7 +202,8 @@ def change_with_the_quadratic_form(printed: Printed) -> Statement:
 )
 def change_without_the_shear(printed: Printed) -> Statement:
     """The matrix A_T leaves the velocity component alone, so that it drops out of the change of
-    K."""
+    K.
+    """
     return is_change(printed, term(kinetic_energy_change(z)))
 
 
@@ -288,7 +293,8 @@ def kinetic_energy_tends_to_zero(printed: Printed) -> Argument:
 @claim("s4.3.1-lim-b", "4.3.1", "lines 537 to 539", printed=r"\lim_{k\to\infty} K(b_k) = K(e_1).")
 def kinetic_energy_tends_to_that_of_the_fixed_point(printed: Printed) -> Following:
     """The kinetic energy tends to that of e_1, since the state tends to e_1: where that of the
-    difference to e_1 is small, it differs little."""
+    difference to e_1 is small, it differs little.
+    """
     value, sign, limit = _limit(printed)
     little = d * (r + d / 2)
     close = (
@@ -329,5 +335,6 @@ def flight_in_the_region_approaches_too() -> Readings:
 @claim("s4.3.1-plain-english", "4.3.1", "line 543", repeats="s4.3.1-lim-b")
 def kinetic_energy_settles_in_the_region() -> Following:
     """In R the kinetic energy of an orbit tends to that of the fixed point of f1, and each impact
-    brings it closer."""
+    brings it closer.
+    """
     return Following(STABILITY, Assertion((impact_shrinks(),)))

@@ -34,7 +34,8 @@ y = Vector((y1, y2))
 )
 def map_on_the_band_is_linear(printed: Printed) -> Readings:
     """On the band f is f1, which is linear: in the differences to e_1, or in the states
-    themselves."""
+    themselves.
+    """
     agrees = always(printed.formula(AROUND_E1), given=[next_states(b, image)], label="agrees")
 
     def combines(one: Vector, other: Vector, f: StateFunction) -> Statement:

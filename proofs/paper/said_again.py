@@ -1,5 +1,6 @@
 """What the paper says in several places, in one formal reading: what B1 and B2 are, the line
-between them, and the table's period."""
+between them, and the table's period.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ IN_PERIOD = (t >= 0) & (t < T)
 
 def strikes_from(inside: Formula) -> tuple[Statement, Statement]:
     """From a state inside, ball and table approach each other; and as they do, they meet at some
-    time within the period."""
+    time within the period.
+    """
     return (
         always(v < r, given=[inside], label="approach"),
         exists_some(["t"], strikes_at(t), given=[inside, v < r], label="strikes"),
@@ -40,7 +42,8 @@ def strikes_from(inside: Formula) -> tuple[Statement, Statement]:
 
 def b1_is_where_the_ball_strikes() -> Readings:
     """From the states of B1, and no others in H, the ball strikes within a period: meets the table
-    approaching, or merely meets it."""
+    approaching, or merely meets it.
+    """
     return Readings(
         {
             "approaching": Assertion(
@@ -61,7 +64,8 @@ def b1_is_where_the_ball_strikes() -> Readings:
 
 def b2_is_where_it_does_not() -> Readings:
     """From no state of B2 does the ball strike within a period: meet the table approaching, or
-    merely meet it."""
+    merely meet it.
+    """
     return Readings(
         {
             "approaching": Assertion((always(~(meet(t) & (v < r)), given=[B2(b), IN_PERIOD]),)),
@@ -85,25 +89,29 @@ def line_of_equal_times(times_are_equal: Formula) -> Readings:
 
 def tells_b1(early: Formula) -> Statement:
     """In H, where the time to collision is defined, this says that the state is in the region B1 of
-    (7)."""
+    (7).
+    """
     return always(iff(early, STRIKES(b)), given=[H(b), different(v, r)])
 
 
 def tells_b2(late: Formula) -> Statement:
     """In H, where the time to collision is defined, this says that the state is not in the region
-    B1 of (7)."""
+    B1 of (7).
+    """
     return always(iff(late, ~STRIKES(b)), given=[H(b), different(v, r)])
 
 
 def is_the_period(printed: Printed) -> Statement:
     """After its launch the table is on the ground again exactly at the time that is printed for
-    T."""
+    T.
+    """
     return always(iff(LANDS, printed.formula(PAPER.extended({"T": flown}))), given=[flown > 0])
 
 
 def b1_by_time_while_closing() -> list[Statement]:
     """Of the states of H, those with v < r and a time to collision below one period are B1, and no
-    others are."""
+    others are.
+    """
     early = term(collision_time(b)) < T
     return [
         always(iff(B1(b), early), given=[H(b), v < r], label="closing"),
@@ -113,7 +121,8 @@ def b1_by_time_while_closing() -> list[Statement]:
 
 def b2_by_time_while_closing() -> list[Statement]:
     """Of the states of H, those with v >= r, and those with v < r and a time to collision of one
-    period at least, are B2."""
+    period at least, are B2.
+    """
     late = term(collision_time(b)) >= T
     return [
         always(iff(B2(b), late), given=[H(b), v < r], label="closing"),

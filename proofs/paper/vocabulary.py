@@ -33,7 +33,8 @@ derivations_used: list[tuple[str, tuple[Any, ...]]] = []
 
 def derived(name: str, *arguments: Any) -> Any:
     """A derived expression of `symbolic` by its function's name: a term, or a vector or matrix of
-    terms."""
+    terms.
+    """
     derivations_used.append((name, arguments))
     return _derived(name, *arguments)
 
@@ -58,7 +59,8 @@ def rows_of(name: str, arguments: tuple[Any, ...] = ()) -> tuple[tuple[str, ...]
 
 def encoded(value: Any) -> Any:
     """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
-    alpha is named s."""
+    alpha is named s.
+    """
     from sympy import MatrixBase
 
     if isinstance(value, MatrixBase):
@@ -116,7 +118,8 @@ def at(thing: Any, place: Vector | Mapping[str, Number]) -> Any:
 
 def function(name: str) -> StateFunction:
     """The derived function of a state of this name in `symbolic`, as a function that prints can
-    apply."""
+    apply.
+    """
     return StateFunction(lambda state: at(derived(name), state))
 
 

@@ -1,4 +1,5 @@
 """The part on the vibrating table: the impact of one corner, with friction, and what it guarantees,
-as claims."""
+as claims.
+"""
 
 SECTIONS = ("products", "corner", "modes", "energy", "cases", "newton")

@@ -1,5 +1,6 @@
 """The five modes cover every impact, agree where two of them meet, and say what happens to a corner
-that does not slide at first."""
+that does not slide at first.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +44,8 @@ FRICTION_HOLDS = (B3 <= mu * B1) & (-B3 <= mu * B1)  # mu >= |B3|/B1
 @claim("part-modes-cover", "part", "the modes", parameters=())
 def every_impact_is_of_one_of_the_modes() -> list[Statement]:
     """Every impact meets the conditions of one of the five modes, and a corner that stops sticks
-    exactly where mu >= |B3|/B1."""
+    exactly where mu >= |B3|/B1.
+    """
     return [
         always(
             disjunction([conjunction(conditions_of(mode)) for mode in MODES]),

@@ -1,5 +1,6 @@
 """What an impulse at a corner does, and which corners a rectangle has: the numbers B1, B2 and
-B3."""
+B3.
+"""
 
 from __future__ import annotations
 

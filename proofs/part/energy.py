@@ -1,5 +1,6 @@
 """No impact of a corner gains kinetic energy in the table's frame: in each mode what is gained is
-minus a sum of products that are not negative."""
+minus a sum of products that are not negative.
+"""
 
 from __future__ import annotations
 
@@ -109,7 +110,8 @@ def sticking_in_restitution_gains_no_energy() -> Statement:
 )
 def sliding_back_in_compression_gains_no_energy() -> Statement:
     """An impact by the law of sliding back in compression gains no energy where friction does not
-    hold the corner."""
+    hold the corner.
+    """
     return gains_nothing(
         "reversed-in-compression", [*BODY, DIRECTION, FRICTION, *REVERSES, *RESTITUTION]
     )
@@ -130,7 +132,8 @@ def sliding_back_in_compression_gains_no_energy() -> Statement:
 )
 def sliding_back_in_restitution_gains_no_energy() -> Statement:
     """An impact by the law of sliding back in restitution gains no energy where friction does not
-    hold the corner."""
+    hold the corner.
+    """
     return gains_nothing(
         "reversed-in-restitution", [DIRECTION, NO_JAM, FRICTION, *REVERSES, *RESTITUTION]
     )

@@ -88,7 +88,8 @@ def on_line(name: str, impulse: Impulse) -> Formula:
 
 def laws(mode: str) -> list[Formula]:
     """What determines a walk: where the corner stops, if it does, where compression is greatest,
-    and where the impact ends."""
+    and where the impact ends.
+    """
     compression, end = MODES[mode]
     stops = (
         []
@@ -150,21 +151,24 @@ def impact(mode: str) -> list[Statement]:
 @claim("part-sliding", "part", "sliding", parameters=())
 def a_corner_that_slides_all_along_ends_its_approach() -> list[Statement]:
     """A corner that slides all along has this impulse; it pushes, is in the cone of friction, and
-    ends the approach."""
+    ends the approach.
+    """
     return impact("sliding")
 
 
 @claim("part-sticking-in-compression", "part", "sticking in compression", parameters=())
 def a_corner_that_sticks_in_compression_ends_its_approach() -> list[Statement]:
     """A corner that stops in compression and sticks has this impulse; it pushes, is in the cone of
-    friction, and ends the approach."""
+    friction, and ends the approach.
+    """
     return impact("sticking-in-compression")
 
 
 @claim("part-sticking-in-restitution", "part", "sticking in restitution", parameters=())
 def a_corner_that_sticks_in_restitution_ends_its_approach() -> list[Statement]:
     """A corner that stops in restitution and sticks has this impulse; it pushes, is in the cone of
-    friction, and ends the approach."""
+    friction, and ends the approach.
+    """
     return impact("sticking-in-restitution")
 
 
@@ -177,12 +181,14 @@ def a_corner_that_sticks_in_restitution_ends_its_approach() -> list[Statement]:
 )
 def a_corner_that_slides_back_in_compression_ends_its_approach() -> list[Statement]:
     """A corner that stops in compression and slides back has this impulse; it pushes, is in the
-    cone of friction, and ends the approach."""
+    cone of friction, and ends the approach.
+    """
     return impact("reversed-in-compression")
 
 
 @claim("part-reversed-in-restitution", "part", "reversed in restitution", parameters=())
 def a_corner_that_slides_back_in_restitution_ends_its_approach() -> list[Statement]:
     """A corner that stops in restitution and slides back has this impulse; it pushes, is in the
-    cone of friction, and ends the approach."""
+    cone of friction, and ends the approach.
+    """
     return impact("reversed-in-restitution")

@@ -33,7 +33,8 @@ CORNER = {
 @claim("part-newton", "part", "restitution", parameters=())
 def newtons_restitution_can_raise_the_energy() -> Statement:
     """A corner of the 1 by 2 rectangle, at e <= 1, can stick in compression in such a way that it
-    would gain energy by Newton's restitution."""
+    would gain energy by Newton's restitution.
+    """
     numbers = {name: term(value_of(value, CORNER)) for name, value in COEFFICIENTS.items()}
 
     def to_the_right(formula: Formula) -> Formula:

@@ -1,5 +1,6 @@
 """The one lemma of the claims about impacts: products of what is not negative, which the search is
-told of rather than left to find."""
+told of rather than left to find.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ def a_product_of_two_numbers_and_a_square_is_not_negative() -> Statement:
 
 def told(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
     """The hints of a claim: these products, each of two numbers that are not negative and what is
-    squared."""
+    squared.
+    """
     uses = tuple(
         (LEMMA, {"p": str(term(one)), "q": str(term(other)), "d": str(term(squared))})
         for one, other, squared in products

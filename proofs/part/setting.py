@@ -59,7 +59,8 @@ _CONDITIONS: dict[str, tuple[Formula, ...]] = {
 
 def conditions_of(mode: str) -> tuple[Formula, ...]:
     """When an impact is of a mode; where two modes meet, the conditions of both hold, and they
-    agree (claim part-modes-agree)."""
+    agree (claim part-modes-agree).
+    """
     for name in CRITERIA:  # noted as what the claim rests on
         derived(name)
     return _CONDITIONS[mode]
@@ -94,7 +95,8 @@ def work_of(impulse: Impulse) -> Term:
 
 def words(mode: str = "", **further: Term) -> Vocabulary:
     """The names for the impulse of a mode, for the velocity after it, and for what else there
-    is."""
+    is.
+    """
     names: dict[str, Term] = dict(further)
     if mode:
         after = velocity_after(Impulse(P_x, P_y))

@@ -1,5 +1,6 @@
 """Sums, products and powers of values of any kind; what does not fit is refused with what was
-tried."""
+tried.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Edits of a print at its tokens: the spans of arguments, scripts, names and bracket pairs, and
-their replacement."""
+their replacement.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ class Edits:
 
     def replaced(self, start: int, end: int, text: str) -> str:
         """The print with this text in place of a span; a command is kept apart from a letter that
-        follows."""
+        follows.
+        """
         after = self.latex[end:]
         gap = " " if text[-1:].isalpha() and "\\" in text and after[:1].isalpha() else ""
         before = self.latex[:start]
@@ -95,7 +97,8 @@ class Edits:
 
     def after_name(self, i: int) -> int:
         """The token after the name that the letter i belongs to, with its accents, subscripts and
-        primes."""
+        primes.
+        """
         j = i + 1
         start = i
         while True:

@@ -72,7 +72,8 @@ class Environment:
 
     def at(self, point: Tree, state: Vector) -> Environment:
         """This environment with the point, and its components, and the present state, being this
-        state."""
+        state.
+        """
         components = self.points.get(point)
         if components is None or len(components) != len(state.entries):
             raise ClaimError("the environment names no such components of a state")

@@ -26,11 +26,14 @@ from proofs.reading.vocabulary import (
 
 _PATTERN = re.compile(
     r"""
-      (?P<space>  \s+ | ~ | \\[,;:!>\ ] | \\(?:tag|label)\*?\s*\{[^{}]*\} | \\hspace\*?\s*\{[^{}]*\} )
+      (?P<space>  \s+ | ~ | \\[,;:!>\ ] | \\(?:tag|label)\*?\s*\{[^{}]*\}
+                      | \\hspace\*?\s*\{[^{}]*\} )
     | (?P<sized>  \\(?:left|right|middle|[bB]igg?[lrm]?)(?![A-Za-z])\s*(?P<delimiter>
-                     \\[{}] | \\(?:lfloor|rfloor|lceil|rceil|mid|[lr]?vert|lbrace|rbrace)(?![A-Za-z]) | [()\[\]|./] ))
+                      \\[{}] | [()\[\]|./]
+                    | \\(?:lfloor|rfloor|lceil|rceil|mid|[lr]?vert|lbrace|rbrace)(?![A-Za-z]) ))
     | (?P<line>   \\\\(?:\[[0-9.]+(?:pt|em|ex|mm)\])? )
-    | (?P<table>  \\(?P<edge>begin|end)\s*\{(?P<environment>[A-Za-z]+\*?)\}(?:(?<=array\})\s*\{[lcr|\s]*\})? )
+    | (?P<table>  \\(?P<edge>begin|end)\s*\{(?P<environment>[A-Za-z]+\*?)\}
+                    (?:(?<=array\})\s*\{[lcr|\s]*\})? )
     | (?P<text>   \\(?:text|textrm|textit|mbox)\s*\{(?P<words>[^{}]*)\} )
     | (?P<command>\\[A-Za-z]+ | \\[{}] )
     | (?P<number> [0-9]+(?:\.[0-9]+)? )
@@ -120,7 +123,8 @@ def _kind_of(command: str, spelled: str, at: int) -> str:
 
 def _joined(tokens: list[Token]) -> list[Token]:
     """The tokens without layout environments, alignment marks, and line ends in the middle of a
-    formula."""
+    formula.
+    """
     kept: list[Token] = []
     open_tables: list[Token] = []
     for token in tokens:

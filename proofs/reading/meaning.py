@@ -1,5 +1,6 @@
 """The meaning of a tree in an environment: brackets, sets, operators and relations, on top of
-arithmetic."""
+arithmetic.
+"""
 
 from __future__ import annotations
 

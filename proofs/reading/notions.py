@@ -1,5 +1,6 @@
 """Values that are not numbers: functions of a state, regions, restrictions, cases, limits and
-extrema."""
+extrema.
+"""
 
 from __future__ import annotations
 
@@ -91,7 +92,8 @@ class Guarded:
 @dataclass(frozen=True, slots=True)
 class Piece:
     """One line of a list of cases: a value, its condition, and what the line says besides (a chain
-    on its left)."""
+    on its left).
+    """
 
     value: Any
     condition: Formula

@@ -55,7 +55,8 @@ class Parser(Pieces):
 
     def display(self) -> tuple[Tree, ...]:
         """All parts: separated by line ends, commas, semicolons or the word `and`; a last full stop
-        is dropped."""
+        is dropped.
+        """
         parts: list[Tree] = []
         while True:
             while self.token.kind == "line" or self.token.text in _SEPARATORS and parts:
@@ -240,7 +241,8 @@ class Parser(Pieces):
 
     def operator(self) -> Tree:
         r"""\Delta, \partial, \nabla or D with its subscript, before the name or bracket that it
-        acts on."""
+        acts on.
+        """
         start = self.advance()
         subscripts: tuple[Tree, ...] = ()
         if self.token.text == "_":

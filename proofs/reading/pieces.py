@@ -206,7 +206,8 @@ class Pieces:
 
     def cases(self, begin: Token) -> Tree:
         """Lines `value : condition`, where &, a comma, `if` or `for` may stand for the colon or
-        beside it."""
+        beside it.
+        """
         pieces: list[tuple[Tree, Tree]] = []
         while True:
             while self.token.kind == "line":

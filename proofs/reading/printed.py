@@ -42,7 +42,8 @@ class Printed:
     @property
     def parts(self) -> tuple[Printed, ...]:
         """The parts of a display of several lines, each a print of its own (columns count in the
-        whole)."""
+        whole).
+        """
         return tuple(Printed(self.latex, (part,)) for part in self._parts)
 
     @property
@@ -78,7 +79,8 @@ class Printed:
 
     def definition(self, environment: Environment, of: str) -> Any:
         """The value that the print gives to the expression `of`, which must stand before its only
-        relation, := or =."""
+        relation, := or =.
+        """
         chain = self._chain()
         if chain.first != parse_name(of):
             raise PrintError(

@@ -30,7 +30,8 @@ class Number(Tree):
 @dataclass(frozen=True, slots=True)
 class Mark(Tree):
     r"""A bare sign as a script, as in \mathcal{B}_1^+; in an environment's key, \cdot is the place
-    of an argument."""
+    of an argument.
+    """
 
     sign: str
 
@@ -38,7 +39,8 @@ class Mark(Tree):
 @dataclass(frozen=True, slots=True)
 class Name(Tree):
     """A letter (or a word, in a subscript) with its sorted accents, its subscripts and its
-    primes."""
+    primes.
+    """
 
     base: str
     accents: tuple[str, ...] = ()
@@ -141,7 +143,8 @@ class SetBuilder(Tree):
 @dataclass(frozen=True, slots=True)
 class Operator(Tree):
     r"""\Delta, \partial, \nabla or D before a name: \Delta_1 E, \partial\mathcal{B}_2,
-    D_{\overline\beta} R."""
+    D_{\overline\beta} R.
+    """
 
     sign: str
     subscripts: tuple[Tree, ...]

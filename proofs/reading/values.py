@@ -1,5 +1,6 @@
 """Exact values of prints: scalars are Terms (or rational numbers), vectors and matrices are tuples
-of them."""
+of them.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ Scalar = Union[int, Fraction, Term]
 
 class ShapeError(ClaimError):
     """Two values do not fit together: a vector and a scalar added, matrices of different sizes
-    multiplied."""
+    multiplied.
+    """
 
 
 def is_scalar(value: object) -> bool:

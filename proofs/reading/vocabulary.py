@@ -1,5 +1,6 @@
 """The commands that a print may use, in tables: what is dropped, what is another spelling, what is
-an operator."""
+an operator.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ DROPPED = frozenset(
 
 # Environments that only lay lines out: their line ends and & marks are joins.
 LAYOUT = frozenset(
-    "split aligned align align* alignedat gathered gather gather* equation equation* multline".split()
+    "split aligned align align* alignedat gathered gather gather* equation equation*"
+    " multline".split()
 )
 # Environments whose & and line ends are cells.
 TABLES = frozenset("bmatrix pmatrix matrix array cases".split())

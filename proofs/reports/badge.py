@@ -1,5 +1,6 @@
 """A badge for a page: what the verdicts say in a few words, as an SVG of our own that loads
-nothing."""
+nothing.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +21,15 @@ def badge(contents: Any) -> bytes:
     left, right = _width(LABEL) + 2 * PAD, _width(text) + 2 * PAD
     title = escape(f"{LABEL}: {text}", {'"': "&quot;"})
     return f"""\
-<svg xmlns="http://www.w3.org/2000/svg" width="{left + right}" height="20" viewBox="0 0 {left + right} 20" role="img" aria-label="{title}">
+<svg xmlns="http://www.w3.org/2000/svg" width="{left + right}" height="20" \
+viewBox="0 0 {left + right} 20" role="img" aria-label="{title}">
 <title>{title}</title>
 <rect width="{left + right}" height="20" rx="3" fill="{NAME}"/>
 <path d="M{left} 0h{right - 3}a3 3 0 0 1 3 3v14a3 3 0 0 1-3 3h-{right - 3}z" fill="{colour}"/>
 <g fill="#fff" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11">
 <text x="{PAD}" y="14" textLength="{left - 2 * PAD}" lengthAdjust="spacingAndGlyphs">{LABEL}</text>
-<text x="{left + PAD}" y="14" textLength="{right - 2 * PAD}" lengthAdjust="spacingAndGlyphs">{escape(text)}</text>
+<text x="{left + PAD}" y="14" textLength="{right - 2 * PAD}" \
+lengthAdjust="spacingAndGlyphs">{escape(text)}</text>
 </g>
 </svg>
 """.encode()
@@ -34,7 +37,8 @@ def badge(contents: Any) -> bytes:
 
 def told(results: Results) -> tuple[str, str]:
     """The words and the colour: red where the theorem is not proved, something is unknown or
-    rejected, or a verdict is not as registered."""
+    rejected, or a verdict is not as registered.
+    """
     count, unknown = len(results.claims), results.verdicts()["unknown"]
     claims = f"{count} claim{'' if count == 1 else 's'}, {unknown} unknown"
     if results.own:

@@ -41,7 +41,8 @@ ROUTES = ("exact", "z3", "boxes")
 @dataclass(frozen=True)
 class Shown:
     """A statement as reports show it: the text that the checker reads, outcome, certificate as
-    stored, counterexample, answers of the routes."""
+    stored, counterexample, answers of the routes.
+    """
 
     name: str
     text: str
@@ -54,7 +55,8 @@ class Shown:
 @dataclass(frozen=True)
 class Entry:
     """One claim as reports tell it; `wrong` and `group` are as in the errata, and empty where
-    nothing is wrong."""
+    nothing is wrong.
+    """
 
     claim: Claim
     verdict: str
@@ -74,7 +76,8 @@ class Entry:
 @dataclass(frozen=True)
 class Rule:
     """A node of the theorem's tree: a map rule, its premises as the checker writes them, and what
-    it rests on."""
+    it rests on.
+    """
 
     name: str
     kind: str
@@ -88,7 +91,8 @@ class Rule:
 @dataclass(frozen=True)
 class Contents:
     """Everything that reports tell; entries in the paper's order, derivations each after what it is
-    made from, rules with the theorem first."""
+    made from, rules with the theorem first.
+    """
 
     entries: tuple[Entry, ...]
     verdicts: Mapping[str, int]

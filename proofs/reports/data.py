@@ -1,5 +1,6 @@
 """The results as JSON, as `schema.json` beside this file describes it: with versions of tools,
-without dates or machines."""
+without dates or machines.
+"""
 
 from __future__ import annotations
 
@@ -111,7 +112,8 @@ def _change(change: Change) -> dict[str, Any]:
 
 def tools() -> dict[str, str]:
     """The versions of juggleproof, of Python without its patch level, and of the libraries, none of
-    which is believed."""
+    which is believed.
+    """
     own = {
         "juggleproof": _own_version(),
         "python": f"{sys.version_info.major}.{sys.version_info.minor}",

@@ -10,7 +10,8 @@ from certificates.terms import ClaimError
 
 def needed(module: str) -> Any:
     """The module, imported; raises ClaimError, one line that says how to install it, where it is
-    absent."""
+    absent.
+    """
     try:
         return import_module(module)
     except ImportError:

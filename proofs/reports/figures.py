@@ -1,5 +1,6 @@
 """The figures of a report: those that need no claims as they are, and those that show ranges and
-the trap with what they show."""
+the trap with what they show.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ class Saved(NamedTuple):
 
 def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, Figure]]:
     """Every figure in order: slug, title, caption, alternative text and the figure; raises
-    ClaimError where matplotlib is absent."""
+    ClaimError where matplotlib is absent.
+    """
     needed("matplotlib")
     entries = (contents or gather()).entries
     given = {
@@ -96,7 +98,8 @@ def _file(figure: Figure, slug: str, form: str) -> bytes:
 
 def what_the_trap_shows() -> tuple[Any, tuple[Any, Any], list[tuple[Any, bool]]]:
     """The rank, the root that it is written with and its square, and the margins of the trap, as
-    the theorem's definition has them."""
+    the theorem's definition has them.
+    """
     from proofs.theorem.definition import TO_THE_POINT, TRAP
 
     ((root, square),) = TO_THE_POINT.roots
@@ -110,7 +113,8 @@ def what_the_trap_shows() -> tuple[Any, tuple[Any, Any], list[tuple[Any, bool]]]
 
 def margin(relation: Formula) -> tuple[Any, bool]:
     """What is positive where a strict relation holds, or not negative where one that is not strict
-    does; and whether it is strict."""
+    does; and whether it is strict.
+    """
     less, more = relation.args if relation.op in ("<", "<=") else reversed(relation.args)
     if relation.op not in ("<", "<=", ">", ">="):
         raise ClaimError(f"{relation} has no margin; it is no inequality")

@@ -80,7 +80,8 @@ def _case(
 
 def _told(one: Result, change: Change | None, results: Results) -> tuple[str, str]:
     """failure, error or nothing, and the message: what differs first, then where the claim
-    fails."""
+    fails.
+    """
     changed = (
         ""
         if change is None

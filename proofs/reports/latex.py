@@ -37,8 +37,10 @@ def latex_of(text: str, like: str = "") -> str:
     r"""A term or formula of the statement language as LaTeX; `like` is a text whose names lead the
     order of factors and addends.
 
-    >>> latex_of("beta*g + v^2/2"), latex_of("r^2*(alpha + 1)/(2*(1 - alpha))")
-    ('\\gamma\\bar\\beta + \\frac{1}{2}\\dot{\\bar\\beta}^2', '\\frac{1}{2}\\frac{1 + \\alpha}{1 - \\alpha}\\dot\\rho_0^2')
+    >>> latex_of("beta*g + v^2/2")
+    '\\gamma\\bar\\beta + \\frac{1}{2}\\dot{\\bar\\beta}^2'
+    >>> latex_of("r^2*(alpha + 1)/(2*(1 - alpha))")
+    '\\frac{1}{2}\\frac{1 + \\alpha}{1 - \\alpha}\\dot\\rho_0^2'
     >>> latex_of("iff(x < w, not alpha*w >= 1)")
     'x < w \\iff \\lnot (\\alpha w \\ge 1)'
     """
@@ -112,7 +114,8 @@ class _Printer:
 
     def addends(self, node: ast.AST) -> list[tuple[bool, str]]:
         """The addends in the paper's order, each with whether it is taken away; zeros are left out
-        where anything else stands."""
+        where anything else stands.
+        """
         found = []
         for sign, addend in _numbers_added(_flat_sum(node, 1)):
             text, negative = self.product(addend)
@@ -266,7 +269,8 @@ def _integer(node: ast.AST) -> int | None:
 
 def _side_by_side(pieces: Sequence[str]) -> str:
     """Factors in a row, with a space where LaTeX would run a command and a letter together, and a
-    dot between numerals."""
+    dot between numerals.
+    """
     shown = ""
     for piece in pieces:
         if shown and shown[-1].isdigit() and piece[:1].isdigit():

@@ -78,8 +78,10 @@ ORDER = (
 def glyph(name: str) -> str:
     r"""A name of a statement as LaTeX.
 
-    >>> glyph("v"), glyph("beta0"), glyph("z2"), glyph("v_next"), glyph("lift")
-    ('\\dot{\\bar\\beta}', '\\bar\\beta_0', 'z_2', '\\dot{\\bar\\beta}_{\\mathrm{next}}', '\\mathit{lift}')
+    >>> glyph("v"), glyph("beta0"), glyph("z2")
+    ('\\dot{\\bar\\beta}', '\\bar\\beta_0', 'z_2')
+    >>> glyph("v_next"), glyph("lift")
+    ('\\dot{\\bar\\beta}_{\\mathrm{next}}', '\\mathit{lift}')
     """
     if name in GLYPHS:
         return GLYPHS[name]

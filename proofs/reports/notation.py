@@ -1,5 +1,6 @@
 r"""The notation macros of the LaTeX reports, one for each of the paper's accented names and
-regions: an author changes them in one place."""
+regions: an author changes them in one place.
+"""
 
 from __future__ import annotations
 

@@ -30,7 +30,8 @@ Lines = Sequence[Sequence[str]]
 @dataclass(frozen=True)
 class Results:
     """Table I and what belongs to it, in words: its rows as `HEADS` says, the rules they are judged
-    by, assumptions (name, value, standing, why)."""
+    by, assumptions (name, value, standing, why).
+    """
 
     run: str
     rows: Lines
@@ -46,7 +47,8 @@ class Results:
 
 def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -> bool:
     """Whether a run of table I is the one that the report tells: nothing chosen, (e, mu) of the
-    stored sweep, full ensembles."""
+    stored sweep, full ensembles.
+    """
     from scenes.errors import SceneError
     from scenes.part.onsets import ENSEMBLES, HORIZON
     from scenes.part.setting import scene
@@ -119,7 +121,8 @@ def keep_results(setting: Scene, found: Table, amplitudes: str, seed: int) -> bo
 
 def kept_results() -> Results | None:
     """What a run kept under the sources and the sweep as they are; None where there is no such
-    run."""
+    run.
+    """
     records = cache.load(key()) if cache.folder() else []
     try:
         return Results(**records[0])
@@ -129,7 +132,8 @@ def kept_results() -> Results | None:
 
 def key() -> str:
     """Under which results are kept: a digest of the sources, the stored sweep and the libraries
-    that compute and draw."""
+    that compute and draw.
+    """
     sweep = hashlib.sha256(SWEEP.read_bytes()).hexdigest() if SWEEP.is_file() else ""
     return "part-" + cache.key(
         sweep,

@@ -114,8 +114,10 @@ JOINING = {
 def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
     r"""The sentence as ("text", words) and ("math", LaTeX), in order.
 
-    >>> pieces("For 0 < alpha < 1/3 every orbit is attracted to R.")
-    (('text', 'For '), ('math', '0 < \\alpha < \\frac{1}{3}'), ('text', ' every orbit is attracted to '), ('math', '\\mathcal{R}'), ('text', '.'))
+    >>> text = "For 0 < alpha < 1/3 every orbit is attracted to R."
+    >>> pieces(text)  # doctest: +NORMALIZE_WHITESPACE
+    (('text', 'For '), ('math', '0 < \\alpha < \\frac{1}{3}'),
+     ('text', ' every orbit is attracted to '), ('math', '\\mathcal{R}'), ('text', '.'))
     """
     found: list[tuple[str, str]] = []
     at = 0
@@ -129,7 +131,8 @@ def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
 
 def _formulas(sentence: str) -> list[tuple[int, int]]:
     """The stretches that are formulas: the longest runs of names, numerals, signs and balanced
-    brackets that hold a name or a sign."""
+    brackets that hold a name or a sign.
+    """
     words = [(one.group(), one.start(), one.end()) for one in WORD.finditer(sentence)]
     found, place = [], 0
     while place < len(words):

@@ -22,7 +22,8 @@ _WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
 
 def rows(entries: Iterable[Any]) -> list[Row]:
     """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
-    them."""
+    them.
+    """
     return [
         (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
         for entry in entries
@@ -42,7 +43,8 @@ def read(text: str) -> list[tuple[str, list[Interval] | None]]:
 
     >>> read("0 < alpha < 1/3")
     [('', [(Fraction(0, 1), Fraction(1, 3), False, False)])]
-    >>> [(label, [str(one[1]) for one in intervals]) for label, intervals in read("K/(K + 2) <= alpha < 1; as-in-11: nowhere")]
+    >>> several = read("K/(K + 2) <= alpha < 1; as-in-11: nowhere")
+    >>> [(label, [str(one[1]) for one in intervals]) for label, intervals in several]
     [('K = 2', ['1']), ('K = 3', ['1']), ('as-in-11', [])]
     >>> read("sampled: not found")
     [('sampled', None)]
@@ -102,7 +104,8 @@ def _intervals(said: str, values: Mapping[str, Fraction]) -> list[Interval] | No
 
 def _value(text: str, values: Mapping[str, Fraction]) -> Fraction:
     """The value of an end: whole numbers, names, + - * / and parentheses, walked as a tree;
-    LookupError for anything else."""
+    LookupError for anything else.
+    """
     return _walk(ast.parse(text, mode="eval").body, values)
 
 

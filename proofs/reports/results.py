@@ -30,7 +30,8 @@ Entries = Mapping[str, Mapping[str, Any]]
 @dataclass(frozen=True)
 class Stated:
     """A statement of a claim: the text that the checker reads, its outcome, the votes by route, and
-    where it fails."""
+    where it fails.
+    """
 
     name: str
     text: str
@@ -42,7 +43,8 @@ class Stated:
 @dataclass(frozen=True)
 class Result:
     """A claim as it was judged; `wrong` and `group` tell what is not simply true, as `errata`
-    does."""
+    does.
+    """
 
     id: str
     section: str
@@ -69,7 +71,8 @@ class Result:
 
     def sharp_by_reading(self) -> dict[str, str]:
         """The sharp range of every reading or step; under no name where the claim has one reading
-        only."""
+        only.
+        """
         parts = re.split(r"(?:^|; )([\w.\-]+): ", self.sharp)
         if self.sharp == NO_RANGE:
             return {}
@@ -102,7 +105,8 @@ class Results:
     @property
     def exit(self) -> int:
         """What `certify` exits with: 0 where all verdicts are as registered, or all claims of one's
-        own hold, and nothing is rejected."""
+        own hold, and nothing is rejected.
+        """
         if self.rejected:
             return 1
         return int(
@@ -172,7 +176,8 @@ def results_of_run(
 
 def results_of(contents: Any, register: Entries | None = None) -> Results:
     """The results that reports are built from: results as they are, and contents of a report as
-    results."""
+    results.
+    """
     if isinstance(contents, Results):
         return contents
     if register is None:
@@ -261,7 +266,8 @@ def _results(
     about: Results,
 ) -> Results:
     """Takes what the checker rejected back, compares with the register, and leaves out what no file
-    can hold."""
+    can hold.
+    """
     reasons = dict(rejected)
     claims = tuple(_written(_without(one, reasons)) for one in found)
     changes = (
@@ -276,7 +282,8 @@ def _results(
 
 def _without(one: Result, reasons: Mapping[str, str]) -> Result:
     """The result where statements of the claim are rejected: such a claim is not settled, whatever
-    was thought of it."""
+    was thought of it.
+    """
     lost = [stated.name for stated in one.statements if stated.name in reasons]
     if not lost:
         return one
@@ -299,7 +306,8 @@ def _without(one: Result, reasons: Mapping[str, str]) -> Result:
 
 def _written(one: Result) -> Result:
     """The result with characters replaced that neither XML nor UTF-8 can hold: a docstring may have
-    any."""
+    any.
+    """
     told = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
     return replace(one, **told)  # type: ignore[arg-type]
 

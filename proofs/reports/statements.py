@@ -52,8 +52,10 @@ NAMES = {
 def lines_of(text: str) -> list[tuple[str, str, str]]:
     r"""The lines after the first as (word, "math" or "text", content).
 
-    >>> lines_of("statement a/b\nforall r\ngiven r > 0\nshow r^2 > 0")
-    [('for all', 'math', '\\dot\\rho_0'), ('given', 'math', '\\dot\\rho_0 > 0'), ('then', 'math', '\\dot\\rho_0^2 > 0')]
+    >>> text = "statement a/b\nforall r\ngiven r > 0\nshow r^2 > 0"
+    >>> lines_of(text)  # doctest: +NORMALIZE_WHITESPACE
+    [('for all', 'math', '\\dot\\rho_0'), ('given', 'math', '\\dot\\rho_0 > 0'),
+     ('then', 'math', '\\dot\\rho_0^2 > 0')]
     """
     found = []
     for line in text.splitlines()[1:]:

@@ -60,7 +60,8 @@ class Answer:
     @property
     def numbers(self) -> tuple[str, ...]:
         """The algebraic numbers that the model speaks of, each as the root of a polynomial between
-        two bounds."""
+        two bounds.
+        """
         entries = self.certificate["refuted"][1] if self.word == "sat" else []
         return tuple(
             f"{low} <= {name} <= {high}, {poly} = 0" for name, poly, low, high, *_ in entries
@@ -71,7 +72,8 @@ def question(
     problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None
 ) -> Question:
     """The question that a problem comes to; raises ClaimError, one line, for a division by what may
-    vanish."""
+    vanish.
+    """
     whole = statement_of(problem, name)
     parts = [whole, denial(problem, name, givens(whole))] if givens(whole) else [whole]
     texts = tuple(part.text() for part in parts)
@@ -82,7 +84,8 @@ def question(
 def answer(asked: Question) -> Answer:
     """The answer, which the checker has accepted.
 
-    >>> answer(Question("f/check-1", ("statement f/check-1\\nforall x\\nshow not x^2 = 2",))).numbers
+    >>> text = "statement f/check-1\\nforall x\\nshow not x^2 = 2"
+    >>> answer(Question("f/check-1", (text,))).numbers
     ('-3/2 <= theta <= -7/5, -theta^2 + 2 = 0',)
     """
     for text, certificate in asked.stored.items():

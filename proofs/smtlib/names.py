@@ -1,5 +1,6 @@
 """Names of an SMT-LIB script in our language: the same where they can be, else made from their
-letters."""
+letters.
+"""
 
 from __future__ import annotations
 

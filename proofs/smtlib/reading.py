@@ -1,5 +1,6 @@
 """Reads SMT-LIB terms of the theory of reals: core connectives, comparisons, rational arithmetic,
-let, and functions defined before."""
+let, and functions defined before.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ SORTS = ("Real", "Bool")
 @dataclass(frozen=True)
 class Function:
     """A function that is defined in the script: the names and sorts of its parameters, its sort,
-    its body, and what was defined by then."""
+    its body, and what was defined by then.
+    """
 
     parameters: tuple[tuple[str, str], ...]
     sort: str

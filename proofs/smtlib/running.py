@@ -1,5 +1,6 @@
 """Answers all problems of some scripts, by any executor, and keeps statements and certificates
-beside each script."""
+beside each script.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ TITLE = (
 @dataclass(frozen=True)
 class Answered:
     """One problem of a script with its answer; `rejected` is why the checker, reading the stored
-    file, rejects its certificate."""
+    file, rejects its certificate.
+    """
 
     path: Path
     problem: Problem

@@ -40,7 +40,8 @@ STATUSES = ("sat", "unsat", "unknown")
 @dataclass(frozen=True)
 class Variable:
     """A constant of the script: its symbol there, its name in our language, its sort; a Bool b is
-    the reals' b > 0."""
+    the reals' b > 0.
+    """
 
     symbol: str
     name: str
@@ -289,7 +290,8 @@ COMMANDS = {
 def read_problems(text: str, file: str) -> list[Problem]:
     """The problems of a script in order, one for each `check-sat`.
 
-    >>> [one.assertions for one in read_problems("(declare-const x Real)(assert (< (* x x) 0))(check-sat)", "f")]
+    >>> text = "(declare-const x Real)(assert (< (* x x) 0))(check-sat)"
+    >>> [one.assertions for one in read_problems(text, "f")]
     [((1, Formula('x*x < 0')),)]
 
     Raises ClaimError, one line with file and line, for what is no script of QF_NRA, or holds no

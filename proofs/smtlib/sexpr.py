@@ -21,7 +21,8 @@ TOKEN = re.compile(
 @dataclass(frozen=True)
 class Word:
     """A symbol, numeral, decimal, keyword or string; a symbol written |so| is the same as one
-    written so."""
+    written so.
+    """
 
     text: str
     kind: str

@@ -1,5 +1,6 @@
 """What an SMT-LIB term means in our language: a formula, or a real term in cases (an `ite` between
-reals is told apart by its condition)."""
+reals is told apart by its condition).
+"""
 
 from __future__ import annotations
 
@@ -18,13 +19,15 @@ Guards = tuple[tuple[Formula, bool], ...]
 
 class TooLarge(Exception):
     """An expression has more cases, or more symbols when definitions are put in, than we take
-    on."""
+    on.
+    """
 
 
 @dataclass(frozen=True)
 class Real:
     """A real term: in each case its value under the conditions of the case, of which exactly one
-    applies."""
+    applies.
+    """
 
     cases: tuple[tuple[Guards, Term], ...]
 
@@ -107,7 +110,8 @@ def choice(condition: Formula, first: Real, second: Real) -> Real:
 
 class Sizes:
     """The number of symbols of terms and formulas written out, and how deep they are; parts that
-    are shared are looked at once."""
+    are shared are looked at once.
+    """
 
     def __init__(self) -> None:
         self.known: dict[int, tuple[object, int, int]] = {}

@@ -1,5 +1,6 @@
 """The theorem, that e_1 is globally asymptotically stable exactly for alpha < 1/3, as claims whose
-premises the checker writes."""
+premises the checker writes.
+"""
 
 SECTIONS = (
     "roots",

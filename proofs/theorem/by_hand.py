@@ -48,7 +48,8 @@ def line(
     label: str, show: Formula, *given: Formula, names: str = "alpha x w", below: Formula = BELOW
 ) -> Statement:
     """One step: for all of the names, below 1/3 unless told otherwise, what is given implies what
-    is shown."""
+    is shown.
+    """
     return Statement(
         label, tuple(names.split()), tuple(("given", one) for one in (below, *given)), show
     )
@@ -57,7 +58,8 @@ def line(
 @claim("theorem-by-hand", "theorem", "argument A, written out")
 def argument_a_line_by_line() -> list[Statement]:
     """The lines of argument A: energy, rank, stages, trap and contraction, each of them an
-    inequality or an identity."""
+    inequality or an identity.
+    """
     squared, is_speed = SPEED[1], (u >= 0, equal(u**2, SPEED[1]))
     speed = "alpha x w u"
     bound_before, bound_after = 3 * (w - 1) / 2, term(3) / 2 + 5 * w / 6

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 
 from certificates.terms import ClaimError, Term, real
 from proofs.paper.outside import worst_wait
@@ -41,19 +42,17 @@ def root_square(alpha: Fraction) -> Fraction:
 
 def first_states(alpha: Fraction, u: Fraction) -> list[State]:
     """The states of the set: at the impact by energy and closing speed, then as many periods back
-    as there are."""
+    as there are.
+    """
     found = []
     for j in range(1, PHASES + 1):
         w = u - 1 + Fraction(2 * j, PHASES)
         at_impact = State(alpha, (u**2 - (w - 1) ** 2) / 4, w)
-        found.append(
-            flown(
-                at_impact,
-                -least_integer(
-                    lambda k, at_impact=at_impact: not flown(at_impact, -k - 1).is_in(SPACE)
-                ),
-            )
-        )  # type: ignore[misc]
+
+        def leaves(k: int, at_impact: State = at_impact) -> bool:
+            return not flown(at_impact, -k - 1).is_in(SPACE)
+
+        found.append(flown(at_impact, -least_integer(leaves)))
     return found
 
 
@@ -84,7 +83,8 @@ def entry_into_core(start: State) -> int:
 
 def bracket(loss: Term, alpha: Fraction, u: Fraction) -> tuple[int, int]:
     """The bracket of (26) with this least loss, which is linear in s: rounded down, and rounded
-    up."""
+    up.
+    """
     constant, slope = linear_in(loss, "s", {"alpha": alpha})
     above, square = u**2 / 2 - value_of(LEVEL_OF_R, {"alpha": alpha}), root_square(alpha)
 
@@ -103,7 +103,8 @@ def worst_flight(u: Fraction) -> Fraction:
 
 def periods_to_region(state: State) -> int:
     """The number of periods that `theorem-region` tells: the least integer not below its rank, in
-    which s and u are roots."""
+    which s and u are roots.
+    """
     here, square = state.point(), root_square(state.alpha)
     c0, c1, c2 = (value_of(FACTOR, {**here, "s": Fraction(k)}) for k in (0, 1, 2))
     curve = (c2 - 2 * c1 + c0) / 2
@@ -160,7 +161,8 @@ def into_region(alpha: Fraction, u: Fraction) -> IntoRegion:
 @dataclass(frozen=True)
 class IntoCore:
     """One row: certified periods until the trap and within 1 of e_1, by the theorem's rank and by
-    the sharper one, and the worst of the set."""
+    the sharper one, and the worst of the set.
+    """
 
     alpha: Fraction
     u: Fraction
@@ -183,15 +185,16 @@ def into_core(alpha: Fraction, u: Fraction) -> IntoCore:
 
 def energies(alpha: Fraction) -> list[Fraction]:
     """u outside R: the greatest in 16ths for which the bracket is 1, with either loss, and 10 and
-    100 times the least integer there."""
+    100 times the least integer there.
+    """
     level = 2 * value_of(LEVEL_OF_R, {"alpha": alpha})
     least = least_integer(lambda u: u * u > level)
     first = least_integer(lambda k: k * k > level * PHASES**2)
-    ones = [
-        least_integer(lambda k, loss=loss: bracket(loss, alpha, Fraction(k, PHASES))[1] > 1, first)
-        - 1  # type: ignore[misc]
-        for loss in (TRUE_LOSS, PRINTED_LOSS)
-    ]
+
+    def exceeds(loss: Term, k: int) -> bool:
+        return bracket(loss, alpha, Fraction(k, PHASES))[1] > 1
+
+    ones = [least_integer(partial(exceeds, loss), first) - 1 for loss in (TRUE_LOSS, PRINTED_LOSS)]
     return sorted(
         {
             *(Fraction(k, PHASES) for k in ones if k >= first),

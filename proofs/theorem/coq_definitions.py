@@ -16,7 +16,8 @@ Lets = Sequence[tuple[str, str]]
 @dataclass(frozen=True)
 class Scope:
     """What a definition may speak of: parameters, the two coordinates of a state, and names for
-    terms."""
+    terms.
+    """
 
     parameters: tuple[str, ...]
     state: tuple[str, ...] = ()
@@ -45,7 +46,8 @@ class Scope:
 
     def applied(self, name: str, *texts: str) -> str:
         """The definition applied to the parameters that its texts need: what is left is a function
-        of the state."""
+        of the state.
+        """
         heading, _ = self.heading(*texts)
         used = [p for p in self.parameters if f"({p} : R)" in heading]
         return f"({name} {' '.join(used)})" if used else name
@@ -81,7 +83,8 @@ def pair(scope: Scope, name: str, texts: Sequence[str]) -> str:
 
 def piecewise(scope: Scope, name: str, pieces: Sequence[Piece]) -> str:
     """A map of two pieces: that of the first where its strict inequality holds, that of the second
-    elsewhere."""
+    elsewhere.
+    """
     first, second = pieces
     left, sign, right = first.region.partition(" < ")
     if not sign or any(mark in left + right for mark in "<>="):

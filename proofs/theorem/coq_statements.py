@@ -1,5 +1,6 @@
 """Writes proofs/coq/Statements.v from the table of the theorem:
-`python -m proofs.theorem.coq_statements`."""
+`python -m proofs.theorem.coq_statements`.
+"""
 
 from __future__ import annotations
 

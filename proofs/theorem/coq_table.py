@@ -34,7 +34,8 @@ class Piece:
 @dataclass(frozen=True)
 class Contraction:
     """A weighted sup norm around the point that the map contracts by a rate, within a radius (times
-    the weights)."""
+    the weights).
+    """
 
     weights: tuple[str, ...]
     rate: str
@@ -114,7 +115,8 @@ NEIGHBOURHOOD = _told(chosen.NEARBY)
 @dataclass(frozen=True)
 class Periodic:
     """A periodic orbit that stays away from the point: a state of it, as far as it is in the space,
-    and its period."""
+    and its period.
+    """
 
     given: str
     state: tuple[str, ...]
@@ -124,7 +126,8 @@ class Periodic:
 @cache
 def other_orbit() -> Periodic:
     """For 1/3 <= alpha < 1: the orbit of e_2, a flight that lasts two periods, from where its
-    impact comes."""
+    impact comes.
+    """
     return Periodic(
         given=f"{threshold()} <= alpha and alpha < 1", state=tuple(map(str, chosen.OTHER)), period=2
     )
@@ -133,7 +136,8 @@ def other_orbit() -> Periodic:
 @cache
 def boundary_speed() -> str:
     """The bound on u that belongs to the energy E_max, u^2 being twice the energy in units of r^2:
-    (alpha + 1)/(1 - alpha)."""
+    (alpha + 1)/(1 - alpha).
+    """
     bound = (1 + alpha) / (1 - alpha)
     if lowest_terms(bound**2 - 2 * E_max() / r**2) != 0:
         raise DerivationError(f"not the square root of twice {E_max()}")
@@ -143,7 +147,8 @@ def boundary_speed() -> str:
 @dataclass(frozen=True)
 class Physical:
     """The same map in the paper's own units, and the change of coordinates (with the unit of each)
-    that makes it the normal form."""
+    that makes it the normal form.
+    """
 
     parameters: tuple[str, ...]
     given: str
@@ -160,7 +165,8 @@ class Physical:
 @cache
 def physical() -> Physical:
     """The ball's map on heights beta >= 0 and velocities v, for a table launched at r under gravity
-    g."""
+    g.
+    """
     return Physical(
         parameters=("alpha", "r", "g"),
         given="0 < r and 0 < g",

@@ -44,7 +44,8 @@ def coq_formula(text: str) -> str:
 
 def term_of(node: ast.expr, level: int) -> str:
     """The Coq term of a syntax tree, in parentheses where what is around it binds tighter than
-    `level` allows."""
+    `level` allows.
+    """
     if isinstance(node, ast.Constant) and type(node.value) is int:
         return str(node.value)
     if isinstance(node, ast.Name):
@@ -65,7 +66,8 @@ def term_of(node: ast.expr, level: int) -> str:
 
 def formula_of(node: ast.expr, level: int) -> str:
     """The Coq proposition of a syntax tree; 0, 1, 2, 3: inside an implication, a disjunction, a
-    conjunction, a negation."""
+    conjunction, a negation.
+    """
     if isinstance(node, ast.Compare) and all(type(op) in RELATIONS for op in node.ops):
         sides = [term_of(side, 0) for side in (node.left, *node.comparators)]
         atoms = [

@@ -35,7 +35,8 @@ OTHER: Vector = tidied(
 @dataclass(frozen=True)
 class Descent:
     """A rank that falls by 1 at least outside of all stages, roots that it is written with, and
-    stages of which the last is the trap."""
+    stages of which the last is the trap.
+    """
 
     rank: Term
     stages: tuple[Formula, ...]
@@ -45,7 +46,8 @@ class Descent:
 @dataclass(frozen=True)
 class Contraction:
     """A set that is mapped into itself and brought closer to the fixed point, in the weighted sup
-    norm, by the rate."""
+    norm, by the rate.
+    """
 
     on: Formula
     weights: tuple[Term, Term]
@@ -56,7 +58,8 @@ class Contraction:
 
 def near(*distances: Term) -> Formula:
     """Each component differs from that of the fixed point, (e_x, e_w), by no more than its
-    distance."""
+    distance.
+    """
     pairs = zip((x, w), (e_x, e_w), distances)
     return conjunction(
         [

@@ -36,7 +36,8 @@ def after_impact(periods: Term, start: Vector) -> Vector:
 @claim("theorem-ends", "theorem", "alpha = (K - 1)/(K + 1)", parameters=())
 def fixed_points_are_not_stable_where_they_begin() -> list[AnyStatement]:
     """At alpha = (K - 1)/(K + 1), K >= 2, e_K comes back after K periods, and states however near
-    it are far from it after K periods."""
+    it are far from it after K periods.
+    """
     struck = after_impact(K - 2, HIGHER)
     back = Vector(
         tuple(

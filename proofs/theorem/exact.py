@@ -1,5 +1,6 @@
 """Terms and formulas at exact rational points, and exact comparison of integers with numbers that
-have square roots in them."""
+have square roots in them.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +51,8 @@ def value_of(expression: Term, point: Point) -> Fraction:
 
 def holds_at(formula: Formula, point: Point) -> bool:
     """Whether a formula of `and`, `or` and `not` over relations holds where its variables have
-    these values."""
+    these values.
+    """
     if formula.op in _RELATIONS:
         return _RELATIONS[formula.op](*(value_of(side, point) for side in formula.args))
     parts = (holds_at(part, point) for part in formula.args)
@@ -63,7 +65,8 @@ def holds_at(formula: Formula, point: Point) -> bool:
 
 def linear_in(expression: Term, name: str, point: Point) -> tuple[Fraction, Fraction]:
     """(constant, slope) of a term that is linear in the named variable, at a point of its other
-    variables."""
+    variables.
+    """
     values = [value_of(expression, {**point, name: Fraction(k)}) for k in range(3)]
     if values[2] - values[1] != values[1] - values[0]:
         raise ClaimError(f"{expression} is not linear in {name}")
@@ -73,8 +76,9 @@ def linear_in(expression: Term, name: str, point: Point) -> tuple[Fraction, Frac
 def sign_with_root(p: Fraction, q: Fraction, square: Fraction) -> int:
     """The sign of p + q sqrt(square).
 
-    >>> [sign_with_root(Fraction(p), Fraction(-1), Fraction(2)) for p in (1, 2)], sign_with_root(Fraction(2), Fraction(-1), Fraction(4))
-    ([-1, 1], 0)
+    >>> triples = (1, -1, 2), (2, -1, 2), (2, -1, 4)
+    >>> [sign_with_root(*map(Fraction, triple)) for triple in triples]
+    [-1, 1, 0]
     """
     of_p, of_q = (p > 0) - (p < 0), ((q > 0) - (q < 0)) * (square > 0)
     if of_p * of_q >= 0:
@@ -84,7 +88,8 @@ def sign_with_root(p: Fraction, q: Fraction, square: Fraction) -> int:
 
 def least_integer(enough: Callable[[int], bool], start: int = 0) -> int:
     """The least integer from `start` on for which `enough` holds, which stays true from there
-    on."""
+    on.
+    """
     if enough(start):
         return start
     width = 1
@@ -100,8 +105,10 @@ def least_integer(enough: Callable[[int], bool], start: int = 0) -> int:
 def ceiling(constant: Fraction, factor: Fraction, square: Fraction) -> int:
     """The least integer that is not below constant + factor sqrt(square), for factor >= 0.
 
-    >>> ceiling(Fraction(0), Fraction(2), Fraction(2)), ceiling(Fraction(1, 2), Fraction(1), Fraction(9, 4))
-    (3, 2)
+    >>> ceiling(Fraction(0), Fraction(2), Fraction(2))
+    3
+    >>> ceiling(Fraction(1, 2), Fraction(1), Fraction(9, 4))
+    2
     """
     low = (constant.numerator // constant.denominator) + isqrt(factor**2 * square // 1)
     return least_integer(lambda n: sign_with_root(n - constant, -factor, square) >= 0, low)

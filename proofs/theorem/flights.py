@@ -57,7 +57,8 @@ IN_FLIGHT = [x >= 0, x_after >= 0]  # the next impact is above the table
 @claim("theorem-flights", "theorem", "argument B")
 def flights_grow_shorter_below_a_third() -> list[AnyStatement]:
     """Flights end; long ones need a high closing speed and leave a low one; for alpha < 1/3 they
-    grow shorter until they last one period."""
+    grow shorter until they last one period.
+    """
     one, many = (tuple(term(entry) for entry in flown(count, HERE)) for count in (term(1), n))
     last = next_impact(J, AFTER)
     return [

@@ -52,7 +52,8 @@ OTHERS = replace(NORMAL, space=NORMAL.space & is_none_of(*EXCEPTIONS))
 )
 def three_states_do_not_tend_to_the_fixed_point() -> list[AnyStatement]:
     """At alpha = 1/3 every orbit tends to e_1 but those of (0, 3), (1, 1) and (0, -1), and e_1 is
-    stable."""
+    stable.
+    """
     falling, period_two, rising = EXCEPTIONS
     return [
         the_map("map", NORMAL, THIRD),

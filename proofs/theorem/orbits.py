@@ -1,5 +1,6 @@
 """Orbits in exact numbers with what the theorem's terms and formulas say of their states; the map
-itself is that of `scenes.juggler.exact`."""
+itself is that of `scenes.juggler.exact`.
+"""
 
 from __future__ import annotations
 
@@ -109,7 +110,8 @@ class Move:
 
 def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
     """The orbit, flights at once, up to so many impacts or until its numbers are too long; at its
-    end comes an impact."""
+    end comes an impact.
+    """
     count = 0
     for _ in range(impacts):
         periods = flight_length(state)

@@ -34,7 +34,8 @@ TO_TRAP, TO_CORE = (
 @dataclass(frozen=True)
 class Bound:
     """Counts of steps after which the state is certainly in the trap, and in the trap within 1 of
-    e_1."""
+    e_1.
+    """
 
     trap: int
     core: int
@@ -43,7 +44,8 @@ class Bound:
 @dataclass(frozen=True)
 class Sharper:
     """The same by way of little energy: u <= W - 1 after `to_little` steps, and the theorem's rank
-    at most `then` there."""
+    at most `then` there.
+    """
 
     W: int
     to_little: int
@@ -68,7 +70,8 @@ def attracted(alpha: Fraction) -> bool:
 
 def converges(state: State) -> bool:
     """Whether a descent to e_1 is certified from this state: for alpha < 1/3, and for alpha = 1/3
-    from all states but three."""
+    from all states but three.
+    """
     return attracted(state.alpha) or holds_at(THIRD, state.point()) and state.is_in(OTHERS.space)
 
 
@@ -99,7 +102,8 @@ def via_little_energy(state: State, W: int) -> Sharper:
 
 def best_way(state: State) -> Sharper:
     """The integer W with the least sum of both ranks; the sum is convex in W, so that its first
-    rise tells."""
+    rise tells.
+    """
     first = least_integer(
         lambda W: all(holds_at(allowed, state.point(W=W)) for allowed in WITH_W.positive)
     )

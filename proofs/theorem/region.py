@@ -29,7 +29,8 @@ OUTSIDE = (s, (1 - alpha) * u)  # outside of R, u is at least s/(1 - alpha)
 )
 def every_orbit_enters_the_region() -> list[AnyStatement]:
     """For every 0 < alpha < 1 each orbit is in R from some period on, no later than its rank
-    tells."""
+    tells.
+    """
     return [
         the_map("map", PHYSICAL),
         descends("enters", "theorem-region/map", PHYSICAL, WHOLE, TO_THE_REGION),

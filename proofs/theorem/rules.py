@@ -1,5 +1,6 @@
 """Statements under the checker's map rules, written from the definition, in normal form or in the
-paper's units."""
+paper's units.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ from symbolic.collision import collision_margin
 @dataclass(frozen=True)
 class Setting:
     """The map in some coordinates: parameters, state, pieces and fixed points, and what the x, w
-    and units of the normal form are in them."""
+    and units of the normal form are in them.
+    """
 
     parameters: tuple[Term, ...]
     positive: tuple[Formula, ...]

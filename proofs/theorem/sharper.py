@@ -47,7 +47,8 @@ USES = Hints(
 )
 def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
     """For every W > 2/(1 - alpha) an orbit has u <= W - 1 from some period on, no later than a rank
-    tells that nears the worst case as W grows."""
+    tells that nears the worst case as W grows.
+    """
     high = [W > 2, u >= W - 1, u >= w - 1, after <= 1 + alpha * w]
     return [
         forms.always(

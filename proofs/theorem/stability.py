@@ -58,7 +58,8 @@ def stable_exactly_below_a_third(claim_id: str, setting: Setting) -> list[AnySta
 )
 def fixed_point_is_stable_and_attracts_exactly_below_a_third() -> list[AnyStatement]:
     """For 0 < alpha < 1: e_1 is stable and attracts every state with x >= 0 if and only if alpha <
-    1/3."""
+    1/3.
+    """
     return stable_exactly_below_a_third("theorem", NORMAL)
 
 
@@ -70,7 +71,8 @@ def fixed_point_is_stable_and_attracts_exactly_below_a_third() -> list[AnyStatem
 )
 def the_same_in_the_units_of_the_paper() -> list[AnyStatement]:
     """For 0 < alpha < 1 and all r, g > 0: e_1 is stable and attracts every state of H if and only
-    if alpha < 1/3."""
+    if alpha < 1/3.
+    """
     return stable_exactly_below_a_third("theorem-in-units", PHYSICAL)
 
 

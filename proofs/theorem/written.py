@@ -1,5 +1,6 @@
 """Derived SymPy expressions as texts that the checker reads: one fraction, what is added before
-what is taken away."""
+what is taken away.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ def written(expression: Expr) -> str:
 
 def tidy(expression: Expr) -> Term:
     """The expression in lowest terms: an expanded numerator, positive terms first, over a factored
-    denominator."""
+    denominator.
+    """
     above, below = fraction(lowest_terms(expression))
     if not _by_sign(above)[0]:
         above, below = -above, -below

@@ -1,5 +1,6 @@
 """The figures of the paper, drawn again from what is derived, and two that it lacks; in the paper's
-order."""
+order.
+"""
 
 from __future__ import annotations
 

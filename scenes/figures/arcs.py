@@ -1,5 +1,6 @@
 """Curves of the figures as what they are, arcs of parabolas: from derived expressions, and taken by
-the map f, cut where it jumps."""
+the map f, cut where it jumps.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +61,8 @@ def _zeros(constant: float, slope: float, square: float) -> list[float]:
 @dataclass(frozen=True)
 class Arc:
     """An arc of a parabola: two quadratics of one parameter (coefficients from the constant up),
-    from its start to its stop."""
+    from its start to its stop.
+    """
 
     across: Quadratic
     up: Quadratic
@@ -121,7 +123,8 @@ def straight(start: tuple[Any, Any], stop: tuple[Any, Any]) -> Arc:
 @cache
 def _affine(strikes: bool) -> tuple[Quadratic, Quadratic]:
     """f1 or f2 at the setting: for each entry its coefficient of the height, that of the speed, and
-    its constant."""
+    its constant.
+    """
     mapping = f1() if strikes else f2()
     (c, d), (c1, d1), (c2, d2) = (column(mapping, beta=h, v=s) for h, s in ((0, 0), (1, 0), (0, 1)))
     return (float(c1 - c), float(c2 - c), float(c)), (float(d1 - d), float(d2 - d), float(d))
@@ -129,7 +132,8 @@ def _affine(strikes: bool) -> tuple[Quadratic, Quadratic]:
 
 def cut_at_the_bounce(arc: Arc) -> Iterator[tuple[Arc, bool]]:
     """The arc's parts on either side of the line between B1 and B2, each with whether it lies in
-    B1."""
+    B1.
+    """
     c, h, s = (float(margin(*at)) for at in ((0, 0), (1, 0), (0, 1)))
     h, s = h - c, s - c
     constant, slope, square = (h * across + s * up for across, up in zip(arc.across, arc.up))
@@ -145,7 +149,8 @@ def cut_at_the_bounce(arc: Arc) -> Iterator[tuple[Arc, bool]]:
 
 def images(arcs: Sequence[Arc]) -> list[Arc]:
     """The image under f: each arc is cut where f jumps, and each part taken by the branch that
-    holds there."""
+    holds there.
+    """
     found = []
     for arc in arcs:
         for part, strikes in cut_at_the_bounce(arc):

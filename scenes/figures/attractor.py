@@ -1,5 +1,6 @@
 """Figures 12, 13 and 14: the region R, the point p that must lie outside it, and the band around
-e_1 in it."""
+e_1 in it.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +69,8 @@ def intersections() -> Figure:
 
 def outline_band(half_width: float) -> tuple[Arc, ...]:
     """The states of R whose velocity differs from that of e_1 by no more than this; ValueError
-    where they are not all in B1."""
+    where they are not all in B1.
+    """
     low, high = states.speed_of_e_1() - half_width, states.speed_of_e_1() + half_width
     outside = states.region_boundary().part(high, low)
     line = states.bounce_line(low)

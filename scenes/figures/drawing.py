@@ -1,5 +1,6 @@
 """How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
-from run to run."""
+from run to run.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ INK = "#222222"  # text, axes and whatever is no region; a page may put its own 
 @dataclass(frozen=True)
 class Look:
     """How a region or its boundary is told: by colour (of Okabe and Ito), by hatch and by dashes,
-    so that none of them is needed alone."""
+    so that none of them is needed alone.
+    """
 
     colour: str
     hatch: str
@@ -88,7 +90,8 @@ def blank(width: float, height: float) -> Figure:
 
 def svg(figure: Figure, slug: str) -> bytes:
     """The figure as an SVG file in which every id begins with the slug, so that several can stand
-    in one page."""
+    in one page.
+    """
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     text = io.StringIO()
@@ -101,7 +104,8 @@ def svg(figure: Figure, slug: str) -> bytes:
 
 def _with_own_ids(text: str, slug: str) -> str:
     """The same file in fewer bytes, ids told apart from those of other figures; glyphs, which it
-    uses most, have the shortest ids."""
+    uses most, have the shortest ids.
+    """
     text = text.replace("xlink:href=", "href=").replace(
         ' xmlns:xlink="http://www.w3.org/1999/xlink"', ""
     )
@@ -141,7 +145,8 @@ def pdf(figure: Figure) -> bytes:
 
 def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
     """An SVG file of `svg` as an element of an HTML page: named for readers who do not see it, its
-    ink the page's text colour."""
+    ink the page's text colour.
+    """
     text = data.decode("utf-8") if isinstance(data, bytes) else data
     box = re.search(r'<svg[^>]*\sviewBox="([^"]*)"', text)
     body = re.search(r"<svg[^>]*>(.*)</svg>", text, re.DOTALL)

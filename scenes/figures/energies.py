@@ -1,5 +1,6 @@
 """Figures 7, 8 and 11: energy levels, which flights keep to; the impacts that keep, gain and lose
-energy."""
+energy.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ BEYOND = (-4.0, 4.0)  # beyond the lower and upper edges of the axes
 @styled
 def levels() -> Figure:
     """Figure 7: the lines of equal energy, along which the state moves in free flight,
-    downwards."""
+    downwards.
+    """
     figure = blank(4.8, 3.5)
     plane = states.StatePlane(figure, BOX, (0, 1.8), UP)
     unit = float(SETTING["r"] ** 2)
@@ -50,7 +52,8 @@ def levels() -> Figure:
 @styled
 def important_lines() -> Figure:
     """Figure 8: B1^0, the level E_max that touches it, and the boundary of R, which is Delta E_max
-    above."""
+    above.
+    """
     figure = blank(4.8, 3.5)
     plane = states.StatePlane(figure, BOX, (-0.46, 1.6), UP)
     kept_level = states.level(float(value(E_max())))

@@ -32,7 +32,8 @@ def boundary_image(step: int) -> tuple[Arc, ...]:
 
 def torn_ends(step: int) -> list[tuple[float, float]]:
     """Where f has torn the image so far: the ends of its pieces, but for those of the boundary
-    itself and those that still meet."""
+    itself and those that still meet.
+    """
     whole = {end for arc in boundary_image(0) for end in (arc.start, arc.stop)}
     ends = [
         (end, arc.at(end))
@@ -50,7 +51,8 @@ def torn_ends(step: int) -> list[tuple[float, float]]:
 @styled
 def boundary_under_f() -> Figure:
     """Figure 3: f^n of the boundary of R for n = 0 to 5; where the next period brings a strike in
-    one colour, elsewhere in the other."""
+    one colour, elsewhere in the other.
+    """
     figure = blank(5.4, 4.3)
     for step in range(STEPS):
         row, column = divmod(step, 3)
@@ -71,7 +73,8 @@ def boundary_under_f() -> Figure:
 
 def draw_image(plane: states.StatePlane, step: int) -> None:
     """Draws f^step of the boundary, its torn ends, the boundary itself, the line at which f jumps,
-    and e_1."""
+    and e_1.
+    """
     plane.draw([states.bounce_line(-4.0)], f"bounce-line-{step}", linewidth=0.7)
     if step:
         plane.draw([states.region_boundary()], f"boundary-of-R-{step}", R, linewidth=0.8, alpha=0.8)

@@ -26,7 +26,8 @@ START = (
 
 def against_time(height: Any, shift: Any, stop: Any, **values: Any) -> Arc:
     """A height that is a quadratic in t, from time 0 to stop, as drawn: time in periods, from the
-    shift on, height in units of r T."""
+    shift on, height in units of r T.
+    """
     one = curve(t, height, t, 0.0, stop, **values)
     unit, length = states.units()[0], float(value(period()))
     across = (float(shift) / length, 1 / length, 0.0)
@@ -43,7 +44,8 @@ def ball_path(
     height: Fraction, speed: Fraction, shift: Fraction
 ) -> tuple[list[Arc], tuple[float, float] | None]:
     """The ball's height over the period that starts at this time in this state, and where the table
-    strikes it, if it does."""
+    strikes it, if it does.
+    """
     length = value(period())
     if margin(height, speed) <= 0:
         return [against_time(flight_map()[0], shift, length, beta=height, v=speed)], None

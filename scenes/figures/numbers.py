@@ -1,5 +1,6 @@
 """Derived expressions as numbers, exact or floating, at one setting: alpha = 1/4, r = g = 1; states
-and orbits of the map."""
+and orbits of the map.
+"""
 
 from __future__ import annotations
 

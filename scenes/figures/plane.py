@@ -26,7 +26,8 @@ NUMBERS, LABELS = 9.0, 11.0  # sizes of letters
 
 class Plane:
     """A part of a figure with its own coordinates: `across` and `up` are what it shows, `box` is
-    where."""
+    where.
+    """
 
     def __init__(self, figure: Figure, box: Box, across: Sides, up: Sides) -> None:
         from matplotlib.transforms import Affine2D, Bbox, TransformedBbox
@@ -61,7 +62,8 @@ class Plane:
         self, arcs: Sequence[Arc], name: str | None, look: Look | None = None, **more: Any
     ) -> None:
         """Draws arcs as one curve, joined only where one ends at the very point where the next
-        starts; nothing where there are none."""
+        starts; nothing where there are none.
+        """
         if arcs:
             dashes = {"linestyle": (0, tuple(look.dashes))} if look and look.dashes else {}
             self._patch(
@@ -124,7 +126,8 @@ class Plane:
 
     def text(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
         """Writes at a point of the plane, shifted by points of print, about its middle unless
-        aligned otherwise."""
+        aligned otherwise.
+        """
         self.words(self.place(*at), said, shift, **more)
 
     def words(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
@@ -165,7 +168,8 @@ class Plane:
         short: float = 0,
     ) -> None:
         """Draws an arrow between two points of the plane, with a head at the tip or at both ends,
-        ending so many points short of them."""
+        ending so many points short of them.
+        """
         from matplotlib.path import Path
 
         (x, y), (far_x, far_y) = self.place(*tail), self.place(*tip)
@@ -206,7 +210,8 @@ class Plane:
         room: float = 20,
     ) -> None:
         """Draws the two axes with their ticks, numbers and labels; the label of the upward one
-        stands so many points to the left."""
+        stands so many points to the left.
+        """
         left, bottom, right, top = (
             self.left,
             self.bottom,
@@ -261,7 +266,8 @@ class Plane:
 
 def path(arcs: Sequence[Arc]) -> Path:
     """The arcs as a path; each is a quadratic Bezier curve, which a parabola is, or a straight
-    line."""
+    line.
+    """
     from matplotlib.path import Path
 
     vertices: list[Point] = []

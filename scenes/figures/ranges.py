@@ -42,7 +42,8 @@ WHOLE: tuple[Interval, ...] = ((Fraction(0), Fraction(1), False, False),)
 
 def grouped(rows: Sequence[Row]) -> list[Group]:
     """The rows that can be drawn, those with one range together: the whole range first, then by the
-    upper end, downwards, nowhere last."""
+    upper end, downwards, nowhere last.
+    """
     groups: dict[tuple[Interval, ...], list[Row]] = {}
     for row in rows:
         if row[2] is not None:
@@ -89,7 +90,8 @@ def footnote(rows: Sequence[Row], without_alpha: int) -> str:
 @styled
 def ranges(rows: Sequence[Row], without_alpha: int = 0) -> Figure:
     """The ranges of the claims as bars over alpha, with the number of claims in which alpha does
-    not occur."""
+    not occur.
+    """
     groups = grouped(rows)
     lines = [max(len(names(group)), len(verdicts(group))) for group in groups]
     below = wrap(footnote(rows, without_alpha), 95, break_on_hyphens=False)
@@ -133,7 +135,8 @@ def ranges(rows: Sequence[Row], without_alpha: int = 0) -> Figure:
 
 def draw_range(plane: Plane, intervals: Sequence[Interval], middle: float, name: str) -> None:
     """Draws one range: bars with full circles at ends that belong to it and open ones at others,
-    and the ends that are no ticks as numbers."""
+    and the ends that are no ticks as numbers.
+    """
     if not intervals:
         plane.text((0.5, middle), "nowhere", fontsize=SMALL)
     bars = [

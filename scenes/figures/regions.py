@@ -1,5 +1,6 @@
 """Figures 5 and 6: the half plane H of the states, and what the table does to them: B1 (it strikes
-within the period) and B2 (it does not)."""
+within the period) and B2 (it does not).
+"""
 
 from __future__ import annotations
 

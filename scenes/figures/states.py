@@ -1,5 +1,6 @@
 """The plane of the sampled states: height across in units of r T, velocity up in units of r; its
-curves, and the outlines of its regions."""
+curves, and the outlines of its regions.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ def at(state: Any) -> Point:
 
 class StatePlane(Plane):
     """The plane of the states; what is drawn are states (beta, v), what is written stands at places
-    in the units of the axes."""
+    in the units of the axes.
+    """
 
     def __init__(
         self,

@@ -1,5 +1,6 @@
 """The trap, the levels of the rank and orbits that fall into the trap, in the normal form (x,
-w)."""
+w).
+"""
 
 from __future__ import annotations
 
@@ -46,7 +47,8 @@ def normal_step(height: Fraction, closing: Fraction) -> Point:
 
 def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Point]:
     """The orbit from the start until it is in the trap; ValueError where that takes more steps than
-    allowed."""
+    allowed.
+    """
     states = [start]
     while not inside(trap, *states[-1]):
         if len(states) > most:
@@ -67,7 +69,8 @@ def inside(trap: Sequence[Margin], height: Fraction, closing: Fraction) -> bool:
 
 def sides(trap: Sequence[Margin]) -> list[Side]:
     """The sides of the trap, whose margins are linear, as far as the axes show it: ends, and
-    whether the side is left out."""
+    whether the side is left out.
+    """
     edge = [(Fraction(a), Fraction(b)) for a, b in ((-50, -50), (50, -50), (50, 50), (-50, 50))]
     polygon = [(start, stop, True) for start, stop in zip(edge, [*edge[1:], edge[0]])]
     for margin, strict in trap:
@@ -102,14 +105,16 @@ def _clipped(polygon: list[Side], margin: Any, strict: bool) -> list[Side]:
 @cache
 def heights_of_rank(rank: Any, root: Any, square: Any) -> tuple[Any, Any]:
     """The height x at which w has the rank n, and the root there; the rank is linear in the root,
-    whose square is linear in x."""
+    whose square is linear in x.
+    """
     root_there = root_of(rank - n, root)
     return root_of(square - root_there**2, x), root_there
 
 
 def rank_level(rank: Any, root: Any, square: Any, level: int) -> Arc:
     """The states x >= 0 of this rank, an arc of a parabola; ValueError where the root would be
-    negative."""
+    negative.
+    """
     height, root_there = heights_of_rank(rank, root, square)
     low, high = zeros(height, w, n=level)
     if min(value(root_there, w=low, n=level), value(root_there, w=high, n=level)) < 0:
@@ -120,7 +125,8 @@ def rank_level(rank: Any, root: Any, square: Any, level: int) -> Arc:
 @styled
 def trap_and_rank(rank: Any, root: tuple[Any, Any], trap: Sequence[Margin]) -> Figure:
     """The trap (its margins, and whether each is strict), orbits that fall into it, and levels of
-    the rank (its root, and the square of that)."""
+    the rank (its root, and the square of that).
+    """
     plane = Plane(blank(5.2, 4.4), (0.1, 0.115, 0.88, 0.865), ACROSS, UP)
     plane.frame(
         ticks(range(int(ACROSS[1]) + 1)),

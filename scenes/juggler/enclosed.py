@@ -57,7 +57,8 @@ class Enclosed:
 
     def settle(self, track: Track) -> int:
         """The sign of the margin by the exact orbit, which is followed to this period; the ball is
-        taken anew from there."""
+        taken anew from there.
+        """
         exact = Exact(self.alpha, EXACT_SHARE * self.bits)
         try:
             advance(
@@ -99,7 +100,8 @@ def follow(
     report: Callable[[Track], None] | None = None,
 ) -> None:
     """Follows the orbit; `show` is given every track that is begun, the last of which holds the
-    result."""
+    result.
+    """
     first = Sample(0, 0, *start)
     checkpoint = begin(Exact(alpha), alpha, first, False)
     before = ctx.prec

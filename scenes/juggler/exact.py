@@ -45,7 +45,8 @@ def told(value: Any) -> Fraction:
 
 def _of_coprime() -> Callable[[int, int], Fraction]:
     """Fraction without its greatest common divisor, which takes seconds for a million digits and is
-    1 here: fmpq is in lowest terms."""
+    1 here: fmpq is in lowest terms.
+    """
     quick: Callable[[int, int], Fraction] | None = getattr(
         Fraction, "_from_coprime_ints", None
     )  # from Python 3.12 on
@@ -104,7 +105,8 @@ class Exact:
 
     def _shorten(self, track: Track) -> None:
         """Makes long numbers `Ratio`s, takes out what they have in common with q, and makes those
-        fmpq that are short then."""
+        fmpq that are short then.
+        """
         x, w = (
             shortened(part if isinstance(part, Ratio) else Ratio.of(part, self.powers))
             for part in track.here[2:]
@@ -164,8 +166,10 @@ def flight(x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
 def flight_length(x: Fraction, w: Fraction) -> int:
     """How many periods without an impact follow: the least K >= 0 with K^2 + K (w + 1) + w - x > 0.
 
-    >>> flight_length(Fraction(1), Fraction(1)), flight_length(Fraction(10) ** 300, Fraction(1)) - 10**150
-    (1, 0)
+    >>> flight_length(Fraction(1), Fraction(1))
+    1
+    >>> flight_length(Fraction(10) ** 300, Fraction(1)) - 10**150
+    0
     """
     if strikes(x, w):
         return 0
@@ -184,7 +188,8 @@ def later(alpha: Fraction, x: Fraction, w: Fraction, periods: int) -> tuple[Frac
     """f1 so many times: f1^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q); an orbit of f from a
     state of the trap.
 
-    >>> later(Fraction(1, 2), Fraction(0), Fraction(1), 2) == impact(Fraction(1, 2), *impact(Fraction(1, 2), Fraction(0), Fraction(1)))
+    >>> alpha, x, w = Fraction(1, 2), Fraction(0), Fraction(1)
+    >>> later(alpha, x, w, 2) == impact(alpha, *impact(alpha, x, w))
     True
     """
     there: tuple[Fraction, Fraction] = formulas().later(

@@ -33,7 +33,8 @@ ENDS = ("", "reached", "trap", "undecided", "too long")  # the last in exact ari
 @dataclass
 class Ensemble:
     """Where each orbit stands: arrays of shape (n,), in normal form; `history` has shape (n, steps
-    + 1, 4): x, w and their bounds, or is absent."""
+    + 1, 4): x, w and their bounds, or is absent.
+    """
 
     x: Floats
     w: Floats
@@ -48,7 +49,8 @@ class Ensemble:
     @staticmethod
     def empty(count: int, goal: Goal, keep: bool) -> Ensemble:
         """Room for so many orbits; SceneError where all states of all orbits would take too
-        much."""
+        much.
+        """
         if keep and bytes_needed(count, goal.steps, True) > HISTORY_MEMORY:
             room = f"more than {HISTORY_MEMORY >> 20} MB"
             raise SceneError(
@@ -139,7 +141,8 @@ class _Chunk:
 
     def _round(self) -> None:
         """One round: who is at the end, leaves; who strikes, is struck; who flies, flies to its
-        next impact as far as that is certain."""
+        next impact as far as that is certain.
+        """
         map_ = formulas()
         margin = map_.margin(self.x, self.w)
         strikes, flies = margin.is_positive(), margin.is_negative()

@@ -134,7 +134,8 @@ def formulas() -> Formulas:
 
     >>> from fractions import Fraction
     >>> f = formulas()
-    >>> f.impact(Fraction(1, 3), Fraction(0), Fraction(3)), f.flight(1, 1, 1), f.fixed(Fraction(1, 3))
+    >>> third = Fraction(1, 3)
+    >>> f.impact(third, Fraction(0), Fraction(3)), f.flight(1, 1, 1), f.fixed(third)
     ((Fraction(1, 1), Fraction(1, 1)), (0, 3), (Fraction(3, 8), Fraction(3, 2)))
     """
     if any(
@@ -176,7 +177,8 @@ def region() -> Compiled:
 
 def _closed_form() -> tuple[Expr, Expr]:
     """f1^n(x, w) = e + (-alpha)^n M^n ((x, w) - e), M the unipotent matrix with f1 = e - alpha M (.
-    - e); `power` stands for (-alpha)^n."""
+    - e); `power` stands for (-alpha)^n.
+    """
     struck = normal_f1()
     matrix = ImmutableMatrix(struck.jacobian([x, w]) / -alpha).applyfunc(lowest_terms)
     shear = unipotent_power(matrix, n)

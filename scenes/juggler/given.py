@@ -1,5 +1,6 @@
 """Numbers as they are given: taken exactly and within their ranges, or refused in one line with the
-value and what is allowed."""
+value and what is allowed.
+"""
 
 from __future__ import annotations
 

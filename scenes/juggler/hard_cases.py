@@ -1,5 +1,6 @@
 """The cases at which floats go wrong or might, each followed in plain float64, exactly, in bounded
-float64 and in balls."""
+float64 and in balls.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ FLIGHT = 1000  # periods that plain floats are followed for where a case counts 
 @dataclass(frozen=True)
 class Case:
     """An exact start, followed for so many periods (or impacts); in exact numbers up to so many
-    bits."""
+    bits.
+    """
 
     name: str
     alpha: Fraction
@@ -40,7 +42,8 @@ class Case:
 
 class Finding(NamedTuple):
     """What each arithmetic comes to: where plain floats first took a wrong branch (None: nowhere),
-    and the rows of exact, fast and enclosed."""
+    and the rows of exact, fast and enclosed.
+    """
 
     case: Case
     floats: tuple[float, float]

@@ -1,5 +1,6 @@
 """The motion between samples: heights of ball and table at any times, exactly, by the flights,
-impacts and parabolas that the map is derived from."""
+impacts and parabolas that the map is derived from.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ class Heights(NamedTuple):
 @cache
 def _formulas() -> tuple[Compiled, Compiled, Compiled, Compiled, Compiled]:
     """Period, time of collision, height of the table, of the ball before and after the collision,
-    in the paper's units."""
+    in the paper's units.
+    """
     after = fly(ball_after_collision(), t - collision_time())
     return (
         compiled("period", "r g", period(), first=r),
@@ -50,7 +52,8 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
     section 3.1, (6) and (8).
 
     >>> from scenes.juggler import point, scene
-    >>> [str(one.ball) for one in heights(scene("1/3", point(0, 3), r=1, g=2), (0, "1/2", 1, "3/2", 2))]
+    >>> path = heights(scene("1/3", point(0, 3), r=1, g=2), (0, "1/2", 1, "3/2", 2))
+    >>> [str(one.ball) for one in path]
     ['0', '3/4', '1', '3/4', '0']
     """
     length, struck_at, table, before, after = _formulas()

@@ -1,5 +1,6 @@
 """`orbit`: the orbits of a scene in the arithmetic of one's choice; its result is filled as it
-goes: an interrupted run keeps what is done."""
+goes: an interrupted run keeps what is done.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +45,8 @@ class Row(NamedTuple):
 @dataclass
 class Orbits:
     """The orbits of a scene as far as they are followed: by `tracks`, or in fast arithmetic by an
-    `ensemble` of arrays."""
+    `ensemble` of arrays.
+    """
 
     scene: Scene
     arithmetic: str
@@ -177,7 +179,8 @@ class Orbits:
     @property
     def undecided(self) -> list[tuple[int, int]]:
         """The number of each orbit with a state whose branch was not decided, and the period of
-        that state."""
+        that state.
+        """
         return list(self.each_undecided())
 
     def each_undecided(self) -> Iterator[tuple[int, int]]:
@@ -205,13 +208,15 @@ class Orbits:
 
 def told(value: Any, arithmetic: str) -> Any:
     """A number as it is told: Fraction of exact numbers; the ball of an enclosure and the mpf of mp
-    as they are."""
+    as they are.
+    """
     return exact.told(value) if arithmetic == "exact" and not isinstance(value, Fraction) else value
 
 
 def _refuse_many(count: int, arithmetic: str, steps: int, keep: bool) -> None:
     """SceneError for more orbits or kept states than can be held as single numbers; fast arithmetic
-    has limits of its own."""
+    has limits of its own.
+    """
     if arithmetic == "fast":
         return
     if count > MOST_TRACKS:
@@ -239,7 +244,8 @@ def prepare(
     most_bits: int | None = None,
 ) -> Orbits:
     """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what
-    cannot be."""
+    cannot be.
+    """
     if not isinstance(scene, Scene):
         raise SceneError(f"scene = {brief(scene)} is no scene; give scene(alpha, starts)")
     if arithmetic not in ARITHMETICS:
@@ -302,7 +308,8 @@ def orbit(
     >>> row = orbit(scene("1/3", point(0, 3)), steps=3).row(0)
     >>> row.x, row.w, row.periods, row.impacts
     (Fraction(1, 1), Fraction(1, 1), 3, 2)
-    >>> orbit(scene("1/3", point(0, 3)), "fast", steps=3).undecided  # (1, 1) lies on x = w, which no float bound can tell
+    >>> # (1, 1) lies on x = w, which no float bound can tell
+    >>> orbit(scene("1/3", point(0, 3)), "fast", steps=3).undecided
     [(0, 1)]
     """
     return prepare(

@@ -41,7 +41,8 @@ LONGEST_WORD, LONGEST_FLIGHT, MOST_WORDS = 12, 10**6, 10**5
 @dataclass(frozen=True)
 class Orbit:
     """A periodic orbit at one alpha: its states at the impacts, one for each flight of its word;
-    whether no state lies on x = w."""
+    whether no state lies on x = w.
+    """
 
     word: Word
     alpha: Fraction
@@ -51,7 +52,8 @@ class Orbit:
     @property
     def attracts(self) -> bool | None:
         """True where it attracts a neighbourhood; None where it lies on x = w, where the affine map
-        does not tell."""
+        does not tell.
+        """
         return True if self.inside else None
 
     @property
@@ -154,8 +156,8 @@ def _family(word: Word) -> tuple[tuple[Expr, Expr], ...]:
 def exists_for(word: Sequence[int]) -> tuple[Range, ...]:
     """All alpha in (0, 1) for which the orbit of the word exists, exactly.
 
-    >>> [str(one) for one in exists_for((1,))], [str(one) for one in exists_for((2,))], [str(one) for one in exists_for((3,))]
-    (['0 < alpha < 1'], ['1/3 <= alpha < 1'], ['1/2 <= alpha < 1'])
+    >>> [[str(one) for one in exists_for((length,))] for length in (1, 2, 3)]
+    [['0 < alpha < 1'], ['1/3 <= alpha < 1'], ['1/2 <= alpha < 1']]
     """
     heights, margins, gaps = _conditions(checked(word))
     return tuple(where([*heights, *gaps], margins))
@@ -175,7 +177,8 @@ def attracts_for(word: Sequence[int]) -> tuple[Range, ...]:
 @cache
 def _conditions(word: Word) -> tuple[list[Expr], list[Expr], list[Expr]]:
     """Polynomials in alpha: heights, which are to be >= 0; margins at impacts, to be > 0; and their
-    negatives at the ends of flights, to be >= 0."""
+    negatives at the ends of flights, to be >= 0.
+    """
     heights, margins, gaps = [], [], []
     for place, periods in zip(_family(word), word):
         at = {x: place[0], w: place[1]}
@@ -223,8 +226,10 @@ def search_words(alpha: Number, longest: int, flight: int | None = None) -> list
     """All periodic orbits at this alpha with at most so many impacts; flights of up to so many
     periods, or as long as they can be.
 
-    >>> [orbit.word for orbit in search_words(Fraction(1, 4), 4)], [orbit.word for orbit in search_words(Fraction(1, 2), 2)]
-    ([(1,)], [(1,), (2,), (3,)])
+    >>> [orbit.word for orbit in search_words(Fraction(1, 4), 4)]
+    [(1,)]
+    >>> [orbit.word for orbit in search_words(Fraction(1, 2), 2)]
+    [(1,), (2,), (3,)]
     """
     at = restitution(alpha)
     counted(longest, "longest", 1, LONGEST_WORD)

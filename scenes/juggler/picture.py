@@ -1,5 +1,6 @@
 """Pictures of orbits: ball and table against time, or the states of many orbits in the plane of x
-and w."""
+and w.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ MOST_PERIODS, A_PERIOD, MOST_DOTS = 40, 32, 5000
 
 def picture(orbits: Orbits, file: BinaryIO) -> None:
     """Writes a picture.  One start: ball and table over the periods asked for, 40 at most.
-    Several: where they stand, or all that was kept; SVG."""
+    Several: where they stand, or all that was kept; SVG.
+    """
     if len(orbits) == 1:
         file.write(
             svg(against_time(orbits.scene, max(1, min(MOST_PERIODS, orbits.goal.steps))), "orbit")

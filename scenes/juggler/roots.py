@@ -1,5 +1,6 @@
 """For which alpha in (0, 1) polynomial conditions hold, exactly: isolated real roots, and signs
-between and at them."""
+between and at them.
+"""
 
 from __future__ import annotations
 
@@ -116,10 +117,14 @@ def sign_at_root(polynomial: Any, root: Root) -> int:
 def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Range]:
     """All alpha in (0, 1) at which polynomials of the one list are >= 0 and those of the other > 0.
 
-    >>> [str(one) for one in where([3 * alpha - 1, 1 - 2 * alpha])], [str(one) for one in where([], [(alpha - 1) * alpha])]
-    (['1/3 <= alpha <= 1/2'], [])
-    >>> [str(one) for one in where([-((2 * alpha - 1) ** 2)])], [str(one) for one in where([], [(2 * alpha - 1) ** 2])]
-    (['alpha = 1/2'], ['0 < alpha < 1/2', '1/2 < alpha < 1'])
+    >>> [str(one) for one in where([3 * alpha - 1, 1 - 2 * alpha])]
+    ['1/3 <= alpha <= 1/2']
+    >>> [str(one) for one in where([], [(alpha - 1) * alpha])]
+    []
+    >>> [str(one) for one in where([-((2 * alpha - 1) ** 2)])]
+    ['alpha = 1/2']
+    >>> [str(one) for one in where([], [(2 * alpha - 1) ** 2])]
+    ['0 < alpha < 1/2', '1/2 < alpha < 1']
     """
     zero, one = (
         Root(Poly(alpha, alpha), Fraction(0), Fraction(0)),

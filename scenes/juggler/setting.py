@@ -43,7 +43,8 @@ def scene(alpha: Number, starts: Starts, r: Number = 1, g: Number = 1) -> Scene:
 @dataclass(frozen=True)
 class Goal:
     """How far an orbit is followed: so many periods, or impacts; or until it is in the trap, if
-    that comes first."""
+    that comes first.
+    """
 
     steps: int
     unit: Unit = "periods"

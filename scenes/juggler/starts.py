@@ -112,7 +112,8 @@ def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
     """The same in the paper's units, as those of `physical`; v runs first, upwards, so that w = 1 -
     v/r falls.
 
-    >>> physical_grid((0, 1, 3), (-1, 1, 2), r=2, g=4).exact(2) == physical("1/2", -1, r=2, g=4).exact(0)
+    >>> grid = physical_grid((0, 1, 3), (-1, 1, 2), r=2, g=4)
+    >>> grid.exact(2) == physical("1/2", -1, r=2, g=4).exact(0)
     True
     """
     given = _grid_of(beta, v, ("beta", "v"))
@@ -129,7 +130,8 @@ def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
 
 def random(count: int, seed: int, x: Side = (0, 10), w: Side = (-5, 5)) -> Drawn:
     """So many states, uniform over a box of heights and closing speeds, whose ends are the floats
-    next to those given."""
+    next to those given.
+    """
     counted(count, "the number of states", 1, MOST)
     counted(seed, "seed", 0, 2**64 - 1)
     heights, speeds = (

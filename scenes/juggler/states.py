@@ -64,7 +64,8 @@ class Listed:
 @dataclass(frozen=True)
 class Even:
     """So many numbers from the first to the last, equally far apart, each made when it is asked
-    for."""
+    for.
+    """
 
     first: Fraction
     last: Fraction
@@ -137,7 +138,8 @@ class OnBoundary:
 @dataclass(frozen=True)
 class Drawn:
     """Floats of a seeded generator, uniform over a box; state i comes of draws 2 i and 2 i + 1,
-    whatever block it is asked in."""
+    whatever block it is asked in.
+    """
 
     count: int
     seed: int

@@ -1,5 +1,6 @@
 """Orbits as tables: rows of text in either system of units, CSV, and arrays of floats with
-bounds."""
+bounds.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +66,8 @@ def in_units(orbits: Orbits, row: Row, units: str) -> Row:
 
 def written(value: Any, error: Any, digits: int = DIGITS) -> tuple[str, str]:
     """A number and its error as text: exact fractions as they are unless long, balls as enclosing
-    decimals, "" for an error that is not known."""
+    decimals, "" for an error that is not known.
+    """
     if isinstance(value, Fraction):
         if max(value.numerator.bit_length(), value.denominator.bit_length()) <= LONG_BITS:
             return str(value), "0"
@@ -95,7 +97,8 @@ def rows(orbits: Orbits) -> Iterator[Row]:
 
 def as_csv(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:
     """Writes the rows as CSV, states with errors, row by row; the same to the byte from run to
-    run."""
+    run.
+    """
     names = NAMES[checked_units(units)]
     text = io.TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
     table = csv.writer(text, lineterminator="\n")
@@ -124,7 +127,8 @@ def as_csv(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:
 
 def _as_float(value: Any, error: Any) -> tuple[float, float]:
     """The float next to a number, and a bound on how far the true number is from it; nan where none
-    is known."""
+    is known.
+    """
     if isinstance(value, float):
         return value, error
     if isinstance(value, Fraction):
@@ -190,7 +194,8 @@ def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Any]:
 
 def _unscaled(x: Bounded, w: Bounded, r: Bounded, g: Bounded) -> tuple[Bounded, Bounded]:
     """The states in the paper's units, a part at a time, so that what is held in between does not
-    grow with their number."""
+    grow with their number.
+    """
     beta, v = (Bounded(np.empty_like(x.v), np.empty_like(x.v)) for _ in range(2))
     for low in range(0, len(x.v), CHUNK):
         part = slice(low, low + CHUNK)
@@ -203,7 +208,8 @@ def _unscaled(x: Bounded, w: Bounded, r: Bounded, g: Bounded) -> tuple[Bounded, 
 
 def as_npz(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:
     """Writes the arrays of `as_arrays`, with alpha, r and g as text, as a compressed file of NumPy;
-    `end` counts in `ends`."""
+    `end` counts in `ends`.
+    """
     told = {
         "alpha": str(orbits.scene.alpha),
         "r": str(orbits.scene.r),

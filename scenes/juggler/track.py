@@ -41,11 +41,13 @@ class Arithmetic(Protocol):
 
     def check(self, track: Track) -> None:
         """Called before every move; raises Stop where the arithmetic has to give up or begin
-        again."""
+        again.
+        """
 
     def settle(self, track: Track) -> int:
         """The sign of the margin where `sign` cannot tell it, by other means; raises Stop where
-        there are none."""
+        there are none.
+        """
 
 
 class Stop(Exception):
@@ -101,7 +103,8 @@ def advance(
     report: Callable[[Track], None] | None = None,
 ) -> None:
     """Follows the track until the goal; `fixed` is e_1 in the arithmetic.  Raises Stop with the
-    track at the last state that is certain."""
+    track at the last state that is certain.
+    """
     map_ = formulas()
     while True:
         arithmetic.check(track)
@@ -138,7 +141,8 @@ def advance(
 
 def _fly(track: Track, arithmetic: Arithmetic, most: int | None) -> None:
     """Flies on: as many periods as are certain to have no impact, at most so many; one, where only
-    the present is certain."""
+    the present is certain.
+    """
     map_ = formulas()
     periods, impacts, x, w = track.here
     length = certain_flight(arithmetic, x, w)
@@ -173,7 +177,8 @@ def certain_flight(arithmetic: Arithmetic, x: Any, w: Any) -> int:
 
 def near_end(middle: Callable[[Any], Any], x: Any, w: Any) -> int:
     """A whole number near the length of the flight: 1 + floor((u - 1 - w)/2), or up to one less,
-    u^2 = 4 x + (w - 1)^2, at the rational middles."""
+    u^2 = 4 x + (w - 1)^2, at the rational middles.
+    """
     b, square = (middle(part) for part in formulas().end_of_flight(x, w))
     floor = int(((isqrt(max(int(square.floor()), 0)) - b) / 2).floor())
     return max(floor + 1, 1)

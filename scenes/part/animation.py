@@ -42,7 +42,8 @@ def animation(
     executor: Executor | None = None,
 ) -> None:
     """Writes blocks that start at these angles, in radians, up to the horizon, in seconds; the same
-    to the byte for the same states."""
+    to the byte for the same states.
+    """
     rows(len(angles))
     if not 0 < horizon <= MOST_FRAMES / RATE:
         raise SceneError(

@@ -1,5 +1,6 @@
 """What the paper gives of its three-degree-of-freedom simulation, what is inferred, and what is
-chosen here; and where the results differ from it."""
+chosen here; and where the results differ from it.
+"""
 
 from __future__ import annotations
 
@@ -91,7 +92,8 @@ def assumptions(setting: Scene, amplitudes: str, swept: bool) -> list[Assumption
 
 def discrepancies(rows: tuple[Row, ...]) -> list[str]:
     """Where the rows differ from the paper's: a row is chaotic on one side only, or the paper's
-    onset is outside of the 16 to 84 percent."""
+    onset is outside of the 16 to 84 percent.
+    """
     told = []
     for row in rows:
         name, chaotic = f"{row.frequency:g} Hz {1000 * row.amplitude:g} mm", sum(row.chaotic)

@@ -77,7 +77,8 @@ QUARTER = pi / 2
 @compiled
 def corner_x(p: Floats, i: int, c: float, s: float) -> float:
     """How far corner i is to the right of the centre, where c and s are cosine and sine of theta;
-    corners 0 to 3 go around counterclockwise."""
+    corners 0 to 3 go around counterclockwise.
+    """
     a, b = p[HALF_SHORT], p[HALF_LONG]
     if i == 0:
         return -a * c + b * s

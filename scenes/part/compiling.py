@@ -1,5 +1,6 @@
 """The compiler of the part scene: numba where it is installed, and the same functions in plain
-Python where it is not."""
+Python where it is not.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +36,8 @@ KERNELS = (
 
 def _digest() -> str:
     """A digest of all kernels: numba looks at the file of a function only, not at those of the
-    functions that it calls."""
+    functions that it calls.
+    """
     said = hashlib.sha256(sys.version.encode())
     for name in KERNELS:
         said.update(Path(__file__).with_name(f"{name}.py").read_bytes())
@@ -44,7 +46,8 @@ def _digest() -> str:
 
 def _folder() -> Path | None:
     """Where machine code is kept, if anywhere: where numba is told to, or beside the other records
-    of the project (see `proofs.cache`)."""
+    of the project (see `proofs.cache`).
+    """
     chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("JUGGLEPROOF_CACHE", "")
     if chosen == "off":
         return None

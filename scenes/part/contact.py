@@ -52,6 +52,7 @@ def hold(
 @compiled
 def first_turn(i: int, theta: float) -> float:
     """The number of quarter turns, near theta, from which on corner i is the lowest, for one
-    quarter turn."""
+    quarter turn.
+    """
     start = (4 - i) % 4
     return start + 4 * floor((theta - QUARTER * start - QUARTER / 2) / (4 * QUARTER) + 0.5)

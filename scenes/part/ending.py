@@ -74,7 +74,8 @@ def pivoted(
 @compiled
 def pace(p: Floats, theta: float, i: int, slide: float) -> float:
     """The part of the usual step that is right here: near jamming the force at a sliding corner
-    changes as fast as 1/(B2 +- mu B3) is large."""
+    changes as fast as 1/(B2 +- mu B3) is large.
+    """
     if slide == 0:
         return 1.0
     c, s = cos(theta), sin(theta)
@@ -95,7 +96,8 @@ def margin(
     turn: float,
 ) -> float:
     """How far a phase is from ending in this way; `turn` is the number of quarter turns from which
-    on corner i is the lowest."""
+    on corner i is the lowest.
+    """
     if ended == LANDS:
         return min(theta - turn * QUARTER, (turn + 1) * QUARTER - theta) + FLAT
     if ended == STOPS:

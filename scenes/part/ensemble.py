@@ -1,5 +1,6 @@
 """Many blocks at once: chunks of them on any executor of `concurrent.futures`; the results do not
-depend on which."""
+depend on which.
+"""
 
 from __future__ import annotations
 
@@ -27,14 +28,16 @@ Job = tuple[Array, Array, float, Array]  # parameters, states, until, notes
 @dataclass(frozen=True)
 class Run:
     """Where blocks are after a run, shape (n, 10), and what was noted of them, shape (n, 16);
-    columns are named in `scenes.part.body`."""
+    columns are named in `scenes.part.body`.
+    """
 
     states: Array
     notes: Array
 
     def violations(self) -> dict[str, int]:
         """How often an impact broke a guarantee of the impact law, and corners how deep in the
-        table: all are to be 0."""
+        table: all are to be 0.
+        """
         return {
             name: int(self.notes[:, column].sum())
             for name, column in (
@@ -48,7 +51,8 @@ class Run:
 
 def fresh_notes(count: int, since: float = 0.0) -> Array:
     """Notes of blocks that have not moved yet; falls and rises are counted from the time `since`
-    on."""
+    on.
+    """
     notes = np.zeros((count, body.NOTES))
     notes[:, body.LEAST_GAP], notes[:, body.SINCE] = np.inf, since
     return notes
@@ -56,7 +60,8 @@ def fresh_notes(count: int, since: float = 0.0) -> Array:
 
 def moved(job: Job) -> tuple[Array, Array]:
     """A chunk of blocks, moved on: states and notes; SceneError where a counted bound on the work
-    is reached."""
+    is reached.
+    """
     from scenes.part.motion import follow_all
 
     p, states, until, notes = job[0], job[1].copy(), job[2], job[3].copy()

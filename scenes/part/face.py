@@ -70,7 +70,8 @@ def lift_off(p: Floats, t: float) -> float:
 @compiled
 def margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, float]:
     """How far friction `grip` N is from what sticking needs against a push to the side `way`, and
-    how fast that changes."""
+    how fast that changes.
+    """
     wy, wx = p[W_Y], p[W_X]
     value = grip * (p[G] + table_lift(p, t)) - way * table_push(p, t)
     rate = -grip * p[A_Y] * wy**3 * cos(wy * t + p[PHASE_Y]) + way * p[A_X] * wx**3 * cos(
@@ -82,7 +83,8 @@ def margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, float]:
 @compiled
 def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
     """The first time up to `end` at which sticking needs more than `grip` times the normal force;
-    `end` where there is none."""
+    `end` where there is none.
+    """
     fall = grip * abs(p[A_Y]) * p[W_Y] ** 4 + abs(p[A_X]) * p[W_X] ** 4 + LEAST_FALL
     first = True
     for _ in range(MOST_STEPS):
@@ -104,7 +106,8 @@ def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
 @compiled
 def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
     """The first time up to `end` at which a face that slides at S stops; `end` where there is
-    none."""
+    none.
+    """
     mu, wy, wx = p[FRICTION], p[W_Y], p[W_X]
     fall = mu * abs(p[A_Y]) * wy**3 + abs(p[A_X]) * wx**3 + LEAST_FALL
     start, rise, glide = t, table_rise(p, t), table_glide(p, t)
@@ -188,7 +191,8 @@ def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 @compiled
 def tip(p: Floats, z: Floats, push: float) -> None:
     """Stands a block that tips on its corner: the left one where friction pushes it to the
-    right."""
+    right.
+    """
     c, s = cos(z[THETA]), sin(z[THETA])
     for i in range(4):
         if corner_y(p, i, c, s) < 0 and corner_x(p, i, c, s) * push < 0:

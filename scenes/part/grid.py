@@ -45,13 +45,15 @@ def rows(count: int) -> int:
 
 def pitch(setting: Scene) -> float:
     """How far apart the places are, in metres: a block that turns does not reach its
-    neighbours'."""
+    neighbours'.
+    """
     return PITCH * float(np.hypot(setting.a, setting.b))
 
 
 def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
     """Which blocks are nearer to lying than to upright, as table I tells them apart
-    (`scenes.part.turns`)."""
+    (`scenes.part.turns`).
+    """
     split = np.arctan2(setting.a, setting.b)
     found: NDArray[np.bool_] = np.abs(np.sin(states[..., body.THETA])) > np.sin(split)
     return found

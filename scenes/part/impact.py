@@ -42,7 +42,8 @@ def mode_of(
 @compiled
 def first_slide(S0: float, B1: float, B3: float, mu: float) -> int:
     """The direction in which the corner slides at first, 1 or -1; where S0 = 0, the one in which
-    friction fails to hold it."""
+    friction fails to hold it.
+    """
     if S0 > 0 or S0 == 0 and B3 < 0:
         return 1
     return -1

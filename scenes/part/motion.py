@@ -20,7 +20,8 @@ MOST_AT_ONCE = 10_000  # events that do not move time on
 @compiled
 def go_on(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves one block on by one event, a flight with its impacts or a phase of contact, or to the
-    time `until`; DONE, or why it gave up."""
+    time `until`; DONE, or why it gave up.
+    """
     if z[MODE] == FACE:
         return lie(p, z, until, notes)
     if z[MODE] == PIVOT:
@@ -36,7 +37,8 @@ def go_on(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 @compiled
 def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves one block on to the time `until`, its state z and notes in place; DONE, or why it gave
-    up."""
+    up.
+    """
     still = 0
     for _ in range(MOST_EVENTS):
         before = z[TIME]

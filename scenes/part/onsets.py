@@ -41,7 +41,8 @@ MOST_ENSEMBLES = 100_000
 @dataclass(frozen=True)
 class Row:
     """One row: vibration along the table, the paper's onset, and for each ensemble its onset (inf:
-    censored or chaotic) and whether it is chaotic."""
+    censored or chaotic) and whether it is chaotic.
+    """
 
     frequency: float
     amplitude: float
@@ -52,7 +53,8 @@ class Row:
 
     def quantile(self, part: float) -> float:
         """The onset that this part of the ensembles has reached; inf where that is after the end of
-        the run."""
+        the run.
+        """
         return float(np.sort(self.onsets)[max(0, int(np.ceil(part * len(self.onsets))) - 1)])
 
     def is_chaotic(self) -> bool:
@@ -74,7 +76,8 @@ class Table:
 
 def jittered(ensembles: int, seed: int) -> Array:
     """Starting angles in radians, shape (ensembles, 91): 0 to 90 degrees, each moved by at most a
-    millionth of a degree."""
+    millionth of a degree.
+    """
     if not 1 <= ensembles <= MOST_ENSEMBLES:
         raise SceneError(f"ensembles = {ensembles} is outside 1 .. {MOST_ENSEMBLES}")
     moves = np.random.default_rng(seed).uniform(-JITTER, JITTER, (ensembles, ANGLES))

@@ -1,5 +1,6 @@
 """Figure 2: where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by
-side."""
+side.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ def as_in_figure_two(setting: Scene) -> Scene:
 
 def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
     """Writes figure 2 for a scene as it is, as SVG or as PDF; `as_in_figure_two` gives the paper's
-    vibration."""
+    vibration.
+    """
     if form not in FORMS:
         raise SceneError(f"form = {form[:40]!r}: choose from {', '.join(FORMS)}")
     file.write(FORMS[form](drawn(setting, frames(setting, ANGLES, TIMES))))
@@ -188,7 +190,8 @@ def legend(figure: Figure, height: float) -> None:
 
 def fill(plane: Plane, polygons: Sequence[Sequence[Point]], name: str | None, look: Look) -> None:
     """Fills polygons with the tint of a look, and draws their sides in ink, which is light on a
-    dark page."""
+    dark page.
+    """
     from matplotlib.colors import to_rgba
     from matplotlib.patches import PathPatch
 

@@ -50,7 +50,8 @@ LEAST_STEP = 1e-10  # seconds: how long a phase lasts that would end at once
 @compiled
 def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves a pivoting block on until it leaves its corner or the next one strikes, or to the time
-    `until`."""
+    `until`.
+    """
     i, slide = int(z[CORNER]), z[SLIDE]
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]
     turn = first_turn(i, theta)

@@ -1,5 +1,6 @@
 """A scene of the part: block, table, contact and accuracy, with what the paper gives and what is
-inferred."""
+inferred.
+"""
 
 from __future__ import annotations
 
@@ -94,7 +95,8 @@ class Scene:
 
     def step(self) -> float:
         """The length of a step of Runge and Kutta, by its error term: fifth derivatives of table
-        and fall, times h^5/120, make the tolerance."""
+        and fall, times h^5/120, make the tolerance.
+        """
         bound = (
             abs(self.A_y) * (2 * math.pi * self.f_y) ** 5.0
             + abs(self.A_x) * (2 * math.pi * self.f_x) ** 5
@@ -233,7 +235,8 @@ def moving(
     t: float = 0.0,
 ) -> Array:
     """One state, shape (1, 10), of the centre of mass in the resting frame; SceneError where the
-    block and the table overlap."""
+    block and the table overlap.
+    """
     given = {"t": t, "X": X, "Y": Y, "theta": theta, "V_X": V_X, "V_Y": V_Y, "omega": omega}
     numbers = [_finite(value, name) for name, value in given.items()]
     if numbers[0] < 0:
@@ -259,7 +262,8 @@ def moving(
 
 def refuse_turned(setting: Scene, theta: Array) -> None:
     """SceneError where an angle is so large that its rounding moves corners by more than a part of
-    the tolerance."""
+    the tolerance.
+    """
     rounded = float(np.abs(theta).max()) * math.hypot(setting.a, setting.b) * EPSILON
     if rounded > ROUNDING * setting.tolerance:
         raise SceneError(
@@ -270,7 +274,8 @@ def refuse_turned(setting: Scene, theta: Array) -> None:
 
 def refuse_long(setting: Scene, until: float, name: str = "time") -> None:
     """SceneError for a time that is out of range, or so late that its rounding moves the table by
-    more than a part of the tolerance."""
+    more than a part of the tolerance.
+    """
     if not 0 <= until <= LONGEST:
         raise SceneError(f"{name} = {until:.6g} s is outside 0 .. {LONGEST:g}")
     rounded = setting.A_y * (2 * math.pi * setting.f_y * until + abs(setting.phase_y)) * EPSILON

@@ -28,7 +28,8 @@ LONGEST = 64.0  # seconds until all are at rest
 @dataclass(frozen=True)
 class Split:
     """Where blocks end that start at 0 to 90 degrees; starting angles, in degrees, that end at 0
-    and at 90; and atan(a/b), which parts them."""
+    and at 90; and atan(a/b), which parts them.
+    """
 
     ends: tuple[int, ...]
     upright: float
@@ -44,7 +45,8 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
     """The split of a scene's block on a still table, bisected to 1e-9 degrees between the two
     neighbours that end apart.
 
-    >>> found = no_vibration(Scene(0.01, 0.02, 0.5, 0.3, 0, 0, 0, 0, 0, 0, 9.81, 1e-12, 1e-3, "rest"))
+    >>> block = Scene(0.01, 0.02, 0.5, 0.3, 0, 0, 0, 0, 0, 0, 9.81, 1e-12, 1e-3, "rest")
+    >>> found = no_vibration(block)
     >>> found.as_printed(), found.upright < found.exact < found.lying, round(found.lying, 6)
     (True, True, 26.565051)
     """
@@ -70,7 +72,8 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
 
 def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = None) -> list[int]:
     """The angle, 0 or 90 degrees, at which blocks come to rest that start at these angles, in
-    degrees; SceneError where one does not."""
+    degrees; SceneError where one does not.
+    """
     states, notes, until = standing(still, [radians(start) for start in starts]), None, 1.0
     while until <= LONGEST:
         done = run(still, states, until, notes=notes, executor=executor)
@@ -87,8 +90,10 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
 def in_words(found: Split) -> str:
     """Where blocks end on a still table, and where they part.
 
-    >>> print(in_words(Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)))  # doctest: +NORMALIZE_WHITESPACE
-    Without vibration 27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the paper says. The two part
+    >>> found = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
+    >>> print(in_words(found))  # doctest: +NORMALIZE_WHITESPACE
+    Without vibration 27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the
+    paper says. The two part
     between 26.5600000000 and 26.5700000000 degrees; atan(a/b) is 26.5650000000 degrees.
     """
     up, count = found.ends.index(90), len(found.ends)

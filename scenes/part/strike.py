@@ -76,7 +76,8 @@ def strike_at(
     p: Floats, z: Floats, x: float, y: float, glide: float, rise: float, notes: Floats
 ) -> int:
     """One impact at a place of the block; DONE, or JAMMED.  Counts what the impact law excludes: it
-    must stay 0."""
+    must stay 0.
+    """
     k2, mu = p[GYRATION], p[FRICTION]
     S0, C0 = z[V_X] - z[OMEGA] * y - glide, z[V_Y] + z[OMEGA] * x - rise
     B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
@@ -105,7 +106,8 @@ def strike_at(
 @compiled
 def strike(p: Floats, z: Floats, notes: Floats) -> int:
     """Impacts at all corners that touch, until none approaches; then flight, a pivot or a face at
-    rest.  DONE, or why it gave up."""
+    rest.  DONE, or why it gave up.
+    """
     t, theta = z[TIME], z[THETA]
     c, s = cos(theta), sin(theta)
     glide, rise = table_glide(p, t), table_rise(p, t)
@@ -171,7 +173,8 @@ def slide_of(S: float) -> float:
 @compiled
 def stay(p: Floats, z: Floats, i: int) -> None:
     """Corner i, which touches and does not close, stays on the table where a force holds it there;
-    else the block flies."""
+    else the block flies.
+    """
     turn = first_turn(i, z[THETA])
     z[THETA] = min(
         max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER

@@ -1,5 +1,6 @@
 """Table I over a grid of restitution and friction, which the paper does not give; and the choice of
-one pair for all rows, by a stated rule."""
+one pair for all rows, by a stated rule.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ SCATTER = 0.1
 @dataclass(frozen=True)
 class Point:
     """Table I at one (e, mu): each row's median onset in seconds, None where it is censored or
-    chaotic; the chaotic parts; and the misfit."""
+    chaotic; the chaotic parts; and the misfit.
+    """
 
     e: float
     mu: float
@@ -105,7 +107,8 @@ def chosen(points: Sequence[Point]) -> Point:
 def as_good(points: Sequence[Point]) -> list[Point]:
     """The pairs whose misfit is within `SCATTER` of the least.
 
-    >>> len(as_good([Point(0.5, 0.1, (), (), 0.9), Point(0.7, 0.1, (), (), 0.2), Point(0.8, 0.1, (), (), 0.25)]))
+    >>> pairs = [(0.5, 0.9), (0.7, 0.2), (0.8, 0.25)]
+    >>> len(as_good([Point(e, 0.1, (), (), misfit) for e, misfit in pairs]))
     2
     """
     most = chosen(points).misfit + SCATTER

@@ -1,5 +1,6 @@
 """Table I and sweeps as files: CSV with a line an ensemble, and NumPy arrays; the same to the byte
-from run to run."""
+from run to run.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ HEADS = ("f_x [Hz]", "A_x [m]", "paper [s]", "ensemble", "onset [s]", "chaotic",
 
 def as_csv(table: Table, file: BinaryIO) -> None:
     """Writes a line for each row and ensemble; the onset is left out where the ensemble is chaotic
-    or censored."""
+    or censored.
+    """
     text = io.TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
     lines = csv.writer(text, lineterminator="\n")
     lines.writerow(HEADS)

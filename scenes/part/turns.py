@@ -16,7 +16,8 @@ from scenes.part.compiling import compiled
 @compiled
 def side(p: Floats, theta: float) -> int:
     """An even number where the block is nearer to upright, an odd one where to lying; it grows by 1
-    whenever theta passes from one to the other."""
+    whenever theta passes from one to the other.
+    """
     split = p[SPLIT]
     turns = floor((theta + split) / pi)
     return 2 * int(turns) + (0 if theta + split - turns * pi < 2 * split else 1)

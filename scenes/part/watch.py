@@ -1,5 +1,6 @@
 """Where blocks are at given times of an orbit that is not stopped there: a stop rounds, and chaos
-soon makes another orbit of that."""
+soon makes another orbit of that.
+"""
 
 from __future__ import annotations
 
@@ -52,7 +53,8 @@ def watch_all(
     seen: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """The same for many blocks, one after another; `seen` has the shape (blocks, times, 10).  How
-    each ended."""
+    each ended.
+    """
     codes = np.zeros(len(states))
     for k in range(len(states)):
         codes[k] = watch(p, states[k], times, notes[k], seen[k])

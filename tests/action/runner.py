@@ -15,7 +15,8 @@ SCRIPTS = [step for step in ACTION["runs"]["steps"] if "run" in step]
 
 class Runner:
     """A folder that looks to a script as a runner of GitHub does; network and installation are
-    stood in for."""
+    stood in for.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.temp, self.work, self.tools = (

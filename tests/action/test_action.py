@@ -1,5 +1,6 @@
 """The action is safe for forks, and its shell steps do what they say, here with a made up
-environment of GitHub."""
+environment of GitHub.
+"""
 
 from __future__ import annotations
 
@@ -261,7 +262,8 @@ def test_pdf_is_left_out_and_said_so_where_it_cannot_be_made_holds(runner: Runne
 
 def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_path: Path) -> None:
     """The whole step on the paper; the store is a copy, so that a run of the tests leaves the tree
-    as it is."""
+    as it is.
+    """
     runner.tool("python", f"exec '{sys.executable}' \"$@\"", runner.venv)
     shutil.copytree(DEFAULT, tmp_path / "store")
     runner.tool(

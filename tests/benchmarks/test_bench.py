@@ -1,5 +1,6 @@
 """The benchmark's questions are the paper's, its methods enclose the truth, a wrong closed form is
-noticed, and bad input is told in one line."""
+noticed, and bad input is told in one line.
+"""
 
 from __future__ import annotations
 
@@ -140,7 +141,8 @@ def test_rejects_a_bound_below_the_supremum_by_boxes(numbers: Any) -> None:
 
 def test_the_curve_bounds_the_states_that_keep_energy_holds() -> None:
     """B1+ is 0 <= x < the curve's height, and the curve lies in B1: change falls with x, and is 0
-    on the curve, which runs from 0 to x = 0 again."""
+    on the curve, which runs from 0 to x = 0 again.
+    """
     change, (height, speed) = symbolic.normal_energy_change(), kept_curve()
     assert (
         put(change, height, speed) == 0
@@ -154,7 +156,8 @@ def test_the_curve_bounds_the_states_that_keep_energy_holds() -> None:
 
 def test_the_states_outside_the_region_are_reached_holds() -> None:
     """With U^2 = 2 E and w = U - 1 + 2 q, x = (1 - q)(U - 1 + q) and w - x = q (U + q): for U > 1,
-    x >= 0 and w > x mean 0 < q <= 1."""
+    x >= 0 and w > x mean 0 < q <= 1.
+    """
     speed = U - 1 + 2 * q
     height = (1 - q) * (U - 1 + q)
     assert sympy.expand(put(symbolic.normal_energy(), height, speed) - U**2 / 2) == 0

@@ -1,5 +1,6 @@
 """The table of orbits: its slopes and errors are what they are called, each arithmetic has its row,
-and a million states stay below 200 MB."""
+and a million states stay below 200 MB.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The peers are asked what is meant: each translator gives the right answer on true and false
-statements, where its program is there."""
+statements, where its program is there.
+"""
 
 from __future__ import annotations
 

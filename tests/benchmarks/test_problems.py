@@ -1,5 +1,6 @@
 """The set of problems is what the README says of it; the whole of it is answered in CI by
-`python -m benchmarks.problems`."""
+`python -m benchmarks.problems`.
+"""
 
 from __future__ import annotations
 

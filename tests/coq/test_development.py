@@ -1,5 +1,6 @@
 """The Coq development: compiled whole, on the axioms of the reals only, pinned to the table that it
-is written from."""
+is written from.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Certified statements as Coq lemmas: they compile, tampered ones do not, and what is not written
-is refused by name."""
+is refused by name.
+"""
 
 from __future__ import annotations
 

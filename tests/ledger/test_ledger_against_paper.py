@@ -1,5 +1,6 @@
 """Where the paper is at hand, the ledger is rebuilt from it; the words are read there and never
-kept."""
+kept.
+"""
 
 import os
 import re

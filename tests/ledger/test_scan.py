@@ -1,5 +1,6 @@
 """The scanner on small texts of our own: what becomes an item, what does not, and in which
-order."""
+order.
+"""
 
 import pytest
 

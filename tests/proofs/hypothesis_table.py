@@ -103,7 +103,8 @@ def certified() -> dict[str, str]:
 
 def written(name: str, fails: str, refutation: Any) -> str:
     """`x = 1, y = 2` or JSON where the point takes more than rational values; before it what fails,
-    if not what is shown."""
+    if not what is shown.
+    """
     _, adjoined, values, *nodes = refutation
     plain = not adjoined and nodes == [["close"], ["close"]]
     point = (
@@ -136,7 +137,8 @@ def counterexample(name: str, why: str) -> tuple[str, Any]:
 @cache
 def meanings() -> dict[str, str]:
     """What the conditions for regions and impacts say, as statements write them, and the reason
-    that they are."""
+    that they are.
+    """
     b, b_0, f1 = vocabulary.b, orbits.b_0, vocabulary.f1
     inside = (
         vocabulary.H,
@@ -171,7 +173,8 @@ def meanings() -> dict[str, str]:
 
 def reason(name: str, one: Hypothesis, tables: Mapping[str, list[Row]]) -> str:
     """The reason from REASONS why a hypothesis that is not known to be needed stands in a
-    statement; empty where there is none."""
+    statement; empty where there is none.
+    """
     if one.said in STANDING:
         return "standing"
     if TIMES.fullmatch(one.said):
@@ -200,7 +203,8 @@ def reason(name: str, one: Hypothesis, tables: Mapping[str, list[Row]]) -> str:
 @cache
 def given_reasons() -> dict[tuple[str, str], str]:
     """The reasons that a reader gave, from the file beside this one: (statement, hypothesis or how
-    it begins): reason."""
+    it begins): reason.
+    """
     rows = [
         line.split("\t")
         for line in GIVEN_REASONS.read_text().splitlines()
@@ -286,7 +290,8 @@ def renewed(old: Table, jobs: int = 2) -> Table:
 
 def checked(name: str, text: str, one: Hypothesis, row: Row) -> bool:
     """Whether the checker accepts the counterexample of a row, or cannot read the statement without
-    the hypothesis, as the row says."""
+    the hypothesis, as the row says.
+    """
     plain = without(text, one)
     if row.need == LICENSES:
         try:

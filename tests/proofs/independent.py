@@ -1,5 +1,6 @@
 """An evaluator of statement texts that shares nothing with the checker: exact rationals, Python's
-own expressions, random points."""
+own expressions, random points.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +75,8 @@ def for_z3(text: str) -> Any:
 
 def named_values(found: Any, names: Point) -> Point | None:
     """The values that a witness of the checker's form names at a point; None where it adjoins a
-    number or names none."""
+    number or names none.
+    """
     if found[0] == "sign":
         value = eval(compiled(found[1]), {**NAMES, **names})
         return named_values(found[2 + (value >= 0) + (value > 0)], names)
@@ -125,7 +127,8 @@ class Independent:
 
     def move(self, said: str, used: set[str]) -> tuple[str, str, Any] | None:
         """How a sampled variable that has not been used yet moves to where a premise holds: x =
-        term, term <= n or n <= term for an integer n."""
+        term, term <= n or n <= term for an integer n.
+        """
         if re.search(r"\b(and|or)\b", said):
             return None
         solved = re.fullmatch(r"([A-Za-z]\w*) = ([^<>=]*)", said)
@@ -147,7 +150,8 @@ class Independent:
 
     def at(self, point: Point, moving: bool = True) -> bool | None:
         """Whether the statement holds at the point; None where its premises fail or cannot be
-        evaluated there."""
+        evaluated there.
+        """
         names: dict[str, Any] = {**NAMES, **point}
         try:
             for place, (keyword, name, code) in enumerate(self.code):
@@ -182,7 +186,8 @@ class Independent:
 
     def some(self, names: dict[str, Any], place: int) -> bool | None:
         """Whether some values of the `exists` variables meet what follows: those of the witness, or
-        else any, by Z3; None where unknown."""
+        else any, by Z3; None where unknown.
+        """
         try:
             values = named_values(self.witness, names) if self.witness else None
             if values is not None:
@@ -241,7 +246,8 @@ class Independent:
 
     def points(self, count: int, seed: int) -> Iterator[Point]:
         """Random rational points, small and simple ones first; parameters between 0 and 1 more
-        often than not."""
+        often than not.
+        """
         chance = random.Random(seed)
         has_root = any(keyword == "root" for keyword, _ in self.lines)
         for number in range(count):

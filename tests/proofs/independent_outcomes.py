@@ -1,5 +1,6 @@
 """What an accepted certificate claims, put to points by the independent evaluator: `contradiction`
-names a point where it is wrong."""
+names a point where it is wrong.
+"""
 
 from __future__ import annotations
 
@@ -121,7 +122,8 @@ def sampled(name: str, chance: random.Random) -> fmpq:
 
 def root_between(text: str) -> fmpq:
     """The root of a polynomial in one variable between two rationals, to within 2^-80: apart from
-    every parameter of the sample."""
+    every parameter of the sample.
+    """
     call = ast.parse(text.replace("^", "**"), mode="eval").body
     if not isinstance(call, ast.Call):
         raise ValueError(f"not a root: {text!r}")

@@ -1,5 +1,6 @@
 """The judged content of a claim: its statements as formulas over polynomials, apart from how they
-are written."""
+are written.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +45,8 @@ def relations(text: str) -> list[str]:
 
 def normal(formula: Any) -> Any:
     """A formula with each polynomial as its sorted integer coefficients, up to a positive factor
-    (any factor for equations)."""
+    (any factor for equations).
+    """
     if isinstance(formula, bool):
         return formula
     if isinstance(formula, list):

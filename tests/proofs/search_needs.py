@@ -35,7 +35,8 @@ ATTEMPTS = (
 @dataclass(frozen=True)
 class Hypothesis:
     """One conjunct of a range or given line of a statement: its line, its place in the line, and
-    what it says."""
+    what it says.
+    """
 
     row: int
     part: int
@@ -80,7 +81,8 @@ def without(text: str, one: Hypothesis, *instead: str) -> str:
 
 def obligations(text: str) -> Iterator[tuple[str, str]]:
     """(what is to be shown, statement that shows it) for every have and root line: each follows
-    from what stands before it."""
+    from what stands before it.
+    """
     rows = text.splitlines()
     for row, line in enumerate(rows):
         keyword, _, said = line.partition(" ")
@@ -91,7 +93,8 @@ def obligations(text: str) -> Iterator[tuple[str, str]]:
 
 def statement_of(text: str) -> checker.Statement:
     """The one statement of a text, read and unfolded by the checker; raises Rejected where it
-    cannot be read."""
+    cannot be read.
+    """
     (statement,) = checker.read_statements(text).values()
     checker.Unfolding(statement, checker.Context())
     return statement
@@ -106,7 +109,8 @@ def is_refuted(text: str, refutation: Any) -> bool:
 
 def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, str, Any]:
     """(need, what fails without the hypothesis if not what is shown, counterexample to that or a
-    reason)."""
+    reason).
+    """
     plain = without(text, one)
     try:
         statement_of(plain)
@@ -139,7 +143,8 @@ def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, 
 
 def is_not_needed(text: str, one: Hypothesis, budget: int = BUDGET) -> bool:
     """Whether the search proves, and the checker accepts, that the statement holds where the
-    hypothesis fails as well."""
+    hypothesis fails as well.
+    """
     opposite, whole = statement_of(without(text, one, f"not ({one.said})")), Budget(budget)
     for refutes, effort, share in ATTEMPTS:
         part = whole.part(whole.left * share // 100)
@@ -159,7 +164,8 @@ def negated_in(text: str, one: Hypothesis) -> str:
 
 def special(text: str, one: Hypothesis) -> Iterator[str]:
     """The statement with simple values in place of the hypothesis: for its own variable, for r and
-    g, and for alpha (2 + 2/8 is a square)."""
+    g, and for alpha (2 + 2/8 is a square).
+    """
     bound = re.fullmatch(r"(\w+) (?:<|<=|>|>=|!=) (\d+(?:/\d+)?)|(\d+) < (\w+)", one.said)
     own = [f"not ({one.said})"]
     if bound:
@@ -180,7 +186,8 @@ def special(text: str, one: Hypothesis) -> Iterator[str]:
 
 def refuted_among(plain: str, narrowed: list[str], budget: int) -> Any:
     """A counterexample to the statement among the points of its narrower forms, by samples and by
-    Z3's models."""
+    Z3's models.
+    """
     for text in narrowed:
         try:
             answer = vote(statement_of(text))
@@ -214,7 +221,8 @@ def with_givens(text: str, givens: list[str]) -> str:
 
 def refuted_there(plain: checker.Statement, narrow: checker.Statement, budget: Budget) -> Any:
     """A counterexample to the plain statement at a point that meets the premises of the narrow one
-    and, without `exists`, breaks its goal."""
+    and, without `exists`, breaks its goal.
+    """
     story = checker.Unfolding(narrow, checker.Context())
     parts = [*story.premises, *([] if narrow.get("exists") else [story.goal(False)])]
     condition = Condition.of(story.context, checker.join("and", parts), ring_of(story.context))

@@ -1,5 +1,6 @@
 """Mutants of a statement: one coefficient, sign, exponent or relation changed in a given or in what
-is shown."""
+is shown.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ TOKEN = re.compile(r"\^\d+|\d+|<=|>=|!=|->|[<>=]| [+-] |[A-Za-z]\w*|.")
 
 def mutants(text: str, keywords: tuple[str, ...] = ("given", "show")) -> Iterator[tuple[str, str]]:
     """(what was changed, the changed statement) for every single change of a number, sign, exponent
-    or relation."""
+    or relation.
+    """
     lines = text.splitlines()
     for row, line in enumerate(lines):
         keyword, _, said = line.partition(" ")

@@ -1,5 +1,6 @@
 """`juggleproof bound`: what it prints is certified and exact; whatever is wrong with a question is
-told in one line."""
+told in one line.
+"""
 
 from __future__ import annotations
 

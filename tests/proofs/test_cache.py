@@ -1,5 +1,6 @@
 """The file of records: its key tells every source apart, and what is not whole, or cannot be
-written, is let be."""
+written, is let be.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """What a user can get wrong is answered by one clear line that names file, claim and mend; nothing
-is left half-written."""
+is left half-written.
+"""
 
 from __future__ import annotations
 
@@ -271,9 +272,11 @@ RULES = '''from proofs import MapRule, claim
 def every_orbit_tends_to_zero():
     """x -> {parameter} x on [0, 1]: 0 is stable, and every orbit tends to it."""
     domain = "{domain}"
-    return [MapRule("map", (("over", "{parameter}"), ("domain", domain), ("state", "x"), ("space", "0 <= x and x <= 1"),
+    return [MapRule("map", (("over", "{parameter}"), ("domain", domain), ("state", "x"),
+                            ("space", "0 <= x and x <= 1"),
                             ("piece", "0 <= x -> {parameter}*x"))),
-            MapRule("near", (("map", "mine/map"), ("domain", domain), ("on", "0 <= x"), ("point", "0"), ("weights", "1"),
+            MapRule("near", (("map", "mine/map"), ("domain", domain), ("on", "0 <= x"),
+                             ("point", "0"), ("weights", "1"),
                              ("rate", "{rate}"), ("radius", "1"), ("size", "1")))]
 '''
 

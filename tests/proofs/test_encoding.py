@@ -1,5 +1,6 @@
 """The encoder and SymPy agree at random rationals, on random expressions and on everything that is
-derived."""
+derived.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +75,8 @@ OTHER_ROOTS = {
 
 def derivations() -> list[str]:
     """The names of `symbolic` that are derived expressions, columns or matrices without
-    arguments."""
+    arguments.
+    """
     found = []
     for name in dir(symbolic):
         function = getattr(symbolic, name)

@@ -1,5 +1,6 @@
 """`juggleproof errata`: every claim that is not simply true stands in one group, with its print,
-what is wrong, and exact values."""
+what is wrong, and exact values.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """`juggleproof export smt2`: one statement, one claim, several, or the whole paper; a solver reads
-what is written in one go."""
+what is written in one go.
+"""
 
 from __future__ import annotations
 

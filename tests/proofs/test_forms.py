@@ -1,5 +1,6 @@
 """What the forms add to a statement: abbreviations once and in order, and the side conditions of
-divisions."""
+divisions.
+"""
 
 from __future__ import annotations
 

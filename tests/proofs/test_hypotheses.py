@@ -59,7 +59,8 @@ def table() -> Table:
 
 def rows() -> Iterator[tuple[str, str, Hypothesis, Row]]:
     """(statement, its text, hypothesis, what the table says); statements that differ in nothing but
-    their name count once."""
+    their name count once.
+    """
     seen = set()
     for name, (mark, said) in table().items():
         if mark not in seen:

@@ -1,5 +1,6 @@
 """Every token of every print matters: a change is refused, changes what is judged, or is reviewed
-as meaning the same."""
+as meaning the same.
+"""
 
 from __future__ import annotations
 

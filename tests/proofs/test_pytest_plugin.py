@@ -1,5 +1,6 @@
 """Claims as test items: one line each, failing where the verdict is not as it should be, never
-skipped, judged once a session."""
+skipped, judged once a session.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ Result = pytest.RunResult
 @pytest.fixture
 def inner(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.Pytester:
     """A folder with a pytest of its own, in another process, that loads the plugin whether it is
-    installed or not."""
+    installed or not.
+    """
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
     monkeypatch.setenv("PYTEST_PLUGINS", "proofs.pytest_plugin")
     monkeypatch.setenv("PYTHONPATH", str(ROOT))

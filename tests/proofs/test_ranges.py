@@ -1,5 +1,6 @@
 """Sharp ranges of claims: whole numbers tied to alpha, a single point, what holds on the whole
-range left out, names of end points."""
+range left out, names of end points.
+"""
 
 from dataclasses import replace
 from fractions import Fraction

@@ -1,5 +1,6 @@
 """A run that knows claims again by their records prints and writes what a run from the sources
-does; a record that lies is not believed."""
+does; a record that lies is not believed.
+"""
 
 from __future__ import annotations
 

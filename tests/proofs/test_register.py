@@ -1,5 +1,6 @@
 """A verdict that differs from the register fails, shown before and after; no register, and outputs
-that cannot be written, are refused."""
+that cannot be written, are refused.
+"""
 
 from __future__ import annotations
 

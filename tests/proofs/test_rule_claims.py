@@ -1,5 +1,6 @@
 """Claims of one's own under the map rules: certified, told with their range, and settled again
-where a statement that they rest on changes."""
+where a statement that they rest on changes.
+"""
 
 from __future__ import annotations
 
@@ -16,10 +17,13 @@ from proofs import MapRule, claim
 def it_comes_to_rest():
     '''What is subtracted from, then halved, tends to 0.'''
     return [
-        MapRule("map", (("over", "alpha"), ("domain", "alpha > 0 and alpha < 1"), ("state", "x"), ("space", "x >= 0"),
+        MapRule("map", (("over", "alpha"), ("domain", "alpha > 0 and alpha < 1"), ("state", "x"),
+                        ("space", "x >= 0"),
                         ("piece", "x >= 1 -> x - 1"), ("piece", "x < 1 -> alpha*x"))),
-        MapRule("descends", (("map", "mine/map"), ("domain", "alpha > 0 and 2*alpha < 1"), ("rank", "x"), ("stage", "x < 1"))),
-        MapRule("contracts", (("map", "mine/map"), ("domain", "alpha > 0 and alpha < 1"), ("on", "ON"), ("point", "0"), ("weights", "1"),
+        MapRule("descends", (("map", "mine/map"), ("domain", "alpha > 0 and 2*alpha < 1"),
+                             ("rank", "x"), ("stage", "x < 1"))),
+        MapRule("contracts", (("map", "mine/map"), ("domain", "alpha > 0 and alpha < 1"),
+                              ("on", "ON"), ("point", "0"), ("weights", "1"),
                               ("rate", "alpha"), ("radius", "1/2"), ("size", "1"))),
         MapRule("attracts", (("descent", "mine/descends"), ("contraction", "mine/contracts"))),
     ]

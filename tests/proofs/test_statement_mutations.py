@@ -44,7 +44,8 @@ def digest(text: str) -> int:
 @cache
 def certified() -> dict[str, str]:
     """The certified statements about all values of their variables, with `exists` and integers
-    too."""
+    too.
+    """
     store = Store(DEFAULT)
     return {
         name: text
@@ -56,7 +57,8 @@ def certified() -> dict[str, str]:
 
 def sample() -> Iterator[tuple[str, str, str]]:
     """(statement, what was changed, mutant): a fixed choice that depends on nothing but the texts;
-    of statements that say the same, the first."""
+    of statements that say the same, the first.
+    """
     first = {text.partition("\n")[2]: name for name, text in reversed(certified().items())}
     for said, name in reversed(first.items()):
         if digest(name) % SHARE == 0:
@@ -123,7 +125,8 @@ def test_false_mutants_are_refuted_exactly_holds() -> None:
 
 def test_every_certified_claim_has_a_refuted_mutant_holds() -> None:
     """A claim all of whose mutants survive says nothing; judged over the claims that the sample
-    reaches with every mutant they have."""
+    reaches with every mutant they have.
+    """
     said = {name: text.partition("\n")[2] for name, text in certified().items()}
     refuted = {said[name] for name, _, outcome, _ in results() if outcome == "refuted"}
     tried = {said[name] for name, _, _, _ in results()}
@@ -148,7 +151,8 @@ DONE = {"certified": {"start": ["proof", [], ["close"]], "step": ["proof", [], [
 
 def test_mutated_iterates_are_certified_exactly_where_they_are_true_holds() -> None:
     """A map or closed form with one mark changed: the checker and the first iterates at rational
-    points say the same."""
+    points say the same.
+    """
     outcomes = []
     for name, text in Store(DEFAULT).texts.items():
         if "\niterates " in text:

@@ -75,7 +75,8 @@ def fields(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 def changed(value: Any, path: tuple[Any, ...], which: int) -> Any:
     """The JSON value with the field at the path changed; what is not on the path is shared with the
-    original."""
+    original.
+    """
     first, *rest = path
     if rest == [KEY]:
         left = {key: item for key, item in value.items() if key != first}
@@ -107,7 +108,8 @@ closed: dict[tuple[int, bytes], Any] = {}
 
 def close_once(state: checker.State, node: Any, known: dict[str, checker.Statement]) -> None:
     """The checker's `close`, which depends on nothing but what it is given: a node closes an equal
-    state without being followed again."""
+    state without being followed again.
+    """
     if not isinstance(node, list) or len(node) < 2:
         return plain_close(state, node, known)
     key = (id(node), hashlib.sha256(pickle.dumps(state)).digest())
@@ -187,7 +189,8 @@ def tampered_certificate(name: str) -> Tally:
 
 def tampered_statements(text: str) -> Iterator[str]:
     """The statement with one mark of one line changed, a name exchanged for another, or the line
-    left out."""
+    left out.
+    """
     rows = text.splitlines()
     names = [name for row in rows if row.startswith("forall ") for name in row.split()[1:]]
     for place, row in enumerate(rows[1:], 1):

@@ -1,5 +1,6 @@
 """The theorem as it is stored: take any certificate from it, or weaken any line of it, and the
-checker names the place and the theorem is lost."""
+checker names the place and the theorem is lost.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The table of displays in displays.txt: as printed, and as transcribed beside the restored
-print."""
+print.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Tokens: what is dropped, what is another spelling, where a line end joins and where it separates,
-what is refused."""
+what is refused.
+"""
 
 from __future__ import annotations
 

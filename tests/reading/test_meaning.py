@@ -1,5 +1,6 @@
 """Meanings: products told from applications, families, sets, cases, and exact values at a rational
-point."""
+point.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ from tests.reading.paper_names import BETA, KINETIC, PAPER, POINTS, WIDE, V, val
 
 Q = Fraction
 POINT = {
-    "alpha": Q(1, 4), "beta": Q(3), "v": Q(-2), "r": Q(5), "g": Q(10), "t": Q(1, 2), "beta0": Q(1), "v0": Q(2),
+    "alpha": Q(1, 4), "beta": Q(3), "v": Q(-2), "r": Q(5), "g": Q(10), "t": Q(1, 2),
+    "beta0": Q(1), "v0": Q(2),
     "K": Q(3), "eps": Q(1), "s": Q(7), "mu": Q(5, 4), "rho_dot": Q(4),
 }  # fmt: skip
 

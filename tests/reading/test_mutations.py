@@ -1,5 +1,6 @@
 """Changed prints: every changed token is refused or changes the statement, and one changed mark
-mends a lost one."""
+mends a lost one.
+"""
 
 from __future__ import annotations
 
@@ -128,10 +129,12 @@ def test_the_alternatives_are_tokens_that_are_read() -> None:
     ("lost", "mended", "kind"),
     [
         (r"T = \frac{2\rho_0}{\gamma}", r"T = \frac{2\dot\rho_0}{\gamma}", "dot"),
-        (r"\tau_c = \frac{\beta}{\dot\rho_0 - \dot{\overline\beta}}", r"\tau_c = \frac{\overline\beta}{\dot\rho_0 - "
+        (r"\tau_c = \frac{\beta}{\dot\rho_0 - \dot{\overline\beta}}",
+         r"\tau_c = \frac{\overline\beta}{\dot\rho_0 - "
          r"\dot{\overline\beta}}", "bar"),
         (r"\overline{f}_1(\overline b) := \alpha A_T \overline b + (\alpha - 1) A_{-\xi_1} r_0",
-         r"\overline{f}_1(\overline b) := -\alpha A_T \overline b + (\alpha - 1) A_{-\xi_1} r_0", "sign"),
+         r"\overline{f}_1(\overline b) := -\alpha A_T \overline b + (\alpha - 1) A_{-\xi_1} r_0",
+         "sign"),
         (r"E_{max} = \frac{1}{2} \left(\frac{1+\alpha}{1-\alpha} \dot\rho_0\right)",
          r"E_{max} = \frac{1}{2} \left(\frac{1+\alpha}{1-\alpha} \dot\rho_0\right)^2", "exponent"),
         (r"E_{max} = \left(\frac{1+\alpha}{1-\alpha} \dot\rho_0\right)^2",
@@ -185,7 +188,8 @@ def test_simpler_marks_come_first_and_all_can_be_read() -> None:
 
 def test_all_displays_are_lexed_parsed_and_evaluated_quickly() -> None:
     """Counted in calls of Python's functions, which no other load of the machine changes: 10^5 take
-    a tenth of a second."""
+    a tenth of a second.
+    """
     for cached in (lexer.lex, parser.parse, environment._key):
         cached.cache_clear()
     calls = Counter[str]()

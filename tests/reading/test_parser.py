@@ -1,5 +1,6 @@
 """Trees: every display of the paper is read, marks tell names apart, and what is not a formula is
-refused."""
+refused.
+"""
 
 from __future__ import annotations
 

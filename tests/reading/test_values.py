@@ -1,5 +1,6 @@
 """Vectors and matrices of exact scalars: the identities that define their operations, on random
-rationals."""
+rationals.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """A headless Chromium that is driven over its own protocol; tests that need it are skipped, with
-the reason, where it is absent."""
+the reason, where it is absent.
+"""
 
 from __future__ import annotations
 

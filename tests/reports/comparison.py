@@ -50,7 +50,8 @@ class Different(Exception):
 
 def differences(pairs: Iterable[tuple[str, str]], seed: int = 0, points: int = 8) -> list[str]:
     """A line for each pair (statement text, LaTeX) that does not agree, or that could not be
-    compared at all of the points."""
+    compared at all of the points.
+    """
     found = []
     for text, latex in pairs:
         try:
@@ -105,7 +106,8 @@ def both(one: Node, other: Node, point: Point) -> tuple[object, object]:
 
 def opaque_root(under: Fraction) -> Fraction:
     """The root of a square; for anything else a number that equal radicands share and others do
-    not."""
+    not.
+    """
     try:
         return exact_root(under)
     except NotRead:
@@ -155,7 +157,8 @@ def alike(said: Formula, printed: Formula) -> Iterator[tuple[Term, Term]]:
 
 def plain(formula: Formula, denied: bool = False) -> Formula:
     """The formula with `not` at no relation, `and` and `or`, and no `and` in an `and`; not iff(a,
-    b) stays as it is."""
+    b) stays as it is.
+    """
     if isinstance(formula, Not):
         return plain(formula.of, not denied)
     if isinstance(formula, Related):
@@ -213,7 +216,8 @@ def unknowns(said: Node, printed: Node) -> tuple[list[str], list[str]]:
 
 def drawn(names: list[str], wanted: list[str], random: Random) -> Point:
     """Small rationals, no two the same and none special; alpha has a rational s, with s^2 = 2 (1 +
-    alpha)."""
+    alpha).
+    """
     point: Point = {}
     if "alpha" in names or "s" in names:
         below = random.randint(20, 60)

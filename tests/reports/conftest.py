@@ -1,5 +1,6 @@
 """The reports' tests, in all workers, share a folder of kept records of their own, as the runs of
-one user would."""
+one user would.
+"""
 
 from __future__ import annotations
 

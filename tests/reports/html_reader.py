@@ -1,5 +1,6 @@
 """A strict reader of HTML: every element is closed where it was opened, every attribute stands
-once."""
+once.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """A place in the tokens of a text, and the names that start there: base, accents, subscripts and
-primes."""
+primes.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +55,8 @@ class Glyphs(Cursor):
 
     def name(self) -> Name | Num:
         """A name with accents, subscript and primes; a number or a name may stand in braces, and
-        takes its marks outside."""
+        takes its marks outside.
+        """
         at = self.next().at
         if self.next().text == "{" and self.next(1).kind == "digit":
             self.at += 1

@@ -100,7 +100,8 @@ def subscripted(stem: str, subscript: str) -> tuple[str, ...]:
 
 def spelled(base: str, kind: str) -> str:
     """A name written out in letters, such as `size` or `ball_after`, and with a dot
-    `folded_dot`."""
+    `folded_dot`.
+    """
     if (
         kind not in ("", "dot")
         or base in FUNCTIONS

@@ -1,5 +1,6 @@
 r"""The tokens of LaTeX mathematics, with their positions: digits and letters one by one, as TeX
-takes them for an argument."""
+takes them for an argument.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +45,8 @@ PROSE = {
 }  # words that are never names
 TOKEN = re.compile(
     r"(?P<space>["
-    r" \t\n~]+)|(?P<command>\\(?:[A-Za-z]+|.))|(?P<digit>[0-9])|(?P<letter>[A-Za-z])|(?P<mark>[-+/^_{}()\[\]<>=,&'])",
+    r" \t\n~]+)|(?P<command>\\(?:[A-Za-z]+|.))|(?P<digit>[0-9])|(?P<letter>[A-Za-z])"
+    r"|(?P<mark>[-+/^_{}()\[\]<>=,&'])",
     re.ASCII,
 )
 CONTENT = re.compile(r"\s*\{([^{}]*)\}")

@@ -27,7 +27,8 @@ def page() -> bytes:
 @cache
 def some_contents() -> Contents:
     """One claim in six, all that the tree of the theorem and the tests name, and all of two
-    verdicts and two sections: a page that loads soon."""
+    verdicts and two sections: a page that loads soon.
+    """
     kept = [
         entry
         for k, entry in enumerate(contents().entries)

@@ -48,7 +48,8 @@ class Num(Term):
 @dataclass(frozen=True)
 class Name(Term):
     """A name as it is printed, and the names of the statement language that it may stand for:
-    exactly one of them has a value."""
+    exactly one of them has a value.
+    """
 
     printed: str
     stands_for: tuple[str, ...]
@@ -151,7 +152,8 @@ def names_in(node: Node) -> list[Name]:
 
 def value(node: Node, values: Mapping[str, Fraction], root: Root = exact_root) -> Value:
     """The value of a tree: a number, a truth value, or a tuple of such.  Every part is evaluated,
-    whatever the others say."""
+    whatever the others say.
+    """
     if isinstance(node, Formula):
         return truth(node, values, root)
     if isinstance(node, Listed):

@@ -1,5 +1,6 @@
 """Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up
-ones."""
+ones.
+"""
 
 from __future__ import annotations
 

@@ -110,21 +110,28 @@ def test_points_depend_on_the_seed_alone_holds() -> None:
 # ------------------------------------------------------------ edits
 
 GLYPH = re.compile(
-    r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?|\\(?:alpha|gamma)\b|\b[xwutTK]\b(?!_)|\\tau_c"
+    r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?|\\(?:alpha|gamma)\b"
+    r"|\b[xwutTK]\b(?!_)|\\tau_c"
 )
 SWAPS = [
-    (r"\\leq?\b", "<"), (r"\\geq?\b", ">"), ("<", r"\\le "), (">", r"\\ge "), ("<", ">"), (">", "<"), ("=", r"\\ne "), (r"\\neq?\b", "="), ("<", "="),
-    (r"\\(?:land|wedge)\b|\\text\{ and \}", r"\\lor "), (r"\\(?:lor|vee)\b|\\text\{ or \}", r"\\land "), (r"\\(?:lnot|neg)\b|\\text\{not \}", " "),
-    (r"\\(?:Rightarrow|implies)\b", r"\\iff "), (r"\\(?:iff|Leftrightarrow)\b", r"\\implies "), ("-", ""), ("-", "+"), (r"\+", "-"),
-    (r"\^(?:2|\{2\})", "^3"), (r"\^(?:\d|\{\d+\})", ""), (r"\b2\b", "3"), (r"\b1\b", "2"), (r"_(?:0|\{0\})", ""),
+    (r"\\leq?\b", "<"), (r"\\geq?\b", ">"), ("<", r"\\le "), (">", r"\\ge "), ("<", ">"),
+    (">", "<"), ("=", r"\\ne "), (r"\\neq?\b", "="), ("<", "="),
+    (r"\\(?:land|wedge)\b|\\text\{ and \}", r"\\lor "),
+    (r"\\(?:lor|vee)\b|\\text\{ or \}", r"\\land "), (r"\\(?:lnot|neg)\b|\\text\{not \}", " "),
+    (r"\\(?:Rightarrow|implies)\b", r"\\iff "), (r"\\(?:iff|Leftrightarrow)\b", r"\\implies "),
+    ("-", ""), ("-", "+"), (r"\+", "-"),
+    (r"\^(?:2|\{2\})", "^3"), (r"\^(?:\d|\{\d+\})", ""), (r"\b2\b", "3"), (r"\b1\b", "2"),
+    (r"_(?:0|\{0\})", ""),
     (r"\\dot(?=\{)", ""), (r"\\overline|\\bar", ""),
-    (r"\\t?frac", r"\\sqrt"), (r"\\max", r"\\sup"), (r"\\sqrt\{", "{"), (r"\\cdot", "+"), (r"\(", ""), (r"\)", ""),
+    (r"\\t?frac", r"\\sqrt"), (r"\\max", r"\\sup"), (r"\\sqrt\{", "{"), (r"\\cdot", "+"),
+    (r"\(", ""), (r"\)", ""),
 ]  # fmt: skip
 
 
 def edits(latex: str, random: Random) -> Iterator[str]:
     """The LaTeX with one mark changed, or two names exchanged: an edit of a kind that is drawn
-    first."""
+    first.
+    """
     while True:
         pattern, put = random.choice(SWAPS)
         if random.random() < 0.2:
@@ -143,7 +150,8 @@ OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "=": "!=", "!=": "="}
 
 def meaning(node: Node, known: set[str]) -> object:
     """What a tree says, so that equal meanings are equal objects: up to algebra on each relation,
-    and to the order of and, or, iff."""
+    and to the order of and, or, iff.
+    """
     if isinstance(node, Listed):
         return tuple(meaning(entry, known) for entry in node.entries)
     if isinstance(node, Related):

@@ -1,5 +1,6 @@
 """Every formula that reports set as LaTeX is read back by a reader that shares nothing with the
-printer, and has the same values."""
+printer, and has the same values.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +67,8 @@ def test_rejects_what_is_no_term(text: str) -> None:
 
 def plain(latex: str) -> str:
     """A print without the marks that do not change how it is read: spaces, and braces around one
-    sign."""
+    sign.
+    """
     return "".join(
         narrow(latex).replace(r"\mathcal{", r"\mathcal ").replace("{", "").replace("}", "").split()
     )

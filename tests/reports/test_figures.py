@@ -1,5 +1,6 @@
 """Ranges as the results tell them are read whole; figures get what they show from the claims and
-from the theorem's definition."""
+from the theorem's definition.
+"""
 
 from __future__ import annotations
 

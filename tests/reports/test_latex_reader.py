@@ -1,5 +1,6 @@
 """The reader of LaTeX: what texts come to, what it refuses, and trees that are printed and read
-back."""
+back.
+"""
 
 from __future__ import annotations
 
@@ -447,7 +448,9 @@ def test_rejects_a_glyph_whose_meanings_both_have_values() -> None:
 
 # ------------------------------------------------------------ printed and read back
 
-NAMES = "alpha beta v r g T x w tau K beta0 v0 E_max dE_max eps since size v_next change_1 z1 t_R".split()
+NAMES = (
+    "alpha beta v r g T x w tau K beta0 v0 E_max dE_max eps since size v_next change_1 z1 t_R"
+).split()
 LEAVES = st.builds(Num, st.integers(0, 120)) | st.sampled_from(NAMES).map(
     lambda name: Name(name, (name,))
 )

@@ -1,5 +1,6 @@
 """The summary shows every text as it stands, says the most important first, and keeps to its
-limit."""
+limit.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 r"""Every print, correction and formula is drawn whole as MathML; what is not known is refused, not
-left out."""
+left out.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +46,8 @@ def tree_of(latex: str) -> ElementTree.Element:
 
 def characters(element: ElementTree.Element) -> str:
     """What is seen of a formula, from left to right, without spaces and with bars and colons told
-    in one way."""
+    in one way.
+    """
     seen = "".join(unescape(one.text or "") for one in element.iter() if one.tag in LEAVES)
     return re.sub(
         r"\s", "", seen.replace("―", "‾").replace(":=", "≔").replace("·", "⋅").replace("&", "")

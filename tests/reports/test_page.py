@@ -1,5 +1,6 @@
 """The page tells all that is settled, is whole and well formed, fetches nothing, and is the same to
-the byte from run to run."""
+the byte from run to run.
+"""
 
 from __future__ import annotations
 
@@ -265,7 +266,8 @@ def test_page_is_small_holds() -> None:
 
 def test_page_is_the_same_from_run_to_run_holds() -> None:
     """Of the same contents; `.ci/run` compares two whole runs of every report in processes of their
-    own."""
+    own.
+    """
     assert build(contents(), drawn()) == page()
 
 

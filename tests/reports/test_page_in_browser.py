@@ -1,5 +1,6 @@
 """The page as a browser shows it: drawn, filtered, linked, readable on a phone, in the dark, on
-paper, by keyboard and without a script."""
+paper, by keyboard and without a script.
+"""
 
 from __future__ import annotations
 
@@ -124,7 +125,8 @@ def test_policy_stops_what_would_leave_the_file_holds(show: Any) -> None:
     driver = show()
     blocked = driver.execute_async_script("""
         const done = arguments[arguments.length - 1];
-        document.addEventListener("securitypolicyviolation", (event) => done(event.violatedDirective));
+        document.addEventListener("securitypolicyviolation",
+            (event) => done(event.violatedDirective));
         fetch("http://127.0.0.1:9/").catch(() => setTimeout(() => done("none"), 2000));""")
     assert blocked.startswith("connect-src")
     driver.get_log("browser")
@@ -144,7 +146,9 @@ def test_every_formula_is_drawn_and_nothing_scrolls_sideways_holds(show_whole: A
     )
     count, wrong = driver.execute_script("""
         const found = [...document.querySelectorAll("math")];
-        const flat = found.filter((one) => { const box = one.getBoundingClientRect(); return !(box.width > 0 && box.height > 0)
+        const flat = found.filter((one) => {
+            const box = one.getBoundingClientRect();
+            return !(box.width > 0 && box.height > 0)
             || one.namespaceURI !== "http://www.w3.org/1998/Math/MathML"; });
         return [found.length, flat.slice(0, 5).map((one) => one.outerHTML)];""")
     assert count > 5000 and wrong == []
@@ -326,7 +330,8 @@ def test_tree_is_legible_on_a_phone_holds(show: Any) -> None:
         """
         const tree = document.querySelector("svg.tree");
         const text = tree.querySelector(".label");
-        return [text.getBoundingClientRect().height, tree.parentElement.scrollWidth > tree.parentElement.clientWidth];"""
+        const shown = tree.parentElement;
+        return [text.getBoundingClientRect().height, shown.scrollWidth > shown.clientWidth];"""
     )
     assert size >= 12 and wider
 
@@ -384,7 +389,8 @@ def test_tree_stands_out_holds(show: Any) -> None:
         scheme(driver, name)
         fills = driver.execute_script(
             """return ["text.title", "text.subtitle", "text.label", "rect.node", "rect.chip"].map(
-            (one) => getComputedStyle(document.querySelector("svg.tree " + one)).fill.match(/[\\d.]+/g).map(Number))"""
+            (one) => getComputedStyle(document.querySelector("svg.tree " + one))
+                .fill.match(/[\\d.]+/g).map(Number))"""
         )
         from tests.reports.browser import luminance
 

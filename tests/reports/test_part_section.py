@@ -1,5 +1,6 @@
 """What the page tells of the part on the vibrating table: a kept run in words, said to be
-simulated; and one line where there is none."""
+simulated; and one line where there is none.
+"""
 
 from __future__ import annotations
 
@@ -157,7 +158,8 @@ def test_rejects_records_that_are_no_results(
 
 def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A run as short as can be: it is told and kept where it is the report's, which a longer one
-    would be, and not where something was chosen."""
+    would be, and not where something was chosen.
+    """
     pytest.importorskip("numba")
     pytest.importorskip("matplotlib")
     from scenes.part import scene

@@ -1,5 +1,6 @@
 """`juggleproof report --format html` writes the page, or says in one line why it cannot, and leaves
-nothing half-written."""
+nothing half-written.
+"""
 
 from __future__ import annotations
 

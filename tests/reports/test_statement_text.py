@@ -1,5 +1,6 @@
 """The evaluator of statement texts against Python's own evaluation of the same text, and what it
-refuses."""
+refuses.
+"""
 
 from __future__ import annotations
 
@@ -111,8 +112,10 @@ def test_any_text_has_the_value_that_python_finds_holds(text: str) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["", "x +", "2x", "x w", "x(w)", "x^w", "x^-1", "x^2^3", "x == w", "x ** 2", "0.5", "(x", "x)", "x < w and", "and x", "not x", "x and w",
-     "(x < w) < r", "x = not w < r", "iff(x < w)", "implies(x < w, x < r, w < r)", "iff", "+x", "1_000", "007", "sin(x)", "x < (w, r)",
+    ["", "x +", "2x", "x w", "x(w)", "x^w", "x^-1", "x^2^3", "x == w", "x ** 2", "0.5", "(x", "x)",
+     "x < w and", "and x", "not x", "x and w",
+     "(x < w) < r", "x = not w < r", "iff(x < w)", "implies(x < w, x < r, w < r)", "iff", "+x",
+     "1_000", "007", "sin(x)", "x < (w, r)",
      "lambda", "x; w"],
 )  # fmt: skip
 def test_rejects_what_is_not_in_the_language(text: str) -> None:

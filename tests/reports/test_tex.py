@@ -1,5 +1,6 @@
 """The LaTeX report: what its fragments hold, that they compile in one and in two columns without a
-fault, and that bytes repeat."""
+fault, and that bytes repeat.
+"""
 
 from __future__ import annotations
 
@@ -98,7 +99,8 @@ def test_rejects_a_line_that_is_not_certified() -> None:
 
 def test_templates_hold_no_formula_of_the_paper_holds() -> None:
     """Between their slots the templates name things, and count from 0 or 1; every other number or
-    relation comes from a statement."""
+    relation comes from a statement.
+    """
     folder = Path(str(words.__file__)).parent
     paths = sorted(folder.glob("*.j2"))
     assert len(paths) > 5

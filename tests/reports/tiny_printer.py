@@ -1,5 +1,6 @@
 """Trees printed as LaTeX in many styles, for tests of the reader and of the comparison: one draw of
-`Random` for each choice of style."""
+`Random` for each choice of style.
+"""
 
 from __future__ import annotations
 

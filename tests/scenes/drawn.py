@@ -38,7 +38,8 @@ def curves(slug: str, name: str) -> list[Any]:
 
 def points(slug: str, name: str, parts: int = 7) -> list[tuple[float, float]]:
     """Points along every piece of the curves of this name, ends included, in the coordinates of
-    their axes."""
+    their axes.
+    """
     found = []
     for patch in curves(slug, name):
         here = (0.0, 0.0)
@@ -65,7 +66,8 @@ def _bezier(ends: list[tuple[float, float]], t: float) -> tuple[float, float]:
 
 def states(slug: str, name: str) -> list[dict[Any, float]]:
     """The states beta, v of the points of a curve in the plane of states, where 1 is r T across and
-    r up, at alpha = 1/4 and r = g = 1."""
+    r up, at alpha = 1/4 and r = g = 1.
+    """
     from symbolic import period
     from symbolic.symbols import alpha, beta, g, r, v
 

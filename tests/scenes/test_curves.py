@@ -1,5 +1,6 @@
 """Every curve on a figure satisfies the equation that it stands for; the equations are evaluated by
-SymPy, not by what draws."""
+SymPy, not by what draws.
+"""
 
 from __future__ import annotations
 

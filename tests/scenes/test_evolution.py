@@ -1,5 +1,6 @@
 """Figure 3 shows the exact images of the boundary of R: no point is off its orbit, and no piece
-joins what f tears apart."""
+joins what f tears apart.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ def exact_orbit(height: Fraction, speed: Fraction, steps: int) -> tuple[Rational
 
 def start_of(parameter: Fraction, arc_of_boundary: bool) -> tuple[Fraction, Fraction]:
     """The state of the boundary with this parameter: its velocity on the arc, and how far along the
-    edge beta = 0 from its lowest point."""
+    edge beta = 0 from its lowest point.
+    """
     if arc_of_boundary:
         height = symbolic.region_margin().subs(
             {**SETTING, v: Rational(parameter.numerator, parameter.denominator), beta: 0}
@@ -49,7 +51,8 @@ def start_of(parameter: Fraction, arc_of_boundary: bool) -> tuple[Fraction, Frac
 
 def of_the_arc(piece: Arc) -> bool:
     """The edge's pieces are affine in their parameter, which lies between 0 and 1; those of the arc
-    are quadratic."""
+    are quadratic.
+    """
     return piece.across[2] != 0
 
 

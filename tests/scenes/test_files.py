@@ -1,5 +1,6 @@
 """The files: well-formed, small, the same from run to run and from process to process, and able to
-stand together in one page."""
+stand together in one page.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ from scenes.figures import drawing
 from tests.scenes.drawn import figure
 for slug in ("fig-3", "fig-8", "fig-11", "fig-trap", "fig-ranges"):
     data = figure(slug)
-    print(slug, hashlib.sha256(drawing.svg(data, slug)).hexdigest(), hashlib.sha256(drawing.pdf(data)).hexdigest())
+    drawn = drawing.svg(data, slug), drawing.pdf(data)
+    print(slug, *(hashlib.sha256(one).hexdigest() for one in drawn))
 print("matplotlib.pyplot" in sys.modules)
 """
 

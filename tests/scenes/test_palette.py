@@ -1,5 +1,6 @@
 """Regions that meet on a figure differ in grey and for the colour-blind, and no two regions have
-both hatch and dashes in common."""
+both hatch and dashes in common.
+"""
 
 from __future__ import annotations
 
@@ -126,7 +127,8 @@ def test_lines_differ_for_the_colour_blind_holds(deficiency: str) -> None:
 
 def test_red_and_green_fail_without_more_than_colour() -> None:
     """The measure sees what it should: a red and a green that differ to others meet for a
-    deuteranope."""
+    deuteranope.
+    """
     red, green = linear("#C85028"), linear("#9A6A00")
     assert apart(seen(red, "deuteranopia"), seen(green, "deuteranopia")) < 0.7 * apart(red, green)
 

@@ -1,5 +1,6 @@
 """Answers end to end: each is one that the checker accepted, whoever does the work, and it is told
-as it is."""
+as it is.
+"""
 
 from __future__ import annotations
 

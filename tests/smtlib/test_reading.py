@@ -1,5 +1,6 @@
 """What the reader of SMT-LIB accepts, as the statement that it becomes, and what it refuses, in one
-line that names file, line and mend."""
+line that names file, line and mend.
+"""
 
 from __future__ import annotations
 

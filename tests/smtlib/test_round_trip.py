@@ -1,5 +1,6 @@
 """What is written as SMT-LIB and read back means the same: random formulas by a tiny writer, and
-our own export of stored statements."""
+our own export of stored statements.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +47,8 @@ formulas = st.recursive(
 
 def written(thing: Any) -> str:
     """The tiny writer; `let` names the first term and adds it twice to the second, `choose`
-    compares a real `ite` with 1."""
+    compares a real `ite` with 1.
+    """
     if isinstance(thing, bool):
         return str(thing).lower()
     if isinstance(thing, Fraction):

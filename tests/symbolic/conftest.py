@@ -14,7 +14,8 @@ Value = Callable[..., Fraction]
 @pytest.fixture(scope="session")
 def value() -> Value:
     """value(expression, alpha=..., beta=..., ...): the exact number that an expression has at
-    rational arguments."""
+    rational arguments.
+    """
     from sympy import Rational, Symbol
 
     def evaluate(expression: Any, **arguments: Fraction) -> Fraction:

@@ -1,5 +1,6 @@
 """The bounds are bounds, and are reached or approached, at restitutions for which sqrt(2 (1 +
-alpha)) is rational."""
+alpha)) is rational.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The impact of a corner: the derived modes against a walk through impulse space in exact numbers,
-step by step, that knows no formulas."""
+step by step, that knows no formulas.
+"""
 
 from __future__ import annotations
 
@@ -51,12 +52,14 @@ def sign(number: Fraction) -> int:
 
 def walked(one: Impact) -> Walked:
     """The walk: on each piece friction is what Coulomb says, until the corner stops, compression is
-    greatest, or the impact ends."""
+    greatest, or the impact ends.
+    """
     B1, B2, B3 = one.response
 
     def going_on_from_rest() -> tuple[int, Fraction]:
         """(direction of sliding or 0, tangential impulse for each unit of the normal one) of a
-        corner with S = 0."""
+        corner with S = 0.
+        """
         for way in (1, -1):
             if (
                 way * (-way * one.mu * B1 - B3) > 0
@@ -91,13 +94,15 @@ def walked(one: Impact) -> Walked:
 
 def work(one: Impact, walk: Walked) -> Fraction:
     """What the impulse adds to the kinetic energy: velocities are linear in the impulse, so the
-    mean of those before and after counts."""
+    mean of those before and after counts.
+    """
     return (walk.along * (one.S0 + walk.S) + walk.away * (one.C0 + walk.C)) / 2
 
 
 def random_impacts(count: int) -> Iterator[Impact]:
     """Impacts of corners that do not jam; some without restitution, without friction, with just
-    enough of it, at rest, or above a corner."""
+    enough of it, at rest, or above a corner.
+    """
     dice = random.Random(1992)
 
     def number(low: int, high: int) -> Fraction:
@@ -118,7 +123,8 @@ def random_impacts(count: int) -> Iterator[Impact]:
 @cache
 def exactly(expression: Expr) -> Callable[..., Fraction]:
     """An expression as a function of the impact's numbers, with whole coefficients above and
-    below."""
+    below.
+    """
     above, below = (lambdify(NAMES, part, modules=[{}]) for part in S(expression).as_numer_denom())
     return lambda *values: above(*values) / Fraction(below(*values))
 
@@ -227,7 +233,8 @@ def test_energy_gained_is_that_of_the_rigid_body_holds() -> None:
 
 def recalled() -> dict[str, tuple[Expr, Expr]]:
     """The table of Wang and Mason as it is remembered: the normal impulse, and the tangential one
-    in terms of it."""
+    in terms of it.
+    """
     B1, B2, B3, S0, C0, e, mu, sigma, P_y = NAMES
     while_sliding = -(1 + e) * C0 / (B2 + sigma * mu * B3)
     sticking, back = (B3 * P_y - S0) / B1, sigma * mu * (P_y - 2 * S0 / (B3 + sigma * mu * B1))

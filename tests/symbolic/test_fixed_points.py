@@ -1,5 +1,6 @@
 """Fixed points are fixed, and their orbits keep to the regions exactly when restitution is large
-enough."""
+enough.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The package loads nothing until a derivation is asked for, and says so where a derivation
-fails."""
+fails.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The report as one HTML page: nothing is fetched, formulas are MathML, pictures are SVG, and what
-moves is a few lines of script."""
+moves is a few lines of script.
+"""
 
 from __future__ import annotations
 

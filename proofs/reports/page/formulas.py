@@ -44,7 +44,8 @@ ARROW = r"\mapsto"
 @dataclass(frozen=True)
 class Row:
     """A line of a statement: the word for its keyword, and what it says as markup, in parts between
-    which a line may break; or names to link to."""
+    which a line may break; or names to link to.
+    """
 
     word: str
     parts: tuple[str, ...] = ()
@@ -76,7 +77,8 @@ def formula(text: str, block: bool = False) -> str:
 
 def shown(text: str, longest: int) -> str:
     """A formula as markup, or as the checker reads it where it is too long for one line: as text it
-    can be broken."""
+    can be broken.
+    """
     return formula(text) if len(text) <= longest else f"<code>{escape(text, quote=False)}</code>"
 
 
@@ -126,7 +128,8 @@ ADJOINED = re.compile(r"(\w+) is a root of (.+?) between (\S+) and (\S+?)(?= \w+
 
 def values(at: str) -> str:
     """A counterexample: values of names, and where adjoined roots lie; or a family, told by the
-    sign of a polynomial."""
+    sign of a polynomial.
+    """
     family = "a family by the sign of "
     if at.startswith(family):
         return family + polynomial(at.removeprefix(family))

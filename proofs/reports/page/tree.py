@@ -30,7 +30,8 @@ class Chip:
 @dataclass(frozen=True)
 class Node:
     """A rule or statement: lines of text, where it leads, its outcome, its premises, and the names
-    of what it rests on."""
+    of what it rests on.
+    """
 
     name: str
     title: str
@@ -71,7 +72,8 @@ class Node:
 @dataclass
 class _Place:
     """A node, or the stretch of a line that passes its layer, with the places that it is joined to
-    above and below."""
+    above and below.
+    """
 
     layer: int
     width: float
@@ -102,7 +104,8 @@ def picture(nodes: Sequence[Node], title: str) -> str:
 def depths(nodes: Sequence[Node]) -> Mapping[str, int]:
     """The longest way from a node that nothing rests on; a circle is an error.
 
-    >>> depths([Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",)), Node("c", "", "", "", "")])
+    >>> a, b = Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",))
+    >>> depths([a, b, Node("c", "", "", "", "")])
     {'a': 0, 'b': 1, 'c': 2}
     """
     known = {node.name: node for node in nodes}
@@ -173,7 +176,8 @@ def _middle(values: Sequence[float], otherwise: float) -> float:
 
 def _set_apart(row: Sequence[_Place], wanted: Sequence[float]) -> None:
     """Puts each place near where it is wanted, in order and without overlap: the mean of pushing
-    rightwards and pushing leftwards."""
+    rightwards and pushing leftwards.
+    """
     if not row:
         return
     steps = [(a.width + b.width) / 2 + GAP for a, b in zip(row, row[1:])]

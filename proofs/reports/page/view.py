@@ -1,8 +1,10 @@
 """What the page shows of the contents: words, marks and links for the templates, which hold no
-logic of their own."""
+logic of their own.
+"""
 
 from __future__ import annotations
 
+import inspect
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -92,7 +94,8 @@ SHARED = ("given", "let", "root")
 
 def shared_lines(statements: Sequence[Shown]) -> list[Line]:
     """What all statements of a claim assume, where there are several; rules and sharp ranges assume
-    nothing."""
+    nothing.
+    """
     assumed = [
         [
             (keyword, one)
@@ -201,7 +204,8 @@ def told(entry: Entry) -> Told:
 @dataclass(frozen=True)
 class Derived:
     """A derived expression: its anchor, what it is, its entries as markup, and what it is made
-    from."""
+    from.
+    """
 
     anchor: str
     said: str
@@ -311,7 +315,8 @@ def errata(by_section: Sequence[tuple[str, Sequence[Told]]]) -> list[tuple[str, 
 @dataclass(frozen=True)
 class Panel:
     """A rule of the theorem's tree, or a statement that it uses, with what it gives and its
-    premises."""
+    premises.
+    """
 
     name: str
     title: str
@@ -330,7 +335,7 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
             rule.name,
             rule.name.partition("/")[2],
             rule.kind,
-            (checker.ORBIT_RULES[rule.kind].__doc__ or "").strip(),
+            inspect.getdoc(checker.ORBIT_RULES[rule.kind]) or "",
             statement(Shown(rule.name, rule.text, rule.outcome, None, "", {}), whole=True),
             [statement(premise, whole=True) for premise in rule.premises],
             rule.rests_on,
@@ -342,7 +347,8 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
 
 def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
     """The picture of the theorem's tree; statements that a rule uses stand in it beside the
-    rules."""
+    rules.
+    """
     if not rules:
         return ""
     nodes = [

@@ -1,5 +1,6 @@
 """The LaTeX report: fragments that an author can input, and documents that hold them all, from
-templates that hold no formula of the paper."""
+templates that hold no formula of the paper.
+"""
 
 from __future__ import annotations
 
@@ -204,7 +205,8 @@ def _theorem(contents: Contents) -> dict[str, Any]:
 
     def conjuncts(said: str, most: int | None = None) -> str:
         """The parts of a conjunction; the first ones of a domain, where the last is there for a
-        division."""
+        division.
+        """
         return with_macros(",\\; ".join(latex_of(part) for part in said.split(" and ")[:most]))
 
     steps = words.Steps(entry(PROOF))

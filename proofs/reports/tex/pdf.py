@@ -1,5 +1,6 @@
 """Compiles the LaTeX report: latexmk in a folder of its own, with dates and ids left out so that
-equal sources make equal bytes."""
+equal sources make equal bytes.
+"""
 
 from __future__ import annotations
 
@@ -61,8 +62,11 @@ def compiled(files: Mapping[str, bytes], document: str) -> tuple[bytes, list[str
 def complaints(log: str) -> list[str]:
     """What a log complains of that a reader would see.
 
-    >>> complaints("LaTeX Warning: Reference `a' on page 1 undefined on input line 2.\\nOverfull \\\\hbox (7.3pt too wide) in paragraph\\n")
-    ["LaTeX Warning: Reference `a' on page 1 undefined on input line 2.", 'Overfull \\\\hbox (7.3pt too wide) in paragraph']
+    >>> log = "LaTeX Warning: Reference `a' on page 1 undefined on input line 2.\\n"
+    >>> log += "Overfull \\\\hbox (7.3pt too wide) in paragraph\\n"
+    >>> print(*complaints(log), sep="\\n")
+    LaTeX Warning: Reference `a' on page 1 undefined on input line 2.
+    Overfull \\hbox (7.3pt too wide) in paragraph
     """
     found = re.findall(
         r"^LaTeX Warning: (?:Reference|Citation|Label).*|^.*multiply[- ]defined.*|^.*undefined"

@@ -121,7 +121,8 @@ def without_stop(row: str) -> str:
 
 def correction(entry: Entry) -> str:
     """The corrected print: as LaTeX where a print was changed, else the corrected term after the
-    print's left side."""
+    print's left side.
+    """
     if entry.correction is None:
         raise ValueError(f"{entry.claim.id} has no correction")
     text = str(entry.correction["text"])
@@ -217,7 +218,8 @@ class Steps:
 
     def show(self, label: str, *parts: int) -> str:
         """What a line shows, whole or some of its conjuncts; refuses a line that is not
-        certified."""
+        certified.
+        """
         one = self.by_label[label]
         if one.outcome != "certified":
             raise ClaimError(f"{one.name} is {one.outcome}; the written proof cannot print it")

@@ -1,5 +1,6 @@
 """The part in flight: its centre on a parabola, turning evenly; the gaps between its four corners
-and the table."""
+and the table.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +65,8 @@ class Flight:
 
     def bound(self) -> Any:
         """A bound of the second derivative of every gap: gravity, the table's acceleration, and
-        omega^2 times the corner's distance."""
+        omega^2 times the corner's distance.
+        """
         return (
             self.model.g
             + self.model.greatest_table_acceleration()

@@ -22,7 +22,8 @@ AT_REST = (0, 0, 0)
 
 class Impact(NamedTuple):
     """The impulse on the part (per unit of its mass), its motion after it, and how the corner moved
-    meanwhile."""
+    meanwhile.
+    """
 
     impulse: Vector
     motion: Motion
@@ -76,7 +77,8 @@ def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
 
     def from_a_stop() -> tuple[int, Any]:
         """The way in which a corner without tangential velocity goes on, and its friction: it
-        sticks where friction can hold it."""
+        sticks where friction can hold it.
+        """
         frictionless, with_friction = growth(0)[0], growth(1)[0]
         holding = frictionless / (frictionless - with_friction)
         if abs(holding) <= mu:
@@ -116,7 +118,8 @@ def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
 
 def _mode(way: int, stopped: str | None) -> str:
     """Wang and Mason's name for how the corner moved: where it stopped, if it did, and whether it
-    stuck."""
+    stuck.
+    """
     if stopped is None:
         return "sliding"
     return f"{'reversed' if way else 'sticking'}-in-{stopped}"

@@ -18,7 +18,8 @@ MOST_IMPACTS, WITHIN = 20, "1e-6"  # more impacts in so many seconds are chatter
 
 class Event(NamedTuple):
     """An impact: when, of which corner (an index of CORNERS), in which mode, and the states before
-    and after it."""
+    and after it.
+    """
 
     time: Any
     corner: int
@@ -47,7 +48,8 @@ def reference_orbit(
     >>> from scenes.part.reference import dropped, setting
     >>> block = setting(3, 4, e="1/2", mu="1/2", g=10)
     >>> tilted = dropped(block, theta=atan(3 / 4), height="0.2")
-    >>> [(f"{float(event.time):.12f}", event.corner) for event in reference_orbit(block, tilted, until="0.41")]
+    >>> events = reference_orbit(block, tilted, until="0.41")
+    >>> [(f"{float(event.time):.12f}", event.corner) for event in events]
     [('0.200000000000', 2), ('0.400000000000', 2)]
     """
     model = Model(setting, digits)

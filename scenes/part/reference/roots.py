@@ -28,7 +28,8 @@ def first_crossing(
     >>> from mpmath import mpf
     >>> first_crossing(lambda t: [(2 - t, -1), (3 - 2 * t, -2)], 0, mpf(0), mpf(8), mpf("1e-9"))
     (mpf('1.5'), 1)
-    >>> first_crossing(lambda t: [((t - 2)**2 + mpf("0.001"), 2 * (t - 2))], 2, mpf(0), mpf(8), mpf("1e-9"))
+    >>> touching = lambda t: [((t - 2)**2 + mpf("0.001"), 2 * (t - 2))]
+    >>> first_crossing(touching, 2, mpf(0), mpf(8), mpf("1e-9"))
     """
     everyone = list(range(len(gaps(start))))
     pieces = [(start, end, everyone)]
@@ -55,7 +56,8 @@ def _sorted_out(
     here: list[tuple[Any, Any]], watched: list[int], bound: Any, half: Any, noise: Any
 ) -> tuple[list[int], list[int]]:
     """Those of the watched gaps that fall through all of the piece, and those that are not decided;
-    the others do not fall to 0 in it."""
+    the others do not fall to 0 in it.
+    """
     falling, unclear = [], []
     for one in watched:
         gap, rate = here[one]

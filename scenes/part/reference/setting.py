@@ -1,5 +1,6 @@
 """The part, its table and its state: exact numbers, and the same in mpmath numbers of so many
-digits."""
+digits.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +36,8 @@ class Setting:
 
 class State(NamedTuple):
     """The centre of mass in the laboratory's frame at the time t: its place, the angle (0 upright,
-    counterclockwise), and their velocities."""
+    counterclockwise), and their velocities.
+    """
 
     t: Any
     X: Any
@@ -99,7 +101,8 @@ def setting(
 
 class Model:
     """A setting in mpmath numbers, in a context of its own, so that mpmath's global precision is
-    left alone."""
+    left alone.
+    """
 
     def __init__(self, numbers: Setting, digits: int) -> None:
         if digits < FEWEST_DIGITS:

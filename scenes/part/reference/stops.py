@@ -15,7 +15,8 @@ class Stopped(SceneError):
 
 class Chatter(Stopped):
     """Impacts accumulate, or an impact leaves the corner on the table: the part comes to rest on a
-    corner."""
+    corner.
+    """
 
 
 class Simultaneous(Stopped):

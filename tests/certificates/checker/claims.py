@@ -1,5 +1,6 @@
 """What an accepted certificate claims, tested at sample points by the second reading:
-`contradiction` names a point where it is false."""
+`contradiction` names a point where it is false.
+"""
 
 from __future__ import annotations
 

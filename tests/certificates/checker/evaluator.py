@@ -19,7 +19,8 @@ RELATIONS = ("<=", ">=", "!=", "<", ">", "=")
 
 class Reader:
     """Recursive descent straight to values: or < and < not < relations < sums < products < minus <
-    powers."""
+    powers.
+    """
 
     def __init__(self, text: str, point: Point) -> None:
         self.tokens, self.point, self.place = TOKEN.findall(text), point, 0
@@ -153,7 +154,8 @@ def rational_root(value: Fraction) -> Fraction | None:
 
 def holds_at(rows: list[str], point: Point) -> bool | None:
     """Whether the lines of a statement hold at a point of its variables; those that `exists` names
-    are to be among them."""
+    are to be among them.
+    """
     values = dict(point)
     for row in rows:
         keyword, _, rest = row.partition(" ")

@@ -1,5 +1,6 @@
 """Cases for the checker: a statement, a certificate, and the outcome, or how the reason of the
-rejection begins."""
+rejection begins.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ CLOSE = ["close"]
 @dataclass(frozen=True)
 class Case:
     """One certificate for the last statement of a text; `earlier` holds the certificates of those
-    before it."""
+    before it.
+    """
 
     defect: str
     text: str
@@ -35,7 +37,8 @@ def proof(
     node: Json, *steps: Json, at: dict[str, str] | None = None, name: str = "rule/case"
 ) -> Json:
     """A certificate: `node` closes "premises and not goals", `steps` the obligations; the point's
-    terms meet the premises at once."""
+    terms meet the premises at once.
+    """
     return {"certified": ["proof", list(steps), node], "point": [name, [], at or {}, CLOSE]}
 
 
@@ -59,7 +62,8 @@ def refuted(
 
 def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, str]]:
     """{name: (outcome, reason)} for every statement of a text, each checked after those before
-    it."""
+    it.
+    """
     known: dict[str, Any] = {}
     earlier: dict[str, Any] = {}
     found: dict[str, tuple[str, str]] = {}
@@ -74,7 +78,8 @@ def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, st
 
 def judge(case: Case) -> tuple[str, str]:
     """(outcome, reason) of the last statement of a case; none of those before it may be
-    rejected."""
+    rejected.
+    """
     try:
         found = verdict(case.text, case.earlier | {_last(case.text): case.certificate})
     except checker.Rejected as reason:

@@ -1,5 +1,6 @@
 """Two maps that are not the paper's, with all that the map rules say of them, and certificates that
-the search finds."""
+the search finds.
+"""
 
 from __future__ import annotations
 
@@ -98,7 +99,8 @@ def read(text: str) -> dict[str, checker.Statement]:
 @cache
 def searched(text: str) -> dict[str, Json]:
     """{name: certificate or the reason why none was found} for the statements of a text in order,
-    as far as those before are certified."""
+    as far as those before are certified.
+    """
     known: dict[str, checker.Statement] = {}
     found: dict[str, Json] = {}
     for name, statement in read(text).items():

@@ -1,5 +1,6 @@
 """Box trees against an independent evaluation: whatever tree is accepted, random ones too, what it
-shows is true at every point tried."""
+shows is true at every point tried.
+"""
 
 from __future__ import annotations
 
@@ -132,7 +133,8 @@ def test_coefficients_are_those_of_the_polynomial(
     text: str, box: list[tuple[Fraction, Fraction]], place: list[Fraction]
 ) -> None:
     """sum of coefficients times Bernstein polynomials = one positive factor times the polynomial,
-    at any point."""
+    at any point.
+    """
     context = checker.Context()
     for name in NAMES:
         context.declare(name)

@@ -1,5 +1,6 @@
 """The checker as it is run, alone on a folder: exit codes, and one line for each thing that is
-wrong, whatever the files hold."""
+wrong, whatever the files hold.
+"""
 
 from __future__ import annotations
 

@@ -137,7 +137,8 @@ CASES: dict[str, tuple[str, Json]] = {
 @pytest.fixture(scope="module")
 def outcomes() -> dict[str, str]:
     """{name: what the checker says}, from one process with bounded memory and time; a name is
-    missing where it did not end."""
+    missing where it did not end.
+    """
     sent = json.dumps(list(CASES.values()))
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM], input=sent, capture_output=True, text=True, timeout=120

@@ -1,5 +1,6 @@
 """The map rules on two other maps: accepted as they are, rejected with the premise's name where one
-premise fails, and nothing can be left out."""
+premise fails, and nothing can be left out.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The checker's reading of a formula agrees with a second one, at random rational points, in both
-directions."""
+directions.
+"""
 
 from __future__ import annotations
 

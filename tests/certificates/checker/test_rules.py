@@ -1,5 +1,6 @@
 """Every rule, from its tables: certificates that it accepts, and defects that it rejects with the
-reason that names them."""
+reason that names them.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Changed certificates and changed statements: whatever is still accepted is still true, by the
-second reading at sample points."""
+second reading at sample points.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +51,8 @@ MOST = 40  # changes tried of one certificate, evenly spread
 
 def tampered(certificate: Json) -> list[Json]:
     """Changes of every place of a certificate: digits and indices, signs, keys and entries removed,
-    doubled or swapped."""
+    doubled or swapped.
+    """
     changes = list(changed_somewhere(certificate))
     return changes[:: 1 + len(changes) // MOST]
 
@@ -114,7 +116,8 @@ SWAPS = [
 
 def altered(text: str) -> Iterator[str]:
     """Every statement that differs by one mark in the last statement of a text, or by a line left
-    out."""
+    out.
+    """
     rows = text.strip().splitlines()
     last = max(k for k, row in enumerate(rows) if row.startswith("statement "))
     for k in range(last + 1, len(rows)):
@@ -153,7 +156,8 @@ def last_of(case: Case, text: str, certificate: Json) -> tuple[str, str, str]:
 
 def wrong(text: str, outcome: str, certificate: Json, whole: str) -> object:
     """A point at which an accepted certificate is wrong; what a plain proof claims depends on the
-    statement alone."""
+    statement alone.
+    """
     plain = outcome == "certified" and list(certificate["certified"])[:1] == ["proof"]
     key = json.dumps([whole, outcome, None if plain else certificate])
     if key not in SEEN:

@@ -1,5 +1,6 @@
 """True and false statements in the normal form and in physical units, each with what is known of it
-by hand."""
+by hand.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """An evaluator of statement texts at rational points that shares no code with the checker or the
-routes."""
+routes.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +10,8 @@ from typing import Any
 
 def fails_at(text: str, model: tuple[tuple[str, str], ...]) -> bool:
     """Whether every assumption of the (universal) statement holds at the point and what it shows
-    does not."""
+    does not.
+    """
     scope: dict[str, Any] = {name: Fraction(value) for name, value in model}
     scope |= {"implies": lambda p, q: not p or q, "iff": lambda p, q: p == q}
     for line in text.splitlines()[1:]:

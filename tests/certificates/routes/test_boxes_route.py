@@ -1,5 +1,6 @@
 """The boxes' votes: never wrong on the corpus, decisive on bounded strict statements, an enclosure
-where equality is attained."""
+where equality is attained.
+"""
 
 from fractions import Fraction
 from functools import cache

@@ -1,5 +1,6 @@
 """The exact parts that votes rest on: polynomials, formulas, algebraic signs, units, bounds and
-reductions."""
+reductions.
+"""
 
 from fractions import Fraction
 from random import Random

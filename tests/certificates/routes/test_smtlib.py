@@ -1,5 +1,6 @@
 """The SMT-LIB text: deterministic, without divisions, of the right logic, and read by other solvers
-as it is meant."""
+as it is meant.
+"""
 
 from collections.abc import Callable
 

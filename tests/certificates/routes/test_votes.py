@@ -1,5 +1,6 @@
 """Votes against checked outcomes: agreement passes, a contradiction stops with both sides in one
-line."""
+line.
+"""
 
 import pickle
 

@@ -1,5 +1,6 @@
 """Z3's votes: right on the whole corpus, exact where it says `fails`, silent where it does not
-know."""
+know.
+"""
 
 import subprocess
 import sys

@@ -1,5 +1,6 @@
 """Trees and squares that the searches find: the checker accepts them, and an independent evaluation
-finds no point below."""
+finds no point below.
+"""
 
 from __future__ import annotations
 

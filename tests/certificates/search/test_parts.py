@@ -1,5 +1,6 @@
 """The parts of the proof search: polynomials, units, eliminations, linear programs, interior
-points."""
+points.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Trees of the search for small problems: the checker accepts each, and none is found where a point
-is negative."""
+is negative.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Sums of squares as multipliers: the steps from a semidefinite hint to an identity that the
-checker accepts, and points with several roots."""
+checker accepts, and points with several roots.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Every statement of `statements.txt` is proved, but for those whose names end in -false: they have
-no proof."""
+no proof.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """States on borders: families of counterexamples that begin where inequalities meet, an adjoined
-root among them."""
+root among them.
+"""
 
 import pytest
 

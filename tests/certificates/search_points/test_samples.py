@@ -1,5 +1,6 @@
 """Fast evaluation on samples agrees with plain substitution, and counted work is the same however
-often a question is asked."""
+often a question is asked.
+"""
 
 from __future__ import annotations
 

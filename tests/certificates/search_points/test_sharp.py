@@ -1,5 +1,6 @@
 """Sharp ranges: the exact set of alpha, its end points to twelve decimals, and certificates of both
-sides."""
+sides.
+"""
 
 import mpmath
 import pytest

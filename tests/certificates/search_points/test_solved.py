@@ -1,5 +1,6 @@
 """Conditions solved for alpha: the display says what the certified condition says, and gives up
-where a slope has no proved sign."""
+where a slope has no proved sign.
+"""
 
 from fractions import Fraction
 from itertools import product

@@ -1,5 +1,6 @@
 """Witnesses for `exists`: rational functions, adjoined roots and case splits, each accepted by the
-checker."""
+checker.
+"""
 
 import pytest
 
@@ -163,7 +164,8 @@ given eps > 0
 root s = sqrt(2*(1 + alpha))
 exists beta v
 with beta >= 0 and r^2 - g*beta/2 - r*v > 0 and {MARGIN} - g*beta - v^2/2 < 0
-show {FALL} - (1 + alpha)*g*beta > r^2*(s*alpha*(1 + alpha)/(1 - alpha) - (1 + alpha)^3/(2*(1 - alpha))) - eps"""
+show {FALL} - (1 + alpha)*g*beta > r^2*(s*alpha*(1 + alpha)/(1 - alpha) - (1 + alpha)^3/(2*(1 - \
+alpha))) - eps"""
     ),
 }
 

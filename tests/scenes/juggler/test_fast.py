@@ -1,5 +1,6 @@
 """Bounded floats: the bound holds of every operation, chunks change nothing, and memory does not
-grow with the steps."""
+grow with the steps.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Section by section the hard cases: what floats do, what is true, and what the bounded arithmetics
-say of it."""
+say of it.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +75,8 @@ def test_bounded_floats_hold_the_truth_or_say_that_they_cannot_tell_holds(one: F
 
 def test_a_false_orbit_of_floats_has_another_limit_holds() -> None:
     """At alpha = 3/7 from (4/3, 3) the state after the first impact is (5/7, 5/7); floats say x <
-    w, and end in e_1 instead of e_2."""
+    w, and end in e_1 instead of e_2.
+    """
     found = finding(next(case for case in CASES if "two limits" in case.name))
     assert found.wrong_at == 1
     assert abs(found.floats[0] - 21 / 50) < 1e-9 and abs(found.floats[1] - 7 / 5) < 1e-9

@@ -1,5 +1,6 @@
 """The scene iterates the very map that the proofs are about: its compiled text is the derived
-expression, and the checker's pieces say the same."""
+expression, and the checker's pieces say the same.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Periodic orbits by their words: they come back exactly, exist where the exact ranges say, and no
-other does."""
+other does.
+"""
 
 from __future__ import annotations
 

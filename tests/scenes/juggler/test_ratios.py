@@ -1,5 +1,6 @@
 """Long exact numbers, which are not kept in lowest terms, are those of plain fractions; what does
-not grow stays short."""
+not grow stays short.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """`juggleproof simulate juggler`: tables, files, one line for what is wrong, and what is done is
-kept where it is interrupted."""
+kept where it is interrupted.
+"""
 
 from __future__ import annotations
 

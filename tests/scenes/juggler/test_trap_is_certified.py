@@ -1,5 +1,6 @@
 """The trap of the scene, which holds for every alpha, is certified by the checker: it is mapped
-into itself and every state of it strikes."""
+into itself and every state of it strikes.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ def the_trap_is_invariant():
     """The image of the trap under f1 lies in the trap."""
     above, after = a * (w - x), 2 - a * w
     trap = [a > 0, a < 1, x >= 0, x < w, a * w < 1, {third}]
-    return always((above >= 0) & (above < after) & (a * after < 1) & (a * (2 - a * after) < 1), given=trap)
+    kept = (a * after < 1) & (a * (2 - a * after) < 1)
+    return always((above >= 0) & (above < after) & kept, given=trap)
 '''
 
 

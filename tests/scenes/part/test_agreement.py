@@ -1,5 +1,6 @@
 """The fast integrator against the slow reference: the same impacts before chaos parts them, and an
-error that falls with the tolerance."""
+error that falls with the tolerance.
+"""
 
 from __future__ import annotations
 
@@ -81,7 +82,8 @@ def fast(which: int, tolerance: float) -> list[tuple[int, str, Any]]:
 
 def errors(which: int, tolerance: float) -> list[float]:
     """How far the states after the impacts are from the reference's: times, places and speeds in
-    seconds and metres, angles times half a diagonal."""
+    seconds and metres, angles times half a diagonal.
+    """
     scale = np.array([1, 1, 1, math.hypot(0.01, 0.02), 1, 1, math.hypot(0.01, 0.02)])
     return [
         float(np.abs((ours[2] - np.array([float(one) for one in event.after])) * scale).max())
@@ -103,7 +105,8 @@ def test_fast_has_the_impacts_of_the_reference_holds(which: int) -> None:
 
 def test_error_falls_with_the_tolerance_holds() -> None:
     """After the fourth impact, in the median over the starts: by Newton's last step with its
-    square, until rounding is all that is left."""
+    square, until rounding is all that is left.
+    """
     chosen = [which for which in range(len(STARTS)) if len(by_reference(which)[1]) >= 4]
     assert len(chosen) >= 10
     found = [

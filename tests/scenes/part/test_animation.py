@@ -1,5 +1,6 @@
 """The animation is one file that shows the simulated states, asks for nothing, and is moved by
-slider, keys and button."""
+slider, keys and button.
+"""
 
 from __future__ import annotations
 
@@ -196,7 +197,8 @@ def test_blocks_are_drawn_where_they_are_holds(driver: Any) -> None:
         drawn = driver.execute_script(
             """
           const pen = document.getElementById("picture").getContext("2d"), m = pen.getTransform();
-          return arguments[0].map(([x, y]) => [...pen.getImageData(m.a * x + m.e, m.d * y + m.f, 1, 1).data.slice(0, 3)]);""",
+          return arguments[0].map(([x, y]) =>
+            [...pen.getImageData(m.a * x + m.e, m.d * y + m.f, 1, 1).data.slice(0, 3)]);""",
             [
                 [(k % 10) * pitch(), (k // 10) * pitch() + seen()[frame, k, body.Y]]
                 for k in range(91)

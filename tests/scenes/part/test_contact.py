@@ -1,5 +1,6 @@
 """Contact that lasts: pivots, which stick or slide, and faces at rest, against mechanics in many
-digits; coming to rest adds no energy."""
+digits; coming to rest adds no energy.
+"""
 
 from __future__ import annotations
 
@@ -82,7 +83,8 @@ def test_sticking_pivot_on_a_still_table_keeps_the_energy_holds(tolerance: float
 
 def by_newton(block: Any, z: Any, i: int, slide: int, until: Any) -> Any:
     """(X, V_X, theta, omega) by Newton and Euler with the constraint, its forces eliminated by
-    linear algebra; as a function of time."""
+    linear algebra; as a function of time.
+    """
     lib = mpmath
     g, k2, mu = (
         lib.mpf(block.g),

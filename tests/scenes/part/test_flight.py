@@ -1,5 +1,6 @@
 """Flights end at the first corner that meets the table: no meeting is stepped over, and no corner
-gets below the tolerance's negative."""
+gets below the tolerance's negative.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ TO_REFERENCE = (2, 3, 0, 1)  # the corner's number there
 
 def flights(count: int, tolerance: float) -> list[tuple[Any, Any]]:
     """Scenes and states in flight: some spin fast, some are near the table, some graze it, some are
-    flat."""
+    flat.
+    """
     dice = np.random.default_rng(7)
     found = []
     for _ in range(count):
@@ -165,7 +167,8 @@ def test_least_gap_is_seen_where_a_corner_starts_too_low() -> None:
 @pytest.mark.parametrize("hop", [1e-1, 1e-3, 1e-6])
 def test_hop_below_the_tolerance_does_not_sink_the_corner_holds(depth: float, hop: float) -> None:
     """It comes down to the height from which it set out, as fast as it went up: hops that sank a
-    little each went through the table in time."""
+    little each went through the table in time.
+    """
     block = scene(a=0.01, b=0.02, e=0.5, mu=0.0, A_y=0.0, tolerance=1e-7)
     p, theta = block.parameters(), 0.3
     up = math.sqrt(

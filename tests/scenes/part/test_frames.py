@@ -40,7 +40,8 @@ def test_frames_are_of_the_orbit_without_stops_holds(setting: object) -> None:
 
 def test_orbits_are_the_same_fails_without_one_orbit() -> None:
     """Why frames are not runs from one time to the next: the stop rounds, and chaos makes that
-    another orbit."""
+    another orbit.
+    """
     half = run(SHAKEN, standing(SHAKEN, ANGLES), 0.8)
     stopped = run(SHAKEN, half.states, 1.5, notes=half.notes).states
     assert np.abs(stopped - frames(SHAKEN, ANGLES, [1.5])[0]).max() > 1e-3

@@ -1,5 +1,6 @@
 """What the impact law guarantees holds at every one of a million impacts; and each count can fail:
-a wrong law is noticed."""
+a wrong law is noticed.
+"""
 
 from __future__ import annotations
 

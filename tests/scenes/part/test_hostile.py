@@ -1,5 +1,6 @@
 """Scenes that broke an earlier integrator, and drawn ones: every run ends, with finite states,
-nothing gained and no corner in the table."""
+nothing gained and no corner in the table.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ GUARANTEES = [body.PULLS, body.CONES, body.GAINS, body.CLOSINGS]
 
 def drawn(seed: int) -> tuple[Any, Any]:
     """A scene and ten blocks: squares and slivers, no friction and much, no restitution and all,
-    hard and soft shaking, standing or thrown."""
+    hard and soft shaking, standing or thrown.
+    """
     dice = np.random.default_rng(seed)
     a = 10 ** dice.uniform(-3, -1.5)
     b = a * dice.choice([1, 1.0001, 2, 5, 100, 1 + dice.random()])
@@ -152,7 +154,8 @@ def test_scene_that_broke_an_integrator_runs_to_its_end_holds(name: str) -> None
 @pytest.mark.parametrize("mu", [0.5, 1.2, 1.3, 1.33333])
 def test_still_table_gives_no_energy_near_jamming_either_holds(mu: float) -> None:
     """At mu = 4/3 the force at a sliding corner of a 1:2 block has no bound: steps must become
-    shorter near it."""
+    shorter near it.
+    """
     for e, rest in ((0.0, 1e-3), (0.5, 0.1), (0.9, 1e-2)):
         block = scene(e=e, mu=mu, A_y=0.0, tolerance=1e-9, rest_speed=rest)
         states = np.concatenate(

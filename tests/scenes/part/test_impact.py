@@ -1,5 +1,6 @@
 """The compiled impact law is the derived one: exactly, in all five modes, where the corner does not
-slide at first, and where friction jams it."""
+slide at first, and where friction jams it.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ def as_function(which: str, mode: str = "") -> Any:
 
 def drawn(count: int) -> list[tuple[Fraction, ...]]:
     """(S0, C0, B1, B2, B3, e, mu): (B1 - 1)(B2 - 1) = B3^2, C0 < 0; a third without sliding at
-    first, a third near boundaries of modes."""
+    first, a third near boundaries of modes.
+    """
     dice = random.Random(1992)
 
     def number(low: int, high: int) -> Fraction:
@@ -136,7 +138,8 @@ def test_jams_exactly_where_the_closing_rate_is_not_positive_holds() -> None:
 
 def test_corner_that_does_not_slide_at_first_slides_where_friction_fails_holds() -> None:
     """Friction needs B3/B1 of the normal impulse: with less it slides against it, with more it
-    sticks, and exactly between both are one."""
+    sticks, and exactly between both are one.
+    """
     for B3 in (Fraction(1), Fraction(-1)):
         for mu, sticks in ((Fraction(1, 4), False), (Fraction(1, 2), None), (Fraction(3, 4), True)):
             given = (Fraction(0), Fraction(-1), Fraction(2), Fraction(2), B3, Fraction(1, 2), mu)

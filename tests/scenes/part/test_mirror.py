@@ -1,5 +1,6 @@
 """A mirrored start on the mirrored table gives the mirrored orbit, bit for bit: impacts, contact
-and rest prefer no side."""
+and rest prefer no side.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """`juggleproof simulate part`: what it prints and writes, and one line for every wish that cannot
-be carried out."""
+be carried out.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Figure 2 shows the blocks where they are, in the paper's order, told apart without colour, and is
-the same to the byte from run to run."""
+the same to the byte from run to run.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """The slow reference of the part: its flights, its impacts against the derived modes, its search,
-and what it refuses."""
+and what it refuses.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +58,8 @@ def followed(which: int, digits: int = 50) -> tuple[Model, State, list[Event]]:
 
 def flights(which: int) -> list[tuple[Flight, State]]:
     """Each flight between impacts, the last until the end unless impacts accumulate there, and the
-    state in which it ends."""
+    state in which it ends.
+    """
     model, start, events = followed(which)
     found = [Flight(model, left) for left in (start, *(event.after for event in events))]
     ended = [event.before for event in events]
@@ -214,7 +216,8 @@ def test_part_on_a_corner_below_its_centre_rebounds_with_e_times_its_speed_holds
 
 def random_impacts(count: int) -> list[tuple[Any, ...]]:
     """Exact motions of exact rectangles turned by exact angles, at a corner that approaches; some
-    without friction, restitution or sliding."""
+    without friction, restitution or sliding.
+    """
     dice = random.Random(1992)
 
     def number(low: int, high: int) -> Fraction:
@@ -310,7 +313,8 @@ def test_impacts_are_those_of_the_derived_modes_holds() -> None:
 
 def test_corner_that_stops_just_where_a_phase_ends_holds() -> None:
     """B1 = 4, B2 = 1, B3 = 0 and C0 = -2: with mu = 1/8 a unit of normal impulse takes 1/2 from S;
-    compression ends at 2, the impact at 3."""
+    compression ends at 2, the impact at 3.
+    """
     below, k2, half = (0, -5), Fraction(25, 3), Fraction(1, 2)
     for start, mode in (
         (Fraction(1), "sticking-in-compression"),
@@ -343,7 +347,8 @@ def test_rounded_impacts_are_the_exact_ones_holds() -> None:
 
 def dip(depth: str) -> Any:
     """A gap that touches -depth at t = 1/3 and is high elsewhere, beside one that falls to 0 at t =
-    3/4."""
+    3/4.
+    """
 
     def gaps(t: Any) -> list[tuple[Any, Any]]:
         return [
@@ -380,7 +385,8 @@ def test_rejects_two_corners_that_strike_together() -> None:
 
 def tipping() -> State:
     """Lying on its long side: corner 1 strikes at once, while corner 2, as good as on the table,
-    rises until then."""
+    rises until then.
+    """
     return dropped(STILL, MP.pi / 2 + MP.mpf("1e-14"), "1e-20", VY="-0.1", omega="5.1")
 
 

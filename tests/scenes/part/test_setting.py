@@ -1,5 +1,6 @@
 """Bad input is told in one line; executors do not change a byte; the juggler's scenes load nothing
-of the part."""
+of the part.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 """Averages over parts do not depend on tolerance and rest speed; the split of a still table is
-exact; what has not settled is censored."""
+exact; what has not settled is censored.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ SPLIT = math.degrees(math.atan(0.5))  # 26.56505...
 
 def mean_exit(block: Scene, seed: int) -> tuple[float, float]:
     """The mean over 24 x 27 parts that start upright of the last time at which they are, at most 6
-    s, and its standard error."""
+    s, and its standard error.
+    """
     angles = jittered(ENSEMBLES, seed)[:, :27].ravel()
     last = run(block, standing(block, angles), HORIZON).notes[:, body.LAST_UPRIGHT]
     # starts are spread evenly over 0..26 degrees: the error of the mean is at most that of
@@ -31,7 +33,8 @@ ACCURACIES = ((1e-12, 1e-3), (1e-9, 1e-3), (1e-6, 1e-3), (1e-12, 1e-4), (1e-12, 
 
 def test_mean_exit_time_does_not_depend_on_tolerance_and_rest_speed_holds() -> None:
     """Rule: each of six accuracies, with jitter of its own, is within 3.5 standard errors of the
-    mean of the others."""
+    mean of the others.
+    """
     found = [
         mean_exit(
             scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3, tolerance=tolerance, rest_speed=rest), seed

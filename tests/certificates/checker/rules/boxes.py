@@ -1,5 +1,6 @@
 """["boxes", i, [[j, k], ...], tree]: fact i fails on the whole box that the facts j and k bound
-(Bernstein coefficients)."""
+(Bernstein coefficients).
+"""
 
 from tests.certificates.checker.harness import Case, Json, lines, proof
 

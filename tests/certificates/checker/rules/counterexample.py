@@ -1,5 +1,6 @@
 """A refutation: values that meet the premises, and a node that shows that the goals fail whatever
-the `exists` variables are."""
+the `exists` variables are.
+"""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, refuted
 

@@ -1,5 +1,6 @@
 """Division: only by what an earlier strict line makes nonzero, at top level or inside a top-level
-`and`."""
+`and`.
+"""
 
 from tests.certificates.checker.harness import CLOSE, Case, lines, proof
 

@@ -1,5 +1,6 @@
 """Obligations: every `have` line follows from the lines before it, and so does it that the term
-under a root is not negative."""
+under a root is not negative.
+"""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof
 

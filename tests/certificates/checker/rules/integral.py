@@ -1,5 +1,6 @@
 """["integral", i, node]: a strict fact with integer coefficients in integer variables is at least
-one."""
+one.
+"""
 
 from tests.certificates.checker.harness import OPEN, Case, Json, lines, proof
 

@@ -1,5 +1,6 @@
 """["interval", i, j, k]: fact i is negative on the whole interval that facts j and k bound
-(Sturm)."""
+(Sturm).
+"""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof
 

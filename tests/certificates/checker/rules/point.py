@@ -1,5 +1,6 @@
 """The point of a certified statement: values that meet its premises, so that it says something; and
-the keys of a certificate."""
+the keys of a certificate.
+"""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, refuted
 

@@ -1,5 +1,6 @@
 """["psatz", products, equations]: a sum of nonnegative products and multiples of equations is zero,
-yet strictly positive."""
+yet strictly positive.
+"""
 
 from tests.certificates.checker.harness import Case, Json, lines, proof
 

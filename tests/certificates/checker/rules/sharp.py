@@ -1,5 +1,6 @@
 """Sharp ranges: for all parameters in the domain, the statements named hold <=> the condition
-holds."""
+holds.
+"""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines
 

@@ -1,5 +1,6 @@
 """The text of statements: what is no term, no formula, no name or no line in its place is
-refused."""
+refused.
+"""
 
 from tests.certificates.checker.harness import CLOSE, Case, lines, proof
 

@@ -1,5 +1,6 @@
 """["use", name, {variable: term}, {variable: fresh}, node]: an instance of an earlier certified
-statement."""
+statement.
+"""
 
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof, witness
 

@@ -1,5 +1,6 @@
 """Statements with `exists`: terms for what exists, from all that the premises say; and the point
-that meets the premises."""
+that meets the premises.
+"""
 
 from tests.certificates.checker.harness import CLOSE, Case, Json, lines, proof, witness
 
