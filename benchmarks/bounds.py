@@ -28,9 +28,9 @@ sys.path.insert(0, str(ROOT))
 from rich.console import Console  # noqa: E402
 from rich.table import Table  # noqa: E402
 
-from certificates import checker  # noqa: E402
-from proofs.bounds import Enclosure, enclose_minimum  # noqa: E402
-from proofs.command.bound import box, number  # noqa: E402
+from juggleproof.certificates import checker  # noqa: E402
+from juggleproof.proofs.bounds import Enclosure, enclose_minimum  # noqa: E402
+from juggleproof.proofs.command.bound import box, number  # noqa: E402
 
 HEART = (
     (
@@ -119,7 +119,7 @@ def cold(polynomial: str, side: str, width: str) -> float:
         [
             sys.executable,
             "-m",
-            "proofs.command.main",
+            "juggleproof.proofs.command.main",
             "bound",
             polynomial,
             "--box",

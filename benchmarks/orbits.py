@@ -15,9 +15,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from scenes.juggler import orbit, point, random, scene
-from scenes.juggler.exact import told
-from scenes.juggler.fast import bytes_needed
+from juggleproof.scenes.juggler import orbit, point, random, scene
+from juggleproof.scenes.juggler.bounded import bytes_needed
+from juggleproof.scenes.juggler.exact import told
 
 ALPHAS = ("3/10", "9/10")  # in the trap after a few impacts; out of it for long
 STEPS, STATES, RANDOM_STEPS = (100, 1000, 10000), (1000, 10000, 100000), 100
@@ -44,8 +44,8 @@ def slope(sizes: Sequence[float], times: Sequence[float]) -> float:
 def error(kind: str, row: Any, exact: Any) -> str:
     """How far the told state is from the exact one, beside the bound that is told of it."""
     if row.end != "reached" or exact.end != "reached":
-        return row.end or exact.end
-    values = (row.x, row.w)
+        return str(row.end or exact.end)
+    values: tuple[Any, ...] = (row.x, row.w)
     if kind == "enclosed":
         values = tuple(told(value.mid().fmpq()) for value in values)
     elif kind == "mp":

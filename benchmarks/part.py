@@ -1,7 +1,7 @@
 """The part on the table: seconds for table I, how they grow, error against cost, and scatter
 against the number of ensembles.
 
-Run: python -m benchmarks.part [--plot FILE.svg] [--ensembles 48]
+Run: python -m juggleproof.benchmarks.part [--plot FILE.svg] [--ensembles 48]
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from scenes.part import body, run, scene, standing, table_one
-from scenes.part.onsets import ANGLES, jittered
-from scenes.part.reference import Stopped, dropped, reference_orbit, setting
-from scenes.part.setting import Scene
+from juggleproof.scenes.part import body, run, scene, standing, table_one
+from juggleproof.scenes.part.onsets import ANGLES, jittered
+from juggleproof.scenes.part.reference import Stopped, dropped, reference_orbit, setting
+from juggleproof.scenes.part.setting import Scene
 
 AIM_SECONDS, AIM_NANOSECONDS = 0.2, 1000.0
 TOLERANCES = tuple(10.0**k for k in range(-12, -5))
@@ -31,7 +31,8 @@ UNTIL = 0.2  # seconds that the reference is followed for
 
 def row(**numbers: Any) -> Scene:
     """The third row of table I: 30 Hz, 1 mm."""
-    return scene(**{"e": 0.7, "mu": 0.08, "f_x": 30.0, "A_x": 1e-3, **numbers})
+    made: Scene = scene(**{"e": 0.7, "mu": 0.08, "f_x": 30.0, "A_x": 1e-3, **numbers})
+    return made
 
 
 def least(work: Callable[[], Any], runs: int) -> tuple[float, Any]:
@@ -148,11 +149,15 @@ def scatter(sizes: Sequence[int], ensembles: int, horizon: float) -> list[tuple[
     found = []
     for size in sizes:
         groups = [notes[k : k + size] for k in range(0, ensembles - size + 1, size)]
-        estimates = (
-            [float(np.median(group.max(axis=1))) for group in groups],
-            [float(group.mean()) for group in groups],
+        onsets = [float(np.median(group.max(axis=1))) for group in groups]
+        means = [float(group.mean()) for group in groups]
+        found.append(
+            (
+                size,
+                statistics.stdev(onsets) / statistics.mean(onsets),
+                statistics.stdev(means) / statistics.mean(means),
+            )
         )
-        found.append((size, *(statistics.stdev(one) / statistics.mean(one) for one in estimates)))
     return found
 
 
@@ -198,7 +203,9 @@ def plot(
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.part", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m juggleproof.benchmarks.part", description=__doc__
+    )
     parser.add_argument("--plot", type=Path, help="an SVG file to write")
     parser.add_argument(
         "--ensembles", type=int, default=48, help="of 91 parts each, for the scatter"

@@ -1,33 +1,336 @@
-"""The same statements by our search with its check, and by peers: Z3 alone, cvc5, QEPCAD B and
-Coq's nra; absent ones are named.
-
-Run: python benchmarks/peers.py [--every 20] [--seconds 10].  A peer's answer is no certificate;
-ours is checked, and that time is counted. Exit 1 where two answers contradict each other, or one of
-them what the stored certificate says.
-"""
+"""Peers on the same statements."""
 
 from __future__ import annotations
 
 import argparse
+import os
+import re
+import shutil
 import signal
 import statistics
+import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.certificate import search_certificate
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.votes.questions import (
+    Atom,
+    Formula,
+    Polynomial,
+    Question,
+    join,
+    questions,
+)
+from juggleproof.certificates.votes.smtlib import script
+from juggleproof.certificates.work import Budget, Exhausted
+
+# -------------------------------------------------------------------------------------------------
+# A peer's program in a process of its own, ended with its children when the seconds of the
+# statement are over, or when its caller is.
+
+Answer = Literal["holds", "fails", "unsettled", "not expressible"]
+GRACE = 2.0  # seconds that a process has to end its own children
+
+
+class Clock:
+    """The seconds that are left for one statement, however many questions it asks."""
+
+    def __init__(self, seconds: float) -> None:
+        self.end = time.monotonic() + seconds
+
+    def output_of(self, command: list[str], text: str) -> str | None:
+        """What the program writes when it reads the text; None where it is not done in time."""
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        try:
+            return process.communicate(text, timeout=max(0.0, self.end - time.monotonic()))[0]
+        except subprocess.TimeoutExpired:
+            return None
+        finally:
+            kill_with_children(process)
+
+
+def kill_with_children(process: subprocess.Popen[Any]) -> None:
+    """Kills a process that leads a session, and those that it started in that session; nothing
+    where it has ended.
+    """
+    if process.poll() is None:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+def end_with_children(process: subprocess.Popen[Any]) -> None:
+    """Asks a process to end, which gives it time to end what it started; kills it where it does
+    not.
+    """
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(GRACE)
+        except subprocess.TimeoutExpired:
+            kill_with_children(process)
+    for stream in (process.stdin, process.stdout, process.stderr):
+        if stream is not None:
+            stream.close()
+
+
+# -------------------------------------------------------------------------------------------------
+# Coq's nra on the questions of a statement: what is assumed, and the denial of what is shown, lead
+# to False.
+#
+# Real numbers only, and nothing that is said to exist: such a question is not expressible for nra,
+# which has no quantifiers.  It refutes nothing.
+
+HEAD = """From Coq Require Import Reals Psatz.
+Open Scope R_scope.
+Ltac split_up := repeat match goal with
+  | H : _ /\\ _ |- _ => destruct H | H : _ \\/ _ |- _ => destruct H
+  | H : False |- _ => contradiction end.
+"""
+
+
+def has_coq() -> bool:
+    """Whether the compiler is there (Debian package coq)."""
+    return shutil.which("coqc") is not None
+
+
+def coq_nra(statement: Any, seconds: float) -> Answer:
+    """Whether coqc accepts the goals of the statement, each by nra in every case."""
+    goals = [goal(question) for question in questions(statement)]
+    if None in goals:
+        return "not expressible"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "goal.v"
+        path.write_text(HEAD + "".join(text for text in goals if text), encoding="utf-8")
+        said = Clock(seconds).output_of(["coqc", "-q", str(path)], "")
+        return "holds" if said is not None and path.with_suffix(".vo").exists() else "unsettled"
+
+
+def goal(question: Question) -> str | None:
+    """The question as a goal; p <> 0 is p < 0 or p > 0, since nra does not read it.
+
+    >>> from juggleproof.certificates.votes.questions import read_statement
+    >>> text = "statement a/b\\nforall x\\ngiven x != 0\\nshow x^2/2 > 0"
+    >>> print(goal(questions(read_statement(text))[0]))
+    Goal forall v0 : R, (v0 < 0 \\/ v0 > 0) -> - v0*v0 >= 0 -> False.
+    Proof. intros; split_up; nra. Qed.
+    <BLANKLINE>
+    """
+    if question.integers & set(question.occurring()) or question.quantified:
+        return None
+    short = {name: f"v{i}" for i, name in enumerate(question.occurring())}
+    lines = [
+        write(formula, short)
+        for formula in (*question.assumed, *(denial.formula for denial in question.denials))
+    ]
+    over = f"forall {' '.join(short.values())} : R, " if short else ""
+    return f"Goal {over}{' -> '.join([*lines, 'False'])}.\nProof. intros; split_up; nra. Qed.\n"
+
+
+def write(formula: Formula, short: dict[str, str]) -> str:
+    """The formula in Coq's signs."""
+    if isinstance(formula, bool):
+        return "True" if formula else "False"
+    if isinstance(formula, Atom):
+        text = polynomial(formula.poly, short)
+        return (
+            f"({text} < 0 \\/ {text} > 0)"
+            if formula.relation == "!="
+            else f"{text} {formula.relation} 0"
+        )
+    return (
+        "("
+        + (" /\\ " if formula.op == "and" else " \\/ ").join(
+            write(part, short) for part in formula.parts
+        )
+        + ")"
+    )
+
+
+def polynomial(poly: Polynomial, short: dict[str, str]) -> str:
+    """The polynomial times its denominator, which changes no relation to 0."""
+    text = ""
+    for exponents, c in poly.terms:
+        powers = [short[n] for n, e in zip(poly.names, exponents) for _ in range(e)]
+        factors = "*".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
+        text += (" - " if c < 0 else " + ") + factors if text else ("- " if c < 0 else "") + factors
+    return text or "0"
+
+
+# -------------------------------------------------------------------------------------------------
+# QEPCAD B on the questions of a statement, each a prenex formula: there is a point, such that for
+# all bound values, all of it is so.
+#
+# The answer FALSE to every question means that the statement holds.  Source of the format: QEPCAD B
+# 1.74, `qepcad -h` and its help file.
+
+CELLS = (
+    2_000_000,
+    100_000_000,
+    # of memory for lists; setting up the second takes 1 s, so it is tried only where the first is
+    # too
+    # small
+)
+TOO_FEW = "Too few cells"
+RELATIONS = {">": ">", ">=": ">=", "=": "=", "!=": "/="}
+
+
+def has_qepcad() -> bool:
+    """Whether the program is there (Debian package qepcad)."""
+    return shutil.which("qepcad") is not None
+
+
+def qepcad(statement: Any, seconds: float) -> Answer:
+    """QEPCAD's answer to the questions in turn, as one program each, which is how it is used."""
+    clock, asked, answers = Clock(seconds), questions(statement), list[str]()
+    texts = [prenex(question) for question in asked]
+    for text in texts:
+        if text is None:
+            return "not expressible"
+        for cells in CELLS:
+            said = clock.output_of(["qepcad", "-noecho", f"+N{cells}"], text) or ""
+            if TOO_FEW not in said:
+                break
+        found = re.search(r"An equivalent quantifier-free formula:\s+(TRUE|FALSE)\s", said)
+        answers.append(found[1] if found else "")
+    if any(answer == "TRUE" and question.refutes for answer, question in zip(answers, asked)):
+        return "fails"
+    return "holds" if answers == ["FALSE"] * len(asked) else "unsettled"
+
+
+def prenex(question: Question) -> str | None:
+    """The input for one question; None where it has integers, or a second alternation of
+    quantifiers.
+
+    >>> from juggleproof.certificates.votes.questions import read_statement
+    >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nshow y^2 = x/2"
+    >>> asked = questions(read_statement(text))
+    >>> print(prenex(asked[0]))
+    [ a/b goal ]
+    (v0,v1)
+    0
+    (E v0)(A v1)[ [v0 > 0 /\\ v0 - 2 v1^2 /= 0] ].
+    finish
+    <BLANKLINE>
+    """
+    if question.integers & set(question.occurring()) or any(
+        denial.chosen for denial in question.denials
+    ):
+        return None
+    free = [name for name in question.occurring() if name not in question.bound] or ["none"]
+    bound = [name for name in question.names if name in question.bound]
+    short = {name: f"v{i}" for i, name in enumerate([*free, *bound])}
+    quantifiers = "".join(
+        f"({'A' if name in question.bound else 'E'} {v})" for name, v in short.items()
+    )
+    formula = write_qepcad(
+        join("and", [*question.assumed, *(denial.formula for denial in question.denials)]), short
+    )
+    return (
+        f"[ {question.statement} {question.part} ]\n({','.join(short.values())})\n0\n{quantifiers}["
+        f" {formula} ].\nfinish\n"
+    )
+
+
+def write_qepcad(formula: Formula, short: dict[str, str]) -> str:
+    """The formula in QEPCAD's signs."""
+    if isinstance(formula, bool):
+        return "0 = 0" if formula else "0 = 1"
+    if isinstance(formula, Atom):
+        return f"{qepcad_polynomial(formula.poly, short)} {RELATIONS[formula.relation]} 0"
+    return (
+        "["
+        + (" /\\ " if formula.op == "and" else " \\/ ").join(
+            write_qepcad(part, short) for part in formula.parts
+        )
+        + "]"
+    )
+
+
+def qepcad_polynomial(poly: Polynomial, short: dict[str, str]) -> str:
+    """The polynomial times its denominator, which changes no relation to 0; a product is written by
+    a space.
+    """
+    text = ""
+    for exponents, c in poly.terms:
+        powers = [
+            short[n] if e == 1 else f"{short[n]}^{e}" for n, e in zip(poly.names, exponents) if e
+        ]
+        factors = " ".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
+        text += (" - " if c < 0 else " + ") + factors if text else ("- " if c < 0 else "") + factors
+    return text or "0"
+
+
+# -------------------------------------------------------------------------------------------------
+# Z3 alone and cvc5, each in a process of its own, on the SMT-LIB script that
+# `juggleproof export smt2` writes.
+
+CVC5 = """import cvc5, sys
+for check in sys.stdin.read().split('(reset)')[1:]:
+    solver = cvc5.Solver()
+    parser = cvc5.InputParser(solver)
+    parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, check, 'check')
+    while not (command := parser.nextCommand()).isNull():
+        print(command.invoke(solver, parser.getSymbolManager()), end='')
+"""
+
+
+def z3_command() -> str | None:
+    """The program that comes with the Python package, or the one on the path."""
+    return shutil.which("z3", path=os.path.dirname(sys.executable)) or shutil.which("z3")
+
+
+def has_cvc5() -> bool:
+    """Whether cvc5's Python package is there."""
+    return find_spec("cvc5") is not None
+
+
+def z3(statement: Any, seconds: float) -> Answer:
+    """Z3's answer to the whole script."""
+    return _answer([str(z3_command()), "-in"], statement, seconds)
+
+
+def cvc5(statement: Any, seconds: float) -> Answer:
+    """cvc5's answer to the whole script."""
+    return _answer([sys.executable, "-c", CVC5], statement, seconds)
+
+
+def _answer(command: list[str], statement: Any, seconds: float) -> Answer:
+    said = Clock(seconds).output_of(command, script(statement)) or ""
+    answers, asked = (
+        [line for line in said.split() if line in ("sat", "unsat", "unknown")],
+        questions(statement),
+    )
+    if any(answer == "sat" and question.refutes for answer, question in zip(answers, asked)):
+        return "fails"
+    return "holds" if answers == ["unsat"] * len(asked) else "unsettled"
+
+
+# -------------------------------------------------------------------------------------------------
+# The same statements by our search with its check, and by peers: Z3 alone, cvc5, QEPCAD B and
+# Coq's nra; absent ones are named.
+#
+# Run: python benchmarks/peers.py [--every 20] [--seconds 10].  A peer's answer is no certificate;
+# ours is checked, and that time is counted. Exit 1 where two answers contradict each other, or one
+# of
+# them what the stored certificate says.
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from benchmarks.peer_coq import coq_nra, has_coq
-from benchmarks.peer_qepcad import has_qepcad, qepcad
-from benchmarks.peer_smt import cvc5, has_cvc5, z3, z3_command
-from benchmarks.running import Answer
-from certificates import checker
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import search_certificate
-from certificates.store import DEFAULT, Store
 
 TRIVIAL = "statement peers/start\nforall x\ngiven x > 0\nshow x + 1 > 0"
 SAID: dict[str, Answer] = {"certified": "holds", "refuted": "fails"}

@@ -12,10 +12,11 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-COMMAND = [sys.executable, "-m", "proofs.command.main"]
+COMMAND = [sys.executable, "-m", "juggleproof.proofs.command.main"]
 THEOREM = ["--only", "theorem-roots", "--only", "theorem"]
 
 
@@ -36,7 +37,7 @@ def main() -> None:
     runs = parser.parse_args().runs
     theorem = tempfile.mkdtemp()
     measure([*COMMAND, "certify", "--routes", "exact", *THEOREM, "--store", theorem])
-    rows = [
+    rows: list[tuple[str, float, Callable[[str], list[str]]]] = [
         (
             "certify, exact route, empty store",
             6.0,

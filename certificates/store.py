@@ -11,8 +11,8 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from certificates import checker
-from certificates.terms import ClaimError
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
 
 STATEMENTS = "statements.txt"
 DEFAULT = Path(__file__).resolve().parent / "store"

@@ -2,10 +2,12 @@
 language for claims of one's own.
 """
 
-from certificates.statements import Iterates, MapRule, Statement
-from certificates.terms import (
+from juggleproof.certificates.language import (
     ClaimError,
     Formula,
+    Iterates,
+    MapRule,
+    Statement,
     Term,
     conjunction,
     different,
@@ -17,8 +19,8 @@ from certificates.terms import (
     reals,
     term,
 )
-from proofs.claims import Argument, Assertion, Claim, Following, Readings, claim
-from proofs.forms import always, exists_some
+from juggleproof.proofs.claims import Argument, Assertion, Claim, Following, Readings, claim
+from juggleproof.proofs.forms import always, exists_some
 
 __all__ = [
     "Argument",

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Union
 
-from certificates.terms import ClaimError
-from proofs.claims import Claim
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.claims import Claim
 
 What = Union[str, Path, Sequence[Claim]]
 
@@ -52,8 +52,8 @@ def certify(
 
     Raises ClaimError, one line, for what cannot be read or stated.
 
-    >>> from proofs import always, claim, reals
-    >>> from proofs.claims import claims_of
+    >>> from juggleproof.proofs import always, claim, reals
+    >>> from juggleproof.proofs.claims import claims_of
     >>> x, = reals("x")
     >>> def load():
     ...     @claim("square")
@@ -81,8 +81,7 @@ def certify(
 def _problems(
     path: Path, executor: Executor | None, budget: int, store: Path | None
 ) -> list[Result]:
-    from proofs.smtlib.answering import BUDGET, in_script
-    from proofs.smtlib.running import answer_files
+    from juggleproof.proofs.smtlib.answering import BUDGET, answer_files, in_script
 
     results = []
     for one in answer_files([path], budget=budget or BUDGET, store=store, executor=executor):
@@ -110,8 +109,8 @@ def _claims(
     store: Path | None,
     routes: Sequence[str],
 ) -> list[Result]:
-    from proofs.command.certify import run
-    from proofs.command.main import build_parser
+    from juggleproof.proofs.command.certify import run
+    from juggleproof.proofs.command.main import build_parser
 
     options = build_parser().parse_args(
         ["certify", "--jobs", "1", "--routes", ",".join(routes), "--", *map(str, files)]

@@ -13,10 +13,10 @@ from math import prod
 from pathlib import Path
 from typing import Any
 
-from certificates import checker
-from certificates.search.enclosing import Found, Problem, search_enclosure
-from certificates.store import STATEMENTS, canonical, write_file
-from certificates.terms import ClaimError, Term, real
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError, Term, real
+from juggleproof.certificates.search.enclosing import Found, Problem, search_enclosure
+from juggleproof.certificates.store import STATEMENTS, canonical, write_file
 
 BUDGET = 20000  # boxes
 MOST_PRODUCTS, MOST_DEGREE, MOST_VALUE = 10**6, 60, 10**100

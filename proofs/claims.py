@@ -1,9 +1,4 @@
-"""Claims: an assertion with its place and print, and the formal reading that is judged.
-
-A claim is a function from its parsed print to statements.  What it returns is an assertion (all its
-statements hold), readings (a sentence that can be read in several ways), an argument (steps and a
-conclusion), or what follows from map rules.
-"""
+"""A claim, its body, its verdict."""
 
 from __future__ import annotations
 
@@ -11,11 +6,27 @@ import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any, Union
 
-from certificates.statements import AnyStatement, Iterates, MapRule, SharpRange, Statement
-from certificates.terms import ClaimError, Formula
+from juggleproof.certificates.language import (
+    AnyStatement,
+    ClaimError,
+    Formula,
+    Iterates,
+    MapRule,
+    SharpRange,
+    Statement,
+)
+
+# -------------------------------------------------------------------------------------------------
+# Claims: an assertion with its place and print, and the formal reading that is judged.
+#
+# A claim is a function from its parsed print to statements.  What it returns is an assertion (all
+# its
+# statements hold), readings (a sentence that can be read in several ways), an argument (steps and a
+# conclusion), or what follows from map rules.
 
 
 @dataclass(frozen=True)
@@ -117,7 +128,7 @@ class Claim:
 
     def read_print(self, latex: str = "") -> Any:
         """The print, or another LaTeX text, as the reader reads it."""
-        from proofs.reading.printed import read
+        from juggleproof.proofs.reading.meaning import read
 
         return read(latex or self.printed)
 
@@ -187,7 +198,8 @@ def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[A
     return named
 
 
-_registry: list[Claim] = []
+_registry: list[Claim] = []  # in the order of registration, since `claims_of` began
+_by_module: dict[str, dict[str, Claim]] = {}  # by module and id: a module registers only once
 
 
 def claim(
@@ -220,26 +232,35 @@ def claim(
         says = " ".join((inspect.getdoc(read) or "").split())
         if not says:
             raise ClaimError(f"{id} has no docstring; say in a sentence what it asserts")
-        _registry.append(
-            Claim(
-                id,
-                section,
-                place,
-                says,
-                read,
-                printed,
-                as_it_stands,
-                repeats,
-                tuple(parameters),
-                derived,
-                nearby,
-                dict(hints or {}),
-                f"{read.__module__}.{read.__qualname__}",
-            )
+        made = Claim(
+            id,
+            section,
+            place,
+            says,
+            read,
+            printed,
+            as_it_stands,
+            repeats,
+            tuple(parameters),
+            derived,
+            nearby,
+            dict(hints or {}),
+            f"{read.__module__}.{read.__qualname__}",
         )
+        _registry.append(made)
+        _by_module.setdefault(read.__module__, {})[id] = made
         return read
 
     return register
+
+
+def claims_in(modules: Iterable[str]) -> list[Claim]:
+    """The claims of modules, in the order of the modules, whenever they were imported."""
+    claims: list[Claim] = []
+    for name in modules:
+        import_module(name)
+        claims += _by_module.get(name, {}).values()
+    return claims
 
 
 def claims_of(load: Callable[[], object]) -> list[Claim]:
@@ -250,3 +271,116 @@ def claims_of(load: Callable[[], object]) -> list[Claim]:
         return list(_registry)
     finally:
         _registry[:] = held
+
+
+# -------------------------------------------------------------------------------------------------
+# From outcomes to verdicts: what the checker accepted says what is to be thought of a print.
+
+VERDICTS = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is to be thought of a print, and the detail that a table can show beside it."""
+
+    word: str
+    detail: str = ""
+
+
+def outcome_of(
+    claim_id: str, prefix: str, assertion: Assertion, outcomes: Mapping[str, str]
+) -> str:
+    """certified, refuted or unknown: an assertion is refuted by any of its statements, and
+    certified by all.
+    """
+    found = [
+        outcomes.get(part.name, "unknown") for part in named_statements(claim_id, prefix, assertion)
+    ]
+    return (
+        "refuted"
+        if "refuted" in found
+        else "certified"
+        if all(o == "certified" for o in found)
+        else "unknown"
+    )
+
+
+_WORD = {"certified": "holds", "refuted": "false", "unknown": "unknown"}
+
+
+def verdict_of(
+    claim_id: str, body: Body, outcomes: Mapping[str, str], corrected: bool = False
+) -> Verdict:
+    """The verdict on a claim from the outcomes of its statements; `corrected` where a corrected
+    print has been certified.
+    """
+
+    def word(prefix: str, assertion: Assertion) -> str:
+        return _WORD[outcome_of(claim_id, prefix, assertion, outcomes)]
+
+    if isinstance(body, Assertion):
+        found = word("", body)
+        return Verdict("misprint" if found == "false" and corrected else found)
+    if isinstance(body, Readings):
+        words = {name: word(f"{name}.", assertion) for name, assertion in body.of.items()}
+        detail = "; ".join(f"{name}: {one}" for name, one in words.items())
+        if "unknown" in words.values():
+            return Verdict("unknown", detail)
+        same = len(set(words.values())) == 1
+        return Verdict(
+            (
+                (
+                    "misprint"
+                    if corrected and "holds" not in words.values()
+                    else next(iter(words.values()))
+                )
+                if same
+                else "ambiguous"
+            ),
+            detail,
+        )
+    if isinstance(body, Following):
+        beside = word("beside.", body.beside) if body.beside else "holds"
+        found = by_rules(body.rests_on, outcomes)
+        return Verdict(
+            beside if beside != "holds" else found,
+            ("by " if found == "holds" else "awaits ") + ", ".join(body.rests_on),
+        )
+    return _argument(body, word, by_rules(body.rests_on, outcomes))
+
+
+def by_rules(rests_on: Sequence[str], outcomes: Mapping[str, str]) -> str:
+    """holds where every map rule that is named was certified, else unknown."""
+    return (
+        "holds"
+        if rests_on and all(outcomes.get(name) == "certified" for name in rests_on)
+        else "unknown"
+    )
+
+
+def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str) -> Verdict:
+    steps = {name: word(f"{name}.", step) for name, step in body.steps.items()}
+    conclusion = word("conclusion.", body.conclusion) if body.conclusion else ""
+    broken = [name for name, one in steps.items() if one == "false"]
+    if conclusion == "false":
+        return Verdict(
+            "false", "its conclusion is refuted" + (f", and step {broken[0]}" if broken else "")
+        )
+    if broken:
+        stands = (
+            "conclusion certified"
+            if conclusion == "holds"
+            else (
+                f"conclusion by {body.rescue}"
+                if body.rescue
+                else (
+                    f"conclusion by {', '.join(body.rests_on)}"
+                    if rules == "holds"
+                    else "conclusion open"
+                )
+            )
+        )
+        return Verdict("gap", f"step {', '.join(broken)} is false; {stands}")
+    if "unknown" in (*steps.values(), conclusion):
+        return Verdict("unknown")
+    return Verdict("holds") if conclusion or body.rescue else Verdict("unknown", "conclusion open")

@@ -12,10 +12,10 @@ from functools import cache
 from types import CodeType
 from typing import Any
 
-import symbolic
-from certificates import checker
-from certificates.terms import ClaimError
-from proofs.claims import Body, Claim
+from juggleproof import symbolic
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.claims import Body, Claim
 
 Rows = tuple[tuple[str, ...], ...]
 
@@ -80,8 +80,8 @@ def derivation(name: str, arguments: tuple[Any, ...] = ()) -> Derivation:
     >>> derivation("launch_state").line
     'symbolic.launch_state: The table as it leaves the ground: r_0 = (0, r) (section 3.1). (0, r)'
     """
-    from proofs.paper.vocabulary import rows_of
-    from proofs.paper_form import paper_form
+    from juggleproof.proofs.encoding import paper_form
+    from juggleproof.proofs.paper.names import rows_of
 
     value = getattr(symbolic, name)(*arguments)
     rows = rows_of(name, arguments)
@@ -116,7 +116,7 @@ def _called(function: Any, seen: set[str]) -> Iterator[str]:
         if (
             name in seen
             or not callable(called)
-            or not getattr(called, "__module__", "").startswith("symbolic.")
+            or not getattr(called, "__module__", "").startswith("juggleproof.symbolic.")
             or inspect.isclass(called)
         ):
             continue
@@ -171,7 +171,9 @@ def body_and_derivations(claim: Claim) -> tuple[Body, list[Derivation]]:
     Raises ClaimError, naming the claim, for whatever the function of a claim outside of this
     package raises.
     """
-    if not claim.source.startswith(("proofs.paper.", "proofs.theorem.", "proofs.part.")):
+    if not claim.source.startswith(
+        ("juggleproof.proofs.paper.", "juggleproof.proofs.theorem.", "juggleproof.proofs.part.")
+    ):
         try:
             return claim.body(), []
         except (checker.Rejected, ClaimError):
@@ -180,20 +182,18 @@ def body_and_derivations(claim: Claim) -> tuple[Body, list[Derivation]]:
             raise ClaimError(
                 f"{claim.id} raises {type(problem).__name__}: {problem}; mend its function"
             ) from problem
-    from proofs.paper import vocabulary
+    from juggleproof.proofs.paper import names
 
-    vocabulary.derivations_used.clear()
+    names.derivations_used.clear()
     body = claim.body()
-    used = dict.fromkeys(
-        [*((name, ()) for name in _constants_in(claim)), *vocabulary.derivations_used]
-    )
+    used = dict.fromkeys([*((name, ()) for name in _constants_in(claim)), *names.derivations_used])
     return body, [derivation(name, arguments) for name, arguments in used]
 
 
 def _constants_in(claim: Claim) -> list[str]:
     """The derivations behind the constants that the print names."""
-    from proofs.paper.vocabulary import CONSTANTS
-    from proofs.reading.parser import parse_name
+    from juggleproof.proofs.paper.names import CONSTANTS
+    from juggleproof.proofs.reading.parser import parse_name
 
     if not claim.printed:
         return []

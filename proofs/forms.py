@@ -1,30 +1,40 @@
-"""The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes
-plain statements.
-
-A vocabulary says what is understood without being said: the standing assumption on a parameter (0 <
-alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a name is.  The lines
-it adds stand in the statement, where an auditor reads them.
-"""
+"""For all, there is, maximum, supremum, equal sets."""
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cache
+from typing import Any
 
-from certificates import checker
-from certificates.statements import Line, Statement
-from certificates.terms import (
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import (
     ClaimError,
     Formula,
+    Line,
     Number,
+    Statement,
     Term,
+    disjunction,
     equal,
     names_in,
     real,
     substitute,
     term,
 )
+from juggleproof.certificates.work import Budget, Exhausted
+
+# -------------------------------------------------------------------------------------------------
+# The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes
+# plain statements.
+#
+# A vocabulary says what is understood without being said: the standing assumption on a parameter (0
+# <
+# alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a name is.  The
+# lines
+# it adds stand in the statement, where an auditor reads them.
 
 
 @dataclass(frozen=True)
@@ -210,7 +220,7 @@ def always(
     `in_range` replaces the vocabulary's standing range of the parameters; it is what a sharp range
     leaves open.
 
-    >>> from certificates.terms import reals
+    >>> from juggleproof.certificates.language import reals
     >>> x, y = reals("x y")
     >>> print(always(x / y > 0, given=[x > 0, y > 0]).text())
     statement main
@@ -370,3 +380,112 @@ def same_set(
         ),
         always(left, given=[*given, right], label="back", vocabulary=vocabulary, in_range=in_range),
     ]
+
+
+# -------------------------------------------------------------------------------------------------
+# What the hypotheses of a statement say: nothing, where they contradict one another; the whole
+# range of alpha, or a part of it.
+
+
+def read(text: str, name: str) -> checker.Statement:
+    """The statement as the checker reads it."""
+    statement: checker.Statement = checker.read_statements(text)[name]
+    return statement
+
+
+def refuse_what_says_nothing(
+    statement: Statement, outcome: str, known: dict[str, checker.Statement], budget: int
+) -> None:
+    """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep
+    a denominator from vanishing.
+    """
+    from juggleproof.certificates.search.certificate import search_certificate
+    from juggleproof.certificates.search.closing import search_closing
+
+    def settles(part: Statement, outcome: str) -> bool:
+        try:
+            return outcome in search_certificate(
+                read(part.text(), part.name), known, Budget(budget)
+            )
+        except Exhausted:
+            return False
+
+    for index, (keyword, said) in enumerate(statement.lines):
+        if keyword == "have" and isinstance(said, Formula):
+            before = Statement(
+                statement.name, statement.forall, statement.lines[:index], said, statement.integer
+            )
+            if settles(before, "refuted"):
+                raise ClaimError(
+                    f"{statement.name}: division by what may vanish ({said} does not follow); "
+                    "add a given that keeps it from 0"
+                )
+    if outcome == "refuted":
+        return
+    impossible = Statement(
+        statement.name, statement.forall, statement.lines, disjunction([]), statement.integer
+    )
+    story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
+    try:
+        impossible_for_all = search_closing(story.state(), known, Budget(budget)) is not None
+    except Exhausted:
+        impossible_for_all = False
+    if impossible_for_all:
+        raise ClaimError(
+            f"{statement.name}: its hypotheses contradict one another, so it would say nothing;"
+            " drop or mend a given"
+        )
+
+
+def speaks_of_range(statement: Statement) -> bool:
+    """Whether a statement is about a range of alpha: by range lines, or by givens that say 0 <
+    alpha < 1.
+    """
+    if any(keyword == "range" for keyword, _ in statement.lines):
+        return True
+    given = [
+        ("range", said)
+        for keyword, said in statement.lines
+        if keyword == "given" and _names_of(str(said)) == {"alpha"}
+    ]
+    return bool(given) and has_whole_range(replace(statement, lines=tuple(given)))
+
+
+def has_whole_range(statement: Statement) -> bool:
+    """Whether the range lines say 0 < alpha < 1 and nothing else, however they are written."""
+    return _is_whole_range(
+        statement.forall,
+        tuple(str(formula) for keyword, formula in statement.lines if keyword == "range"),
+    )
+
+
+@cache
+def _names_of(text: str) -> set[str]:
+    return {node.id for node in ast.walk(checker.parse(text)) if isinstance(node, ast.Name)}
+
+
+@cache
+def _is_whole_range(variables: tuple[str, ...], said: tuple[str, ...]) -> bool:
+    context = checker.Context()
+    for name in variables:
+        context.declare(name)
+    whole = ["alpha > 0", "alpha < 1"] if "alpha" in variables else []
+    return _atoms(context, [checker.parse(text) for text in said]) == _atoms(
+        context, [checker.parse(text) for text in whole]
+    )
+
+
+def _atoms(context: checker.Context, trees: list[Any]) -> set[Any]:
+    """The atoms of a conjunction, each as its primitive polynomial and relation; anything else as
+    itself.
+    """
+    joined = checker.join("and", [context.formula(tree) for tree in trees])
+    parts = [joined] if isinstance(joined, bool) or joined[0] != "and" else joined[1]
+    found: set[Any] = set()
+    for part in parts:
+        if isinstance(part, bool) or part[0] != "atom":
+            found.add(repr(part))
+        else:
+            content, primitive = part[1].primitive()
+            found.add((tuple(sorted(primitive.terms.items())), content > 0, part[2]))
+    return found

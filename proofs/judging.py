@@ -11,27 +11,40 @@ from functools import cache
 from importlib.metadata import version
 from typing import Any
 
-from certificates import checker
-from certificates.routes.votes import Vote, cast_votes, compare
-from certificates.search.budget import Budget, Exhausted
-from certificates.statements import AnyStatement, Iterates, MapRule, SharpRange, Statement
-from certificates.store import Store
-from certificates.terms import ClaimError
-from proofs.claims import (
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import (
+    AnyStatement,
+    ClaimError,
+    Iterates,
+    MapRule,
+    SharpRange,
+    Statement,
+)
+from juggleproof.certificates.store import Store
+from juggleproof.certificates.votes.vote import Vote, cast_votes, compare
+from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.claims import (
     Argument,
     Assertion,
     Body,
     Claim,
     Following,
     Readings,
+    Verdict,
     assertions,
     named_statements,
+    outcome_of,
+    verdict_of,
 )
-from proofs.derivations import Derivation, behind, body_and_derivations
-from proofs.following import range_of_rule
-from proofs.hypotheses import has_whole_range, read, refuse_what_says_nothing, speaks_of_range
-from proofs.records import record_of
-from proofs.verdicts import Verdict, outcome_of, verdict_of
+from juggleproof.proofs.derivations import Derivation, behind, body_and_derivations
+from juggleproof.proofs.forms import (
+    has_whole_range,
+    read,
+    refuse_what_says_nothing,
+    speaks_of_range,
+)
+from juggleproof.proofs.kept import record_of
+from juggleproof.proofs.rules import range_of_rule
 
 DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
@@ -267,12 +280,12 @@ class Judge:
 
     def search(self, statement: AnyStatement, parsed: checker.Statement, confirm: bool) -> Any:
         if isinstance(statement, (Iterates, MapRule)):
-            from certificates.search.map_rules import search_map_rule
+            from juggleproof.certificates.search.certificate import search_map_rule
 
             return search_map_rule(
                 parsed, self.known, self.options.budget, self.claim.hints.get("premises")
             )
-        from certificates.search.certificate import search_certificate
+        from juggleproof.certificates.search.certificate import search_certificate
 
         try:
             found = search_certificate(
@@ -305,7 +318,7 @@ class Judge:
         """The first candidate print that the same claim certifies; an earlier finding is tried
         first.
         """
-        from proofs.correcting import correct
+        from juggleproof.proofs.correcting import correct
 
         correct(self)
 
@@ -319,8 +332,8 @@ class Judge:
         return trial
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
-        from certificates.search.points import search_found
-        from certificates.search.stories import unfolded
+        from juggleproof.certificates.search.points import search_found
+        from juggleproof.certificates.work import unfolded
 
         if parsed.kind != "universal":
             return False
@@ -439,7 +452,7 @@ class Judge:
         self, name: str, ranged: Sequence[Statement], over: Sequence[str]
     ) -> tuple[SharpRange, Any, str] | None:
         """The sharp range with its certificate and how it is told, if the search finds one."""
-        from proofs.ranges import search_sharp_range
+        from juggleproof.proofs.ranges import search_sharp_range
 
         return search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget)
 

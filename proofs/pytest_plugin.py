@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from proofs.reports.results import Results
+    from juggleproof.proofs.reports.results import Results
 
 NAME = "juggleproof"
 CLAIMS = pytest.StashKey["Claims"]()
@@ -95,11 +95,11 @@ class Claims:
         Raises ClaimError for a file that cannot be read, and for an id that two claims bear, or
         none.
         """
-        from certificates.terms import ClaimError
-        from proofs.command.certify import refuse_duplicates
-        from proofs.command.show import kept_claims
-        from proofs.loading import claims_of_file
-        from proofs.register import PATH, load_register
+        from juggleproof.certificates.language import ClaimError
+        from juggleproof.proofs.command.certify import refuse_duplicates
+        from juggleproof.proofs.command.show import kept_claims
+        from juggleproof.proofs.register import PATH, load_register
+        from juggleproof.proofs.run import claims_of_file
 
         own = [claim for path in self.files for claim in claims_of_file(path)]
         papers = kept_claims() if self.of_paper else []
@@ -134,11 +134,11 @@ def _judged(files: Sequence[Path]) -> Results:
     """A run as `certify` makes it; the paper's on a copy of the store, so that tests leave the tree
     as it is.
     """
-    from certificates.store import DEFAULT
-    from proofs.command.certify import run
-    from proofs.command.main import build_parser
-    from proofs.register import PATH, load_register
-    from proofs.reports.results import results_of_run
+    from juggleproof.certificates.store import DEFAULT
+    from juggleproof.proofs.command.certify import run
+    from juggleproof.proofs.command.main import build_parser
+    from juggleproof.proofs.register import PATH, load_register
+    from juggleproof.proofs.reports.results import results_of_run
 
     with tempfile.TemporaryDirectory() as folder:
         register = None if files else load_register(PATH)
@@ -179,7 +179,7 @@ class ClaimItem(pytest.Item):
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Our own lines where they say all; no traceback through the prover."""
-        from certificates.terms import ClaimError
+        from juggleproof.certificates.language import ClaimError
 
         return (
             str(excinfo.value)
@@ -203,7 +203,7 @@ class ClaimCollector(pytest.Collector):
 
     def collect(self) -> Iterator[pytest.Item]:
         """The items; one line where the claims cannot be read."""
-        from certificates.terms import ClaimError
+        from juggleproof.certificates.language import ClaimError
 
         try:
             names = list(self.of.names())
@@ -232,7 +232,7 @@ def told(results: Results, name: str) -> list[str]:
     """What is wrong with a claim, with before and after and where it fails; nothing where it is as
     it should be.
     """
-    from proofs.reports.junit import failing, fails_at
+    from juggleproof.proofs.reports.ci import failing, fails_at
 
     one = next((one for one in results.claims if one.id == name), None)
     change = results.change_of().get(name)

@@ -5,18 +5,23 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
-from certificates import checker
-from certificates.search.algebraic import AlgebraicNumber
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.pinned import pinned
-from certificates.search.ranges import Line, polynomial_term
-from certificates.search.sharp import Range, find_sharp_range
-from certificates.search.sharp_certificate import whole_parameters
-from certificates.search.sharp_plane import find_sharp_region
-from certificates.search.solved import says_domain, solved
-from certificates.statements import SharpRange, Statement
-from certificates.terms import Formula, Term, conjunction, disjunction, real
-from proofs.hypotheses import read
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.numbers import AlgebraicNumber
+from juggleproof.certificates.language import (
+    Formula,
+    SharpRange,
+    Statement,
+    Term,
+    conjunction,
+    disjunction,
+    real,
+)
+from juggleproof.certificates.search.families import says_domain, solved
+from juggleproof.certificates.search.ranges import Line, pinned, polynomial_term
+from juggleproof.certificates.search.sharp import Range, find_sharp_range, whole_parameters
+from juggleproof.certificates.search.sharp_plane import find_sharp_region
+from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.forms import read
 
 DECIMALS = 12
 DOMAINS = {

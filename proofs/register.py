@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from certificates.store import canonical, write_file
-from certificates.terms import ClaimError
-from proofs.verdicts import VERDICTS
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import canonical, write_file
+from juggleproof.proofs.claims import VERDICTS
 
 PATH = Path(__file__).with_name("register.json")
 FIELDS = ("verdict", "detail", "correction", "sharp")

@@ -1,5 +1,5 @@
 """One method on one piece of work, in a process of its own:
-`python -m benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
+`python -m juggleproof.benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
 
 Prints one JSON object.  `cold` is the first answer, with everything that the method has to load;
 `warm` the least of what follows, if time is left.
@@ -35,8 +35,8 @@ def _over(*_: object) -> None:
 
 def main() -> int:
     """Answers, times, prints."""
-    from benchmarks.bench.answers import GaveUp
-    from benchmarks.bench.methods import ENSEMBLE, METHODS, ORBITS
+    from juggleproof.benchmarks.bench.answers import GaveUp
+    from juggleproof.benchmarks.bench.methods import ENSEMBLE, METHODS, ORBITS
 
     name, size, seconds = sys.argv[1], Fraction(sys.argv[2]), float(sys.argv[3])
     work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE)[name]

@@ -1,9 +1,8 @@
-"""The methods by name: what each is worth, where its code is, and what it needs; their code is
-loaded where it runs.
-"""
+"""The methods by name: what each is worth, where its code is, and what it needs; their code is."""
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,6 +10,14 @@ from fractions import Fraction
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Literal
+
+from juggleproof.benchmarks.bench.answers import Answer, GaveUp, Point, Problem, best_point
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.small_boxes import search_tree
+
+# -------------------------------------------------------------------------------------------------
+# The methods by name: what each is worth, where its code is, and what it needs; their code is
+# loaded where it runs.
 
 Worth = Literal["certificate", "rigorous", "unchecked", "no proof"]
 NOTES = """\
@@ -43,7 +50,9 @@ class Method:
     def solve(self, problem: Any, size: Fraction) -> Any:
         """The answer, at this width (or for so much work)."""
         module, function = self.place.split(":")
-        return getattr(import_module(f"benchmarks.bench.{module}"), function)(problem, size)
+        return getattr(import_module(f"juggleproof.benchmarks.bench.{module}"), function)(
+            problem, size
+        )
 
 
 def has(module: str) -> Callable[[], bool]:
@@ -52,7 +61,7 @@ def has(module: str) -> Callable[[], bool]:
 
 
 def _interval() -> bool:
-    from benchmarks.bench.coq_interval import has_coq_interval
+    from juggleproof.benchmarks.bench.solvers import has_coq_interval
 
     return has_coq_interval()
 
@@ -70,12 +79,12 @@ COQ, SCIPY = "coq-interval (Debian packages coq and libcoq-interval)", "scipy (p
 METHODS = {
     one.name: one
     for one in (
-        Method("bernstein", "exact Bernstein, ours", "certificate", "methods_ours:bernstein"),
+        Method("bernstein", "exact Bernstein, ours", "certificate", "methods:bernstein"),
         Method(
             "arb",
             "Arb boxes",
             "rigorous",
-            "methods_boxes:arb_boxes",
+            "numerics:arb_boxes",
             "python-flint (pip install python-flint)",
             has("flint"),
         ),
@@ -83,7 +92,7 @@ METHODS = {
             "mpmath",
             "mpmath.iv boxes",
             "rigorous",
-            "methods_boxes:mpmath_boxes",
+            "numerics:mpmath_boxes",
             "mpmath (pip install mpmath)",
             has("mpmath"),
         ),
@@ -91,20 +100,18 @@ METHODS = {
             "coq",
             "coq-interval, one question",
             "rigorous",
-            "methods_solvers:coq_interval_once",
+            "solvers:coq_interval_once",
             COQ,
             _interval,
             peer=True,
         ),
-        Method("z3", "Z3, bisection", "unchecked", "methods_solvers:z3_bisection", Z3, has("z3")),
-        Method(
-            "z3-once", "Z3, one question", "unchecked", "methods_solvers:z3_once", Z3, has("z3")
-        ),
+        Method("z3", "Z3, bisection", "unchecked", "solvers:z3_bisection", Z3, has("z3")),
+        Method("z3-once", "Z3, one question", "unchecked", "solvers:z3_once", Z3, has("z3")),
         Method(
             "cvc5",
             "cvc5, bisection",
             "unchecked",
-            "methods_solvers:cvc5_bisection",
+            "solvers:cvc5_bisection",
             CVC5,
             has("cvc5"),
         ),
@@ -112,7 +119,7 @@ METHODS = {
             "cvc5-once",
             "cvc5, one question",
             "unchecked",
-            "methods_solvers:cvc5_once",
+            "solvers:cvc5_once",
             CVC5,
             has("cvc5"),
         ),
@@ -120,7 +127,7 @@ METHODS = {
             "cvc5-proof",
             "cvc5, one question with its proof",
             "unchecked",
-            "methods_solvers:cvc5_proof_once",
+            "solvers:cvc5_proof_once",
             CVC5,
             has("cvc5"),
             peer=True,
@@ -129,7 +136,7 @@ METHODS = {
             "qepcad",
             "QEPCAD B, bisection",
             "unchecked",
-            "methods_solvers:qepcad_bisection",
+            "solvers:qepcad_bisection",
             QEPCAD,
             _qepcad,
             peer=True,
@@ -138,17 +145,17 @@ METHODS = {
             "qepcad-once",
             "QEPCAD B, one question",
             "unchecked",
-            "methods_solvers:qepcad_once",
+            "solvers:qepcad_once",
             QEPCAD,
             _qepcad,
             peer=True,
         ),
-        Method("sampling", "float sampling", "no proof", "methods_floating:sampling"),
+        Method("sampling", "float sampling", "no proof", "numerics:sampling"),
         Method(
             "scipy",
             "scipy.optimize",
             "no proof",
-            "methods_floating:scipy_optimize",
+            "numerics:scipy_optimize",
             SCIPY,
             has("scipy"),
         ),
@@ -157,22 +164,22 @@ METHODS = {
 ORBITS = {
     one.name: one
     for one in (
-        Method("exact", "exact rationals", "rigorous", "orbits:exact"),
+        Method("exact", "exact rationals", "rigorous", "questions:exact"),
         Method(
             "enclosed",
             "Arb balls",
             "rigorous",
-            "orbits:enclosed",
+            "questions:enclosed",
             "python-flint (pip install python-flint)",
             has("flint"),
         ),
-        Method("fast", "float64 with a proved bound", "rigorous", "orbits:fast"),
-        Method("mp", "mpmath, 50 digits", "no proof", "orbits:mp"),
-        Method("floats", "float64 alone", "no proof", "orbits:floats"),
+        Method("fast", "float64 with a proved bound", "rigorous", "questions:fast"),
+        Method("mp", "mpmath, 50 digits", "no proof", "questions:mp"),
+        Method("floats", "float64 alone", "no proof", "questions:floats"),
     )
 }
 ENSEMBLE = {
-    "ensemble": Method("ensemble", "float64 with proved bounds", "rigorous", "growth:ensemble")
+    "ensemble": Method("ensemble", "float64 with proved bounds", "rigorous", "questions:ensemble")
 }
 QUICK = ("bernstein", "arb", "z3", "z3-once", "sampling")
 GROWTH = (
@@ -181,3 +188,65 @@ GROWTH = (
     "mpmath",
     "z3-once",
 )  # which are measured as the number of variables grows
+
+
+# -------------------------------------------------------------------------------------------------
+# Our method: a box tree of exact Bernstein coefficients, and the checker's word for it; the time
+# of both counts.
+
+# of the width, which the value at the point may take
+FEW, MANY = (
+    8,
+    20000,
+)  # boxes: for width 0, which needs few or fails, and for the width that is asked for
+
+
+def bernstein(problem: Problem, width: Fraction) -> Answer:
+    """Certifies that the value at a rational point is attained, and that nothing exceeds it by more
+    than the width, or at all where that succeeds.
+    """
+    point, low = best_point(problem, width / SHARE)
+    wider = low + width * (SHARE - 1) / SHARE
+    for high, most in ([(low, FEW)] if can_be_a_corner(problem, point) else []) + [(wider, MANY)]:
+        tree = search_tree(problem.excess(high), problem.box, most)
+        if tree is not None:
+            size = _checked(problem, point, low, high, tree)
+            return Answer(low, high, f"{len(tree)} letters, {size} bytes")
+    raise GaveUp(f"{MANY} boxes")
+
+
+def can_be_a_corner(problem: Problem, point: Point) -> bool:
+    """Whether few halvings lead to boxes with the point at a corner: only there is a Bernstein
+    coefficient the value at the point.
+    """
+    places = [(x - low) / (high - low) for x, (low, high) in zip(point, problem.box)]
+    return all(2**FEW % place.denominator == 0 for place in places)
+
+
+SHARE = 8
+
+
+def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree: str) -> int:
+    """The bytes of the certificate that the checker accepts, read back from what would be stored;
+    ArithmeticError where it rejects it.
+    """
+    (statement,) = checker.read_statements(problem.of_box(low, high)).values()
+    excess, size = problem.excess(high), len(problem.names)
+    bounds = [[2 * k, 2 * k + 1] for k in range(size) if any(e[k] for e in excess)]
+    node = [
+        "boxes",
+        2 * size + (1 if any(map(any, problem.under)) else 0) + 1,
+        bounds,
+        tree,
+    ]  # a denominator that is constant is no fact
+    found = [
+        statement.name,
+        [],
+        {name: str(value) for name, value in zip(problem.names, point)},
+        ["close"],
+    ]
+    stored = json.dumps({"certified": ["proof", [], node], "point": found})
+    outcome, reason = checker.check_one(statement, json.loads(stored), {}, {})
+    if outcome != "certified":
+        raise ArithmeticError(f"the checker says of {statement.name}: {outcome} {reason}")
+    return len(stored)

@@ -1,22 +1,106 @@
-"""The whole benchmark: questions in turn, each measured, judged against its closed form, printed
-and drawn.
+"""Measures methods, each answer in a process of its own, which is ended with its children when
+its.
 """
 
 from __future__ import annotations
 
+import json
+import os
+import pickle
 import re
-from collections.abc import Sequence
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from benchmarks.bench import growth, orbits, plot, table
-from benchmarks.bench.methods import ENSEMBLE, GROWTH, METHODS, NOTES, ORBITS, QUICK, Method
-from benchmarks.bench.questions import ALPHAS, questions
-from benchmarks.bench.timing import measure_all
-from certificates.store import write_file
-from certificates.terms import ClaimError
+from juggleproof.benchmarks.bench import questions as growth
+from juggleproof.benchmarks.bench import table
+from juggleproof.benchmarks.bench.answers import Measured, read_answer
+from juggleproof.benchmarks.bench.methods import (
+    ENSEMBLE,
+    GROWTH,
+    METHODS,
+    NOTES,
+    ORBITS,
+    QUICK,
+    Method,
+)
+from juggleproof.benchmarks.bench.questions import ALPHAS, questions
+from juggleproof.benchmarks.peers import end_with_children
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import write_file
+
+# -------------------------------------------------------------------------------------------------
+# Measures methods, each answer in a process of its own, which is ended with its children when its
+# seconds are over.
+
+ROOT = Path(__file__).resolve().parents[2]
+START = 5.0  # seconds that a process may take to start and to end, on a busy machine
+Told = Callable[[str], None]
+
+
+def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measured:
+    """Cold and warm seconds and the answer of one method; `seconds` limits the cold answer, and all
+    answers together.
+    """
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")])),
+    }
+    process = subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "juggleproof.benchmarks.bench.child",
+            method.name,
+            str(size),
+            str(seconds),
+        ],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=environment,
+        cwd=ROOT,
+        start_new_session=True,
+    )
+    try:
+        said, errors = process.communicate(pickle.dumps(work), timeout=2 * seconds + START)
+    except subprocess.TimeoutExpired:
+        return Measured(method.name, size, reason="gave up")
+    finally:
+        end_with_children(process)
+    if process.returncode:
+        lines = errors.decode(errors="replace").strip().splitlines()
+        return Measured(
+            method.name, size, reason=f"failed: {lines[-1] if lines else process.returncode}"[:200]
+        )
+    found = json.loads(said)
+    if "gave_up" in found:
+        return Measured(method.name, size, reason=f"gave up: {found['gave_up']}")
+    if found["cold"] > seconds:
+        return Measured(method.name, size, reason="gave up")
+    return Measured(method.name, size, found["cold"], found["warm"], read_answer(found["answer"]))
+
+
+def measure_all(
+    methods: Sequence[Method], work: Any, sizes: Sequence[Fraction], seconds: float, tell: Told
+) -> Iterator[Measured]:
+    """Every method at every size, easiest first; a method that gave up is not asked for more."""
+    for method in methods:
+        for size in sizes:
+            tell(f"{method.title}, {size}")
+            found = measure(method, work, size, seconds)
+            yield found
+            if found.answer is None:
+                break
+
+
+# -------------------------------------------------------------------------------------------------
+# The whole benchmark: questions in turn, each measured, judged against its closed form, printed
+# and drawn.
 
 WIDTHS = tuple(Fraction(1, 10**k) for k in range(1, 13))
 STEPS = tuple(Fraction(10**k) for k in range(7))
@@ -25,7 +109,7 @@ BALLS = tuple(Fraction(k) for k in range(1, 6))
 QUICK_WIDTHS, QUICK_SIZES, QUICK_SECONDS = (Fraction(1, 10), Fraction(1, 10**6)), 2, 2.0
 SECONDS = 10.0
 ENERGY = ("E-B1plus", "E-B1zero", "DE-H", "DE-outside-R", "p-outside-R")
-NAMES = (*ENERGY, *orbits.STARTS, "variables", "states")
+NAMES = (*ENERGY, *growth.STARTS, "variables", "states")
 _WIDTH = re.compile(
     r"\d{0,4}\.?\d{1,40}(?:e-?\d{1,2})?|\d{1,10}/\d{1,40}", re.ASCII | re.IGNORECASE
 )
@@ -100,8 +184,8 @@ class Run:
             print(f"\n== {name}")
             if name in ENERGY:
                 self.energy(name)
-            elif name in orbits.STARTS:
-                self.orbit(orbits.STARTS[name])
+            elif name in growth.STARTS:
+                self.orbit(growth.STARTS[name])
             else:
                 {"variables": self.variables, "states": self.states}[name]()
         if sum(name in ENERGY for name in self.wanted.names) > 1:
@@ -109,8 +193,8 @@ class Run:
                 "\n== the aim, over all questions and widths of this run\n"
                 + "\n".join(one.line() for one in table.together(self.judged))
             )
-        if not plot.can_plot():
-            print(plot.ABSENT)
+        if not table.can_plot():
+            print(table.ABSENT)
         return 1 if self.wrong else 0
 
     def energy(self, name: str) -> None:
@@ -136,7 +220,7 @@ class Run:
             print("no certified peer was measured")
         print("\n" + table.slopes(present, results, "1/width", True))
 
-    def orbit(self, start: orbits.Start) -> None:
+    def orbit(self, start: growth.Start) -> None:
         """One orbit, by number of periods."""
         present, sizes = self.present(ORBITS, tuple(ORBITS)), self.some(STEPS)
         print(
@@ -217,9 +301,9 @@ class Run:
         wrong = table.wrong(present, results, truth)
         self.wrong += len(wrong)
         print("\n".join(wrong) or "every enclosure holds the truth")
-        if plot.can_plot():
+        if table.can_plot():
             path = self.folder / f"{name}.svg"
-            write_file(path, plot.plot(title, present, results, truth))
+            write_file(path, table.plot(title, present, results, truth))
             print(f"plot: {path}")
 
 

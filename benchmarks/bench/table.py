@@ -1,5 +1,5 @@
-"""What was measured, as plain text: seconds and errors by method and size, what the aim asks for as
-ratios of this run, and slopes.
+"""What was measured, as plain text: seconds and errors by method and size, what the aim asks for
+as.
 """
 
 from __future__ import annotations
@@ -7,12 +7,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from importlib.util import find_spec
+from io import BytesIO
 from typing import Literal
 
-from benchmarks.bench.answers import Answer, Measured
-from benchmarks.bench.growth import slope
-from benchmarks.bench.methods import Method
-from proofs.command.columns import plain
+from juggleproof.benchmarks.bench.answers import Answer, Measured
+from juggleproof.benchmarks.bench.methods import Method
+from juggleproof.benchmarks.bench.questions import slope
+from juggleproof.proofs.reports.tables import plain
+
+# -------------------------------------------------------------------------------------------------
+# What was measured, as plain text: seconds and errors by method and size, what the aim asks for as
+# ratios of this run, and slopes.
 
 Time = Literal["cold", "seconds"]
 AIM = 10
@@ -300,3 +306,66 @@ def slopes(methods: Sequence[Method], results: Results, of: str, inverse: bool) 
                 (method.title, f"{found:.2f}", f"{power(own[0].size)} .. {power(own[-1].size)}")
             )
     return plain(rows)
+
+
+# -------------------------------------------------------------------------------------------------
+# Error against seconds, both logarithmic, as SVG; matplotlib is optional.
+
+ABSENT = "no plots: matplotlib is absent (pip install matplotlib)"
+LOOKS = {
+    "certificate": ("o", "-"),
+    "rigorous": ("s", "--"),
+    "unchecked": ("^", ":"),
+    "no proof": ("x", ":"),
+}
+FLOOR = 1e-20  # where an error of 0, or one below it, is drawn
+
+
+def can_plot() -> bool:
+    """Whether matplotlib is there."""
+    return find_spec("matplotlib") is not None
+
+
+def plot(title: str, methods: Sequence[Method], results: Results, truth: Fraction) -> bytes:
+    """The plot: a line a method, its warm seconds across, its errors upwards; filled marks and full
+    lines are certificates.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    with rc_context({"svg.hashsalt": "bench", "svg.fonttype": "path"}):
+        figure = Figure(figsize=(7.2, 4.8), layout="constrained")
+        axes = figure.add_subplot()
+        for method in methods:
+            own = [
+                one
+                for one in results.get(method.name, {}).values()
+                if one.answer is not None and one.seconds
+            ]
+            mark, line = LOOKS[method.worth]
+            if own:
+                errors = [
+                    max(float(one.answer.error(truth)), FLOOR)
+                    for one in own
+                    if one.answer is not None
+                ]
+                axes.loglog(
+                    [one.seconds or 0.0 for one in own],
+                    errors,
+                    marker=mark,
+                    linestyle=line,
+                    markersize=4,
+                    linewidth=1,
+                    label=f"{method.title} ({method.worth})",
+                )
+        axes.set(
+            xlabel="seconds, warm, with check",
+            ylabel=f"error (0 drawn at {FLOOR:.0e})",
+            title=title,
+        )
+        axes.grid(True, which="major", linewidth=0.3)
+        if axes.lines:
+            figure.legend(loc="outside right upper", fontsize=7, frameon=False)
+        written = BytesIO()
+        figure.savefig(written, format="svg", metadata={"Date": None})
+        return written.getvalue()

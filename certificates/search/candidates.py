@@ -11,8 +11,14 @@ from typing import Union
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
-from .algebraic import AlgebraicNumber, fraction, real_roots, sign, simplest_between
-from .condition import Condition, evaluate
+from juggleproof.certificates.algebra.conditions import Condition, evaluate
+from juggleproof.certificates.algebra.numbers import (
+    AlgebraicNumber,
+    fraction,
+    real_roots,
+    sign,
+    simplest_between,
+)
 
 Value = Union[fmpq, AlgebraicNumber]
 

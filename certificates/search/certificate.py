@@ -1,18 +1,20 @@
-"""The certificate of one statement: a proof with a point, a counterexample, or the reason why
-neither was found.
-"""
+"""The certificate of one statement, and of an orbit rule."""
 
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
-from certificates import checker
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import rests_on
+from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
+from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
 
-from .budget import Budget, Exhausted, accepted
-from .closing import SQUARED, Hints, search_closing
-from .stories import unfolded
+# -------------------------------------------------------------------------------------------------
+# The certificate of one statement: a proof with a point, a counterexample, or the reason why
+# neither was found.
 
 Certificate = dict[str, Any]
 MOST = 256
@@ -165,7 +167,7 @@ def found(
     effort: int,
 ) -> list[Any] | None:
     """A point or counterexample of the statement."""
-    points = import_module("certificates.search.points")
+    points = import_module("juggleproof.certificates.search.points")
     result: list[Any] | None = points.search_found(
         statement, checker.State(checker.Context()), purpose, {}, known, budget, effort=effort
     )
@@ -200,7 +202,7 @@ def search_proof(
             return None
         steps.append(node)
     if statement.get("exists"):
-        points = import_module("certificates.search.points")
+        points = import_module("juggleproof.certificates.search.points")
         base = {name: story.context.values[name] for name in story.universal}
         last = points.search_found(
             statement, story.state(), "witness", base, known, budget, sharp=sharp, effort=effort
@@ -217,3 +219,41 @@ def search_proof(
         and (not confirm or accepted(checker.prove, statement, proof, known, sharp))
         else None
     )
+
+
+# -------------------------------------------------------------------------------------------------
+# Certificates of the map rules: a proof for each premise that the checker writes.
+
+
+def search_map_rule(
+    statement: checker.Statement,
+    known: dict[str, checker.Statement],
+    budget: int,
+    hints: Mapping[str, Hints] | None = None,
+) -> dict[str, Any]:
+    """{"certified": {premise: proof}}, or {"unknown": the premise for which no proof was found};
+    each premise may take the whole budget.
+
+    >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\n"
+    >>> text += "space x >= 0\\npiece x >= 0 -> x/2"
+    >>> statement = checker.read_statements(text)["demo/halves"]
+    >>> sorted(search_map_rule(statement, {}, 10**6)["certified"])
+    ['covers', 'possible', 'stays-1']
+    """
+    proofs: dict[str, Any] = {}
+    for name in rests_on(statement):
+        if name not in known:
+            return {"unknown": f"it rests on {name}, which is not certified"}
+    for name, premise in checker.premises_of(statement, known).items():
+        proof = None
+        for effort in (1, 2):
+            try:
+                proof = proof or search_proof(
+                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
+                )
+            except Exhausted:
+                continue
+        if proof is None:
+            return {"unknown": f"no proof of the premise {name} was found"}
+        proofs[name] = proof
+    return {"certified": proofs}

@@ -12,8 +12,8 @@ import highspy
 import numpy as np
 from flint import fmpz_mat
 
-from .budget import Budget
-from .polynomials import Keys
+from juggleproof.certificates.algebra.polynomials import Keys
+from juggleproof.certificates.work import Budget
 
 Matrix = np.ndarray[Any, np.dtype[np.float64]]
 Mask = np.ndarray[Any, np.dtype[np.bool_]]
@@ -79,7 +79,7 @@ def solve(program: Program, budget: Budget) -> Solution | None:
     """The positive coefficients of the columns used and the coefficients of the free ones used,
     exactly; None where none were found.
 
-    >>> from .polynomials import Packing, Ring
+    >>> from juggleproof.certificates.algebra.polynomials import Packing, Ring
     >>> ring = Ring(("x",))
     >>> x, = ring.gens
     >>> packing = Packing(ring, [x])

@@ -1,26 +1,220 @@
-"""The facts of a state made ready for a search: units set to 1, equations used up, each fact once
-and primitive.
-"""
+"""The facts of a leaf, and identities lifted back to them."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from math import gcd, lcm, prod
 from typing import Any
 
 import numpy as np
 from flint import fmpz_mpoly
 
-from certificates import checker
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.numbers import positive_between, univariate
+from juggleproof.certificates.algebra.polynomials import (
+    Keys,
+    Packing,
+    Ring,
+    Row,
+    constant_of,
+    degree_in,
+    pseudo_divide,
+    total_degree,
+)
+from juggleproof.certificates.search.facts import (
+    MOST,
+    Bounded,
+    Fact,
+    Factors,
+    Pool,
+    Reduction,
+    Scaling,
+    Signed,
+    Signs,
+    Sum,
+    factors,
+    merge,
+    power,
+    resultants,
+    squares,
+    times,
+)
+from juggleproof.certificates.work import Budget
 
-from .lifting import Source
-from .polynomials import Keys, Packing, Ring, Row, constant_of, total_degree
-from .reduction import Factors, Reduction, Signed
-from .scaling import Scaling
-from .signs import Bounded, Fact, Signs, Sum, times
-from .squares import MOST, Pool, factors, resultants, squares
-from .sturm import positive_between, univariate
+# -------------------------------------------------------------------------------------------------
+# Identities of the reduced problem turned into identities between the facts of the state, as the
+# checker reads them.
+
+SWEEPS = 8
+
+
+@dataclass
+class Term:
+    """coefficient * product of facts * root^2, in the numbers and polynomials of the state with its
+    units set to 1.
+    """
+
+    coefficient: Fraction
+    factors: Factors
+    root: fmpz_mpoly
+
+
+@dataclass
+class Source:
+    """What the search started from: lowered facts (numerators), their denominators, and which are
+    not known to be positive.
+    """
+
+    ring: Ring
+    scaling: Scaling
+    polys: list[fmpz_mpoly]  # numerators of all facts, in the state's own units
+    lowered: list[fmpz_mpoly]
+    dens: list[int]
+    relations: list[str]
+    unit_facts: dict[
+        int, tuple[int, int]
+    ]  # unit variable -> (number of the fact c * variable > 0, c)
+
+
+def finish(
+    source: Source, reduction: Reduction, terms: Sequence[Term], cofactors: dict[int, fmpz_mpoly]
+) -> list[object] | None:
+    """The node ["psatz", products, equations] for an identity that holds modulo the reduction's
+    equations; None if it does not lift.
+
+    `cofactors` belong to the state's own equations; what the eliminated equations owe is found by
+    division.
+    """
+    ring, lowered = source.ring, source.lowered
+    common = lcm(1, *(t.coefficient.denominator for t in terms))
+    terms = [Term(t.coefficient * common, t.factors, t.root) for t in terms]
+    owed = {k: c * common for k, c in cofactors.items()}
+    extra: Factors = ()
+    total = ring.zero
+    for t in terms:
+        product = t.root * t.root * int(t.coefficient)
+        for index, exponent in t.factors:
+            product = product * lowered[index] ** exponent
+        total = total + product
+    for k, c in owed.items():
+        total = total + c * lowered[k]
+    for step in reduction.steps:
+        if not degree_in(total, step.variable):
+            continue
+        quotient, rest = divmod(total, step.form)
+        if rest:
+            count, quotient, rest = pseudo_divide(
+                total, step.variable, ring.gens[step.variable], step.lead, step.rest
+            )
+            if step.lead_factors:
+                extra = merge(extra, power(step.lead_factors, count))
+            terms = [Term(t.coefficient * step.lead_scale**count, t.factors, t.root) for t in terms]
+            owed = {k: c * step.lead**count for k, c in owed.items()}
+        multiple, factors = step.multiple, step.multiple_factors
+        if any(
+            source.relations[index] == "!=" for index, _ in factors
+        ):  # an even power, for want of a sign
+            quotient, multiple, factors = (
+                quotient * multiple,
+                multiple * multiple,
+                power(factors, 2),
+            )
+        owed = {k: c * multiple for k, c in owed.items()}
+        for k, c in step.combination.items():
+            owed[k] = owed.get(k, ring.zero) - quotient * c
+        extra = merge(extra, factors)
+        total = rest * multiple
+    for _ in range(SWEEPS if total else 0):
+        for equation in reduction.basis():
+            # total * scale = quotient * poly + rest, with a scale that makes every division of
+            # coefficients exact
+            content = int(equation.poly.content())
+            poly = equation.poly / content
+            leading = abs(int(poly.leading_coefficient()))
+            scale = leading ** (total_degree(total) + 1) if leading != 1 else 1
+            quotient, rest = divmod(total * scale, poly)
+            if not quotient:
+                continue
+            multiple, factors, scale = equation.multiple, equation.factors, scale * content
+            if any(source.relations[index] == "!=" for index, _ in factors):
+                quotient, multiple, factors = (
+                    quotient * multiple,
+                    multiple * multiple,
+                    power(factors, 2),
+                )
+            terms = [Term(t.coefficient * scale, t.factors, t.root) for t in terms]
+            owed = {k: c * multiple * scale for k, c in owed.items()}
+            for k, c in equation.combination.items():
+                owed[k] = owed.get(k, ring.zero) - quotient * c
+            extra, total = merge(extra, factors), rest * multiple * content
+        if not total:
+            break
+    if total:
+        return None
+    terms = [Term(t.coefficient, merge(t.factors, extra), t.root) for t in terms]
+    return written(source, terms, {k: c for k, c in owed.items() if c})
+
+
+def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> list[object]:
+    """The node of an identity between lowered facts, every term brought to one weight by powers of
+    the units.
+    """
+    scaling, content = source.scaling, 0
+    for t in terms:
+        content = gcd(content, t.coefficient.numerator)
+    for c in owed.values():
+        content = gcd(content, int(c.content()))
+    weights = [scaling.largest(poly) for poly in source.polys] if scaling.units else []
+    parts: list[tuple[Fraction, Factors, fmpz_mpoly, tuple[int, ...]]] = []
+    for t in terms:
+        root, weight = t.root, (0,) * len(scaling.units)
+        if scaling.units:
+            own = scaling.largest(root)
+            root = scaling.lift(root, own)
+            weight = tuple(
+                2 * w + sum(e * weights[i][k] for i, e in t.factors) for k, w in enumerate(own)
+            )
+        dens = prod(source.dens[i] ** e for i, e in t.factors)
+        parts.append((t.coefficient / content * dens, t.factors, root, weight))
+    wanted = [part[3] for part in parts]
+    wanted += (
+        [tuple(map(sum, zip(scaling.largest(c), weights[k]))) for k, c in owed.items()]
+        if scaling.units
+        else []
+    )
+    target = tuple(map(max, zip(*wanted)))
+    products: list[object] = []
+    for coefficient, powers, root, weight in parts:
+        for unit, have, want in zip(scaling.units, weight, target):
+            fact, leading = source.unit_facts[unit]
+            if want > have:
+                coefficient *= Fraction(source.dens[fact], leading) ** (want - have)
+                powers = merge(powers, ((fact, want - have),))
+        products.append([str(coefficient), [list(pair) for pair in powers], str(root)])
+    equations: list[object] = []
+    for k, c in sorted(owed.items()):
+        if scaling.units:
+            c = scaling.lift(c, tuple(want - have for want, have in zip(target, weights[k])))
+        factor = Fraction(source.dens[k], content)
+        equations.append([k, scaled_text(c, factor)])
+    return ["psatz", products, equations]
+
+
+def scaled_text(poly: fmpz_mpoly, factor: Fraction) -> str:
+    """The text of a polynomial times a rational."""
+    poly = poly * factor.numerator
+    den = factor.denominator
+    shared = gcd(den, int(poly.content())) if poly else 1
+    poly, den = poly / shared, den // shared
+    return str(poly) if den == 1 else f"1/{den}*({poly})"
+
+
+# -------------------------------------------------------------------------------------------------
+# The facts of a state made ready for a search: units set to 1, equations used up, each fact once
+# and primitive.
 
 MANY = 7  # facts, from which on those near the goal are tried first
 
@@ -344,3 +538,88 @@ def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int
         if not found:
             return idle
         idle |= found
+
+
+# -------------------------------------------------------------------------------------------------
+# Whether a problem seems to have a point: floating samples that are moved uphill, so that hopeless
+# proofs are not tried.
+#
+# A point found here proves nothing; it only ends the search for a proof that cannot exist.
+
+SAMPLES, ROUNDS, KEPT, MARGIN = 160, 5, 8, 1e-6
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+class Values:
+    """The facts of a problem as arrays, ready to be evaluated at many points."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.exponents: list[Array] = []
+        self.used = sorted(
+            {v for fact in problem.facts for v, d in enumerate(fact.poly.degrees()) if d}
+        )
+        place = {v: k for k, v in enumerate(self.used)}
+        monomials: dict[tuple[int, ...], int] = {}
+        entries: list[tuple[int, int, float]] = []
+        for row, fact in enumerate(problem.facts):
+            for monomial, coefficient in zip(fact.poly.monoms(), fact.poly.coeffs()):
+                column = monomials.setdefault(
+                    tuple(int(monomial[v]) for v in self.used), len(monomials)
+                )
+                entries.append((row, column, float(int(coefficient))))
+        self.powers = np.array(list(monomials), dtype=np.int64).reshape(
+            len(monomials), len(self.used)
+        )
+        self.matrix = np.zeros((len(problem.facts), len(monomials)))
+        for row, column, value in entries:
+            self.matrix[row, column] += value
+        self.top = int(self.powers.max(initial=0))
+        self.range = None
+        if problem.bounded is not None and problem.bounded.variable in place:
+            bounded = problem.bounded
+            low, high = (
+                float(problem.facts[k].end(bounded.variable)) for k in (bounded.low, bounded.high)
+            )
+            self.range = place[bounded.variable], low, high
+
+    def least(self, points: Array) -> Array:
+        """At every point the least of the facts, each divided by the sum of the absolute values of
+        its terms.
+        """
+        table = np.ones((self.top + 1, *points.shape))
+        for k in range(1, self.top + 1):
+            table[k] = table[k - 1] * points
+        terms = np.ones((len(points), len(self.powers)))
+        for v in range(len(self.used)):
+            terms *= table[self.powers[:, v], :, v].T
+        sums, sizes = terms @ self.matrix.T, np.abs(terms) @ np.abs(self.matrix).T
+        result: Array = (sums / np.maximum(sizes, 1e-300)).min(axis=1)
+        return result
+
+
+def has_interior_point(problem: Problem, budget: Budget) -> bool:
+    """Whether a floating point was found at which every fact is positive by a margin; never where
+    an equation is left.
+    """
+    if problem.reduction.left or not problem.facts or len(problem.facts) > 40:
+        return False
+    values = Values(problem)
+    budget.spend(200 + SAMPLES * ROUNDS * len(values.powers) // 20)
+    random = np.random.default_rng(11)
+    shape = SAMPLES, len(values.used)
+    points = random.normal(size=shape) * np.exp(random.normal(size=shape))
+    if values.range is not None:
+        column, low, high = values.range
+        points[:, column] = low + (high - low) * random.random(SAMPLES)
+    width = 0.5
+    for _ in range(ROUNDS):
+        score = values.least(points)
+        best = np.argsort(-score, kind="stable")[:KEPT]
+        if score[best[0]] > MARGIN:
+            return True
+        parents = np.repeat(points[best], SAMPLES // KEPT, axis=0)
+        moves = random.normal(size=parents.shape) * (random.random(parents.shape) < 0.5) * width
+        points = parents * (1 + moves) + moves * random.random((len(parents), 1)) * 0.3
+        points[:KEPT] = parents[:: SAMPLES // KEPT]
+        width *= 0.6
+    return False

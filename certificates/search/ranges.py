@@ -1,22 +1,108 @@
-"""Sets of one parameter as intervals with exact ends, and as conditions that the language of
-statements can say.
-"""
+"""Sets of one parameter; verdicts along it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from flint import fmpq_poly
+from flint import fmpq, fmpq_mpoly, fmpq_poly
 
-from certificates import checker
-from certificates.terms import Formula, Term, conjunction, disjunction, equal, real, term
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.conditions import (
+    HOLDS,
+    Condition,
+    border_polynomials,
+    candidate_numbers,
+    multivariate,
+    ring_of,
+    univariate,
+    without_equations,
+)
+from juggleproof.certificates.algebra.numbers import (
+    AlgebraicNumber,
+    fraction,
+    real_roots,
+    simplest_between,
+)
+from juggleproof.certificates.algebra.polynomials import relation_of
+from juggleproof.certificates.language import (
+    Formula,
+    Term,
+    conjunction,
+    disjunction,
+    equal,
+    real,
+    term,
+)
+from juggleproof.certificates.search.candidates import FAVOURITE_PARAMETERS, UNITS, separate
+from juggleproof.certificates.search.models import RESOURCES, ask
+from juggleproof.certificates.search.terms import ring_names
+from juggleproof.certificates.work import Budget
 
-from .algebraic import AlgebraicNumber, fraction, real_roots, simplest_between
-from .candidates import separate
-from .condition import HOLDS, Condition, univariate
+# -------------------------------------------------------------------------------------------------
+# Whole numbers that the hypotheses tie to a parameter, as floor and ceiling do: the pairs of both
+# are where a range is sought.
+
+
+def pinned(
+    statements: Sequence[checker.Statement], parameter: str, domain: Any, budget: Budget
+) -> tuple[str, Formula] | None:
+    """(a whole number of all the statements, what their hypotheses say of it and the parameter
+    alone), units being 1.
+
+    >>> text = "statement a/b\\nforall alpha n x\\ninteger n\\n"
+    >>> text += "given n <= 2*alpha and 2*alpha < n + 1\\nshow x*n <= 2*x*alpha"
+    >>> (one,) = checker.read_statements(text).values()
+    >>> str(pinned([one], "alpha", checker.parse("alpha > 0"), Budget(10**5))[1])
+    '2*alpha - n >= 0 and -2*alpha + n + 1 > 0'
+    """
+    for name in sorted({n for each in statements for line in each.get("integer") for n in line}):
+        said = [_said(each, parameter, name, domain, budget) for each in statements]
+        if said and all(said):
+            return name, conjunction(
+                list({str(formula): formula for formulas in said for formula in formulas}.values())
+            )
+    return None
+
+
+def _said(
+    statement: checker.Statement, parameter: str, name: str, domain: Any, budget: Budget
+) -> list[Formula]:
+    story = checker.Unfolding(statement, checker.Context(), [domain])
+    if name not in story.integers or name not in story.universal:
+        return []
+    ring = ring_of(story.context)
+    premises = Condition.of(story.context, checker.join("and", list(story.premises)), ring)
+    premises = premises.substituted({unit: fmpq(1) for unit in UNITS & story.variables})
+    left, _ = without_equations(premises, {parameter, name}, budget, ())
+    positive = [
+        poly
+        for poly, relation in left.facts()
+        if relation == ">" and ring_names(poly) == {parameter}
+    ]
+    return [
+        relation_of(_without(positive, poly), relation)
+        for poly, relation in left.facts()
+        if ring_names(poly) == {parameter, name}
+    ]
+
+
+def _without(positive: Sequence[fmpq_mpoly], poly: fmpq_mpoly) -> fmpq_mpoly:
+    """The polynomial divided by what is positive, as often as that goes."""
+    for factor in positive:
+        while True:
+            quotient, rest = divmod(poly, factor)
+            if rest != 0:
+                break
+            poly = quotient
+    return poly
+
+
+# -------------------------------------------------------------------------------------------------
+# Sets of one parameter as intervals with exact ends, and as conditions that the language of
+# statements can say.
 
 MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
@@ -69,7 +155,7 @@ class Line:
 def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
     """A condition that holds, within the domain, on the cells and numbers of verdict True.
 
-    >>> from certificates.terms import reals
+    >>> from juggleproof.certificates.language import reals
     >>> (a,) = reals("alpha")
     >>> line = Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False))
     >>> str(condition_of(line, "alpha", a > 0))
@@ -98,7 +184,7 @@ def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
     """p relation 0 for the one irreducible polynomial p of all the ends, where that says the same
     on the domain.
 
-    >>> from certificates.terms import reals
+    >>> from juggleproof.certificates.language import reals
     >>> (a,) = reals("alpha")
     >>> ends = real_roots(fmpq_poly([-1, 10, -20, 10]))[:2]
     >>> line = Line(tuple(ends), (False, False, True, False, False))
@@ -220,3 +306,206 @@ def ends_of(domain: Any, parameter: str) -> tuple[Fraction | None, Fraction | No
         if line.degree() == 1 and relation in (">", ">="):
             bounds[bool(line[1] > 0)].append(fraction(-line[0] / line[1]))
     return max(bounds[True], default=None), min(bounds[False], default=None)
+
+
+# -------------------------------------------------------------------------------------------------
+# What a point at which a statement fails meets, and Z3's verdict on whether there is one at a
+# value of a parameter.
+
+
+@dataclass(frozen=True)
+class Violation:
+    """What a point at which a statement fails meets: the premises, and no values of the bound
+    variables that meet the goals.
+    """
+
+    name: str
+    condition: Condition
+    goal: Condition | None
+    bound: tuple[str, ...]
+    integers: tuple[str, ...]
+
+    @staticmethod
+    def of(statement: checker.Statement, domain: Any, units: bool) -> Violation:
+        """The violations of a statement in a domain, in units of r and g unless told otherwise."""
+        story = checker.Unfolding(statement, checker.Context(), [domain])
+        premises = list(story.premises)
+        ones = {name: fmpq(1) for name in UNITS & story.variables} if units else {}
+        ring = ring_of(story.context)
+        exists = tuple(sorted(story.variables - set(story.universal)))
+        whole = premises if exists else [*premises, story.goal(False)]
+        condition = Condition.of(story.context, checker.join("and", whole), ring).substituted(ones)
+        goal = (
+            Condition.of(story.context, story.goal(True), ring).substituted(ones)
+            if exists
+            else None
+        )
+        return Violation(statement.name, condition, goal, exists, tuple(sorted(story.integers)))
+
+    def absent(
+        self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES
+    ) -> bool | None:
+        """Z3's verdict at one value of the parameter: True where there is no violation, None where
+        it has none.
+        """
+        condition, goal = self.condition, self.goal
+        if isinstance(at, AlgebraicNumber) and at.is_rational:
+            at = at._low
+        if isinstance(at, AlgebraicNumber):
+            ring = condition.ring
+            gen = ring.gen(ring.variable_to_index(parameter))
+            modulus = multivariate(fmpq_poly(at.poly), ring, parameter)
+            here = Condition(
+                ring,
+                [modulus, gen - at._low, at._high - gen],
+                ("and", [(0, "="), (1, ">"), (2, ">")]),
+            )
+            condition = condition.conjoined(here)
+        else:
+            condition = condition.substituted({parameter: at})
+            goal = goal.substituted({parameter: at}) if goal is not None else None
+        unreachable = (goal, self.bound) if goal is not None else None
+        verdict = ask(condition, budget, self.integers, resources, unreachable=unreachable).verdict
+        return {"sat": False, "unsat": True}.get(verdict)
+
+
+# -------------------------------------------------------------------------------------------------
+# On which values of one parameter statements hold: candidate end points by elimination, verdicts
+# by Z3 between them and at them.
+
+QUICK = 100_000  # Z3's work where a guess will do
+Verdicts = dict[str, tuple[bool, ...]]
+
+
+class Undecided(Exception):
+    """Why there is no line of verdicts."""
+
+
+@dataclass
+class Verdict:
+    """One statement's verdicts on the cells and at the numbers between them; None where Z3 has
+    none.
+    """
+
+    violation: Violation
+    cells: list[bool]
+    numbers: list[bool | None]
+
+
+class Lines:
+    """The verdicts of all statements along a domain that is one interval of one parameter.
+
+    Raises Undecided where Z3 has no verdict on an open cell, or the domain is not such.
+    """
+
+    def __init__(
+        self,
+        violations: Sequence[Violation],
+        parameter: str,
+        domain: Any,
+        budget: Budget,
+        more: Sequence[AlgebraicNumber] = (),
+    ) -> None:
+        self.parameter, self.budget = parameter, budget
+        context = checker.Context()
+        context.declare(parameter)
+        allowed = Condition.of(context, context.formula(domain))
+        if isinstance(allowed.tree, bool):
+            raise Undecided("the domain says nothing about the parameter")
+        borders = border_polynomials(
+            [(v.condition, v.goal) for v in violations], [parameter], budget
+        )
+        cells = allowed.in_one_variable(parameter)
+        numbers = candidate_numbers(
+            [*(p.project_to_context(allowed.ring) for p in borders), *allowed.polys], parameter
+        )
+        numbers = sorted([*numbers, *(n for n in more if n not in numbers)])
+        separate(numbers)
+        self.inner = [n for n in numbers if allowed.univariate_truth(parameter, n, cells)]
+        samples = _cell_samples(numbers, len(self.inner) + 1, allowed, parameter, cells)
+        if samples is None:
+            raise Undecided("the domain is not one interval")
+        self.each = [self._verdict(violation, samples) for violation in violations]
+
+    def _verdict(self, violation: Violation, samples: Sequence[fmpq]) -> Verdict:
+        cells = []
+        for sample in samples:
+            verdict = violation.absent(self.parameter, sample, self.budget)
+            if verdict is None:
+                raise Undecided(f"no verdict on {violation.name} at {self.parameter} = {sample}")
+            cells.append(verdict)
+        numbers = [
+            self._at(violation, number, before, after)
+            for number, before, after in zip(self.inner, cells, cells[1:])
+        ]
+        return Verdict(violation, cells, numbers)
+
+    def _at(
+        self, violation: Violation, number: AlgebraicNumber, before: bool, after: bool
+    ) -> bool | None:
+        """The verdict at a number between two cells; theirs if they agree and the number is hard
+        for Z3.
+        """
+        if before == after and not number.is_rational:
+            verdict = (
+                violation.absent(self.parameter, number, self.budget, QUICK)
+                if number.poly.degree() <= 2
+                else None
+            )
+            return before if verdict is None else verdict
+        return violation.absent(self.parameter, number, self.budget)
+
+    def guesses(self) -> Iterator[tuple[Line, Verdicts]]:
+        """The lines to try: undecided numbers held to be in, then out; then with Z3 asked at every
+        number; each line once.
+        """
+        seen: list[Verdicts] = []
+        for thorough in (False, True):
+            if thorough:
+                self.each = [replace(one, numbers=self._asked_again(one)) for one in self.each]
+            for doubtful in (True, False):
+                verdicts = {one.violation.name: _joined(one, doubtful) for one in self.each}
+                if verdicts not in seen:
+                    seen.append(verdicts)
+                    yield (
+                        Line(tuple(self.inner), tuple(all(v) for v in zip(*verdicts.values()))),
+                        verdicts,
+                    )
+
+    def _asked_again(self, one: Verdict) -> list[bool | None]:
+        found = []
+        for number, before, after, verdict in zip(
+            self.inner, one.cells, one.cells[1:], one.numbers
+        ):
+            if before == after == verdict and number.poly.degree() > 2:
+                verdict = one.violation.absent(self.parameter, number, self.budget, QUICK)
+                verdict = before if verdict is None else verdict
+            found.append(verdict)
+        return found
+
+
+def _joined(one: Verdict, doubtful: bool) -> tuple[bool, ...]:
+    joined = [one.cells[0]]
+    for at, after in zip(one.numbers, one.cells[1:]):
+        joined += [doubtful if at is None else at, after]
+    return tuple(joined)
+
+
+def _cell_samples(
+    numbers: Sequence[AlgebraicNumber], count: int, allowed: Condition, parameter: str, cells: Any
+) -> list[fmpq] | None:
+    """A simple rational in every open cell of the domain, which has to be one interval."""
+    borders = [(left._high, right._low) for left, right in zip(numbers, numbers[1:])]
+    if numbers:
+        borders = [
+            (numbers[0]._low - 2, numbers[0]._low),
+            *borders,
+            (numbers[-1]._high, numbers[-1]._high + 2),
+        ]
+    samples = []
+    for bottom, top in borders or [(fmpq(-2), fmpq(2))]:
+        nice = [v for v in FAVOURITE_PARAMETERS if bottom < v < top]
+        value = nice[0] if nice else simplest_between(bottom, top)
+        if allowed.univariate_truth(parameter, value, cells):
+            samples.append(value)
+    return samples if len(samples) == count else None

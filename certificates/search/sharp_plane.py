@@ -10,24 +10,35 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
-from certificates import checker
-from certificates.statements import SharpRange
-from certificates.terms import Formula, conjunction, disjunction
-
-from .algebraic import sign
-from .base_samples import base_samples
-from .budget import Budget, Exhausted, accepted
-from .closing import search_closing
-from .condition import HOLDS, Condition, coefficients_in, constant_of, replace
-from .elimination import border_polynomials
-from .families import cover
-from .quotients import Sample
-from .setting import Task
-from .sharp import Known, Range, read
-from .sharp_certificate import outside_state, proofs_inside, sample_of, whole_parameters
-from .solver import ask
-from .violations import Violation
-from .writing import relation_of
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.conditions import (
+    HOLDS,
+    Condition,
+    border_polynomials,
+    coefficients_in,
+    constant_of,
+    replace,
+)
+from juggleproof.certificates.algebra.numbers import sign
+from juggleproof.certificates.algebra.polynomials import relation_of
+from juggleproof.certificates.language import Formula, SharpRange, conjunction, disjunction
+from juggleproof.certificates.search.closing import search_closing
+from juggleproof.certificates.search.families import cover
+from juggleproof.certificates.search.found_terms import Task
+from juggleproof.certificates.search.models import ask
+from juggleproof.certificates.search.ranges import Violation
+from juggleproof.certificates.search.samples import base_samples
+from juggleproof.certificates.search.sharp import (
+    Known,
+    Range,
+    outside_state,
+    proofs_inside,
+    read,
+    sample_of,
+    whole_parameters,
+)
+from juggleproof.certificates.search.terms import Sample
+from juggleproof.certificates.work import Budget, Exhausted, accepted
 
 RELATIONS = ("=", "!=", ">", ">=")
 Guess = tuple[

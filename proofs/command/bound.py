@@ -1,14 +1,57 @@
-"""`juggleproof bound`: a certified enclosure of the minimum of a polynomial over a box."""
+"""Bound, bench."""
 
 from __future__ import annotations
 
+import argparse
 import re
+import sys
 from fractions import Fraction
 from math import ceil, floor
 from pathlib import Path
 
-from certificates.terms import ClaimError
-from proofs.bounds import BUDGET, enclose_minimum, refuse_other_files
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.bounds import BUDGET, enclose_minimum, refuse_other_files
+
+# -------------------------------------------------------------------------------------------------
+# `juggleproof bench`: speed against error, in one table and plot a question; the engines are in
+# `benchmarks`, which only a checkout has.
+
+FOLDER = Path("juggleproof-bench")
+
+
+def bench(options: argparse.Namespace) -> int:
+    """Runs the benchmark; 1 where an enclosure does not hold the closed form.  Raises ClaimError,
+    one line, for what cannot be measured.
+    """
+    from juggleproof.benchmarks.bench.run import Run, wish
+
+    wanted = wish(options.question, options.widths, options.seconds, options.quick)
+    folder = options.output or FOLDER
+    fault = _fault(folder)
+    if fault:
+        raise ClaimError(f"-o {folder}: {fault}; name another folder")
+    return Run(wanted, folder, _tell).all()
+
+
+def _fault(folder: Path) -> str:
+    """Why files cannot be written there; nothing where they can."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / ".new").write_bytes(b"")
+        (folder / ".new").unlink()
+    except OSError as error:
+        return f"cannot be written ({error.strerror})"
+    return ""
+
+
+def _tell(what: str) -> None:
+    """Progress, on a terminal only."""
+    if sys.stderr.isatty():
+        print(f"\r\x1b[K{what}", end="", file=sys.stderr, flush=True)
+
+
+# -------------------------------------------------------------------------------------------------
+# `juggleproof bound`: a certified enclosure of the minimum of a polynomial over a box.
 
 SHOWN = 12  # decimals of a bound, more where the width asks for them
 _NUMBER = re.compile(

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from proofs.command.simulate_options import add_simulate
+from juggleproof.proofs.command.simulate_options import add_simulate
 
 ROUTES = ("exact", "z3", "boxes")
 
@@ -227,7 +227,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     ):
         given[1] = " " + given[1]  # a polynomial that begins with a minus, and no option
     parsed = build_parser().parse_args(given)
-    from certificates.terms import ClaimError
+    from juggleproof.certificates.language import ClaimError
 
     try:
         code = _dispatch(parsed)
@@ -265,50 +265,50 @@ def _leave_standard_output() -> None:
 
 def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command == "certify":
-        from proofs.command.problems import are_scripts, certify_problems
+        from juggleproof.proofs.command.certify import are_scripts, certify_problems
 
         if are_scripts(parsed.files):
             return certify_problems(parsed)
-        from proofs.command.certify import certify
+        from juggleproof.proofs.command.certify import certify
 
         return certify(parsed)
     if parsed.command == "check":
-        from proofs.command.check import check
+        from juggleproof.proofs.command.show import check
 
         return check(parsed.folder)
     if parsed.command == "bound":
         os.environ.setdefault(
             "OPENBLAS_NUM_THREADS", "1"
         )  # before numpy: the matrices are small, and sums in one order repeat
-        from proofs.command.bound import bound
+        from juggleproof.proofs.command.bound import bound
 
         return bound(parsed.polynomial, parsed.box, parsed.width, parsed.budget, parsed.output)
     if parsed.command == "export":
-        from proofs.command import export
+        from juggleproof.proofs.command import show
 
         writers = {
-            "coq": export.export_coq,
-            "smt2": export.export_smt2,
-            "latex": export.export_latex,
+            "coq": show.export_coq,
+            "smt2": show.export_smt2,
+            "latex": show.export_latex,
         }
         return writers[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "report":
-        from proofs.command.report import report
+        from juggleproof.proofs.command.report import report
 
         return report(parsed.format, parsed.output)
     if parsed.command == "bench":
-        from proofs.command.bench import bench
+        from juggleproof.proofs.command.bound import bench
 
         return bench(parsed)
     if parsed.command == "simulate":
-        from proofs.command.simulate import simulate
+        from juggleproof.proofs.command.simulate import simulate
 
         return simulate(parsed)
     if parsed.command == "errata":
-        from proofs.command.errata import errata
+        from juggleproof.proofs.reports.errata import errata
 
         return errata()
-    from proofs.command import show
+    from juggleproof.proofs.command import show
 
     if parsed.command == "list":
         return show.list_claims()
@@ -316,8 +316,8 @@ def _dispatch(parsed: argparse.Namespace) -> int:
 
 
 def _explain(parsed: argparse.Namespace) -> int:
-    from certificates.terms import ClaimError
-    from proofs.command import show
+    from juggleproof.certificates.language import ClaimError
+    from juggleproof.proofs.command import show
 
     of_theorem = [
         option
@@ -329,7 +329,7 @@ def _explain(parsed: argparse.Namespace) -> int:
     if parsed.bounds:
         if len(of_theorem) > 1 or parsed.premises:
             raise ClaimError("--bounds stands alone; it has its own alphas and states")
-        from proofs.command.bounds import explain_bounds
+        from juggleproof.proofs.command.theorem import explain_bounds
 
         return explain_bounds()
     if of_theorem:
@@ -337,7 +337,7 @@ def _explain(parsed: argparse.Namespace) -> int:
             raise ClaimError(
                 "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
             )
-        from proofs.command.theorem import explain_state
+        from juggleproof.proofs.command.theorem import explain_state
 
         return explain_state(parsed.alpha, parsed.state)
     return show.explain(parsed.id, with_premises=parsed.premises)

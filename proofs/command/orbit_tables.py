@@ -7,14 +7,11 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
-from proofs.command.columns import draw
-from proofs.command.numbers import DIGITS, shown
-from scenes.errors import SceneError
-from scenes.juggler.given import counted
-from scenes.juggler.hard_cases import CASES, Finding, finding
-from scenes.juggler.motion import MOST_TIMES, heights
-from scenes.juggler.orbits import Orbits, Row
-from scenes.juggler.periodic import (
+from juggleproof.proofs.reports.tables import DIGITS, draw, shown
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.given import counted
+from juggleproof.scenes.juggler.orbits import MOST_TIMES, Orbits, Row, heights
+from juggleproof.scenes.juggler.periodic import (
     attracts_for,
     exists_for,
     family,
@@ -22,9 +19,16 @@ from scenes.juggler.periodic import (
     orbit_of,
     search_words,
 )
-from scenes.juggler.setting import Scene
-from scenes.juggler.starts import axis
-from scenes.juggler.tables import NAMES, UNITS, in_units, written
+from juggleproof.scenes.juggler.starts import Scene, axis
+from juggleproof.scenes.juggler.tables import (
+    CASES,
+    NAMES,
+    UNITS,
+    Finding,
+    finding,
+    in_units,
+    written,
+)
 
 MOST_ROWS, SHORT_BITS, LONG_TEXT = 40, 4000, 100
 PROVED = {

@@ -1,20 +1,23 @@
-"""The files that `certify` writes beside the store: refused before the run where they could not be
-written after it.
-"""
+"""Files and progress."""
 
 from __future__ import annotations
 
 import argparse
 import os
+import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from certificates.store import write_file
-from certificates.terms import ClaimError
-from proofs.reports.results import Results
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import write_file
+from juggleproof.proofs.reports.results import Results
+
+# -------------------------------------------------------------------------------------------------
+# The files that `certify` writes beside the store: refused before the run where they could not be
+# written after it.
 
 OPTIONS = ("json", "junit", "markdown", "timings")
 
@@ -89,15 +92,40 @@ def write(options: argparse.Namespace, results: Results, seconds: Mapping[str, f
 
 def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
     if option == "json":
-        from proofs.reports.data import as_json
+        from juggleproof.proofs.reports.contents import as_json
 
         return as_json(results)
     if option == "junit":
-        from proofs.reports.junit import as_junit
+        from juggleproof.proofs.reports.ci import as_junit
 
         return as_junit(results)
     if option == "markdown":
-        from proofs.reports.markdown import markdown
+        from juggleproof.proofs.reports.ci import markdown
 
         return markdown(results).encode()
     return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()
+
+
+# -------------------------------------------------------------------------------------------------
+# How far a long run is, told on a terminal.
+
+
+def progress() -> Callable[[int, int], None] | None:
+    """Tells how far a run is, on a terminal only."""
+    if not sys.stderr.isatty():
+        return None
+    last = [-1]
+
+    def tell(done: int, of: int) -> None:
+        part = 1000 * done // max(of, 1)
+        if part != last[0]:
+            last[0] = part
+            print(f"\r{done} of {of}", end="", file=sys.stderr, flush=True)
+
+    return tell
+
+
+def clear() -> None:
+    """Takes the line of progress away."""
+    if sys.stderr.isatty():
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)

@@ -9,9 +9,9 @@ import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from certificates.store import write_file
-from certificates.terms import ClaimError
-from proofs.reports.contents import Contents, gather
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import write_file
+from juggleproof.proofs.reports.contents import Contents, gather
 
 DEFAULT_FOLDER = Path("juggleproof-report")
 Files = Mapping[str, bytes]
@@ -49,15 +49,15 @@ def _refuse_what_is_no_folder(place: Path) -> None:
 
 
 def _html(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.page import FILE, build, pictures
-    from proofs.reports.part import kept_results
+    from juggleproof.proofs.reports.page import FILE, build, pictures
+    from juggleproof.proofs.reports.part import kept_results
 
     return {FILE: build(contents, pictures(contents) if _can_draw() else (), kept_results())}, []
 
 
 def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.tex import files
-    from scenes.figures import TABLE
+    from juggleproof.proofs.reports.tex import files
+    from juggleproof.scenes.figures import TABLE
 
     return (
         files(
@@ -76,7 +76,7 @@ def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 
 def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.tex.pdf import compiled
+    from juggleproof.proofs.reports.tex import compiled
 
     files = {**_latex(contents, place)[0], **_figures(contents)}
     write_all(files, place)  # the sources stand, whatever becomes of the PDF
@@ -88,19 +88,19 @@ def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 
 def _markdown(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.markdown import markdown
+    from juggleproof.proofs.reports.ci import markdown
 
     return {"juggleproof.md": markdown(contents).encode()}, []
 
 
 def _json(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.data import as_json
+    from juggleproof.proofs.reports.contents import as_json
 
     return {"juggleproof.json": as_json(contents)}, []
 
 
 def _badge(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.badge import badge
+    from juggleproof.proofs.reports.ci import badge
 
     return {"juggleproof.svg": badge(contents)}, []
 
@@ -109,7 +109,7 @@ def _figures(contents: Contents) -> dict[str, bytes]:
     """The figures as PDF; none, which is said, where matplotlib is absent."""
     if not _can_draw():
         return {}
-    from proofs.reports.figures import saved
+    from juggleproof.proofs.reports.figures import saved
 
     return {f"figures/{slug}.pdf": content for slug, *_, content in saved(contents, "pdf")}
 
@@ -127,7 +127,7 @@ def _can_draw() -> bool:
 
 
 def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from proofs.reports.figures import saved
+    from juggleproof.proofs.reports.figures import saved
 
     return {
         f"figures/{slug}.{form}": content

@@ -1,4 +1,4 @@
-"""`juggleproof simulate`: orbits of a scene, as a table or a file, with their error."""
+"""Simulate juggler."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from fractions import Fraction
 from pathlib import Path
 from typing import BinaryIO
 
-from certificates.terms import ClaimError
-from proofs.command import orbit_tables
-from proofs.command.numbers import components, exact
-from proofs.command.outputs import fault_of, written_aside
-from proofs.command.progress import clear, progress
-from scenes.errors import SceneError
-from scenes.juggler.orbits import Orbits, prepare
-from scenes.juggler.setting import Scene, scene
-from scenes.juggler.starts import (
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command import orbit_tables
+from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
+from juggleproof.proofs.reports.tables import components, exact
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.orbits import Orbits, prepare
+from juggleproof.scenes.juggler.starts import (
     Axis,
+    Scene,
+    Starts,
     boundary,
     grid,
     listed,
@@ -26,9 +26,12 @@ from scenes.juggler.starts import (
     physical_box,
     physical_grid,
     random,
+    scene,
 )
-from scenes.juggler.states import Starts
-from scenes.juggler.tables import NAMES
+from juggleproof.scenes.juggler.tables import NAMES
+
+# -------------------------------------------------------------------------------------------------
+# `juggleproof simulate`: orbits of a scene, as a table or a file, with their error.
 
 NORMAL, PHYSICAL = NAMES["normal"], NAMES["physical"]
 FORMATS = (".csv", ".npz", ".svg")
@@ -55,7 +58,9 @@ def simulate(options: argparse.Namespace) -> int:
 
 
 def _part(options: argparse.Namespace) -> int:
-    from proofs.command.part import part  # what one scene needs, the other does not load
+    from juggleproof.proofs.command.simulate_part import (
+        part,  # what one scene needs, the other does not load
+    )
 
     return part(options)
 
@@ -228,13 +233,13 @@ def _writer(options: argparse.Namespace) -> Writer | None:
     if fault:
         raise ClaimError(f"--output {path}: {fault}; name another file")
     if path.suffix == ".svg":
-        from proofs.reports.extras import needed
+        from juggleproof.proofs.reports.contents import needed
 
         needed("matplotlib")
-        from scenes.juggler.picture import picture
+        from juggleproof.scenes.juggler.tables import picture
 
         return picture
-    from scenes.juggler import tables
+    from juggleproof.scenes.juggler import tables
 
     return lambda orbits, file: (tables.as_csv if path.suffix == ".csv" else tables.as_npz)(
         orbits, file, units

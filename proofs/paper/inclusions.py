@@ -8,20 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from certificates.statements import Statement
-from certificates.terms import equal, iff, term
-from proofs.claims import Assertion, Readings, claim
-from proofs.paper.events import height, speed, vector
-from proofs.paper.outside import B1_OUTSIDE, OUTSIDE
-from proofs.paper.relative_motion import (
-    RANGE_21,
-    band,
-    c,
-    leaves_R_at,
-    narrow_band_stays,
-    on_the_line,
-)
-from proofs.paper.vocabulary import (
+from juggleproof.certificates.language import Statement, equal, iff, term
+from juggleproof.proofs.claims import Assertion, Readings, claim
+from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
     B1_PLUS,
@@ -42,13 +31,24 @@ from proofs.paper.vocabulary import (
     equals,
     f1,
     f2,
+    height,
     impact_energy_change,
     is_supremum,
     r,
+    speed,
     v,
+    vector,
 )
-from proofs.reading.notions import Region
-from proofs.reading.values import Vector
+from juggleproof.proofs.paper.regions import B1_OUTSIDE, OUTSIDE
+from juggleproof.proofs.paper.states import (
+    RANGE_21,
+    band,
+    c,
+    leaves_R_at,
+    narrow_band_stays,
+    on_the_line,
+)
+from juggleproof.proofs.reading.values import Region, Vector
 
 TRAP = B1 & Region(lambda state: alpha * (r - speed(state)) < r)
 

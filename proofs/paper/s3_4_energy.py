@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from certificates.statements import Statement
-from certificates.terms import equal, reals
-from proofs.claims import claim
-from proofs.paper.events import ball_at, height, only_at, speed
-from proofs.paper.orbits import next_bounce, strikes_from, struck
-from proofs.paper.vocabulary import (
+from juggleproof.certificates.language import Statement, equal, reals
+from juggleproof.proofs.claims import claim
+from juggleproof.proofs.paper.names import (
     B1,
     B2,
     NAMES,
@@ -15,17 +12,21 @@ from proofs.paper.vocabulary import (
     POINTS,
     always,
     b,
+    ball_at,
     derived,
     energy,
     f1,
     f2,
+    height,
     next_states,
+    only_at,
+    speed,
     t,
 )
-from proofs.reading.environment import Environment
-from proofs.reading.notions import StateFunction
-from proofs.reading.printed import Printed
-from proofs.reading.values import Vector
+from juggleproof.proofs.paper.states import next_bounce, strikes_from, struck
+from juggleproof.proofs.reading.evaluation import Environment
+from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.values import StateFunction, Vector
 
 tau, change, change_1, change_2 = reals("tau change change_1 change_2")
 b_0, image = Vector(reals("beta0 v0")), Vector(reals("beta1 v1"))

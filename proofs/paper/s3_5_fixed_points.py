@@ -1,17 +1,20 @@
-"""Section 3.5.1: fixed points of f and of its composites, what they ask of ball and table, and for
-which periods they exist.
-"""
+"""Section 3.5."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from typing import Any
 
-from certificates.statements import AnyStatement, Iterates, Statement
-from certificates.terms import (
+from juggleproof.certificates.language import (
+    AnyStatement,
     ClaimError,
     Formula,
+    Iterates,
+    Number,
+    Statement,
     Term,
+    conjunction,
     different,
     disjunction,
     equal,
@@ -20,46 +23,64 @@ from certificates.terms import (
     substitute,
     term,
 )
-from proofs.claims import Assertion, Readings, claim
-from proofs.paper.events import ball_at, height, speed, table_at, vector
-from proofs.paper.orbits import (
-    always_integer,
-    b_0,
-    comes_back,
-    exists_integer,
-    flights,
-    from_threshold_on,
-    function_of,
-    relations_of,
-    strikes_from,
-    struck,
-)
-from proofs.paper.outside import ceiling_of, floor_of, with_rounding
-from proofs.paper.vocabulary import (
+from juggleproof.proofs.claims import Argument, Assertion, Readings, claim
+from juggleproof.proofs.paper.names import (
     B1,
     B2,
+    NAMES,
     PAPER,
+    H,
     K,
     T,
     alpha,
     always,
+    at,
     b,
+    ball_at,
     beta,
     collide,
     derived,
     equals,
     exists_some,
     f1,
+    f2,
+    flight_matrix,
+    height,
     is_maximum,
     next_states,
     r,
+    speed,
     t,
+    table_at,
     v,
+    vector,
 )
-from proofs.reading.notions import ExtremalValue
-from proofs.reading.printed import Printed
-from proofs.reading.relations import relate
-from proofs.reading.values import Vector
+from juggleproof.proofs.paper.regions import ceiling_of, floor_of, with_rounding
+from juggleproof.proofs.paper.states import (
+    always_integer,
+    b_0,
+    comes_back,
+    cycle,
+    eigenvalue_of,
+    exists_integer,
+    flights,
+    from_threshold_on,
+    function_of,
+    next_state_is,
+    relations_of,
+    strikes_from,
+    struck,
+    within,
+)
+from juggleproof.proofs.reading.evaluation import Environment, relate
+from juggleproof.proofs.reading.lexer import PrintError
+from juggleproof.proofs.reading.meaning import Meaning, Printed
+from juggleproof.proofs.reading.tree import Chain
+from juggleproof.proofs.reading.values import ExtremalValue, Matrix, Region, Vector
+
+# -------------------------------------------------------------------------------------------------
+# Section 3.5.1: fixed points of f and of its composites, what they ask of ball and table, and for
+# which periods they exist.
 
 n, k, m, u, y, tau = reals("n k m u y tau")
 beta_0, v_0 = b_0
@@ -314,4 +335,271 @@ def no_second_impact_within_the_period(printed: Printed) -> list[Statement]:
             given=[strikes_from(b, tau), t > tau, t <= T],
             label="above",
         ),
+    ]
+
+
+# -------------------------------------------------------------------------------------------------
+# Section 3.5.2: which restitutions allow which periods of orbits with one impact.
+
+n, k = reals("n k")
+BOUND = term(derived("subharmonic_bound"))  # the real number that K_max rounds
+
+
+def threshold(count: int) -> Term:
+    """The restitution from which on the fastest table can keep up flights of so many periods."""
+    from sympy import Integer
+
+    return term(derived("restitution_threshold", Integer(count)))
+
+
+def allows_just(printed: Printed, rounded: Callable[[Term], Formula]) -> Assertion:
+    """The print, with K_max rounded in this way, says that there is an orbit for K and none for K +
+    1.
+    """
+    says = printed.formula(PAPER.extended({"K_{max}": n}))
+    return Assertion(
+        (
+            always_integer(iff(B1(b), K <= BOUND), given=[comes_back(K)], label="orbits"),
+            always_integer(
+                iff(says, (K <= BOUND) & (BOUND < K + 1)), given=[rounded(BOUND)], label="longest"
+            ),
+        )
+    )
+
+
+@claim("eq-19", "3.5.2", "(19)", printed=r"K \le K_{max} < K + 1", parameters=("alpha", "K"))
+def periods_up_to_k(printed: Printed) -> Readings:
+    """There are orbits for the periods up to K, and for no longer one, exactly if the rounded bound
+    lies between K and K + 1.
+    """
+    return Readings(
+        {"floor": allows_just(printed, floor_of), "ceiling": allows_just(printed, ceiling_of)}
+    )
+
+
+@claim("eq-20", "3.5.2", "(20)", printed=r"\frac{K-1}{K+1} \le \alpha < \frac{K}{K+2}")
+def restitution_for_periods_up_to_k(printed: Printed) -> list[Statement]:
+    """For these restitutions K is the longest period: the left end is where the orbit for K begins
+    to exist, the right that for K + 1.
+    """
+    from_k_on, to_next = (
+        relate(left, sign, right) for left, sign, right in relations_of(printed, PAPER, 2)
+    )
+    return [
+        always_integer(
+            iff(from_k_on & to_next, (K <= n) & (n < K + 1)),
+            given=[floor_of(BOUND)],
+            label="inserted",
+        ),
+        always_integer(iff(B1(b), from_k_on), given=[comes_back(K)], label="orbit-for-K"),
+        always_integer(iff(~B1(b), to_next), given=[comes_back(K + 1)], label="none-for-the-next"),
+    ]
+
+
+@claim(
+    "s3.5.2-set", "3.5.2", "line 410", printed=r"\{ e_k \mid k \le K \}", parameters=("alpha", "K")
+)
+def periods_that_exist(printed: Printed) -> Statement:
+    """For the restitutions of (20), the orbits with one impact are those whose period is not above
+    K.
+    """
+    meant = Environment({**NAMES, "k": k}, points={"e_k": ("k",)})
+    held = Meaning(meant).of(printed.tree)
+    if not isinstance(held, Region):
+        raise ClaimError("a set of fixed points is expected here")
+    return always_integer(
+        iff(B1(b), held(Vector((n,)))),
+        given=[n >= 1, comes_back(n)],
+        in_range=[*from_threshold_on(K), ~conjunction(from_threshold_on(K + 1)[2:])],
+    )
+
+
+@claim("eq-21", "3.5.2", "(21)", printed=r"0 < \alpha < \frac{1}{3}")
+def restitution_for_one_fixed_point(printed: Printed) -> list[Statement]:
+    """These are the restitutions for which no period but one has an orbit with one impact."""
+    single = printed.formula(PAPER)
+    return [
+        always_integer(
+            ~B1(b), given=[K >= 2, comes_back(K)], in_range=[single], label="no-longer-period"
+        ),
+        always(single, given=[comes_back(2), ~B1(b)], label="only-these"),
+    ]
+
+
+@claim("s3.5.2-note8", "4.1", "note 8", printed=r"\alpha = 0")
+def no_restitution_is_left_out(printed: Printed) -> Statement:
+    """For K = 1, (20) also admits that value of the restitution, and (21) is (20) without it."""
+    zero = printed.formula(PAPER)
+    admitted = (threshold(1) <= alpha) & (alpha < threshold(2))
+    return always(iff(admitted & ~zero, (alpha > 0) & (alpha < threshold(2))), in_range=[])
+
+
+# -------------------------------------------------------------------------------------------------
+# Section 3.5.3: the Jacobian of the composites, and the stability of their fixed points.
+
+n, p, q, size, lift = reals("n p q size lift")
+
+
+def composite(count: Number, state: Vector) -> Vector:
+    """The state after all but one of so many periods of flight, and one with an impact."""
+    return vector(f1(vector(flights(term(count) - 1)(state))))
+
+
+def power_of_flight(time: Term, count: Number) -> Matrix:
+    """A_t to this power, which is A of so many times t, as the statement `powers` has it."""
+    return flight_matrix(term(count) * time)
+
+
+def is_jacobian(value: Any, count: Number, label: str) -> Statement:
+    """The matrix takes the difference of any two states to the difference of their images under the
+    composite.
+    """
+    if not isinstance(value, Matrix):
+        raise ClaimError("a matrix is expected here")
+    difference = composite(count, b_0) - composite(count, b)
+    return always_integer(equals(vector(value * (b_0 - b)), difference), label=label)
+
+
+def for_every_k(printed: Printed) -> list[Statement]:
+    """What is printed, for every integer K; a power with the exponent K of anything but A_t has a
+    meaning for single K only.
+    """
+    chain = printed.tree
+    if not isinstance(chain, Chain):
+        raise ClaimError("an equation is expected here")
+    meaning = Meaning(PAPER.extended({r"A_{\cdot}^{\cdot}": power_of_flight}))
+    left = is_jacobian(meaning.here(chain.first), K, "left-side")
+    try:
+        return [left, is_jacobian(meaning.here(chain.rest[-1][1]), K, "right-side")]
+    except PrintError:
+        return [left]
+
+
+@claim(
+    "s3.5.3-jacobian",
+    "3.5.3",
+    "line 422",
+    printed=r"-\alpha A_T^K = \begin{bmatrix} -\alpha & -\alpha T^K \\ 0 & -\alpha \end{bmatrix}",
+)
+def jacobian_of_the_composites(printed: Printed) -> list[AnyStatement]:
+    """Both sides are the matrix of the composite for K, which is affine; and the power of A_T on
+    the left is the repeated product.
+    """
+    one, many = (
+        tuple(term(entry) for entry in vector(flight_matrix(count * T) * b)) for count in (1, K)
+    )
+    equations: list[AnyStatement] = []
+    for count in (1, 2, 3):
+        environment = PAPER.extended({"K": count})
+        equations.append(always_integer(printed.formula(environment), label=f"equation-{count}"))
+        equations.append(is_jacobian(printed.right(environment), count, f"right-side-{count}"))
+    return [
+        Iterates("powers", ("beta", "v"), one, "K", many, ("T",)),
+        *for_every_k(printed),
+        *equations,
+    ]
+
+
+@claim("s3.5.3-eigenvalues", "3.5.3", "line 424")
+def eigenvalues_of_the_composites_lie_in_the_unit_circle() -> Statement:
+    """For every K, each complex eigenvalue of the matrix of the composite is less than 1 in
+    absolute value.
+    """
+    return always_integer(p**2 + q**2 < 1, given=[eigenvalue_of(derived("return_jacobian"), p, q)])
+
+
+@claim("s3.5.3-locally-stable", "3.5.3", "line 424", parameters=("alpha", "K"))
+def fixed_points_are_stable_where_they_exist() -> Argument:
+    """The eigenvalues make every fixed point stable that exists, also at the left end of its range
+    (20).
+
+    For that, the composite has to be what the map does around the fixed point: a state that lies a
+    little higher must fly on as long. And from a state that lies a little higher the orbit has to
+    come back near the fixed point, whose period is 2 here.
+    """
+    higher = b + Vector((lift, term(0)))
+    flies_on = B1(higher) & B2(vector(flights(K - 2)(vector(f1(higher)))))
+    second = vector(at(derived("impact_fixed_point"), {"K": 2}))
+    lifted = second + Vector((lift, term(0)))
+    returns = B1(lifted) & next_state_is(
+        vector(f1(lifted)), lambda state: within(r, speed(state) - speed(second))
+    )
+    return Argument(
+        steps={
+            "eigenvalues": Assertion(
+                (
+                    always_integer(
+                        p**2 + q**2 < 1, given=[eigenvalue_of(derived("return_jacobian"), p, q)]
+                    ),
+                )
+            ),
+            "same-pieces": Assertion(
+                (
+                    exists_integer(
+                        ["lift"],
+                        flies_on,
+                        within=[lift > 0],
+                        given=[K >= 2, comes_back(K)],
+                        in_range=from_threshold_on(),
+                    ),
+                )
+            ),
+        },
+        conclusion=Assertion(
+            (
+                always(comes_back(2, second), label="second"),
+                exists_some(
+                    ["lift"],
+                    returns,
+                    within=[lift > 0],
+                    in_range=[alpha >= Fraction(1, 3), alpha < 1],
+                    label="returns",
+                ),
+            )
+        ),
+    )
+
+
+@claim("s3.5.3-stable-inside", "3.5.3", "line 424", parameters=("alpha", "K"))
+def fixed_points_are_stable_inside_their_range() -> list[Statement]:
+    """Where the fixed point lies above the edge of H, every small box around it has the same impact
+    and flights, and comes back.
+
+    So the fixed point is stable there.
+    """
+    center, middle = vector(derived("impact_fixed_point")), b_0
+    edge, largest = term(center.component(1)), term(middle.component(1))
+
+    def in_box(state: Vector, around: Vector) -> Formula:
+        up, ahead = (term(entry) for entry in state - around)
+        return within(size, up) & within((1 - alpha) * size, alpha * K * T * ahead)
+
+    def corner_at_most_on_the_line(around: Vector, box: Term) -> Formula:
+        corner = around + Vector((box, (1 - alpha) * box / (alpha * K * T)))
+        return term(at(derived("collision_margin"), corner)) >= 0
+
+    return [
+        always_integer(comes_back(K, center), label="center"),
+        always_integer(
+            edge > 0,
+            in_range=[alpha > 0, alpha < 1, alpha * (K + 1) > K - 1],
+            label="there-are-boxes",
+        ),
+        always_integer(corner_at_most_on_the_line(center, edge), label="corner"),
+        always_integer(
+            B1(b),
+            given=[size <= largest, in_box(b, middle), corner_at_most_on_the_line(middle, largest)],
+            label="impact",
+        ),
+        always_integer(
+            in_box(cycle(K), center) & H(cycle(K)),
+            given=[size <= edge, in_box(b, center)],
+            label="comes-back",
+        ),
+        always_integer(
+            H(vector(flights(n)(b))),
+            given=[H(b), H(vector(flights(K - 1)(b))), n >= 0, n <= K - 1],
+            label="above-the-table",
+        ),
+        always(B2(b), given=[H(b), H(vector(f2(b)))], label="flights"),
     ]

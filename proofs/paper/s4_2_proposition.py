@@ -6,11 +6,33 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from certificates.statements import Statement
-from certificates.terms import Formula, different, equal, real
-from proofs.claims import Assertion, Following, Readings, claim
-from proofs.paper.events import ball_at, height, only_at
-from proofs.paper.outside import (
+from juggleproof.certificates.language import Formula, Statement, different, equal, real
+from juggleproof.proofs.claims import Assertion, Following, Readings, claim
+from juggleproof.proofs.paper.names import (
+    B1,
+    B1_MINUS,
+    B1_PLUS,
+    B2,
+    H,
+    R,
+    T,
+    alpha,
+    always,
+    b,
+    ball_at,
+    derived,
+    energy,
+    exists_some,
+    f1,
+    f2,
+    height,
+    impact_energy_change,
+    only_at,
+    r,
+    t,
+    v,
+)
+from juggleproof.proofs.paper.regions import (
     ATTRACTION,
     B1_OUTSIDE,
     LEVEL,
@@ -35,29 +57,8 @@ from proofs.paper.outside import (
     with_rounding,
     worst_wait,
 )
-from proofs.paper.vocabulary import (
-    B1,
-    B1_MINUS,
-    B1_PLUS,
-    B2,
-    H,
-    R,
-    T,
-    alpha,
-    always,
-    b,
-    derived,
-    energy,
-    exists_some,
-    f1,
-    f2,
-    impact_energy_change,
-    r,
-    t,
-    v,
-)
-from proofs.reading.printed import Printed
-from proofs.reading.values import Vector
+from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.values import Vector
 
 tau, t_R = real("tau"), real("t_R")
 

@@ -1,14 +1,42 @@
-"""Section 4.3.2: the point p, the band of states whose kinetic energy is close to that of e_1, and
-whether f maps it into itself.
-"""
+"""Sections 4.3.2, 4.4."""
 
 from __future__ import annotations
 
-from certificates.statements import Statement
-from certificates.terms import Formula, Term, different, equal, iff, reals, term
-from proofs.claims import Argument, Assertion, Readings, claim
-from proofs.paper.events import height, speed, vector
-from proofs.paper.relative_motion import (
+from juggleproof.certificates.language import (
+    Formula,
+    Statement,
+    Term,
+    different,
+    equal,
+    iff,
+    reals,
+    term,
+)
+from juggleproof.proofs.claims import Argument, Assertion, Following, Readings, claim
+from juggleproof.proofs.paper.names import (
+    B1,
+    B2,
+    PAPER,
+    R,
+    T,
+    alpha,
+    always,
+    b,
+    collision_time,
+    derived,
+    e_1,
+    eps,
+    equals,
+    f1,
+    f2,
+    height,
+    next_states,
+    r,
+    speed,
+    v,
+    vector,
+)
+from juggleproof.proofs.paper.states import (
     AROUND_E1,
     BOUNDARY_OF_R,
     NEAR,
@@ -16,32 +44,21 @@ from proofs.paper.relative_motion import (
     STABILITY,
     c,
     from_e_1,
-    image,
     kinetic_energy,
     leaves_R_at,
+    narrow_band_stays,
+    next_image,
     on_the_line,
+    relative_step,
+    within,
+    z,
 )
-from proofs.paper.vocabulary import (
-    B1,
-    B2,
-    PAPER,
-    R,
-    T,
-    always,
-    b,
-    collision_time,
-    derived,
-    e_1,
-    eps,
-    f1,
-    f2,
-    next_states,
-    r,
-    v,
-)
-from proofs.reading.notions import StateFunction
-from proofs.reading.printed import Printed
-from proofs.reading.values import Vector
+from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.values import StateFunction, Vector
+
+# -------------------------------------------------------------------------------------------------
+# Section 4.3.2: the point p, the band of states whose kinetic energy is close to that of e_1, and
+# whether f maps it into itself.
 
 d, p0, p1, p2, y = reals("d p0 p1 p2 y")
 JUST_AT_THE_BOUNCE = equal(term(collision_time(b)), T)  # what the line between B1 and B2 is
@@ -236,7 +253,7 @@ def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
     within = [-d <= near[0], near[0] <= d, -d <= near[1], near[1] <= d]
     far = (height(change), T * speed(change))
     return [
-        always(printed.formula(AROUND_E1), given=[next_states(b, image)], label="agrees"),
+        always(printed.formula(AROUND_E1), given=[next_states(b, next_image)], label="agrees"),
         always(
             (-2 * d <= far[0]) & (far[0] <= 2 * d) & (-2 * d <= far[1]) & (far[1] <= 2 * d),
             given=within,
@@ -308,3 +325,66 @@ def band_attracts_the_region() -> Argument:
         },
         rests_on=STABILITY,
     )
+
+
+# -------------------------------------------------------------------------------------------------
+# Section 4.4: the fixed point e_1 attracts the band around it, and so the whole state space.
+
+size, y1, y2, p, q = reals("size y1 y2 p q")
+y_pair = Vector((y1, y2))
+
+
+@claim(
+    "s4.4-linear",
+    "4.4",
+    "line 569",
+    printed=r"\overline{f}|_{\mathcal{K}} = \overline{f}_1",
+    repeats="s4.3.2-f-K-continuous",
+)
+def map_on_the_band_is_linear(printed: Printed) -> Readings:
+    """On the band f is f1, which is linear: in the differences to e_1, or in the states
+    themselves.
+    """
+    agrees = always(printed.formula(AROUND_E1), given=[next_states(b, next_image)], label="agrees")
+
+    def combines(one: Vector, other: Vector, f: StateFunction) -> Statement:
+        mixed = one.scaled(p) + other.scaled(q)
+        return always(
+            equals(vector(f(mixed)), vector(f(one)).scaled(p) + vector(f(other)).scaled(q)),
+            label="linear",
+        )
+
+    return Readings(
+        {
+            "in-z": Assertion((agrees, combines(z, y_pair, relative_step))),
+            "in-b": Assertion((agrees, combines(b, y_pair, f1))),
+        }
+    )
+
+
+@claim("s4.4-e1-attracts-K", "4.4", "line 569")
+def fixed_point_attracts_the_band() -> Following:
+    """e_1 is stable and attracts the band; a narrow band is mapped into itself, and each impact
+    brings its states closer to e_1.
+
+    An impact multiplies the greater of the differences to e_1, in height and in speed times T, by 2
+    alpha at most.
+    """
+    after = relative_step(z)
+    before = within(size, height(z)) & within(size, T * speed(z))
+    shrunk = within(2 * alpha * size, height(after)) & within(2 * alpha * size, T * speed(after))
+    return Following(
+        STABILITY,
+        Assertion(
+            (
+                *narrow_band_stays(eps),
+                always(shrunk, given=[before], in_range=RANGE_21, label="contracts"),
+            )
+        ),
+    )
+
+
+@claim("s4.4-global", "4.4", "line 569")
+def fixed_point_is_a_global_attractor() -> Following:
+    """Every orbit on H tends to e_1."""
+    return Following(STABILITY)

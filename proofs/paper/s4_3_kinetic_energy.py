@@ -4,27 +4,18 @@ decreases in R.
 
 from __future__ import annotations
 
-from certificates.statements import Statement
-from certificates.terms import ClaimError, Term, conjunction, equal, iff, real, term
-from proofs.claims import Argument, Assertion, Following, Readings, claim
-from proofs.paper.events import only_at, vector
-from proofs.paper.outside import pieces
-from proofs.paper.relative_motion import (
-    AT_Z,
-    RANGE_21,
-    STABILITY,
-    STEP,
-    change,
-    from_e_1,
-    image,
-    kinetic_energy,
-    kinetic_energy_change,
-    lies_around_e_1,
-    narrow_band_stays,
-    relative_step,
-    z,
+from juggleproof.certificates.language import (
+    ClaimError,
+    Statement,
+    Term,
+    conjunction,
+    equal,
+    iff,
+    real,
+    term,
 )
-from proofs.paper.vocabulary import (
+from juggleproof.proofs.claims import Argument, Assertion, Following, Readings, claim
+from juggleproof.proofs.paper.names import (
     B1,
     B2,
     R,
@@ -39,12 +30,29 @@ from proofs.paper.vocabulary import (
     f1,
     f2,
     next_states,
+    only_at,
     r,
+    vector,
 )
-from proofs.reading.notions import LimitValue
-from proofs.reading.printed import Printed
-from proofs.reading.relations import relate
-from proofs.reading.values import Matrix, Vector
+from juggleproof.proofs.paper.regions import pieces
+from juggleproof.proofs.paper.states import (
+    AT_Z,
+    RANGE_21,
+    STABILITY,
+    STEP,
+    change,
+    from_e_1,
+    kinetic_energy,
+    kinetic_energy_change,
+    lies_around_e_1,
+    narrow_band_stays,
+    next_image,
+    relative_step,
+    z,
+)
+from juggleproof.proofs.reading.evaluation import relate
+from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.values import LimitValue, Matrix, Vector
 
 d = real("d")
 ORIGIN = Vector((0, 0))
@@ -64,8 +72,8 @@ def orbits_decay_to_the_band() -> Following:
 def impact_shrinks() -> Statement:
     """An impact multiplies the kinetic energy relative to e_1 by alpha squared."""
     return always(
-        equal(from_e_1(image), alpha**2 * from_e_1(b)),
-        given=[B1(b), next_states(b, image)],
+        equal(from_e_1(next_image), alpha**2 * from_e_1(b)),
+        given=[B1(b), next_states(b, next_image)],
         label="impact-shrinks",
     )
 
@@ -95,7 +103,9 @@ def relative_motion_is_linear() -> Statement:
             for row in derived("return_jacobian").rows
         )
     )
-    return always(equals(image - e_1, linear * (b - e_1)), given=[B1(b), next_states(b, image)])
+    return always(
+        equals(next_image - e_1, linear * (b - e_1)), given=[B1(b), next_states(b, next_image)]
+    )
 
 
 def follows(printed: Printed) -> Statement:

@@ -1,17 +1,159 @@
-"""What an impulse at a corner does, and which corners a rectangle has: the numbers B1, B2 and
-B3.
-"""
+"""What the claims about a corner's impact have in common: names, hypotheses, the five modes and."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any, NamedTuple
 
-from certificates.statements import Statement
-from certificates.terms import Term, conjunction, equal, iff, reals, substitute, term
-from proofs.claims import claim
-from proofs.forms import Vocabulary, always
-from proofs.paper.vocabulary import derived
-from proofs.part.setting import Impulse, velocity_after, work_of
+from juggleproof.certificates.language import (
+    Formula,
+    Number,
+    Statement,
+    Term,
+    conjunction,
+    equal,
+    iff,
+    reals,
+    substitute,
+    term,
+)
+from juggleproof.certificates.search.closing import Hints
+from juggleproof.proofs.claims import claim
+from juggleproof.proofs.forms import Vocabulary, always
+from juggleproof.proofs.paper.names import derived
+
+# -------------------------------------------------------------------------------------------------
+# What the claims about a corner's impact have in common: names, hypotheses, the five modes and
+# their conditions.
+#
+# A corner strikes the table with C0 < 0; sigma, 1 or -1, is the direction in which it slides, of
+# either sign where it does not (S0 = 0).  Of the body only B1, B2 and B3 matter; for every corner
+# of
+# every body B1 > 0 and B1 B2 > B3^2 (claim part-corner).
+
+B1, B2, B3, S0, C0, e, mu, sigma = reals("B1 B2 B3 S0 C0 e mu sigma")
+P_x, P_y, S, C = reals(
+    "P_x P_y S C"
+)  # the impulse of the impact, and the corner's velocity after it
+ORDER = ("sigma", "e", "mu", "B1", "B2", "B3", "S0", "C0")
+SAMPLE = {
+    "B3": Fraction(1),
+    "mu": Fraction(1, 4),
+    "sigma": Fraction(1),
+}  # here the corner stops and slides back
+
+CRITERIA = (
+    "closing_rate",
+    "stopping_rate",
+    "slides_back",
+    "slides_through_compression",
+    "slides_through_restitution",
+)
+CLOSING, STOPPING, BACK, PAST_COMPRESSION, PAST_RESTITUTION = map(derived, CRITERIA)
+
+DEFINITE = B1 * B2 - B3**2 > 0
+BODY = (B1 > 0, DEFINITE)
+DIRECTION = equal(sigma, 1) | equal(sigma, -1)
+SLIDES = sigma * S0 >= 0
+NO_JAM = CLOSING > 0
+APPROACH = C0 < 0
+FRICTION = mu >= 0
+RESTITUTION = (e >= 0, e <= 1)
+STICKS, REVERSES = (BACK <= 0,), (BACK >= 0, STOPPING > 0)
+IN_COMPRESSION, IN_RESTITUTION = (
+    (PAST_COMPRESSION <= 0,),
+    (PAST_COMPRESSION >= 0, PAST_RESTITUTION <= 0),
+)
+_CONDITIONS: dict[str, tuple[Formula, ...]] = {
+    "sliding": (PAST_RESTITUTION >= 0,),
+    "sticking-in-compression": IN_COMPRESSION + STICKS,
+    "sticking-in-restitution": IN_RESTITUTION + STICKS,
+    "reversed-in-compression": IN_COMPRESSION + REVERSES,
+    "reversed-in-restitution": IN_RESTITUTION + REVERSES,
+}
+
+
+def conditions_of(mode: str) -> tuple[Formula, ...]:
+    """When an impact is of a mode; where two modes meet, the conditions of both hold, and they
+    agree (claim part-modes-agree).
+    """
+    for name in CRITERIA:  # noted as what the claim rests on
+        derived(name)
+    return _CONDITIONS[mode]
+
+
+class Impulse(NamedTuple):
+    """An impulse, or a velocity: along the table, and away from it."""
+
+    along: Term
+    away: Term
+
+
+def of(name: str, *arguments: str) -> Impulse:
+    """A derived impulse or velocity."""
+    value = derived(name, *arguments)
+    return Impulse(term(value.component(1)), term(value.component(2)))
+
+
+def velocity_after(impulse: Impulse) -> Impulse:
+    """The corner's velocity after an impulse."""
+    values: dict[str, Number] = {"P_x": impulse.along, "P_y": impulse.away}
+    return Impulse(*(substitute(speed, values) for speed in of("velocity_after_impulse")))
+
+
+def work_of(impulse: Impulse) -> Term:
+    """What an impulse adds to the kinetic energy in the table's frame."""
+    added: Term = substitute(
+        derived("work_of_impulse"), {"P_x": impulse.along, "P_y": impulse.away}
+    )
+    return added
+
+
+def words(mode: str = "", **further: Term) -> Vocabulary:
+    """The names for the impulse of a mode, for the velocity after it, and for what else there
+    is.
+    """
+    names: dict[str, Term] = dict(further)
+    if mode:
+        after = velocity_after(Impulse(P_x, P_y))
+        names |= {
+            "P_y": derived("normal_impulse", mode),
+            "P_x": derived("tangential_impulse", mode),
+            "S": after.along,
+            "C": after.away,
+        }
+    return Vocabulary(ORDER, abbreviations=names, sample=SAMPLE)
+
+
+# -------------------------------------------------------------------------------------------------
+# The one lemma of the claims about impacts: products of what is not negative, which the search is
+# told of rather than left to find.
+
+p, q, d = reals("p q d")
+LEMMA = "part-products/main"
+
+
+@claim("part-products", "part", "lemma", parameters=())
+def a_product_of_two_numbers_and_a_square_is_not_negative() -> Statement:
+    """A product of two numbers that are not negative and a square is not negative."""
+    return always(p * q * d**2 >= 0, given=[p >= 0, q >= 0])
+
+
+def told(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
+    """The hints of a claim: these products, each of two numbers that are not negative and what is
+    squared.
+    """
+    uses = tuple(
+        (LEMMA, {"p": str(term(one)), "q": str(term(other)), "d": str(term(squared))})
+        for one, other, squared in products
+    )
+    return {"uses": (LEMMA,), "search": Hints(uses)}
+
+
+# -------------------------------------------------------------------------------------------------
+# What an impulse at a corner does, and which corners a rectangle has: the numbers B1, B2 and
+# B3.
 
 x_c, y_c, J, h, k, mu = reals("x_c y_c J h k mu")
 c_x, c_y, omega, P_x, P_y = reals("c_x c_y omega P_x P_y")

@@ -1,34 +1,44 @@
-"""The five modes of a corner's impact: each impulse is that of a walk by Coulomb's and Poisson's
-laws, and what it guarantees.
-
-A walk through impulse space grows the impulse from 0.  While the corner slides, friction is mu
-times the normal impulse and opposes the sliding; where it has stopped, friction holds it if it can.
-Compression is greatest where C = 0; the impact ends at 1 + e times the normal impulse of that
-moment.  Velocities are linear on each piece of a walk, so what holds at the ends of a piece holds
-all along it.
+"""The five modes of a corner's impact: each impulse is that of a walk by Coulomb's and
+Poisson's.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
+from itertools import combinations
 
-from certificates.statements import Statement
-from certificates.terms import Formula, conjunction, equal, real, reals
-from proofs.claims import claim
-from proofs.forms import always
-from proofs.part.products import told
-from proofs.part.setting import (
+from juggleproof.certificates.language import (
+    Formula,
+    Statement,
+    conjunction,
+    disjunction,
+    equal,
+    iff,
+    real,
+    reals,
+    substitute,
+    term,
+)
+from juggleproof.proofs.claims import claim
+from juggleproof.proofs.forms import always, exists_some
+from juggleproof.proofs.part.corner import (
     APPROACH,
     B1,
     B2,
     B3,
     BACK,
     BODY,
+    C0,
+    CLOSING,
+    COEFFICIENTS,
     DEFINITE,
     DIRECTION,
     FRICTION,
     NO_JAM,
     PAST_COMPRESSION,
+    PAST_RESTITUTION,
+    RESTITUTION,
     REVERSES,
     S0,
     SLIDES,
@@ -43,10 +53,24 @@ from proofs.part.setting import (
     mu,
     of,
     sigma,
+    told,
     velocity_after,
     words,
+    work_of,
 )
-from symbolic import MODES
+from juggleproof.proofs.theorem.definition import value_of
+from juggleproof.symbolic import MODES
+
+# -------------------------------------------------------------------------------------------------
+# The five modes of a corner's impact: each impulse is that of a walk by Coulomb's and Poisson's
+# laws, and what it guarantees.
+#
+# A walk through impulse space grows the impulse from 0.  While the corner slides, friction is mu
+# times the normal impulse and opposes the sliding; where it has stopped, friction holds it if it
+# can.
+# Compression is greatest where C = 0; the impact ends at 1 + e times the normal impulse of that
+# moment.  Velocities are linear on each piece of a walk, so what holds at the ends of a piece holds
+# all along it.
 
 STOP, MOST, END = (
     Impulse(*reals("x_stop y_stop")),
@@ -192,3 +216,276 @@ def a_corner_that_slides_back_in_restitution_ends_its_approach() -> list[Stateme
     cone of friction, and ends the approach.
     """
     return impact("reversed-in-restitution")
+
+
+# -------------------------------------------------------------------------------------------------
+# No impact of a corner gains kinetic energy in the table's frame: in each mode what is gained is
+# minus a sum of products that are not negative.
+
+LOST = (1 - e) * (1 + e)
+DETERMINANT = B1 * B2 - B3**2
+CLOSING_BACK = B2 - mu * sigma * B3  # the closing rate of a corner that slides back
+LEFT = (
+    -(1 + e) * PAST_COMPRESSION + e * CLOSING_BACK * sigma * S0
+)  # the normal impulse after the stop, without its denominators
+
+
+def gains_nothing(mode: str, given: Sequence[Formula]) -> Statement:
+    """The work of the mode's impulse is not positive."""
+    return always(
+        work_of(Impulse(P_x, P_y)) <= 0, given=given, label="gains-nothing", vocabulary=words(mode)
+    )
+
+
+@claim("part-sliding-energy", "part", "sliding", parameters=())
+def sliding_gains_no_energy() -> Statement:
+    """A corner that slides all along gains no energy."""
+    return gains_nothing(
+        "sliding",
+        [DIRECTION, SLIDES, NO_JAM, APPROACH, FRICTION, PAST_RESTITUTION >= 0, *RESTITUTION],
+    )
+
+
+@claim("part-sticking-in-compression-energy", "part", "sticking in compression", parameters=())
+def sticking_in_compression_gains_no_energy() -> Statement:
+    """An impact by the law of sticking in compression gains no energy, wherever it is used."""
+    return gains_nothing("sticking-in-compression", [*BODY, *RESTITUTION])
+
+
+@claim(
+    "part-sticking-in-restitution-energy",
+    "part",
+    "sticking in restitution",
+    parameters=(),
+    hints=told(
+        [
+            (1, 1, PAST_COMPRESSION),
+            (1, 1, C0 * STOPPING),
+            (LOST, DETERMINANT, C0),
+            (-C0 * PAST_COMPRESSION, (1 - e) * mu * B1 - e * BACK, 1),
+            (1, 1, S0 * CLOSING + (1 + e) * B3 * C0),
+            (LOST, B1 * B2, C0),
+            ((1 + e) * mu * B1, sigma * B3, C0),
+        ]
+    ),
+)  # the first line for sigma B3 <= 0
+def sticking_in_restitution_gains_no_energy() -> Statement:
+    """A corner that stops in restitution and sticks gains no energy."""
+    return gains_nothing(
+        "sticking-in-restitution",
+        [*BODY, DIRECTION, NO_JAM, APPROACH, FRICTION, PAST_COMPRESSION >= 0, *RESTITUTION],
+    )
+
+
+@claim(
+    "part-reversed-in-compression-energy",
+    "part",
+    "reversed in compression",
+    parameters=(),
+    hints=told(
+        [
+            (mu, 2 * STOPPING + BACK, sigma * S0 * CLOSING_BACK),
+            (mu, BACK, LEFT),
+            (LOST, CLOSING_BACK, CLOSING_BACK * sigma * S0 - PAST_COMPRESSION),
+        ]
+    ),
+)
+def sliding_back_in_compression_gains_no_energy() -> Statement:
+    """An impact by the law of sliding back in compression gains no energy where friction does not
+    hold the corner.
+    """
+    return gains_nothing(
+        "reversed-in-compression", [*BODY, DIRECTION, FRICTION, *REVERSES, *RESTITUTION]
+    )
+
+
+@claim(
+    "part-reversed-in-restitution-energy",
+    "part",
+    "reversed in restitution",
+    parameters=(),
+    hints=told(
+        [
+            (LOST, CLOSING, C0 * STOPPING),
+            (mu, STOPPING + 2 * BACK, PAST_RESTITUTION),
+            (mu, STOPPING, S0 * CLOSING),
+        ]
+    ),
+)
+def sliding_back_in_restitution_gains_no_energy() -> Statement:
+    """An impact by the law of sliding back in restitution gains no energy where friction does not
+    hold the corner.
+    """
+    return gains_nothing(
+        "reversed-in-restitution", [DIRECTION, NO_JAM, FRICTION, *REVERSES, *RESTITUTION]
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# The five modes cover every impact, agree where two of them meet, and say what happens to a corner
+# that does not slide at first.
+
+FRICTION_HOLDS = (B3 <= mu * B1) & (-B3 <= mu * B1)  # mu >= |B3|/B1
+
+
+@claim("part-modes-cover", "part", "the modes", parameters=())
+def every_impact_is_of_one_of_the_modes() -> list[Statement]:
+    """Every impact meets the conditions of one of the five modes, and a corner that stops sticks
+    exactly where mu >= |B3|/B1.
+    """
+    return [
+        always(
+            disjunction([conjunction(conditions_of(mode)) for mode in MODES]),
+            given=[B1 > 0, FRICTION],
+            label="cover",
+            vocabulary=words(),
+        ),
+        always(
+            iff(BACK <= 0, FRICTION_HOLDS),
+            given=[DIRECTION, STOPPING >= 0],
+            label="sticks",
+            vocabulary=words(),
+        ),
+    ]
+
+
+@claim("part-modes-agree", "part", "the modes", parameters=())
+def modes_agree_where_two_of_them_meet() -> list[Statement]:
+    """Two modes meet only where quantities that tell them apart vanish, and there their impulses
+    are the same.
+
+    Sliding all along meets a stop in compression where e = 0, since compression then ends the
+    impact, or where the corner does not slide at all.
+    """
+    no_restitution = equal(e, 0) | equal(S0, 0) & equal(STOPPING, 0)
+
+    def agree(one: str, other: str) -> Statement:
+        first, second = of("contact_impulse", one), of("contact_impulse", other)
+        conditions = {*conditions_of(one), *conditions_of(other)}
+        meet = [
+            equal(q, 0)
+            for q in (BACK, PAST_COMPRESSION, PAST_RESTITUTION)
+            if {q >= 0, q <= 0} <= conditions
+        ]
+        if one == "sliding" and other.endswith("in-compression"):
+            meet = [equal(PAST_COMPRESSION, 0), no_restitution]
+        sticks, compressed = "sticking" in one + other, "in-compression" in one + other
+        reverses, all_compressed = (
+            "reversed" in one + other,
+            one.endswith("in-compression") and other.endswith("in-compression"),
+        )
+        needs = {
+            B1 > 0: sticks,
+            DEFINITE: compressed,
+            DIRECTION: True,
+            NO_JAM: not all_compressed,
+            STOPPING > 0: reverses,
+            BACK >= 0: "reversed-in-compression" in (one, other) and not sticks,
+        }
+        return always(
+            equal(first.along, second.along) & equal(first.away, second.away),
+            label=f"{one}.{other}",
+            vocabulary=words(),
+            given=[*(formula for formula, needed in needs.items() if needed), *meet],
+        )
+
+    return [
+        always(
+            equal(PAST_COMPRESSION, 0) & no_restitution,
+            label="no-restitution",
+            vocabulary=words(),
+            given=[
+                DIRECTION,
+                SLIDES,
+                NO_JAM,
+                APPROACH,
+                e >= 0,
+                PAST_RESTITUTION >= 0,
+                PAST_COMPRESSION <= 0,
+            ],
+        ),
+        *(agree(*two) for two in combinations(MODES, 2)),
+    ]
+
+
+@claim("part-at-rest", "part", "S0 = 0", parameters=())
+def a_corner_at_rest_sticks_or_slides_as_friction_lets_it() -> list[Statement]:
+    """A corner with S0 = 0 sticks where mu >= |B3|/B1; else it slides at once, against the sign of
+    B3, and does not jam; either sigma gives this law.
+
+    By sigma = sgn B3 the law is that of sliding back in compression, by sigma = -sgn B3 that of
+    sliding.
+    """
+
+    def other_way(formula: Formula) -> Formula:
+        turned: Formula = substitute(formula, {"sigma": -sigma})
+        return turned
+
+    stays, back = (
+        of("contact_impulse", "sticking-in-compression"),
+        of("contact_impulse", "reversed-in-compression"),
+    )
+    slides = Impulse(
+        *(substitute(part, {"sigma": -sigma}) for part in of("contact_impulse", "sliding"))
+    )
+    at_rest = [equal(S0, 0), *BODY, APPROACH, e >= 0]
+    starts = [equal(S0, 0), *BODY, DIRECTION, FRICTION, BACK > 0]
+    return [
+        always(
+            (P_y >= 0) & (P_x <= mu * P_y) & (-P_x <= mu * P_y),
+            given=[*at_rest, FRICTION_HOLDS, equal(P_x, stays.along), equal(P_y, stays.away)],
+            label="stays",
+            vocabulary=words(),
+        ),
+        always(
+            NO_JAM
+            & other_way(NO_JAM)
+            & conjunction(conditions_of("reversed-in-compression"))
+            & other_way(conjunction(conditions_of("sliding"))),
+            given=[*starts, APPROACH, e >= 0],
+            label="conditions",
+            vocabulary=words(),
+        ),
+        always(
+            equal(slides.along, back.along) & equal(slides.away, back.away),
+            given=starts,
+            label="either-way",
+            vocabulary=words(),
+        ),
+        always(
+            -sigma * velocity_after(slides).along >= 0,
+            given=[*starts, APPROACH, e >= 0],
+            label="starts",
+            vocabulary=words(),
+        ),
+    ]
+
+
+# -------------------------------------------------------------------------------------------------
+# Why restitution is Poisson's: Newton's, C = -e C0 after the impact, can raise the energy.
+
+CORNER = {
+    "x_c": Fraction(-2),
+    "y_c": Fraction(-1),
+    "J": Fraction(5, 3),
+}  # half-sides 1 and 2; it lies on a longer side
+
+
+@claim("part-newton", "part", "restitution", parameters=())
+def newtons_restitution_can_raise_the_energy() -> Statement:
+    """A corner of the 1 by 2 rectangle, at e <= 1, can stick in compression in such a way that it
+    would gain energy by Newton's restitution.
+    """
+    numbers = {name: term(value_of(value, CORNER)) for name, value in COEFFICIENTS.items()}
+
+    def to_the_right(formula: Formula) -> Formula:
+        there: Formula = substitute(formula, {"sigma": 1})
+        return there
+
+    sticks = [APPROACH, S0 >= 0, FRICTION, *RESTITUTION, NO_JAM, PAST_COMPRESSION <= 0, BACK <= 0]
+    return exists_some(
+        ["e", "mu", "S0", "C0"],
+        to_the_right(work_of(of("newton_impulse")) > 0),
+        within=[to_the_right(conjunction(sticks))],
+        vocabulary=words("", **numbers),
+    )

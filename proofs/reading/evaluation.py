@@ -1,24 +1,146 @@
-r"""The evaluation of names, sums and products, where juxtaposition is settled as product or
-application.
-
-A factor that is a function is applied to the bracket that follows it; everything else is a product.
-A `StateFunction` may be marked as a factor before a scalar, so that \tau_c(\overline b) and
-\tau_c(\dot{\overline\beta} - \dot\rho_0) both say what the paper says.
-"""
+"""Values of a tree in an environment."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any, ClassVar
 
-from certificates.terms import ClaimError, Formula
-from proofs.reading import tree as t
-from proofs.reading.arithmetic import add, multiply, negate, raised, subtract, union
-from proofs.reading.environment import Environment
-from proofs.reading.errors import PrintError
-from proofs.reading.notions import Image, Region, Restricted, StateFunction, applied
-from proofs.reading.tree import HOLE, Tree, spelled
-from proofs.reading.values import Vector, is_scalar, over
+from juggleproof.certificates.language import (
+    ClaimError,
+    Formula,
+    conjunction,
+    different,
+    disjunction,
+    equal,
+    iff,
+    implies,
+    term,
+)
+from juggleproof.proofs.reading import tree as t
+from juggleproof.proofs.reading.lexer import PrintError
+from juggleproof.proofs.reading.parser import parse_name
+from juggleproof.proofs.reading.tree import HOLE, Name, Tree, spelled
+from juggleproof.proofs.reading.values import (
+    Guarded,
+    Image,
+    Matrix,
+    Piecewise,
+    Region,
+    Restricted,
+    Rounded,
+    Scalar,
+    ShapeError,
+    StateFunction,
+    Vector,
+    add,
+    applied,
+    is_scalar,
+    kind_of,
+    multiply,
+    negate,
+    over,
+    raised,
+    subtract,
+    union,
+)
+
+# -------------------------------------------------------------------------------------------------
+# What the names of a print mean: LaTeX keys, in which \cdot is the place of an argument.
+#
+#     Environment(
+#         {r"\alpha": alpha, r"\dot\rho_0": r, r"\overline\beta": beta, r"\dot{\overline\beta}": v,
+#          r"A_{\cdot}": lambda t: Matrix(((1, t), (0, 1))),      # A_T, A_{-\xi_1}: a family by its
+#          subscript r"F^{\cdot}": flow,                                    # F^t is flow(t), a
+#          function of states r"E": StateFunction(energy), r"\mathcal{B}_1": Region(in_B1),
+#          r"\sqrt{\cdot}": adjoin_root, r"\Delta_1 E": StateFunction(gain)},
+#         points={r"\overline b": (r"\overline\beta", r"\dot{\overline\beta}")},
+#         state=r"\overline b",
+#     )
+#
+# `points` says which names are the components of a state, so that a set {b | ..} can be asked about
+# any state; `state` is the present one, which stands in where a print leaves the argument of a
+# function out.  A key may be any expression (`\Delta E_{max}`, `\sqrt{2(1+\alpha)}`, `E(t)`):
+# wherever the print says the same, the key's value is meant, before its pieces are looked at.
+
+_key = lru_cache(maxsize=4096)(parse_name)
+
+
+class Environment:
+    """The meanings of names and of other expressions."""
+
+    __slots__ = ("meanings", "kinds", "points", "state")
+
+    def __init__(
+        self,
+        names: Mapping[str, Any],
+        *,
+        points: Mapping[str, Sequence[str]] | None = None,
+        state: str | None = None,
+    ) -> None:
+        self.meanings: dict[Tree, Any] = {
+            _key(latex): _exact(latex, value) for latex, value in names.items()
+        }
+        self.points = {
+            _key(point): tuple(map(_key, names)) for point, names in (points or {}).items()
+        }
+        for point, components in self.points.items():
+            if point not in self.meanings and all(name in self.meanings for name in components):
+                self.meanings[point] = Vector(tuple(self.meanings[name] for name in components))
+        self.state: Any = None
+        if state is not None:
+            if _key(state) not in self.meanings:
+                raise ClaimError(f"the state {state} has no meaning in its own environment")
+            self.state = self.meanings[_key(state)]
+        self.kinds = frozenset(type(tree) for tree in self.meanings) - {Name}
+
+    def extended(self, names: Mapping[str, Any]) -> Environment:
+        """This environment with more names, or other meanings of them."""
+        return self._with(
+            {_key(latex): _exact(latex, value) for latex, value in names.items()}, self.state
+        )
+
+    def meaning_of(self, latex: str) -> Any:
+        """The value bound to this very key."""
+        if _key(latex) not in self.meanings:
+            raise ClaimError(f"{latex} is no key of this environment")
+        return self.meanings[_key(latex)]
+
+    def at(self, point: Tree, state: Vector) -> Environment:
+        """This environment with the point, and its components, and the present state, being this
+        state.
+        """
+        components = self.points.get(point)
+        if components is None or len(components) != len(state.entries):
+            raise ClaimError("the environment names no such components of a state")
+        return self._with(
+            {point: state, **dict(zip(components, state.entries, strict=True))}, state
+        )
+
+    def _with(self, meanings: Mapping[Tree, Any], state: Any) -> Environment:
+        other = object.__new__(Environment)
+        other.meanings = {**self.meanings, **meanings}
+        other.points, other.state = self.points, state
+        other.kinds = self.kinds | {type(tree) for tree in meanings} - {Name}
+        return other
+
+
+def _exact(latex: str, value: Any) -> Any:
+    if isinstance(value, (float, complex)):
+        raise ClaimError(
+            f"{latex} is given the float {value!r}; only exact numbers and terms have a meaning"
+        )
+    return value
+
+
+# -------------------------------------------------------------------------------------------------
+# The evaluation of names, sums and products, where juxtaposition is settled as product or
+# application.
+#
+# A factor that is a function is applied to the bracket that follows it; everything else is a
+# product.
+# A `StateFunction` may be marked as a factor before a scalar, so that \tau_c(\overline b) and
+# \tau_c(\dot{\overline\beta} - \dot\rho_0) both say what the paper says.
 
 Value = Any  # a scalar, Vector, Matrix, callable, Region, Formula or one of the notions
 _MISSING = object()
@@ -250,3 +372,105 @@ def _bracket(tree: Tree) -> t.Group | None:
     """The round bracket that this factor is, perhaps under an exponent."""
     inner = tree.base if isinstance(tree, t.Power) else tree
     return inner if isinstance(inner, t.Group) and inner.bracket == "(" else None
+
+
+# -------------------------------------------------------------------------------------------------
+# The formula that `left sign right` states, for values of every kind.
+#
+# A definition := and an identity \equiv state equality; vectors are equal entry by entry, regions
+# at
+# the present state, a list of cases case by case; a restricted function is spoken of inside its
+# region only; \subset allows equality.
+
+EQUALITIES = frozenset(("=", ":=", r"\equiv"))
+_INCLUSIONS = frozenset((r"\subset", r"\subseteq"))
+_OF_TERMS: dict[str, Callable[[Any, Any], Formula]] = {
+    "=": equal,
+    ":=": equal,
+    r"\equiv": equal,
+    r"\ne": different,
+    "<": lambda a, b: term(a) < b,
+    ">": lambda a, b: term(a) > b,
+    r"\le": lambda a, b: term(a) <= b,
+    r"\ge": lambda a, b: term(a) >= b,
+}
+
+
+def relate(left: Any, sign: str, right: Any, state: Any = None) -> Formula:
+    """The formula of one relation; `state` is where regions are compared."""
+    if is_scalar(left) and is_scalar(right) and sign in _OF_TERMS:
+        return _OF_TERMS[sign](left, right)
+    for value, other, turned in ((left, right, False), (right, left, True)):
+        if isinstance(value, Guarded):
+            inner = (other, sign, value.value) if turned else (value.value, sign, other)
+            return value.under(relate(*inner, state))
+        if isinstance(value, Piecewise) and sign in EQUALITIES:
+            return _by_cases(other, value, state)
+        if isinstance(value, Rounded) and sign in EQUALITIES and is_scalar(value.value):
+            return _rounds(other, value)
+    if sign in (r"\in", r"\notin"):
+        return _member(left, sign, right)
+    if isinstance(left, (Region, Image)) and isinstance(right, Region):
+        return _of_regions(left, sign, right, state)
+    if (
+        isinstance(left, (Vector, Matrix))
+        and type(left) is type(right)
+        and (sign in EQUALITIES or sign == r"\ne")
+    ):
+        pairs = _pairs(left, right)
+        if sign == r"\ne":
+            return disjunction([different(a, b) for a, b in pairs])
+        return conjunction([equal(a, b) for a, b in pairs])
+    raise ShapeError(f"{sign} between {kind_of(left)} and {kind_of(right)} states no formula")
+
+
+def _pairs(left: Any, right: Any) -> list[tuple[Scalar, Scalar]]:
+    if isinstance(left, Matrix):
+        if left.shape != right.shape:
+            raise ShapeError("an equation of matrices of different shapes")
+        return [
+            pair
+            for rows in zip(left.rows, right.rows, strict=True)
+            for pair in zip(*rows, strict=True)
+        ]
+    if len(left.entries) != len(right.entries):
+        raise ShapeError("an equation of vectors of different lengths")
+    return list(zip(left.entries, right.entries, strict=True))
+
+
+def _by_cases(value: Any, cases: Piecewise, state: Any) -> Formula:
+    stated = []
+    for piece in cases.pieces:
+        says = relate(value, "=", piece.value, state)
+        stated.append(
+            implies(piece.condition, says if piece.besides is None else says & piece.besides)
+        )
+    return conjunction(stated)
+
+
+def _rounds(value: Any, rounded: Rounded) -> Formula:
+    if not is_scalar(value):
+        raise ShapeError(f"a rounded number equal to {kind_of(value)}")
+    whole, exact = term(value), term(rounded.value)  # type: ignore[arg-type]
+    if rounded.bracket == r"\lfloor":
+        return (whole <= exact) & (exact < whole + 1)
+    return (exact <= whole) & (whole < exact + 1)
+
+
+def _member(left: Any, sign: str, right: Any) -> Formula:
+    if not isinstance(left, Vector) or not isinstance(right, Region):
+        raise ShapeError(f"{sign} between {kind_of(left)} and {kind_of(right)} states no formula")
+    inside = right(left)
+    return inside if sign == r"\in" else ~inside
+
+
+def _of_regions(left: Region | Image, sign: str, right: Region, state: Any) -> Formula:
+    if state is None:
+        raise ShapeError("regions are compared at the state of the environment, which has none")
+    if sign in _INCLUSIONS:
+        if isinstance(left, Region):
+            return implies(left(state), right(state))
+        return implies(left.region(state), right(applied(left.function, state)))
+    if isinstance(left, Region) and sign in EQUALITIES:
+        return iff(left(state), right(state))
+    raise ShapeError(f"{sign} between {kind_of(left)} and {kind_of(right)} states no formula")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from proofs.reading.vocabulary import ACCENT_COMMANDS
+from juggleproof.proofs.reading.lexer import ACCENT_COMMANDS
 
 
 @dataclass(frozen=True, slots=True)

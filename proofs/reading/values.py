@@ -1,6 +1,4 @@
-"""Exact values of prints: scalars are Terms (or rational numbers), vectors and matrices are tuples
-of them.
-"""
+"""Vectors, matrices, regions, functions."""
 
 from __future__ import annotations
 
@@ -9,7 +7,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Union
 
-from certificates.terms import ClaimError, Term
+from juggleproof.certificates.language import ClaimError, Formula, Term, implies
+
+# -------------------------------------------------------------------------------------------------
+# Exact values of prints: scalars are Terms (or rational numbers), vectors and matrices are tuples
+# of them.
 
 Scalar = Union[int, Fraction, Term]
 
@@ -203,3 +205,204 @@ class Matrix:
         return Matrix(
             tuple(tuple(join(a, b) for a, b in zip(*rows, strict=True)) for rows in pairs)
         )
+
+
+# -------------------------------------------------------------------------------------------------
+# Values that are not numbers: functions of a state, regions, restrictions, cases, limits and
+# extrema.
+
+
+def applied(function: Callable[..., Any], *arguments: Any) -> Any:
+    """The function at these arguments; arguments that it is not made for raise ShapeError."""
+    try:
+        return function(*arguments)
+    except (TypeError, AttributeError) as problem:
+        kinds = ", ".join(type(argument).__name__.lower() for argument in arguments)
+        raise ShapeError(f"a function that cannot take ({kinds})") from problem
+
+
+@dataclass(frozen=True, slots=True)
+class StateFunction:
+    """A function of a state, applied to a bracketed state; a bracketed scalar after it is refused.
+
+    With `factor` set, a bracketed scalar makes a product: tau_c(b) is an application, and in tau_c
+    (v - r) the function stands for its value at the present state.
+    """
+
+    call: Callable[..., Any]
+    factor: bool = False
+
+    def __call__(self, *arguments: Any) -> Any:
+        for argument in arguments:
+            if not isinstance(argument, Vector):
+                raise ShapeError("a function of a state, given something else")
+        return self.call(*arguments)
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """A set of states, by the formula that a state is in it."""
+
+    holds: Callable[[Vector], Formula]
+
+    def __call__(self, state: Vector) -> Formula:
+        return self.holds(state)
+
+    def __and__(self, other: Region) -> Region:
+        return Region(lambda state: self(state) & other(state))
+
+    def __or__(self, other: Region) -> Region:
+        return Region(lambda state: self(state) | other(state))
+
+    def __sub__(self, other: Region) -> Region:
+        return Region(lambda state: self(state) & ~other(state))
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """The image of a region under a function; it is met only on the left of an inclusion."""
+
+    function: Callable[[Vector], Any]
+    region: Region
+
+
+@dataclass(frozen=True, slots=True)
+class Restricted:
+    """A function on a region only."""
+
+    function: Callable[..., Any]
+    region: Region
+
+    def __call__(self, state: Vector) -> Guarded:
+        return Guarded(self.region(state), applied(self.function, state))
+
+
+@dataclass(frozen=True, slots=True)
+class Guarded:
+    """A value that is only spoken of under a condition."""
+
+    condition: Formula
+    value: Any
+
+    def under(self, conclusion: Formula) -> Formula:
+        """The conclusion, under the condition."""
+        return implies(self.condition, conclusion)
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """One line of a list of cases: a value, its condition, and what the line says besides (a chain
+    on its left).
+    """
+
+    value: Any
+    condition: Formula
+    besides: Formula | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Piecewise:
+    """A list of cases."""
+
+    pieces: tuple[Piece, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Rounded:
+    r"""The greatest integer below (\lfloor) or the least above (\lceil)."""
+
+    bracket: str
+    value: Scalar | ExtremalValue
+
+
+@dataclass(frozen=True, slots=True)
+class ExtremalValue:
+    r"""\max, \min, \sup or \inf of a value under a condition."""
+
+    sign: str
+    condition: Formula | None
+    value: Any
+
+
+@dataclass(frozen=True, slots=True)
+class LimitValue:
+    r"""The limit of a value as the named variable goes to the named destination (both as LaTeX)."""
+
+    variable: str
+    destination: str
+    value: Any
+
+
+# -------------------------------------------------------------------------------------------------
+# Sums, products and powers of values of any kind; what does not fit is refused with what was
+# tried.
+
+
+def kind_of(value: Any) -> str:
+    """What a value is, in a word, for messages."""
+    if is_scalar(value):
+        return "a scalar"
+    if isinstance(value, (Formula, Vector, Matrix, Region)):
+        return f"a {type(value).__name__.lower()}"
+    return "a function" if callable(value) else f"{type(value).__name__}"
+
+
+def _both(left: Any, right: Any, deed: str) -> None:
+    fits = is_scalar(left) and is_scalar(right)
+    if not (fits or (type(left) is type(right) and isinstance(left, (Vector, Matrix)))):
+        raise ShapeError(f"a {deed} of {kind_of(left)} and {kind_of(right)}")
+
+
+def add(left: Any, right: Any) -> Any:
+    """left + right."""
+    _both(left, right, "sum")
+    return left + right
+
+
+def subtract(left: Any, right: Any) -> Any:
+    """left - right, of numbers or of regions."""
+    if isinstance(left, Region) and isinstance(right, Region):
+        return left - right
+    _both(left, right, "difference")
+    return left - right
+
+
+def union(left: Any, right: Any) -> Region:
+    """The union of two regions."""
+    if isinstance(left, Region) and isinstance(right, Region):
+        return left | right
+    raise ShapeError(f"a union of {kind_of(left)} and {kind_of(right)}")
+
+
+def negate(value: Any) -> Any:
+    """-value."""
+    if is_scalar(value) or isinstance(value, (Vector, Matrix)):
+        return -value
+    raise ShapeError(f"minus {kind_of(value)}")
+
+
+def multiply(left: Any, right: Any) -> Any:
+    """left right: scalars, a scalar and a vector or matrix, a matrix and a vector or matrix."""
+    number = is_scalar(left), is_scalar(right)
+    if (
+        all(number)
+        or number[0]
+        and isinstance(right, (Vector, Matrix))
+        or number[1]
+        and isinstance(left, (Vector, Matrix))
+    ):
+        return left * right if number[1] else right.scaled(left)
+    if isinstance(left, Matrix) and isinstance(right, (Vector, Matrix)):
+        return left * right
+    raise ShapeError(f"a product of {kind_of(left)} and {kind_of(right)}")
+
+
+def raised(base: Any, exponent: int) -> Any:
+    """base to an integer power."""
+    if isinstance(base, Matrix):
+        return base.power(exponent)
+    if isinstance(base, Term):
+        return base**exponent if exponent >= 0 else over(1, base**-exponent)
+    if not is_scalar(base):
+        raise ShapeError(f"a power of {kind_of(base)}")
+    return Fraction(base) ** exponent if exponent >= 0 else over(1, Fraction(base) ** -exponent)

@@ -1,38 +1,55 @@
-"""All that reports tell, gathered once: claims with verdicts, derivations and statements; the
-theorem's tree; what differs from the register.
-
-Verdicts are judged again from the store, by what the checker said of these very files; nothing is
-taken from the register.
-"""
+"""What a run found, as data."""
 
 from __future__ import annotations
 
 import json
 import os
+import sys
+import tomllib
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from certificates import checker
-from certificates.statements import rests_on
-from certificates.store import DEFAULT, Store
-from proofs.checking import results_for
-from proofs.claims import Claim
-from proofs.command import errata, table, tree
-from proofs.command.certify import FINDINGS, entry
-from proofs.command.show import counterexample, reading_of
-from proofs.derivations import Derivation, behind, body_and_derivations, kept_derivations
-from proofs.following import settle_by_rules
-from proofs.judging import DEFAULT_BUDGET, Judgement, Options
-from proofs.loading import paper_claims
-from proofs.recall import NOT_AS_KEPT, Records, judge_with_records
-from proofs.records import body_of
-from proofs.register import PATH, changes, load_register
-from proofs.running import judge_all, lemmas
-from proofs.verdicts import VERDICTS
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError, rests_on
+from juggleproof.certificates.store import DEFAULT, Store, canonical
+from juggleproof.proofs import rules as tree
+from juggleproof.proofs.claims import VERDICTS, Claim
+from juggleproof.proofs.command.certify import FINDINGS, entry
+from juggleproof.proofs.command.show import counterexample, reading_of
+from juggleproof.proofs.derivations import (
+    Derivation,
+    behind,
+    body_and_derivations,
+    kept_derivations,
+)
+from juggleproof.proofs.judging import DEFAULT_BUDGET, Judgement, Options
+from juggleproof.proofs.kept import body_of
+from juggleproof.proofs.register import PATH, Change, changes, load_register
+from juggleproof.proofs.reports import errata
+from juggleproof.proofs.reports import results as table
+from juggleproof.proofs.reports.results import Result, Results, results_of
+from juggleproof.proofs.rules import settle_by_rules
+from juggleproof.proofs.run import (
+    NOT_AS_KEPT,
+    Records,
+    judge_all,
+    judge_with_records,
+    lemmas,
+    paper_claims,
+    results_for,
+)
+
+# -------------------------------------------------------------------------------------------------
+# All that reports tell, gathered once: claims with verdicts, derivations and statements; the
+# theorem's tree; what differs from the register.
+#
+# Verdicts are judged again from the store, by what the checker said of these very files; nothing is
+# taken from the register.
 
 TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy")
 ROUTES = ("exact", "z3", "boxes")
@@ -267,3 +284,139 @@ def _rules(
             )
         )
     return tuple(told)
+
+
+# -------------------------------------------------------------------------------------------------
+# The results as JSON, as `schema.json` beside this file describes it: with versions of tools,
+# without dates or machines.
+
+SCHEMA = 2
+SCHEMA_FILE = Path(__file__).with_name("schema.json")
+PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
+
+
+def as_json(contents: Any) -> bytes:
+    """The document of a run or of a report's contents, in canonical bytes."""
+    return canonical(document(results_of(contents)))
+
+
+def document(results: Results) -> dict[str, Any]:
+    """The document as data; every field is described in `schema.json`."""
+    verdicts, outcomes, changes = results.verdicts(), results.outcomes(), results.change_of()
+    return {
+        "$schema": SCHEMA_FILE.name,
+        "schema": SCHEMA,
+        "tools": tools(),
+        "subject": "file" if results.own else "paper",
+        "partial": results.partial,
+        "exit": results.exit,
+        "theorem": (
+            {"proved": results.is_proved, "text": results.theorem} if results.theorem else None
+        ),
+        "counts": {
+            "claims": sum(verdicts.values()),
+            "verdicts": verdicts,
+            "statements": sum(outcomes.values()),
+            "outcomes": outcomes,
+            "changes": len(changes),
+        },
+        "votes": list(results.votes),
+        "accepted": results.accepted,
+        "changes": [_change(change) for change in results.changes],
+        "rejected": [{"statement": name, "reason": reason} for name, reason in results.rejected],
+        "claims": [_claim(one, changes.get(one.id)) for one in results.claims],
+    }
+
+
+def _claim(one: Result, change: Change | None) -> dict[str, Any]:
+    told = {
+        name: getattr(one, name)
+        for name in (
+            "id",
+            "section",
+            "place",
+            "says",
+            "printed",
+            "as_it_stands",
+            "repeats",
+            "verdict",
+            "detail",
+            "verdict_text",
+            "settled_by",
+            "group",
+        )
+    }
+    return {
+        **told,
+        "sharp": one.sharp_by_reading(),
+        "correction": _correction(one),
+        "wrong": list(one.wrong),
+        "change": _change(change) if change else None,
+        "statements": [
+            {
+                "name": stated.name,
+                "outcome": stated.outcome,
+                "votes": dict(stated.votes),
+                "counterexample": stated.at or None,
+                "text": stated.text,
+            }
+            for stated in one.statements
+        ],
+    }
+
+
+def _correction(one: Result) -> dict[str, Any] | None:
+    if not one.correction:
+        return None
+    return {
+        "text": one.correction["text"],
+        "change": one.correction["change"],
+        "kind": one.correction["kind"],
+        "possible_transcription_error": one.correction["possible transcription error"],
+    }
+
+
+def _change(change: Change) -> dict[str, Any]:
+    return {
+        "claim": change.claim,
+        "before": change.before,
+        "after": change.after,
+        "text": str(change),
+    }
+
+
+def tools() -> dict[str, str]:
+    """The versions of juggleproof, of Python without its patch level, and of the libraries, none of
+    which is believed.
+    """
+    own = {
+        "juggleproof": _own_version(),
+        "python": f"{sys.version_info.major}.{sys.version_info.minor}",
+    }
+    return {**own, **{tool: version(tool) for tool in TOOLS}}
+
+
+def _own_version() -> str:
+    if PROJECT.is_file():  # a checkout, installed or not
+        return str(tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]["version"])
+    try:
+        return version("juggleproof")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+# -------------------------------------------------------------------------------------------------
+# Libraries of the optional extra `report`, asked for where they are used.
+
+
+def needed(module: str) -> Any:
+    """The module, imported; raises ClaimError, one line that says how to install it, where it is
+    absent.
+    """
+    try:
+        return import_module(module)
+    except ImportError:
+        raise ClaimError(
+            f"{module.partition('.')[0]} is needed for this report; install it with pip install -e"
+            " '.[report]'"
+        ) from None

@@ -7,12 +7,11 @@ from __future__ import annotations
 from base64 import b64decode, b64encode
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from certificates.terms import ClaimError, Formula, Term
-from proofs import cache
-from proofs.reports.contents import Contents, gather
-from proofs.reports.extras import needed
-from proofs.reports.ranges import rows, without_alpha
-from scenes.figures import TABLE, Entry
+from juggleproof.certificates.language import ClaimError, Formula, Term
+from juggleproof.proofs import kept as cache
+from juggleproof.proofs.reports.contents import Contents, gather, needed
+from juggleproof.proofs.reports.words import rows, without_alpha
+from juggleproof.scenes.figures import TABLE, Entry
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -91,7 +90,7 @@ def _kept(records: list[dict[str, Any]]) -> dict[str, bytes]:
 
 
 def _file(figure: Figure, slug: str, form: str) -> bytes:
-    from scenes.figures import drawing
+    from juggleproof.scenes.figures import drawing
 
     return drawing.svg(figure, slug) if form == "svg" else drawing.pdf(figure)
 
@@ -100,7 +99,7 @@ def what_the_trap_shows() -> tuple[Any, tuple[Any, Any], list[tuple[Any, bool]]]
     """The rank, the root that it is written with and its square, and the margins of the trap, as
     the theorem's definition has them.
     """
-    from proofs.theorem.definition import TO_THE_POINT, TRAP
+    from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 
     ((root, square),) = TO_THE_POINT.roots
     parts = TRAP.args if TRAP.op == "and" else (TRAP,)
@@ -124,7 +123,7 @@ def margin(relation: Formula) -> tuple[Any, bool]:
 def to_sympy(expression: Term) -> Any:
     """The SymPy expression of a term.
 
-    >>> from certificates.terms import reals
+    >>> from juggleproof.certificates.language import reals
     >>> x, w = reals("x w")
     >>> to_sympy((x - w) / 2 + 3 * x**2)
     -w/2 + 3*x**2 + x/2

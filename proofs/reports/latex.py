@@ -1,9 +1,4 @@
-r"""Terms and formulas of the statement language as LaTeX, in the paper's notation and with terms
-and factors in the paper's order.
-
-What is printed is read from the text of the statement itself; sums and products are reordered,
-signs drawn together, and nothing else is changed.
-"""
+"""Terms as LaTeX."""
 
 from __future__ import annotations
 
@@ -13,8 +8,113 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 
-from certificates import checker
-from proofs.reports.names import ORDER, glyph
+from juggleproof.certificates import checker
+
+# -------------------------------------------------------------------------------------------------
+# How the names of statements are written on paper, in the notation of the paper; names that it
+# lacks are made from their letters.
+#
+# The notation table of a report is this table with its explanations.
+
+# name in statements, LaTeX, explanation for the notation table (empty: not listed)
+NOTATION = (
+    ("alpha", r"\alpha", "coefficient of restitution, 0 < alpha < 1"),
+    ("r", r"\dot\rho_0", "launch velocity of the table"),
+    ("g", r"\gamma", "gravity"),
+    ("T", "T", "period of the table, T = 2*r/g"),
+    ("beta", r"\bar\beta", "height of the ball when the table is at its lowest"),
+    ("v", r"\dot{\bar\beta}", "velocity of the ball at that time"),
+    ("tau", r"\tau", "time since the table was at its lowest"),
+    ("tau_c", r"\tau_c", "time to collision"),
+    ("tau_w", r"\tau_w", "longest time of flight at an energy"),
+    ("t", "t", "time"),
+    ("K", "K", "number of periods from one impact to the next"),
+    ("s", "s", "the square root of 2*(1 + alpha)"),
+    ("x", "x", "height in units of r*T: x = beta/(r*T)"),
+    ("w", "w", "closing speed in units of r: w = 1 - v/r"),
+    ("u", "u", "speed that the energy alone would give, in units of r: u^2 = 4*x + (w - 1)^2"),
+    ("E_max", r"E_{\max}", "greatest energy that an impact does not lower"),
+    ("dE_max", r"\Delta E_{\max}", "greatest energy change of an impact"),
+    ("dE_sup", r"\Delta E_{\sup}", "supremum of the energy change of impacts outside R"),
+    ("dE_2", r"\Delta_2 E", ""),
+    ("dE_dbeta", r"\frac{\partial\Delta_1 E}{\partial\bar\beta}", ""),
+    ("dE_dv", r"\frac{\partial\Delta_1 E}{\partial\dot{\bar\beta}}", ""),
+    ("dR_dbeta", r"\frac{\partial R}{\partial\bar\beta}", ""),
+    ("dR_dv", r"\frac{\partial R}{\partial\dot{\bar\beta}}", ""),
+    ("eps", r"\epsilon", ""),
+    ("lam", r"\lambda", ""),
+    ("theta", r"\theta", ""),
+    ("rho", r"\rho", ""),
+    ("mu", r"\mu", ""),
+    ("sigma", r"\sigma", ""),
+    ("omega", r"\omega", ""),
+    ("delta", r"\delta", ""),
+    ("chi", r"\chi", ""),
+    ("chi_dot", r"\dot\chi", ""),
+    ("chi_dot_after", r"\dot\chi_{\mathrm{after}}", ""),
+    ("change_1", r"\Delta_1 E", ""),
+    ("change_2", r"\Delta_2 E", ""),
+)
+GLYPHS = {name: latex for name, latex, _ in NOTATION}
+# The order in which the paper writes factors, and the addends that hold them: numbers, alpha, and
+# then these.
+ORDER = (
+    "alpha",
+    "eps",
+    "K",
+    "n",
+    "k",
+    "g",
+    "T",
+    "t",
+    "tau",
+    "tau_c",
+    "r",
+    "x",
+    "beta",
+    "beta0",
+    "z1",
+    "v",
+    "v0",
+    "z2",
+    "w",
+    "u",
+    "s",
+)
+
+
+def glyph(name: str) -> str:
+    r"""A name of a statement as LaTeX.
+
+    >>> glyph("v"), glyph("beta0"), glyph("z2")
+    ('\\dot{\\bar\\beta}', '\\bar\\beta_0', 'z_2')
+    >>> glyph("v_next"), glyph("lift")
+    ('\\dot{\\bar\\beta}_{\\mathrm{next}}', '\\mathit{lift}')
+    """
+    if name in GLYPHS:
+        return GLYPHS[name]
+    base, _, below = name.partition("_")
+    digits = re.fullmatch(r"([A-Za-z]+)(\d+)", base)
+    if digits and not below:
+        base, below = digits.group(1), digits.group(2)
+    shown = GLYPHS.get(base, base if len(base) == 1 else rf"\mathit{{{base}}}")
+    if not below:
+        return shown
+    if below in GLYPHS or len(below) == 1:
+        return f"{shown}_{GLYPHS.get(below, below)}"
+    return (
+        f"{shown}_{{{below}}}"
+        if below.isdecimal()
+        else rf"{shown}_{{\mathrm{{{below.replace('_', ' ')}}}}}"
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# Terms and formulas of the statement language as LaTeX, in the paper's notation and with terms
+# and factors in the paper's order.
+#
+# What is printed is read from the text of the statement itself; sums and products are reordered,
+# signs drawn together, and nothing else is changed.
 
 RELATIONS: Mapping[type, str] = {
     ast.Lt: "<",
@@ -341,3 +441,66 @@ def _flat_product(node: ast.AST, inverted: bool = False) -> list[tuple[ast.AST, 
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         return [(node, False), *_flat_product(node.operand, inverted)]
     return [(node, inverted)]
+
+
+# -------------------------------------------------------------------------------------------------
+# The notation macros of the LaTeX reports, one for each of the paper's accented names and
+# regions: an author changes them in one place.
+
+PREFIX = "jug"
+# macro, what it stands for, the ways in which prints and formulas write it
+MACROS = (
+    ("speed", r"\dot{\bar\beta}", r"\\dot\{\\bar(?:\{\s*\\beta\}|\s*\\beta)\}"),
+    ("height", r"\bar\beta", r"\\bar(?:\{\s*\\beta\}|\s*\\beta(?![A-Za-z]))"),
+    ("launch", r"\dot\rho_0", r"\\dot(?:\{\s*\\rho\}|\s*\\rho)_(?:0|\{0\})"),
+    ("gravity", r"\gamma", r"\\gamma(?![A-Za-z])"),
+    ("restitution", r"\alpha", r"\\alpha(?![A-Za-z])"),
+    ("collisiontime", r"\tau_c", r"\\tau_(?:c(?![A-Za-z])|\{c\})"),
+    ("H", r"\mathcal{H}", r"\\mathcal(?:\{H\}|\s+H)"),
+    ("B", r"\mathcal{B}", r"\\mathcal(?:\{B\}|\s+B)"),
+    ("R", r"\mathcal{R}", r"\\mathcal(?:\{R\}|\s+R)"),
+    ("state", r"\bar b", r"\\bar(?:\{\s*b\}|\s+b(?![A-Za-z]))"),
+)
+_NARROW = re.compile(
+    r"\\overline(?=\s*(?:\{\s*(?:\\[A-Za-z]+|[A-Za-z])\s*\}|\\[A-Za-z]+|[A-Za-z]))"
+)
+
+
+def narrow(latex: str) -> str:
+    r"""A bar over one letter is \bar.
+
+    >>> narrow(r"\dot{\overline{\beta}} + \overline b")
+    '\\dot{\\bar{\\beta}} + \\bar b'
+    """
+    return _NARROW.sub(r"\\bar", latex)
+
+
+def with_macros(latex: str) -> str:
+    r"""The same LaTeX with the notation macros.
+
+    >>> with_macros(r"\gamma\overline{\beta} + \frac{1}{2} \dot{\overline{\beta}}^2")
+    '\\juggravity\\jugheight + \\frac{1}{2} \\jugspeed^2'
+    """
+    shown = narrow(latex)
+    for name, _, pattern in MACROS:
+        macro = f"\\{PREFIX}{name}"
+        shown = re.sub(
+            pattern + r"(\s*)(?=(.?))",
+            lambda found, macro=macro: (
+                macro + (" " if found.group(2).isalpha() else found.group(1))  # type: ignore[misc]
+            ),
+            shown,
+            flags=re.DOTALL,
+        )
+    return shown
+
+
+def without_macros(latex: str) -> str:
+    r"""The LaTeX with every notation macro replaced by what it stands for.
+
+    >>> without_macros(r"\juggravity T")
+    '\\gamma T'
+    """
+    for name, means, _ in MACROS:
+        latex = re.sub(rf"\\{PREFIX}{name}(?![A-Za-z])", lambda _, means=means: means, latex)  # type: ignore[misc]
+    return latex

@@ -1,23 +1,133 @@
-"""What the page tells of the part-orienting scene: results of `simulate part`, kept beside the
-records of runs while the sources are the same.
-
-They are simulated, not proved; a report never computes them, so that it needs neither numba nor the
-time.
-"""
+"""The part scene in reports."""
 
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from proofs import cache
+from juggleproof.proofs import kept
+from juggleproof.proofs.reports.tables import draw
+from juggleproof.scenes.part import body
+from juggleproof.scenes.part.ensemble import Run
+from juggleproof.scenes.part.onsets import Point, Row, Table, assumptions, discrepancies, misfit
+from juggleproof.scenes.part.setting import Scene
+
+# -------------------------------------------------------------------------------------------------
+# What `juggleproof simulate part` prints.
+
+POINT_HEADS = "    e     mu   misfit   median onset of the six rows in s (chaotic ensembles)"
+
+RULES = (
+    (
+        "median: of the onsets; the onset of an ensemble is the last time at which one of its"
+        " blocks is nearer to upright than to lying."
+    ),
+    (
+        "chaotic: ensembles in which blocks pass both ways between upright and lying in the second"
+        " half of the run; a row is, if more than half are."
+    ),
+    "censored: ensembles that have not settled at the end of the run.",
+)
+
+
+def _console() -> Any:
+    from rich.console import Console
+
+    return Console(highlight=False)
+
+
+def seconds(value: float, horizon: float) -> str:
+    """An onset, or that it is later than the run is long."""
+    return f"> {horizon:g}" if math.isinf(value) else f"{value:.2f}"
+
+
+def line(row: Row) -> tuple[str, ...]:
+    """A row of table I: vibration, the paper's onset, median, 16 to 84 percent, chaotic, censored,
+    and the verdict by the rule.
+    """
+    parts = [seconds(row.quantile(part), row.horizon) for part in (0.5, 0.16, 0.84)]
+    found = "chaotic" if row.is_chaotic() else f"{parts[0]} s"
+    return (
+        f"{row.frequency:g} Hz {1000 * row.amplitude:g} mm",
+        "chaotic" if row.paper is None else f"{row.paper:g} s",
+        found,
+        f"{parts[1]} to {parts[2]}",
+        str(sum(row.chaotic)),
+        str(row.censored()),
+    )
+
+
+def table(found: Table, setting: Scene, amplitudes: str, swept: bool) -> None:
+    """Table I beside the paper's, what it assumes, and where it differs."""
+    count = len(found.rows[0].chaotic)
+    print(
+        f"Table I: from when on all blocks lie; {count} ensembles of 91 blocks,"
+        f" {found.rows[0].horizon:g} s each.  Simulated, not proved."
+    )
+    draw(
+        ("along the table", "paper", "median", "16 to 84 %", "chaotic", "censored"),
+        [line(row) for row in found.rows],
+        _console(),
+    )
+    for rule in RULES:
+        print(rule)
+    print()
+    known = assumptions(setting, amplitudes, swept)
+    draw(
+        ("assumed", "value", "", "why"),
+        [(one.name, one.value, one.standing, one.why) for one in known],
+        _console(),
+    )
+    print()
+    told = discrepancies(found.rows)
+    print("differs from the paper:" if told else "no row differs from the paper")
+    for one in told:
+        print(f"  {one}")
+    print(
+        f"misfit {misfit(found):.3f}: the mean over rows of |ln(median/paper)|, at most 1; for a"
+        " chaotic print, the part of ensembles that are not"
+    )
+
+
+def violations(run: Run, setting: Scene) -> bool:
+    """Tells how often the impact law's guarantees were broken; whether any was."""
+    found = run.violations()
+    deepest = -float(run.notes[:, body.LEAST_GAP].min())
+    print(
+        f"{int(run.notes[:, body.IMPACTS].sum())} impacts: "
+        + ", ".join(f"{count} {name}" for name, count in found.items())
+    )
+    print(
+        f"deepest corner {deepest:.3g} m below the table, tolerance {setting.tolerance:g} m;"
+        " largest energy taken away by coming to lie"
+        f" {float(run.notes[:, body.LARGEST_REMOVED].max()):.3g} J/kg"
+    )
+    return any(found.values()) or deepest > setting.tolerance
+
+
+def point(one: Point) -> str:
+    """A point of a sweep in one line."""
+    rows = "  ".join(
+        f"{'-' if m is None else f'{m:.2f}':>6} ({c})" for m, c in zip(one.medians, one.chaotic)
+    )
+    return f"{one.e:6.3f} {one.mu:6.3f} {one.misfit:7.3f} {rows}"
+
+
+# -------------------------------------------------------------------------------------------------
+# What the page tells of the part-orienting scene: results of `simulate part`, kept beside the
+# records of runs while the sources are the same.
+#
+# They are simulated, not proved; a report never computes them, so that it needs neither numba nor
+# the
+# time.
 
 if TYPE_CHECKING:
-    from scenes.part.onsets import Table
-    from scenes.part.setting import Scene
+    from juggleproof.scenes.part.onsets import Table
+    from juggleproof.scenes.part.setting import Scene
 
 SWEEP = (
     Path(__file__).resolve().parents[2] / "scenes" / "part" / "sweep.json"
@@ -49,10 +159,9 @@ def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -
     """Whether a run of table I is the one that the report tells: nothing chosen, (e, mu) of the
     stored sweep, full ensembles.
     """
-    from scenes.errors import SceneError
-    from scenes.part.onsets import ENSEMBLES, HORIZON
-    from scenes.part.setting import scene
-    from scenes.part.sweeping import chosen, recorded
+    from juggleproof.scenes.errors import SceneError
+    from juggleproof.scenes.part.onsets import ENSEMBLES, HORIZON, chosen, recorded
+    from juggleproof.scenes.part.setting import scene
 
     try:
         pair = chosen(recorded())
@@ -68,16 +177,14 @@ def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -
 
 def results(setting: Scene, found: Table, amplitudes: str) -> Results:
     """A run in words, with figure 2 and the still table of the same scene."""
-    from proofs.command import part_tables
-    from scenes.part.assumptions import assumptions, discrepancies
-    from scenes.part.split import in_words, no_vibration
-    from scenes.part.sweeping import misfit
+    from juggleproof.scenes.part.ensemble import in_words, no_vibration
+    from juggleproof.scenes.part.onsets import assumptions, discrepancies, misfit
 
     first = found.rows[0]
     return Results(
         f"{len(first.chaotic)} ensembles of 91 blocks for each row, {first.horizon:g} s each",
-        [[*part_tables.line(row)] for row in found.rows],
-        [*part_tables.RULES],
+        [[*line(row)] for row in found.rows],
+        [*RULES],
         [
             [one.name, one.value, one.standing, one.why]
             for one in assumptions(setting, amplitudes, True)
@@ -95,10 +202,10 @@ def figure_two(setting: Scene) -> dict[str, str]:
         import matplotlib  # noqa: F401
     except ImportError:
         return {}
-    from scenes.figures.drawing import svg
-    from scenes.part import picture
-    from scenes.part.frames import frames
-    from scenes.part.grid import ANGLES
+    from juggleproof.scenes.figures.drawing import svg
+    from juggleproof.scenes.part import picture
+    from juggleproof.scenes.part.ensemble import frames
+    from juggleproof.scenes.part.picture import ANGLES
 
     shaken = picture.as_in_figure_two(setting)
     seen = frames(shaken, ANGLES, picture.TIMES)
@@ -113,9 +220,9 @@ def figure_two(setting: Scene) -> dict[str, str]:
 
 def keep_results(setting: Scene, found: Table, amplitudes: str, seed: int) -> bool:
     """Keeps what the report tells of a run of table I, where it is the report's; whether it is."""
-    if cache.folder() is None or not is_of_the_report(setting, found, amplitudes, seed):
+    if kept.folder() is None or not is_of_the_report(setting, found, amplitudes, seed):
         return False
-    cache.keep(key(), [asdict(results(setting, found, amplitudes))])
+    kept.keep(key(), [asdict(results(setting, found, amplitudes))])
     return True
 
 
@@ -123,7 +230,7 @@ def kept_results() -> Results | None:
     """What a run kept under the sources and the sweep as they are; None where there is no such
     run.
     """
-    records = cache.load(key()) if cache.folder() else []
+    records = kept.load(key()) if kept.folder() else []
     try:
         return Results(**records[0])
     except (IndexError, TypeError):
@@ -135,9 +242,9 @@ def key() -> str:
     that compute and draw.
     """
     sweep = hashlib.sha256(SWEEP.read_bytes()).hexdigest() if SWEEP.is_file() else ""
-    return "part-" + cache.key(
+    return "part-" + kept.key(
         sweep,
-        cache.version_of("numba"),
-        cache.version_of("matplotlib"),
-        packages=(*cache.SOURCES, "scenes"),
+        kept.version_of("numba"),
+        kept.version_of("matplotlib"),
+        packages=(*kept.SOURCES, "scenes"),
     )

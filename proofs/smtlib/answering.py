@@ -1,24 +1,138 @@
-"""Answers problems: unsat by a certificate that the checker accepted, sat by an exact model that it
-accepted, else unknown.
-
-A question and its answer are plain text and data, so that they pass between processes and machines.
-"""
+"""Answers with certificates."""
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
+from pathlib import Path
 from typing import Any
 
-from certificates import checker
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import SQUARES_FIRST, search_certificate
-from certificates.store import Store
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import (
+    ClaimError,
+    Formula,
+    Line,
+    Statement,
+    Term,
+    conjunction,
+    different,
+    names_in,
+)
+from juggleproof.certificates.search.certificate import (
+    SQUARES_FIRST,
+    search_certificate,
+    search_proof,
+)
+from juggleproof.certificates.store import Store, write_store
+from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.run import one_at_a_time, spread
+from juggleproof.proofs.smtlib.script import Problem, problems_of_file
 
-from .script import Problem
-from .stating import denial, givens, statement_of
+# -------------------------------------------------------------------------------------------------
+# States a problem in our language: for all reals, not all of the assertions hold.
+#
+# Where the script divides, what keeps a divisor from 0 has to come first: the assertions without
+# divisions are then givens, and a divisor that none of them licenses gets a `have` line, which the
+# certificate proves.  SMT-LIB lets x/0 be anything, so a divisor that may vanish is refused.
+
+SIDE_BUDGET = 100_000
+
+
+def statement_of(problem: Problem, name: str) -> Statement:
+    """The statement that no point meets the assertions.
+
+    >>> from .script import read_problems
+    >>> text = "(declare-const x Real)(assert (> x 0))(assert (< (/ 1 x) 0))(check-sat)"
+    >>> print(statement_of(read_problems(text, "f")[0], "f/check-1").text())
+    statement f/check-1
+    forall x
+    given x > 0
+    show not 1/x < 0
+
+    Raises ClaimError, one line, for a division by what may vanish.
+    """
+    parts = [
+        (line, part)
+        for line, formula in problem.assertions
+        for part in (formula.args if formula.op == "and" else (formula,))
+    ]
+    divided = [(line, part) for line, part in parts if next(divisors(part), None) is not None]
+    whole = [part for _, part in parts if next(divisors(part), None) is None]
+    if not divided:
+        return denial(problem, name, whole)
+    lines: list[Line] = [("given", part) for part in whole]
+    forall = used(problem, [part for _, part in parts])
+    for line, part in divided:
+        for below in divisors(part):
+            lines += _licence(problem, line, Statement(name, forall, tuple(lines)), below)
+    return Statement(
+        name, forall, tuple(lines), Formula("not", conjunction(part for _, part in divided))
+    )
+
+
+def denial(problem: Problem, name: str, formulas: Sequence[Formula]) -> Statement:
+    """The statement that some formulas do not hold at once, without givens."""
+    return Statement(name, used(problem, formulas), (), Formula("not", conjunction(formulas)))
+
+
+def givens(statement: Statement) -> list[Formula]:
+    """What the statement assumes."""
+    return [
+        said
+        for keyword, said in statement.lines
+        if keyword == "given" and isinstance(said, Formula)
+    ]
+
+
+def used(problem: Problem, formulas: Sequence[Formula]) -> tuple[str, ...]:
+    """The variables that occur, in the order of the script."""
+    occurring = {name for formula in formulas for name in names_in(formula)}
+    return tuple(variable.name for variable in problem.variables if variable.name in occurring)
+
+
+def divisors(thing: Term | Formula) -> Iterator[Term]:
+    """What is divided by, inner divisors first; not numbers other than 0."""
+    for part in thing.args:
+        if isinstance(part, (Term, Formula)):
+            yield from divisors(part)
+    if thing.op == "/" and not (thing.args[1].op == "num" and thing.args[1].args[0]):
+        yield thing.args[1]
+
+
+def _licence(problem: Problem, line: int, before: Statement, below: Term) -> list[Line]:
+    """The `have` line that keeps a divisor from 0, if it needs one."""
+    story = checker.Unfolding(_read(before), checker.Context())
+    try:
+        story.context.reciprocal(checker.parse(str(below)))
+        return []
+    except checker.Rejected:
+        pass
+    for sign in (below > 0, below < 0, different(below, 0)):
+        said = Statement(before.name, before.forall, before.lines, sign)
+        if search_proof(_read(said), {}, Budget(SIDE_BUDGET), effort=1) is not None:
+            return [("have", sign)]
+    raise ClaimError(
+        f"{problem.file}:{line}: division by {below}, which may vanish; assert before it that this"
+        " is not 0, or multiply it out"
+    )
+
+
+def _read(statement: Statement) -> checker.Statement:
+    parsed: checker.Statement = checker.read_statements(statement.text())[statement.name]
+    return parsed
+
+
+# -------------------------------------------------------------------------------------------------
+# Answers problems: unsat by a certificate that the checker accepted, sat by an exact model that it
+# accepted, else unknown.
+#
+# A question and its answer are plain text and data, so that they pass between processes and
+# machines.
 
 BUDGET = 2_000_000
 WORDS = {"certified": "unsat", "refuted": "sat"}
@@ -147,3 +261,142 @@ def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
             )
         told.append((variable.symbol, value))
     return told
+
+
+# -------------------------------------------------------------------------------------------------
+# Answers all problems of some scripts, by any executor, and keeps statements and certificates
+# beside each script.
+
+TITLE = (
+    "What the problems of {} come to: certified says unsat, refuted says sat;"
+    " certificates/checker.py reads this file and believes nothing else."
+)
+
+
+@dataclass(frozen=True)
+class Answered:
+    """One problem of a script with its answer; `rejected` is why the checker, reading the stored
+    file, rejects its certificate.
+    """
+
+    path: Path
+    problem: Problem
+    answer: Answer
+    rejected: str = ""
+
+    @property
+    def name(self) -> str:
+        """The script, and the line of the check-sat where it has several."""
+        return self.answer.name.removesuffix("/check")
+
+    @property
+    def contradicts(self) -> bool:
+        """Whether the script states another answer."""
+        return self.answer.word != "unknown" and self.problem.status not in (
+            "",
+            "unknown",
+            self.answer.word,
+        )
+
+    @property
+    def settled(self) -> bool:
+        """Whether it is answered, and as the script states."""
+        return self.answer.word != "unknown" and not self.contradicts and not self.rejected
+
+
+def id_of(path: Path) -> str:
+    """The name of a script's statements.
+
+    >>> id_of(Path("a/Motzkin's form.smt2"))
+    'Motzkin-s-form'
+    """
+    return re.sub(r"[^A-Za-z0-9.\-]+", "-", path.stem, flags=re.ASCII).strip("-.") or "script"
+
+
+def folder_of(path: Path, store: Path | None) -> Path:
+    """Where the certificates of a script are kept."""
+    return store or path.with_suffix(".certificates")
+
+
+def answer_files(
+    paths: Sequence[Path],
+    *,
+    budget: int = BUDGET,
+    store: Path | None = None,
+    fresh: bool = False,
+    executor: Executor | None = None,
+    progress: Callable[[Answer], None] = lambda answered: None,
+) -> list[Answered]:
+    """Every problem of the scripts with its answer, in order; statements and certificates are
+    written, and the checker reads them again.
+
+    Raises ClaimError, one line, for what is no script of QF_NRA.
+    """
+    read = [(path, problems_of_file(path)) for path in paths]
+    ids = [id_of(path) for path in paths]
+    folders = [folder_of(path, store) for path in paths]
+    for k, (path, _) in enumerate(read):
+        same = next(
+            (other for other in range(k) if folders[other] == folders[k] and ids[other] == ids[k]),
+            None,
+        )
+        if same is not None:
+            raise ClaimError(
+                f"{path}: its statements would have the names of those of {paths[same]}; rename one"
+            )
+    asked: list[Question] = []
+    for (_, problems), name, folder in zip(read, ids, folders):
+        stored = Store(Path(os.devnull) if fresh else folder)
+        for problem in problems:
+            asked.append(
+                question(
+                    problem,
+                    f"{name}/check" + (f"-{problem.number}" if len(problems) > 1 else ""),
+                    budget,
+                    stored,
+                )
+            )
+    answers = iter(
+        spread(
+            partial(one_at_a_time, answer), asked, executor, lambda _, answered: progress(answered)
+        )
+    )
+    answered = [
+        Answered(path, problem, next(answers)) for path, problems in read for problem in problems
+    ]
+    rejected = {
+        folder: _kept(folder, [one for one in answered if folder_of(one.path, store) == folder])
+        for folder in dict.fromkeys(folders)
+    }
+    return [
+        Answered(
+            one.path,
+            one.problem,
+            one.answer,
+            rejected[folder_of(one.path, store)].get(one.answer.name, ""),
+        )
+        for one in answered
+    ]
+
+
+def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
+    """Writes what was found to the folder; what the checker rejects there, and why."""
+    scripts = ", ".join(dict.fromkeys(ascii(one.path.name)[1:-1] for one in answered))
+    blocks = [f"# {TITLE.format(scripts)}"]
+    certificates: dict[str, dict[str, object]] = {}
+    for one in answered:
+        renamed = [
+            f"{variable.name} is {ascii(variable.symbol)[1:-1]}"
+            for variable in one.problem.variables
+            if variable.name != variable.symbol
+        ]
+        blocks.append((f"# {', '.join(renamed)}\n" if renamed else "") + one.answer.text)
+        certificates.setdefault(one.answer.name.split("/")[0], {})[one.answer.name] = (
+            one.answer.certificate
+        )
+    write_store(folder, "\n\n".join(blocks) + "\n", certificates)
+    return {
+        name: reason
+        for name, outcome, reason in checker.check_folder(str(folder))
+        if outcome == "rejected"
+    }

@@ -10,7 +10,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from certificates.terms import (
+from juggleproof.certificates.language import (
     Formula,
     Term,
     conjunction,
@@ -21,9 +21,20 @@ from certificates.terms import (
     implies,
     term,
 )
-
-from .sexpr import Expression, Node, Script, Word
-from .values import Real, Sizes, TooLarge, Value, choice, combined, plain, relation
+from juggleproof.proofs.smtlib.sexpr import (
+    Expression,
+    Node,
+    Real,
+    Script,
+    Sizes,
+    TooLarge,
+    Value,
+    Word,
+    choice,
+    combined,
+    plain,
+    relation,
+)
 
 LARGEST_POWER, LONGEST_NUMBER = 100, 1000
 SORTS = ("Real", "Bool")

@@ -12,12 +12,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from certificates.terms import ClaimError, Formula, real
-
-from .names import our_name
-from .reading import RESERVED, SORTS, Function, Reader, brief
-from .sexpr import Expression, Node, Script, Word
-from .values import Value, plain
+from juggleproof.certificates.language import ClaimError, Formula, real
+from juggleproof.proofs.smtlib.reading import RESERVED, SORTS, Function, Reader, brief
+from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Value, Word, our_name, plain
 
 LOGICS = ("QF_NRA", "QF_LRA")
 IDLE = frozenset(

@@ -2,15 +2,4 @@
 premises the checker writes.
 """
 
-SECTIONS = (
-    "roots",
-    "stability",
-    "by_hand",
-    "one_third",
-    "region",
-    "flights",
-    "ends",
-    "sharper",
-    "closed_form",
-    "counts",
-)
+SECTIONS = ("definition", "stability", "orbits")

@@ -1,22 +1,144 @@
-"""The map in normal form, and what is chosen to prove the theorem about it: rank, stages and
-contraction.
-
-x is the height in units of r T, w = 1 - v/r the closing speed in units of r.  Map, fixed points and
-energies are derived; rank, stages, weights, rates and radii are choices that the premises of the
-checker's rules have to confirm.
-"""
+"""Map, rank, stages, rates."""
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+from typing import Any
 
-from certificates.terms import Formula, Term, conjunction, reals, substitute, term
-from proofs.paper.vocabulary import w, x
-from proofs.reading.values import Vector
-from proofs.theorem.written import opposite, positive, tidied
-from symbolic.normal_form import normal_margin
+from sympy import Expr, factor, fraction
 
-alpha, u, e_x, e_w = reals("alpha u e_x e_w")
+from juggleproof import symbolic
+from juggleproof.certificates.language import (
+    ClaimError,
+    Formula,
+    MapRule,
+    Number,
+    Statement,
+    Term,
+    conjunction,
+    real,
+    reals,
+    substitute,
+    term,
+)
+from juggleproof.certificates.search.closing import Hints
+from juggleproof.proofs.claims import claim
+from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.paper import names
+from juggleproof.proofs.paper.names import H, alpha, always, b, derived, g, r, w, x
+from juggleproof.proofs.reading.values import Vector
+from juggleproof.symbolic.algebra import lowest_terms
+from juggleproof.symbolic.energy import normal_margin
+from juggleproof.symbolic.mechanics import collision_margin
+
+# -------------------------------------------------------------------------------------------------
+# Derived SymPy expressions as texts that the checker reads: one fraction, what is added before
+# what is taken away.
+
+
+def tidied(name: str, **values: int) -> Vector:
+    """A derived column of `symbolic` in lowest terms, with numbers put for some of its symbols.
+
+    >>> print(*tidied("e_1"))
+    4*alpha*r^2/(g*(alpha + 1)^2) (alpha*r - r)/(alpha + 1)
+    """
+    names.derivations_used.append((name, ()))
+    return Vector(tuple(tidy(entry) for entry in getattr(symbolic, name)().subs(values)))
+
+
+def written(expression: Expr) -> str:
+    """The text of an expression in lowest terms.
+
+    >>> from juggleproof.symbolic.algebra import alpha, w
+    >>> written(2 - alpha * w), written((1 - alpha) / (alpha**2 + 2 * alpha + 1))
+    ('2 - alpha*w', '(1 - alpha)/(alpha + 1)^2')
+    >>> written((alpha + 1) / (1 - alpha))
+    '(alpha + 1)/(1 - alpha)'
+    """
+    return str(tidy(expression))
+
+
+def tidy(expression: Expr) -> Term:
+    """The expression in lowest terms: an expanded numerator, positive terms first, over a factored
+    denominator.
+    """
+    above, below = fraction(lowest_terms(expression))
+    if not _by_sign(above)[0]:
+        above, below = -above, -below
+    numerator, factored = _difference(above), factor(below)
+    if below == 1:
+        return numerator
+    return numerator / (
+        _difference(below)
+        if below.is_Add and not (factored.is_Mul or factored.is_Pow)
+        else from_sympy(factored)
+    )
+
+
+def positive(margin: Expr) -> Formula:
+    """The formula margin > 0, what is taken away on the left of <.
+
+    >>> from juggleproof.symbolic.algebra import w, x
+    >>> str(positive(w**2 - x + 1))
+    'x < w^2 + 1'
+    """
+    above, below = fraction(lowest_terms(margin))
+    if not below.is_Rational or below <= 0:
+        raise ClaimError(f"the sign of {margin} is not that of a polynomial")
+    kept, taken = _by_sign(above)
+    return _sum(taken) < _sum(kept)
+
+
+def opposite(strict: Formula) -> Formula:
+    """The other side of a strict inequality.
+
+    >>> from juggleproof.certificates.language import reals
+    >>> x, w = reals("x w")
+    >>> str(opposite(x < w))
+    'w <= x'
+    """
+    if strict.op != "<":
+        raise ClaimError(f"{strict} is not one strict inequality")
+    left, right = strict.args
+    other: Formula = right <= left
+    return other
+
+
+def _difference(polynomial: Expr) -> Term:
+    kept, taken = _by_sign(polynomial)
+    total = _sum(kept) if kept else -_sum(taken)
+    for part in taken if kept else []:
+        total = total - part
+    return total
+
+
+def _by_sign(polynomial: Expr) -> tuple[list[Term], list[Term]]:
+    parts = polynomial.expand().as_ordered_terms()
+    kept = [from_sympy(part) for part in parts if not part.could_extract_minus_sign()]
+    return kept, [from_sympy(-part) for part in parts if part.could_extract_minus_sign()]
+
+
+def _sum(parts: Sequence[Term]) -> Term:
+    total = parts[0] if parts else term(0)
+    for part in parts[1:]:
+        total = total + part
+    return total
+
+
+# -------------------------------------------------------------------------------------------------
+# The map in normal form, and what is chosen to prove the theorem about it: rank, stages and
+# contraction.
+#
+# x is the height in units of r T, w = 1 - v/r the closing speed in units of r.  Map, fixed points
+# and
+# energies are derived; rank, stages, weights, rates and radii are choices that the premises of the
+# checker's rules have to confirm.
+
+u, e_x, e_w = reals("u e_x e_w")
 WHOLE = (
     (alpha > 0) & (alpha < 1) & (1 - alpha > 0) & (1 + alpha > 0)
 )  # the last two are there for what is divided by
@@ -96,3 +218,272 @@ NEARBY = Contraction(
     RADIUS,
     RADIUS,
 )
+
+
+# -------------------------------------------------------------------------------------------------
+# Terms and formulas at exact rational points, and exact comparison of integers with numbers that
+# have square roots in them.
+
+Point = Mapping[str, Fraction]
+_ARITHMETIC: dict[str, Callable[..., Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "neg": operator.neg,
+    "^": operator.pow,
+}
+_RELATIONS: dict[str, Callable[..., bool]] = {
+    "<": operator.lt,
+    "<=": operator.le,
+    "=": operator.eq,
+    "!=": operator.ne,
+    ">=": operator.ge,
+    ">": operator.gt,
+}
+
+
+def value_of(expression: Term, point: Point) -> Fraction:
+    """The value of a term where its variables have these values.
+
+    >>> from juggleproof.certificates.language import reals
+    >>> x, w = reals("x w")
+    >>> value_of((x - w**2) / 3, {"x": Fraction(1), "w": Fraction(1, 2)})
+    Fraction(1, 4)
+    """
+    if expression.op == "num":
+        return Fraction(expression.args[0])
+    if expression.op == "var":
+        if expression.args[0] not in point:
+            raise ClaimError(f"{expression.args[0]} has no value here")
+        return point[expression.args[0]]
+    parts = [value_of(part, point) if isinstance(part, Term) else part for part in expression.args]
+    return Fraction(_ARITHMETIC[expression.op](*parts))
+
+
+def holds_at(formula: Formula, point: Point) -> bool:
+    """Whether a formula of `and`, `or` and `not` over relations holds where its variables have
+    these values.
+    """
+    if formula.op in _RELATIONS:
+        return _RELATIONS[formula.op](*(value_of(side, point) for side in formula.args))
+    parts = (holds_at(part, point) for part in formula.args)
+    if formula.op in ("and", "or"):
+        return all(parts) if formula.op == "and" else any(parts)
+    if formula.op == "not":
+        return not next(parts)
+    raise ClaimError(f"{formula} cannot be decided at a point")
+
+
+def linear_in(expression: Term, name: str, point: Point) -> tuple[Fraction, Fraction]:
+    """(constant, slope) of a term that is linear in the named variable, at a point of its other
+    variables.
+    """
+    values = [value_of(expression, {**point, name: Fraction(k)}) for k in range(3)]
+    if values[2] - values[1] != values[1] - values[0]:
+        raise ClaimError(f"{expression} is not linear in {name}")
+    return values[0], values[1] - values[0]
+
+
+def sign_with_root(p: Fraction, q: Fraction, square: Fraction) -> int:
+    """The sign of p + q sqrt(square).
+
+    >>> triples = (1, -1, 2), (2, -1, 2), (2, -1, 4)
+    >>> [sign_with_root(*map(Fraction, triple)) for triple in triples]
+    [-1, 1, 0]
+    """
+    of_p, of_q = (p > 0) - (p < 0), ((q > 0) - (q < 0)) * (square > 0)
+    if of_p * of_q >= 0:
+        return of_p or of_q
+    return of_p * ((p * p > q * q * square) - (p * p < q * q * square))
+
+
+def least_integer(enough: Callable[[int], bool], start: int = 0) -> int:
+    """The least integer from `start` on for which `enough` holds, which stays true from there
+    on.
+    """
+    if enough(start):
+        return start
+    width = 1
+    while not enough(start + width):
+        width *= 2
+    low, high = start + width // 2, start + width  # not enough at low, enough at high
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if enough(middle) else (middle, high)
+    return high
+
+
+def ceiling(constant: Fraction, factor: Fraction, square: Fraction) -> int:
+    """The least integer that is not below constant + factor sqrt(square), for factor >= 0.
+
+    >>> ceiling(Fraction(0), Fraction(2), Fraction(2))
+    3
+    >>> ceiling(Fraction(1, 2), Fraction(1), Fraction(9, 4))
+    2
+    """
+    low = (constant.numerator // constant.denominator) + isqrt(factor**2 * square // 1)
+    return least_integer(lambda n: sign_with_root(n - constant, -factor, square) >= 0, low)
+
+
+# -------------------------------------------------------------------------------------------------
+# Statements under the checker's map rules, written from the definition, in normal form or in the
+# paper's units.
+
+
+@dataclass(frozen=True)
+class Setting:
+    """The map in some coordinates: parameters, state, pieces and fixed points, and what the x, w
+    and units of the normal form are in them.
+    """
+
+    parameters: tuple[Term, ...]
+    positive: tuple[Formula, ...]
+    state: tuple[Term, Term]
+    space: Formula
+    pieces: tuple[tuple[Formula, Vector], ...]
+    fixed: Vector
+    other: Vector
+    place: Vector
+    units: tuple[Number, Number]
+
+    def here(self, thing: Any) -> Any:
+        """A term or formula of the normal form in these coordinates."""
+        return substitute(thing, dict(zip(("x", "w"), (term(entry) for entry in self.place))))
+
+    def domain(self, of_alpha: Formula) -> str:
+        """The range of alpha with what is assumed of the other parameters."""
+        for formula in self.positive:
+            of_alpha = of_alpha & formula
+        return str(of_alpha)
+
+
+NORMAL = Setting((alpha,), (), (x, w), SPACE, PIECES, FIXED, OTHER, Vector((x, w)), (1, 1))
+STRIKES_HERE = positive(collision_margin())
+PHYSICAL = Setting(
+    parameters=(alpha, r, g),
+    positive=(r > 0, g > 0),
+    state=(term(b.component(1)), term(b.component(2))),
+    space=H(b),
+    pieces=((STRIKES_HERE, tidied("f1")), (opposite(STRIKES_HERE), tidied("f2"))),
+    fixed=tidied("e_1"),
+    other=tidied("impact_fixed_point", K=2),
+    place=derived("scaling"),
+    units=(2 * r**2 / g, r),
+)
+
+
+def spaced(items: Iterable[object]) -> str:
+    return " ".join(map(str, items))
+
+
+def listed(items: Iterable[object]) -> str:
+    return ", ".join(map(str, items))
+
+
+def the_map(name: str, setting: Setting, of_alpha: Formula = WHOLE) -> MapRule:
+    """f maps the space into itself, by one of its pieces at each state."""
+    pieces = [("piece", f"{guard} -> {listed(images)}") for guard, images in setting.pieces]
+    return MapRule(
+        name,
+        (
+            ("over", spaced(setting.parameters)),
+            ("domain", setting.domain(of_alpha)),
+            ("state", spaced(setting.state)),
+            ("space", str(setting.space)),
+            *pieces,
+        ),
+    )
+
+
+def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[str, str]]:
+    return [("root", f"{name} = sqrt({setting.here(under)})") for name, under in roots]
+
+
+def descends(name: str, of: str, setting: Setting, of_alpha: Formula, descent: Descent) -> MapRule:
+    """Every orbit is led to the last stage by the fall of the rank."""
+    stages = [("stage", str(setting.here(stage))) for stage in descent.stages]
+    return MapRule(
+        name,
+        (
+            ("map", of),
+            ("domain", setting.domain(of_alpha)),
+            *_roots(descent.roots, setting),
+            ("rank", str(setting.here(descent.rank))),
+            *stages,
+        ),
+    )
+
+
+def contracts(
+    name: str, of: str, setting: Setting, of_alpha: Formula, contraction: Contraction
+) -> MapRule:
+    """The set is mapped into itself and brought closer to the fixed point."""
+    weights = [
+        unit if weight == term(1) else weight if unit == 1 else weight * unit
+        for weight, unit in zip(contraction.weights, setting.units)
+    ]
+    return MapRule(
+        name,
+        (
+            ("map", of),
+            ("domain", setting.domain(of_alpha)),
+            ("on", str(setting.here(contraction.on))),
+            ("point", listed(setting.fixed)),
+            ("weights", listed(weights)),
+            ("rate", str(contraction.rate)),
+            ("radius", str(contraction.radius)),
+            ("size", str(contraction.size)),
+        ),
+    )
+
+
+def attracts(name: str, descent: str, contraction: str) -> MapRule:
+    """The fixed point is stable, and attracts every orbit."""
+    return MapRule(name, (("descent", descent), ("contraction", contraction)))
+
+
+def escapes(name: str, of: str, setting: Setting, of_alpha: Formula) -> MapRule:
+    """The orbit of e_2, an impact and a flight by turns, does not tend to the fixed point."""
+    return MapRule(
+        name,
+        (
+            ("map", of),
+            ("domain", setting.domain(of_alpha)),
+            ("point", listed(setting.fixed)),
+            ("start", listed(setting.other)),
+            ("word", "1 2"),
+        ),
+    )
+
+
+def exactly(name: str, attraction: str, escape: str) -> MapRule:
+    """Stable and globally attracting for these parameters and no others."""
+    return MapRule(name, (("attraction", attraction), ("escape", escape)))
+
+
+# -------------------------------------------------------------------------------------------------
+# The one lemma of the theorem: numbers compare as their squares do.
+
+low, high = reals("low high")
+LEMMA = "theorem-roots/below"
+
+
+@claim("theorem-roots", "theorem", "lemma", parameters=())
+def a_number_is_at_most_another_if_its_square_is() -> Statement:
+    """A number is at most a nonnegative one if its square is at most the other's."""
+    return always(low <= high, given=[high >= 0, low**2 <= high**2], label="below")
+
+
+def compared(pairs: Sequence[tuple[Term, Term]], setting: Setting) -> Hints:
+    """The lemma for these pairs of a smaller and a greater term of the normal form."""
+    return Hints(
+        tuple(
+            (LEMMA, {"low": str(setting.here(less)), "high": str(setting.here(more))})
+            for less, more in pairs
+        )
+    )
+
+
+# After an impact the root u of the energy is at most 1 + alpha w, and before it at least w - 1.
+AT_IMPACTS = ((real("u_next"), 1 + alpha * w), (w - 1, u))

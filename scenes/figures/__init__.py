@@ -28,7 +28,9 @@ class Entry(NamedTuple):
     def draw(self, *given: Any) -> Figure:
         """The figure; those that the paper lacks are given what they show."""
         module, _, name = self.place.partition(".")
-        figure: Figure = getattr(import_module(f"scenes.figures.{module}"), name)(*given)
+        figure: Figure = getattr(import_module(f"juggleproof.scenes.figures.{module}"), name)(
+            *given
+        )
         return figure
 
 
@@ -46,7 +48,7 @@ TABLE = (
         "Six panels show the plane of height and velocity. The boundary of R, a parabola closed by"
         " the velocity axis, is folded and torn by the map and shrinks: after two periods to two"
         " thin wedges, after five to a few specks at the fixed point e_1.",
-        "evolution.boundary_under_f",
+        "paper.boundary_under_f",
     ),
     Entry(
         "5",
@@ -55,7 +57,7 @@ TABLE = (
         "H, the states in which the ball is on or above the table when the table is lowest.",
         "In the plane of height across and velocity up, the half plane to the right of height zero"
         " is shaded and called H.",
-        "regions.half_plane",
+        "paper.half_plane",
     ),
     Entry(
         "6",
@@ -65,7 +67,7 @@ TABLE = (
         " line between them, which belongs to B2.",
         "A straight line falls from velocity 1 at height 0 through velocity 0 at height 1. B1 is"
         " the part of the half plane below it, B2 the line and the part above.",
-        "regions.strikes_and_flights",
+        "paper.strikes_and_flights",
     ),
     Entry(
         "7",
@@ -75,7 +77,7 @@ TABLE = (
         " are energies in units of the square of the launch speed.",
         "Six nested parabolas open to the left, for energies from 0.5 to 3, with arrows from upward"
         " to downward velocities.",
-        "energies.levels",
+        "paper.levels",
     ),
     Entry(
         "8",
@@ -87,7 +89,7 @@ TABLE = (
         "The parabola B1^0 touches the dashed level E = E_max at height 0. The boundary of R is a"
         " like parabola further out, everywhere the same distance to the right. A dot at height 0"
         " marks where Delta E_max is gained, another where E_max is kept.",
-        "energies.important_lines",
+        "paper.important_lines",
     ),
     Entry(
         "9",
@@ -99,7 +101,7 @@ TABLE = (
         "The table's height is a row of equal parabolic arches. The ball falls onto them from"
         " above, flies through the first period without an impact, is struck once in each later"
         " one, and its bounces become alike.",
-        "motion.coupled_motion",
+        "paper.coupled_motion",
     ),
     Entry(
         "10",
@@ -109,7 +111,7 @@ TABLE = (
         " bounce reverses the velocity.",
         "On the left three equal parabolic arches, one a period T. On the right one closed loop: a"
         " parabola from launch to landing, and a dashed line back up, the bounce.",
-        "motion.oscillator",
+        "paper.oscillator",
     ),
     Entry(
         "11",
@@ -119,7 +121,7 @@ TABLE = (
         f" Flights in B2 keep it. {SETTING}",
         "The triangle B1 is parted by the parabola B1^0 into B1^+, a lens at small heights, and"
         " B1^-, all the rest.",
-        "energies.gains_and_losses",
+        "paper.gains_and_losses",
     ),
     Entry(
         "12",
@@ -128,7 +130,7 @@ TABLE = (
         f"R, the states with no more energy than E_max + Delta E_max, with B1 and B2. {SETTING}",
         "R is bounded by a parabola and by height zero. The line between B1 and B2 cuts it near its"
         " tip, so that most of R lies in B1.",
-        "attractor.region",
+        "paper.region",
     ),
     Entry(
         "13",
@@ -139,7 +141,7 @@ TABLE = (
         "A horizontal dashed line at the velocity of e_1 passes through e_1, leaves R, and meets"
         " the line between B1 and B2 at p. The dotted level of energy through p surrounds the"
         " boundary of R.",
-        "attractor.intersections",
+        "paper.intersections",
     ),
     Entry(
         "14",
@@ -149,7 +151,7 @@ TABLE = (
         f" epsilon at most; here that is 1/4 of the launch speed. {SETTING}",
         "A horizontal band of R about the velocity of e_1, below the line between B1 and B2, is"
         " shaded and called K.",
-        "attractor.band",
+        "paper.band",
     ),
     Entry(
         "",
@@ -161,7 +163,7 @@ TABLE = (
         "In the plane of x and w, nested parabolas are levels of the rank, from 1 to 12. The trap"
         " is a triangle with a side at x = 0. Arrows of four orbits cross the levels inwards,"
         " upwards while the ball flies and to the lower left at impacts, and end in the trap.",
-        "trap.trap_and_rank",
+        "ours.trap_and_rank",
     ),
     Entry(
         "",
@@ -173,7 +175,7 @@ TABLE = (
         "A table of bars over alpha from 0 to 1, with 1/3 marked. Most claims hold on the whole"
         " range; the theorem and what leads to it end at 1/3, others a little before or beyond it,"
         " and subharmonic orbits begin there.",
-        "ranges.ranges",
+        "ours.ranges",
     ),
 )
 

@@ -1,17 +1,22 @@
-"""How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
-from run to run.
-"""
+"""How curves and regions are drawn."""
 
 from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import wraps
 from html import escape
+from math import atan2, cos, degrees, hypot, pi, sin
 from typing import TYPE_CHECKING, Any, ParamSpec
+
+from juggleproof.scenes.figures.arcs import Arc, Point
+
+# -------------------------------------------------------------------------------------------------
+# How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
+# from run to run.
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -160,3 +165,293 @@ def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
         f' id="{slug}-title">{escape(title)}</title><desc'
         f' id="{slug}-desc">{escape(alt)}</desc>{inner}</svg>'
     )
+
+
+# -------------------------------------------------------------------------------------------------
+# A plane with two axes in a figure: curves, areas, dots, arrows and words put on it.
+#
+# Lighter than matplotlib's Axes, whose ticks and layout cost more than all that is drawn here.
+# Curves
+# keep their own coordinates.
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from matplotlib.path import Path
+    from matplotlib.transforms import Transform
+
+Sides = tuple[float, float]
+Box = tuple[float, float, float, float]  # left, bottom, width and height, in parts of the figure's
+TICK, HEAD = 3.5, 6.0  # the lengths of a tick and of an arrow's head, in points
+NUMBERS, LABELS = 9.0, 11.0  # sizes of letters
+
+
+class Plane:
+    """A part of a figure with its own coordinates: `across` and `up` are what it shows, `box` is
+    where.
+    """
+
+    def __init__(self, figure: Figure, box: Box, across: Sides, up: Sides) -> None:
+        from matplotlib.transforms import Affine2D, Bbox, TransformedBbox
+
+        self.figure, self.across, self.up = figure, across, up
+        width, height = (72 * float(size) for size in figure.get_size_inches())
+        self.left, self.bottom, self.width, self.height = (
+            box[0] * width,
+            box[1] * height,
+            box[2] * width,
+            box[3] * height,
+        )
+        self.scale = (self.width / (across[1] - across[0]), self.height / (up[1] - up[0]))
+        self.points: Transform = Affine2D().scale(1 / 72) + figure.dpi_scale_trans
+        own = (
+            Affine2D()
+            .scale(*self.scale)
+            .translate(self.left - across[0] * self.scale[0], self.bottom - up[0] * self.scale[1])
+        )
+        self.own: Transform = own + self.points
+        corners = [[self.left, self.bottom], [self.left + self.width, self.bottom + self.height]]
+        self.window = TransformedBbox(Bbox(corners), self.points)
+
+    def place(self, x: float, y: float) -> Point:
+        """Where a point of the plane lies in the figure, in points of print."""
+        return (
+            self.left + (x - self.across[0]) * self.scale[0],
+            self.bottom + (y - self.up[0]) * self.scale[1],
+        )
+
+    def line(
+        self, arcs: Sequence[Arc], name: str | None, look: Look | None = None, **more: Any
+    ) -> None:
+        """Draws arcs as one curve, joined only where one ends at the very point where the next
+        starts; nothing where there are none.
+        """
+        if arcs:
+            dashes = {"linestyle": (0, tuple(look.dashes))} if look and look.dashes else {}
+            self._patch(
+                path(arcs),
+                name,
+                **{
+                    "fill": False,
+                    "edgecolor": look.colour if look else INK,
+                    "linewidth": 1.4,
+                    **dashes,
+                    **more,
+                },
+            )
+
+    def area(self, arcs: Sequence[Arc], name: str, look: Look) -> None:
+        """Fills what the closed chain of arcs surrounds: a tint of the colour, and its hatch."""
+        outline = path(arcs)
+        self._patch(
+            outline, name, facecolor=look.colour, edgecolor="none", alpha=look.tint, zorder=0.5
+        )
+        self._patch(
+            outline,
+            f"{name}-hatch",
+            fill=False,
+            edgecolor=look.colour,
+            hatch=look.hatch,
+            linewidth=0,
+            alpha=look.hatched,
+            zorder=0.6,
+        )
+
+    def dots(
+        self,
+        places: Iterable[Point],
+        name: str,
+        size: float = 3.6,
+        mark: str = "o",
+        filled: bool = True,
+        colour: str = INK,
+    ) -> None:
+        """Marks points of the plane."""
+        from matplotlib.lines import Line2D
+
+        xs, ys = zip(*(self.place(*one) for one in places))
+        self.figure.add_artist(
+            Line2D(
+                xs,
+                ys,
+                linestyle="none",
+                marker=mark,
+                markersize=size,
+                color=colour,
+                markeredgewidth=0.9,
+                gid=name,
+                markerfacecolor=colour if filled else "none",
+                transform=self.points,
+                zorder=5,
+            )
+        )
+
+    def text(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
+        """Writes at a point of the plane, shifted by points of print, about its middle unless
+        aligned otherwise.
+        """
+        self.words(self.place(*at), said, shift, **more)
+
+    def words(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
+        """Writes at a place of the figure in points of print."""
+        from matplotlib.text import Text
+
+        if not said:
+            return
+        style = {"ha": "center", "va": "center", "transform": self.points, "zorder": 6, **more}
+        self.figure.add_artist(Text(at[0] + shift[0], at[1] + shift[1], said, **style))
+
+    def along(
+        self, arc: Arc, parameter: float, said: str, above: bool = True, gap: float = 3, **more: Any
+    ) -> None:
+        """Writes along a curve, so many points above or below its point with the parameter."""
+        x, y = self.place(*arc.at(parameter))
+        dx, dy = (slope * scale for slope, scale in zip(arc.slope(parameter), self.scale))
+        angle = atan2(dy, dx)
+        angle -= pi * round(angle / pi)  # upright: between -90 and 90 degrees
+        side = gap if above else -gap
+        self.words(
+            (x, y),
+            said,
+            (-side * sin(angle), side * cos(angle)),
+            rotation=degrees(angle),
+            rotation_mode="anchor",
+            va="bottom" if above else "top",
+            **more,
+        )
+
+    def arrow(
+        self,
+        tail: Point,
+        tip: Point,
+        colour: str = INK,
+        width: float = 0.8,
+        both: bool = False,
+        short: float = 0,
+    ) -> None:
+        """Draws an arrow between two points of the plane, with a head at the tip or at both ends,
+        ending so many points short of them.
+        """
+        from matplotlib.path import Path
+
+        (x, y), (far_x, far_y) = self.place(*tail), self.place(*tip)
+        length = hypot(far_x - x, far_y - y)
+        dx, dy = (far_x - x) / length, (far_y - y) / length
+        ends = [
+            (x + dx * short, y + dy * short, dx, dy),
+            (far_x - dx * short, far_y - dy * short, -dx, -dy),
+        ]
+        vertices, codes = [end[:2] for end in ends], [Path.MOVETO, Path.LINETO]
+        for at_x, at_y, back_x, back_y in ends if both else ends[1:]:
+            head = [
+                (
+                    at_x + HEAD * back_x + side * HEAD / 3 * back_y,
+                    at_y + HEAD * back_y - side * HEAD / 3 * back_x,
+                )
+                for side in (1, -1)
+            ]
+            vertices += [(at_x, at_y), *head, (at_x, at_y)]
+            codes += [Path.MOVETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY]
+        self._patch(
+            Path(vertices, codes),
+            None,
+            facecolor=colour,
+            edgecolor=colour,
+            linewidth=width,
+            joinstyle="miter",
+            transform=self.points,
+            zorder=2.5,
+        )
+
+    def frame(
+        self,
+        across: Mapping[float, str],
+        up: Mapping[float, str],
+        label: str = "",
+        label_up: str = "",
+        room: float = 20,
+    ) -> None:
+        """Draws the two axes with their ticks, numbers and labels; the label of the upward one
+        stands so many points to the left.
+        """
+        left, bottom, right, top = (
+            self.left,
+            self.bottom,
+            self.left + self.width,
+            self.bottom + self.height,
+        )
+        lines = (
+            [[(left, top), (left, bottom), (right, bottom)]]
+            if up
+            else [[(left, bottom), (right, bottom)]]
+        )
+        for value, said in across.items():
+            x = self.place(value, 0)[0]
+            lines.append([(x, bottom), (x, bottom - TICK)])
+            self.words((x, bottom), said, (0, -TICK - 3), va="top", fontsize=NUMBERS)
+        for value, said in up.items():
+            y = self.place(0, value)[1]
+            lines.append([(left, y), (left - TICK, y)])
+            self.words(
+                (left, y), said, (-TICK - 3, 0), ha="right", va="center_baseline", fontsize=NUMBERS
+            )
+        self._patch(
+            polylines(lines),
+            None,
+            fill=False,
+            edgecolor=INK,
+            linewidth=0.7,
+            transform=self.points,
+            clip_on=False,
+            capstyle="projecting",
+        )
+        if label:
+            self.words(((left + right) / 2, bottom), label, (0, -20), va="top", fontsize=LABELS)
+        if label_up:
+            self.words(
+                (left, (bottom + top) / 2),
+                label_up,
+                (-room, 0),
+                ha="right",
+                rotation=90,
+                fontsize=LABELS,
+            )
+
+    def _patch(self, outline: Path, name: str | None, clip_on: bool = True, **look: Any) -> None:
+        from matplotlib.patches import PathPatch
+
+        patch = PathPatch(outline, gid=name, **{"transform": self.own, "capstyle": "butt", **look})
+        if clip_on:
+            patch.set_clip_box(self.window)
+        self.figure.add_artist(patch, clip=False)
+
+
+def path(arcs: Sequence[Arc]) -> Path:
+    """The arcs as a path; each is a quadratic Bezier curve, which a parabola is, or a straight
+    line.
+    """
+    from matplotlib.path import Path
+
+    vertices: list[Point] = []
+    codes: list[Any] = []
+    for arc in arcs:
+        start, control, stop = arc.bezier()
+        if not vertices or vertices[-1] != start:
+            vertices.append(start)
+            codes.append(Path.MOVETO)
+        bent = arc.across[2] or arc.up[2]
+        vertices += [control, stop] if bent else [stop]
+        codes += [Path.CURVE3, Path.CURVE3] if bent else [Path.LINETO]
+    return Path(vertices, codes)
+
+
+def polylines(lines: Sequence[Sequence[Point]]) -> Path:
+    """Several lines as one path, each apart from the others."""
+    from matplotlib.path import Path
+
+    codes = [code for line in lines for code in [Path.MOVETO, *[Path.LINETO] * (len(line) - 1)]]
+    return Path([point for line in lines for point in line], codes)
+
+
+def ticks(values: Iterable[float]) -> dict[float, str]:
+    """Numbers as ticks, with a true minus sign."""
+    return {value: f"{value:g}".replace("-", "\N{MINUS SIGN}") for value in values}

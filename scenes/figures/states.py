@@ -1,6 +1,4 @@
-"""The plane of the sampled states: height across in units of r T, velocity up in units of r; its
-curves, and the outlines of its regions.
-"""
+"""The plane of the sampled states: its axes, curves and the outlines of its regions."""
 
 from __future__ import annotations
 
@@ -8,11 +6,18 @@ from collections.abc import Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from scenes.figures.arcs import Arc, Point, curve, straight, zeros
-from scenes.figures.drawing import Look
-from scenes.figures.numbers import SETTING, column, value
-from scenes.figures.plane import Box, Plane, Sides, ticks
-from symbolic import (
+from juggleproof.scenes.figures.arcs import (
+    SETTING,
+    Arc,
+    Point,
+    column,
+    curve,
+    straight,
+    value,
+    zeros,
+)
+from juggleproof.scenes.figures.drawing import Box, Look, Plane, Sides, ticks
+from juggleproof.symbolic import (
     boundary_height,
     e_1,
     period,
@@ -21,7 +26,11 @@ from symbolic import (
     total_energy,
     zero_change_height,
 )
-from symbolic.symbols import E0, beta, v
+from juggleproof.symbolic.algebra import E0, beta, v
+
+# -------------------------------------------------------------------------------------------------
+# The plane of the sampled states: height across in units of r T, velocity up in units of r; its
+# curves, and the outlines of its regions.
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

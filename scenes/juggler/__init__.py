@@ -1,7 +1,7 @@
 """The juggler: orbits of the paper's map in four arithmetics, from a scene; periodic orbits; the
 motion between samples.
 
-    from scenes.juggler import orbit, point, scene
+    from juggleproof.scenes.juggler import orbit, point, scene
 
     orbit(scene("3/10", point(1000, -41)), "exact", until_trap=True).row(0)
 
@@ -14,12 +14,12 @@ from importlib import import_module
 from typing import Any
 
 _NAMES = {
-    "scenes.errors": "SceneError",
-    "scenes.juggler.setting": "Goal Scene scene",
-    "scenes.juggler.starts": (
-        "arrays boundary grid listed physical physical_box physical_grid point random"
+    "juggleproof.scenes.errors": ("SceneError"),
+    "juggleproof.scenes.juggler.starts": (
+        "Goal Scene scene arrays boundary grid listed physical physical_box physical_grid "
+        "point random"
     ),
-    "scenes.juggler.orbits": "ARITHMETICS Orbits Row orbit prepare",
+    "juggleproof.scenes.juggler.orbits": ("ARITHMETICS Orbits Row orbit prepare"),
 }
 _PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
 

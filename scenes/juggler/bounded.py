@@ -1,40 +1,51 @@
-"""Arrays of float64 with a proved bound on their distance to the exact numbers (running error
-analysis).
-
-A `Bounded` is an array v of floats and an array e >= 0 of floats with |exact - v| <= e, entry by
-entry.  Let u = 2^-53 be the unit roundoff, fl a rounded result (IEEE 754 binary64, to nearest, with
-gradual underflow), and X = x + dx, Y = y + dy the exact numbers, |dx| <= e_x, |dy| <= e_y.
-
-- Sum, z = fl(x + y): |fl(a) - a| <= u |fl(a)|, and sums do not underflow inexactly.  So |X + Y - z|
-<= e_x + e_y + u |z|.
-- Product, z = fl(x y): the same, and 2^-1075 more where it underflows.  So |X Y - z| <= |x| e_y +
-|y| e_x + e_x e_y + u |z| + 2^-1075.
-- Quotient, z = fl(x/y), where |y| > e_y: X/Y - x/y = (dx - (x/y) dy)/Y and |x/y| <= |z| (1 + 2 u) +
-2^-1074.
-  So |X/Y - z| <= (e_x + (|z| (1 + 2 u) + 2^-1074) e_y)/(|y| - e_y) + u |z| + 2^-1075; infinite
-  elsewhere.
-- The bounds are themselves computed in floats: sums, products and quotients of numbers >= 0, at
-most 9 roundings deep, so that what is computed is at
-  least (1 - u)^9 times the bound less what underflows; |y| - e_y is first lowered by 4 u |y|, which
-  is more than its rounding, and 2^-1065 is added to what is divided by it.  Each bound is
-  multiplied by 1 + 2^-49 = 1 + 16 u and 2^-1065 is added: more than (1 - u)^-10, and more than all
-  underflows (each at most 2^-1075, fewer than 8).
-
-An overflow makes v infinite or not a number, and e too: no comparison then holds, and the sign is
-not decided.  Numbers that come in are whole numbers below 2^53, which are exact, or have their
-distance to the exact number as their bound.
-"""
+"""Balls and float64 with bounds."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
+from flint import arb, ctx
 from numpy.typing import NDArray
 
-from scenes.juggler.given import nearest
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.exact import Exact, lifted, lowest, told
+from juggleproof.scenes.juggler.given import formulas, nearest
+from juggleproof.scenes.juggler.starts import Goal, Scene
+from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
+
+# -------------------------------------------------------------------------------------------------
+# Arrays of float64 with a proved bound on their distance to the exact numbers (running error
+# analysis).
+#
+# A `Bounded` is an array v of floats and an array e >= 0 of floats with |exact - v| <= e, entry by
+# entry.  Let u = 2^-53 be the unit roundoff, fl a rounded result (IEEE 754 binary64, to nearest,
+# with
+# gradual underflow), and X = x + dx, Y = y + dy the exact numbers, |dx| <= e_x, |dy| <= e_y.
+#
+# - Sum, z = fl(x + y): |fl(a) - a| <= u |fl(a)|, and sums do not underflow inexactly.  So |X + Y -
+# z|
+# <= e_x + e_y + u |z|.
+# - Product, z = fl(x y): the same, and 2^-1075 more where it underflows.  So |X Y - z| <= |x| e_y +
+# |y| e_x + e_x e_y + u |z| + 2^-1075.
+# - Quotient, z = fl(x/y), where |y| > e_y: X/Y - x/y = (dx - (x/y) dy)/Y and |x/y| <= |z| (1 + 2 u)
+# +
+# 2^-1074.
+#   So |X/Y - z| <= (e_x + (|z| (1 + 2 u) + 2^-1074) e_y)/(|y| - e_y) + u |z| + 2^-1075; infinite
+#   elsewhere.
+# - The bounds are themselves computed in floats: sums, products and quotients of numbers >= 0, at
+# most 9 roundings deep, so that what is computed is at
+# least (1 - u)^9 times the bound less what underflows; |y| - e_y is first lowered by 4 u |y|, which
+#   is more than its rounding, and 2^-1065 is added to what is divided by it.  Each bound is
+# multiplied by 1 + 2^-49 = 1 + 16 u and 2^-1065 is added: more than (1 - u)^-10, and more than all
+#   underflows (each at most 2^-1075, fewer than 8).
+#
+# An overflow makes v infinite or not a number, and e too: no comparison then holds, and the sign is
+# not decided.  Numbers that come in are whole numbers below 2^53, which are exact, or have their
+# distance to the exact number as their bound.
 
 Floats: TypeAlias = NDArray[np.float64]
 Booleans: TypeAlias = NDArray[np.bool_]
@@ -135,4 +146,374 @@ def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
         left >>= 1
         if left.any():
             value = value * value
+    return found
+
+
+# -------------------------------------------------------------------------------------------------
+# Orbits in balls that are proved to hold the exact state, at a precision that is raised until
+# every branch is decided.
+#
+# Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses.
+# The
+# margin w - x of a ball that holds 0 is settled by the exact orbit from the rational start, as long
+# as that stays about as short as the balls; otherwise the orbit begins again with twice the bits.
+# So
+# a state is said to lie on x = w only where that is proved, and nothing is guessed.  In the trap
+# the
+# closed form holds for any number of periods at once.
+
+BITS = 128  # to begin with
+MOST_BITS = 2**21
+RADIUS = Fraction(1, 10**30)
+EXACT_SHARE = 8  # exact numbers may be so many times as long as the balls
+
+
+class _Again(Stop):
+    """More bits are needed."""
+
+
+class Enclosed:
+    """Balls of the present precision, with the exact orbit at hand for what they cannot tell."""
+
+    def __init__(self, alpha: Fraction, checkpoint: Track, bits: int) -> None:
+        self.alpha, self.checkpoint, self.bits = alpha, checkpoint, bits
+
+    def lift(self, value: Fraction) -> Any:
+        return arb(lifted(value))
+
+    def sign(self, value: Any) -> int | None:
+        return 1 if value > 0 else -1 if value < 0 else None
+
+    def middle(self, value: Any) -> Any:
+        if not value.is_finite():
+            raise _Again("undecided")
+        return value.mid().fmpq()
+
+    def power(self, value: Any, exponent: int) -> Any:
+        return value**exponent
+
+    def check(self, track: Track) -> None:
+        """Nothing has to stop: a ball that has grown too wide fails at the next sign."""
+
+    def settle(self, track: Track) -> int:
+        """The sign of the margin by the exact orbit, which is followed to this period; the ball is
+        taken anew from there.
+        """
+        exact = Exact(self.alpha, EXACT_SHARE * self.bits)
+        try:
+            advance(
+                self.checkpoint,
+                exact,
+                Goal(track.here.periods),
+                formulas().fixed(lifted(self.alpha)),
+            )
+        except Stop:
+            raise _Again("undecided") from None
+        here = self.checkpoint.here
+        track.here = Sample(here.periods, here.impacts, arb(lowest(here.x)), arb(lowest(here.w)))
+        sign = exact.sign(formulas().margin(here.x, here.w))
+        return 0 if sign is None else sign
+
+
+def radius_of(ball: Any) -> Fraction:
+    """The radius of a ball, exactly."""
+    return told(ball.rad().fmpq())
+
+
+def _wide(track: Track, radius: Fraction) -> bool:
+    samples = track.samples if track.samples is not None else [track.here]
+    most = lifted(radius)
+    return not all(
+        part.is_finite() and part.rad().fmpq() <= most for one in samples for part in (one.x, one.w)
+    )
+
+
+def follow(
+    alpha: Fraction,
+    start: tuple[Fraction, Fraction],
+    goal: Goal,
+    keep: bool,
+    bits: int,
+    radius: Fraction,
+    most_bits: int,
+    show: Callable[[Track], None],
+    report: Callable[[Track], None] | None = None,
+) -> None:
+    """Follows the orbit; `show` is given every track that is begun, the last of which holds the
+    result.
+    """
+    first = Sample(0, 0, *start)
+    checkpoint = begin(Exact(alpha), alpha, first, False)
+    before = ctx.prec
+    try:
+        while True:
+            ctx.prec = bits
+            arithmetic = Enclosed(alpha, checkpoint, bits)
+            track = begin(arithmetic, alpha, _exactly(checkpoint), keep)
+            track.edges = checkpoint.edges
+            show(track)
+            try:
+                advance(
+                    track,
+                    arithmetic,
+                    goal,
+                    tuple(map(arithmetic.lift, formulas().fixed(alpha))),
+                    report,
+                )
+                if not _wide(track, radius):
+                    return
+            except Stop:
+                pass
+            if 2 * bits > most_bits:
+                track.end = "undecided"
+                return
+            bits *= 2
+            if keep:  # all states again, with the smaller radius
+                checkpoint = begin(Exact(alpha), alpha, first, False)
+    finally:
+        ctx.prec = before
+
+
+def _exactly(track: Track) -> Sample:
+    return Sample(track.here.periods, track.here.impacts, told(track.here.x), told(track.here.w))
+
+
+# -------------------------------------------------------------------------------------------------
+# Millions of orbits at once in float64, each with a proved bound on its error; what the bound
+# cannot decide is listed, not guessed.
+#
+# The states of a chunk move together: a whole flight and an impact a round, the closed form once
+# they
+# are in the trap.  Every number is a `Bounded`, so that the bound of each state accounts for what
+# its
+# start's conversion missed, for alpha's, and for every operation.  A branch is taken only where the
+# margin w - x is further from 0 than its bound; a state where it is not is left there, with the
+# period at which that happened.
+
+CHUNK = 1 << 14  # states that move together: their temporaries stay in the processor's cache
+ROUND_MEMORY = 64 * 8 * CHUNK  # at most so many temporaries of one chunk are alive
+HISTORY_MEMORY = 1 << 30
+MOST_PERIODS = 1 << 52  # counted; whole floats
+NOT_DONE, REACHED, TRAP, UNDECIDED = range(4)
+ENDS = ("", "reached", "trap", "undecided", "too long")  # the last in exact arithmetic only
+
+
+@dataclass
+class Ensemble:
+    """Where each orbit stands: arrays of shape (n,), in normal form; `history` has shape (n, steps
+    + 1, 4): x, w and their bounds, or is absent.
+    """
+
+    x: Floats
+    w: Floats
+    error_x: Floats
+    error_w: Floats
+    periods: NDArray[np.int64]
+    impacts: NDArray[np.int64]
+    end: NDArray[np.uint8]
+    history: Floats | None = None
+    done: int = 0  # states before this one are followed to their ends
+
+    @staticmethod
+    def empty(count: int, goal: Goal, keep: bool) -> Ensemble:
+        """Room for so many orbits; SceneError where all states of all orbits would take too
+        much.
+        """
+        if keep and bytes_needed(count, goal.steps, True) > HISTORY_MEMORY:
+            room = f"more than {HISTORY_MEMORY >> 20} MB"
+            raise SceneError(
+                f"all states of {count} orbits of {goal.steps} steps take {room}; keep the ends"
+                " only, or ask for fewer"
+            )
+        history = np.full((count, goal.steps + 1, 4), np.nan) if keep else None
+        x, w, error_x, error_w = (np.empty(count) for _ in range(4))
+        return Ensemble(
+            x,
+            w,
+            error_x,
+            error_w,
+            np.zeros(count, np.int64),
+            np.zeros(count, np.int64),
+            np.zeros(count, np.uint8),
+            history,
+        )
+
+
+def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
+    """What `follow` holds at most, beside the program itself: 49 bytes a state, one chunk's
+    temporaries, and the history if asked for.
+
+    >>> bytes_needed(10**6, 10**9) < 60_000_000
+    True
+    """
+    return 49 * count + ROUND_MEMORY + (32 * count * (steps + 1) if keep else 0)
+
+
+def follow_fast(
+    scene: Scene,
+    goal: Goal,
+    ensemble: Ensemble,
+    report: Callable[[int, int], None] | None = None,
+    chunk: int = CHUNK,
+) -> None:
+    """Follows all orbits of the scene, chunk by chunk, in place."""
+    if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
+        raise SceneError(
+            "this processor is set to flush small floats to 0, under which no bound holds"
+        )
+    count = scene.starts.count
+    fixed = [Bounded.of(part) for part in formulas().fixed(scene.alpha)]
+    with np.errstate(all="ignore"):
+        for low in range(0, count, chunk):
+            high = min(low + chunk, count)
+            _Chunk(
+                scene.alpha,
+                goal,
+                ensemble,
+                low,
+                scene.starts.block(low, high),
+                (fixed[0], fixed[1]),
+            ).run()
+            ensemble.done = high
+            if report is not None:
+                report(high, count)
+
+
+class _Chunk:
+    """The orbits from number `low` on, those that are not at their end: `at` are their numbers."""
+
+    def __init__(
+        self,
+        alpha: Fraction,
+        goal: Goal,
+        ensemble: Ensemble,
+        low: int,
+        block: tuple[Floats, Floats, Floats, Floats],
+        fixed: tuple[Bounded, Bounded],
+    ) -> None:
+        self.alpha, self.goal, self.all, self.fixed = Bounded.of(alpha), goal, ensemble, fixed
+        x, w, error_x, error_w = block
+        self.x, self.w = Bounded(x, error_x), Bounded(w, error_w)
+        self.at = np.arange(low, low + len(x))
+        self.periods, self.impacts = np.zeros(len(x), np.int64), np.zeros(len(x), np.int64)
+
+    def run(self) -> None:
+        self._keep(np.ones(len(self.at), np.bool_))
+        while len(self.at):
+            self._round()
+
+    @property
+    def left(self) -> NDArray[np.int64]:
+        """How many steps of the goal are left, for each orbit."""
+        return self.goal.steps - (self.periods if self.goal.unit == "periods" else self.impacts)
+
+    def _round(self) -> None:
+        """One round: who is at the end, leaves; who strikes, is struck; who flies, flies to its
+        next impact as far as that is certain.
+        """
+        map_ = formulas()
+        margin = map_.margin(self.x, self.w)
+        strikes, flies = margin.is_positive(), margin.is_negative()
+        kept = map_.kept(self.alpha, self.w)
+        caught = strikes & kept[0].is_positive() & kept[1].is_positive()
+        end = np.where(strikes | flies, NOT_DONE, UNDECIDED)
+        end[self.periods >= MOST_PERIODS] = UNDECIDED
+        end[self.left <= 0] = REACHED
+        if self.goal.until_trap:
+            end[caught] = TRAP
+        elif self.all.history is None:
+            leaps = caught & (end == NOT_DONE)
+            self._leap(leaps)
+            end[leaps] = REACHED
+        stays = end == NOT_DONE
+        self._leave(end, stays)
+        self._strike(strikes[stays])
+        self._fly(flies[stays])
+
+    def _leap(self, who: NDArray[np.bool_]) -> None:
+        if not who.any():
+            return
+        x, w, left = self.x.at(who), self.w.at(who), self.left[who]
+        power = powers(-self.alpha, left)
+        number = Bounded(
+            left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52)
+        )  # whole floats are exact below 2^53
+        x, w = formulas().later(x, w, *self.fixed, number, power)
+        self.x.put(who, x)
+        self.w.put(who, w)
+        self.periods[who] += left
+        self.impacts[who] += left
+
+    def _leave(self, end: NDArray[np.int64], stays: NDArray[np.bool_]) -> None:
+        if stays.all():
+            return
+        gone, to = ~stays, self.at[~stays]
+        for whole, part in (
+            (self.all.x, self.x.v),
+            (self.all.w, self.w.v),
+            (self.all.error_x, self.x.e),
+            (self.all.error_w, self.w.e),
+            (self.all.periods, self.periods),
+            (self.all.impacts, self.impacts),
+            (self.all.end, end),
+        ):
+            whole[to] = part[gone]
+        self.x, self.w, self.at = self.x.at(stays), self.w.at(stays), self.at[stays]
+        self.periods, self.impacts = self.periods[stays], self.impacts[stays]
+
+    def _strike(self, who: NDArray[np.bool_]) -> None:
+        if not who.any():
+            return
+        x, w = formulas().impact(self.alpha, self.x.at(who), self.w.at(who))
+        self.x.put(who, x)
+        self.w.put(who, w)
+        self.periods[who] += 1
+        self.impacts[who] += 1
+        self._keep(who)
+
+    def _fly(self, who: NDArray[np.bool_]) -> None:
+        if not who.any():
+            return
+        x, w = self.x.at(who), self.w.at(who)
+        length = certain_flights(x, w)
+        if self.goal.unit == "periods":
+            np.minimum(length, self.left[who], out=length)
+            if self.all.history is not None:
+                length[:] = 1
+        x, w = formulas().flight(x, w, Bounded(length.astype(np.float64), 0.0))
+        self.x.put(who, x)
+        self.w.put(who, w)
+        self.periods[who] += length
+        if self.goal.unit == "periods":
+            self._keep(who)
+
+    def _keep(self, who: NDArray[np.bool_]) -> None:
+        """Adds the states to the history; its places are periods, or impacts."""
+        if self.all.history is not None:
+            slot = (self.periods if self.goal.unit == "periods" else self.impacts)[who]
+            rows = np.stack([self.x.v[who], self.w.v[who], self.x.e[who], self.w.e[who]], axis=1)
+            self.all.history[self.at[who], slot] = rows
+
+
+def certain_flights(x: Bounded, w: Bounded) -> NDArray[np.int64]:
+    """For states that are proved to fly on: a number K >= 1 of periods that certainly have no
+    impact, the whole flight where the bound can tell.
+
+    The margin after k periods is a convex parabola in k, negative at k = 0: where it is proved not
+    to be positive at K - 1, it is not between.
+    """
+    map_ = formulas()
+    b, square = map_.end_of_flight(x, w)
+    guess = np.floor((np.sqrt(np.maximum(square.v, 0)) - b.v) / 2) + 1
+    guess = np.fmax(np.fmin(guess, MOST_PERIODS / 4), 1)  # 1 where it is not a number
+    length = np.ones(len(guess))
+    for wish in (
+        np.floor(guess * (1 - 2.0**-20)),
+        guess - 1,
+        guess,
+    ):  # the last that is certain stays
+        wish = np.maximum(wish, 1)
+        sure = map_.margin(*map_.flight(x, w, Bounded(wish - 1, 0.0))).is_negative()
+        length = np.where(sure & (wish > length), wish, length)
+    found: NDArray[np.int64] = length.astype(np.int64)
     return found

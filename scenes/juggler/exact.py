@@ -1,24 +1,151 @@
-"""Orbits in exact rationals.
-
-Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction, and from
-a few hundred on `Ratio`s, which are faster still; results are told as Fraction.  They grow by the
-length of alpha with every impact, also in the trap, where the closed form is exact too.  They stay
-within a stated length, or the orbit ends there.
-"""
+"""Exact and mp numbers."""
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable
 from fractions import Fraction
 from math import isqrt
 from typing import Any
 
 from flint import fmpq, fmpz
+from mpmath import MPContext
 
-from scenes.errors import SceneError
-from scenes.juggler.formulas import formulas
-from scenes.juggler.ratios import Powers, Ratio, lowest, shortened
-from scenes.juggler.track import Sample, Stop, Track
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.given import formulas
+from juggleproof.scenes.juggler.track import Sample, Stop, Track
+
+# -------------------------------------------------------------------------------------------------
+# Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of
+# alpha.
+#
+# An impact multiplies by alpha, so that on an orbit only k grows: sums and products of such numbers
+# need no greatest common divisor, which would take most of the time where the numbers have
+# thousands
+# of digits.  What has piled up of q above and below is taken out now and then.
+
+RECENT = 16  # powers that are kept
+
+
+class Powers:
+    """q^k, the recent ones kept: the next is one short product away."""
+
+    def __init__(self, q: int) -> None:
+        self.q, self.recent = fmpz(q), {0: fmpz(1)}
+
+    def __getitem__(self, k: int) -> Any:
+        found = self.recent.get(k)
+        if found is None:
+            before = self.recent.get(k - 1)
+            found = self.recent[k] = self.q**k if before is None else before * self.q
+            if len(self.recent) > RECENT:
+                self.recent.pop(next(iter(self.recent)))
+        return found
+
+
+class Ratio:
+    """top / (rest q^k), rest > 0; adds, subtracts and multiplies with its like and with whole
+    numbers, and with fmpq as an fmpq.
+
+    >>> some = Ratio.of(fmpq(3, 56), Powers(10))
+    >>> some.top, some.rest, some.k, lowest(3 - some * some - 1)
+    (375, 7, 3, 6263/3136)
+    """
+
+    __slots__ = ("k", "powers", "rest", "top")
+
+    def __init__(self, top: Any, rest: Any, k: int, powers: Powers) -> None:
+        self.top, self.rest, self.k, self.powers = top, rest, k, powers
+
+    @staticmethod
+    def of(value: Any, powers: Powers) -> Ratio:
+        """The fmpq over as small a power of q as there is, and what has no factor of q."""
+        common = value.q.gcd(pow(powers.q, value.q.bit_length(), value.q))
+        k = bisect_left(
+            range(common.bit_length()), True, key=lambda k: not pow(powers.q, k, common)
+        )
+        return Ratio(value.p * (powers[k] // common), value.q // common, k, powers)
+
+    def bottom(self) -> Any:
+        """rest q^k."""
+        return self.rest * self.powers[self.k]
+
+    def bits(self) -> int:
+        """The bits of top or of bottom, whichever has more."""
+        return int(
+            max(self.top.height_bits(), self.rest.height_bits() + self.powers[self.k].height_bits())
+        )
+
+    def _plus(self, other: Any, sign: int) -> Any:
+        if isinstance(other, int):
+            return Ratio(self.top + sign * other * self.bottom(), self.rest, self.k, self.powers)
+        if not isinstance(other, Ratio):
+            return lowest(self) + sign * other if isinstance(other, fmpq) else NotImplemented
+        one, two, rest, k = self.top, other.top, self.rest, self.k
+        if self.k < other.k:
+            one, k = one * self.powers[other.k - self.k], other.k
+        elif other.k < self.k:
+            two *= self.powers[self.k - other.k]
+        if self.rest != other.rest:
+            rest = self.rest * other.rest // self.rest.gcd(other.rest)
+            one, two = one * (rest // self.rest), two * (rest // other.rest)
+        return Ratio(one + two if sign > 0 else one - two, rest, k, self.powers)
+
+    def __add__(self, other: Any) -> Any:
+        return self._plus(other, 1)
+
+    def __sub__(self, other: Any) -> Any:
+        return self._plus(other, -1)
+
+    def __neg__(self) -> Ratio:
+        return Ratio(-self.top, self.rest, self.k, self.powers)
+
+    def __rsub__(self, other: Any) -> Any:
+        return (-self)._plus(other, 1)
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, int):
+            return Ratio(self.top * other, self.rest, self.k, self.powers)
+        if not isinstance(other, Ratio):
+            return lowest(self) * other if isinstance(other, fmpq) else NotImplemented
+        return Ratio(self.top * other.top, self.rest * other.rest, self.k + other.k, self.powers)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+
+def lowest(value: Any) -> Any:
+    """The number as an fmpq, which is in lowest terms; an fmpq as it is."""
+    return fmpq(value.top, value.bottom()) if isinstance(value, Ratio) else value
+
+
+def shortened(value: Ratio) -> Ratio:
+    """The number without the powers of q that top and bottom have in common.
+
+    >>> shortened(Ratio(fmpz(3000), fmpz(7), 5, Powers(10))).k
+    2
+    """
+    top, k = value.top, value.k
+    if not top:
+        return Ratio(top, fmpz(1), 0, value.powers)
+    step = 1 << k.bit_length()
+    while step:
+        if step <= k:
+            quotient, left = divmod(top, value.powers.q**step)
+            if not left:
+                top, k = quotient, k - step
+        step //= 2
+    return Ratio(top, value.rest, k, value.powers)
+
+
+# -------------------------------------------------------------------------------------------------
+# Orbits in exact rationals.
+#
+# Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction, and
+# from
+# a few hundred on `Ratio`s, which are faster still; results are told as Fraction.  They grow by the
+# length of alpha with every impact, also in the trap, where the closed form is exact too.  They
+# stay
+# within a stated length, or the orbit ends there.
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
 FEW_BITS, MANY_BITS = (
@@ -196,3 +323,43 @@ def later(alpha: Fraction, x: Fraction, w: Fraction, periods: int) -> tuple[Frac
         x, w, *formulas().fixed(alpha), periods, (-alpha) ** periods
     )
     return there
+
+
+# -------------------------------------------------------------------------------------------------
+# Orbits in mpmath numbers of so many digits: fast to ask for any precision, and nothing is proved.
+#
+# Branches are decided by the rounded state.  The length of a flight is that of the rounded state
+# exactly, by whole square roots.
+
+DIGITS = 50
+
+
+class HighPrecision:
+    """Numbers of a context of its own, so that mpmath's global precision is left alone."""
+
+    def __init__(self, digits: int = DIGITS) -> None:
+        self.context = MPContext()
+        self.context.dps = digits
+
+    def lift(self, value: Fraction) -> Any:
+        return self.context.mpf(value.numerator) / value.denominator
+
+    def sign(self, value: Any) -> int | None:
+        return int(value > 0) - int(value < 0)
+
+    def middle(self, value: Any) -> Any:
+        """The rounded number as a rational, which it is."""
+        sign, mantissa, exponent, _ = value._mpf_
+        top = fmpz(-mantissa if sign else mantissa)
+        return (
+            fmpq(top * fmpz(2) ** exponent, 1) if exponent >= 0 else fmpq(top, fmpz(2) ** -exponent)
+        )
+
+    def power(self, value: Any, exponent: int) -> Any:
+        return value**exponent
+
+    def check(self, track: Track) -> None:
+        """Nothing has to stop."""
+
+    def settle(self, track: Track) -> int:
+        raise AssertionError("rounded numbers have signs")

@@ -1,17 +1,201 @@
-"""Numbers as they are given: taken exactly and within their ranges, or refused in one line with the
-value and what is allowed.
-"""
+"""Given numbers, the derived formulas."""
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import TypeAlias
+from functools import cache
+from typing import Any, TypeAlias
 
 import numpy as np
+from sympy import Expr, ImmutableMatrix, Poly, Symbol, expand, horner, symbols
 
-from scenes.errors import SceneError
+from juggleproof.scenes.errors import SceneError
+from juggleproof.symbolic import (
+    DerivationError,
+    lowest_terms,
+    normal_e_1,
+    normal_energy,
+    normal_f1,
+    normal_f2,
+    normal_flight_power,
+    normal_margin,
+    region_energy,
+    scaling,
+    unipotent_power,
+    unscaling,
+)
+from juggleproof.symbolic.algebra import K, alpha, beta, n, r, w, x
+
+# -------------------------------------------------------------------------------------------------
+# The map, its flights and its closed form as plain arithmetic, written out from the expressions
+# that the proofs are about.
+#
+# Each function is the source text of a derived expression in normal form, compiled: it takes any
+# numbers that add, multiply and divide (rationals, balls, floats, arrays). Only sums, products and
+# one division by a whole number or a polynomial occur; powers are written as products.
+
+Compiled = Callable[..., Any]
+p_e, q_e, power = symbols("e_x e_w power")  # the fixed point, and (-alpha)^n
+
+
+def plain(expression: Expr, first: Symbol) -> str:
+    """The text of a rational expression: a Horner form in the symbol `first`, whole coefficients,
+    no powers, at most one division.
+
+    >>> plain(normal_f1()[0], alpha), plain(normal_flight_power()[0], K), plain(normal_energy(), w)
+    ('(alpha*(w - x))', '((K*(1 - K - w)) + x)', '((4*x) + (w*(w - 2)) + 1)/2')
+    """
+    top, bottom = lowest_terms(expression).as_numer_denom()
+    texts = [
+        _written(horner(part, wrt=first) if part.has(first) else part)
+        for part in (expand(top), expand(bottom))
+    ]
+    return texts[0] if bottom == 1 else f"{texts[0]}/{texts[1]}"
+
+
+def _written(expression: Expr) -> str:
+    if expression.is_Symbol:
+        return str(expression.name)
+    if expression.is_Integer:
+        return str(int(expression))
+    if expression.is_Add:
+        terms = sorted(
+            expression.args, key=lambda part: (_is_negative(part), bool(part.is_number), str(part))
+        )
+        added = "".join(
+            (" - " if _is_negative(part) else " + ")
+            + _written(-part if _is_negative(part) else part)
+            for part in terms
+        )
+        return (
+            "("
+            + added.removeprefix(" + ").replace(" - ", "-", 1 if added.startswith(" - ") else 0)
+            + ")"
+        )
+    if expression.is_Mul:
+        return (
+            "("
+            + "*".join(
+                _written(part)
+                for part in sorted(
+                    expression.args, key=lambda part: (not part.is_number, part.is_Add, str(part))
+                )
+            )
+            + ")"
+        )
+    if expression.is_Pow and expression.exp.is_Integer and int(expression.exp) > 0:
+        return "(" + "*".join([_written(expression.base)] * int(expression.exp)) + ")"
+    raise DerivationError(f"cannot be written as plain arithmetic: {expression}")
+
+
+def _is_negative(expression: Expr) -> bool:
+    return bool(expression.as_coeff_Mul()[0] < 0)
+
+
+def compiled(name: str, names: str, *expressions: Expr, first: Symbol = alpha) -> Compiled:
+    """A function of these names with the values of the expressions, its source being its docstring.
+
+    >>> compiled("impact", "alpha x w", *normal_f1()).__doc__
+    'lambda alpha, x, w: ((alpha*(w - x)), (2 - (alpha*w)))'
+    """
+    found = [plain(expression, first) for expression in expressions]
+    allowed = set(names.split())
+    for expression in expressions:
+        if {str(symbol) for symbol in expression.free_symbols} - allowed:
+            raise DerivationError(f"{name}: {expression} has other symbols than {names}")
+    source = f"lambda {', '.join(names.split())}: " + (
+        f"({', '.join(found)})" if len(found) > 1 else found[0]
+    )
+    function: Compiled = eval(compile(source, f"<{name}>", "eval"), {"__builtins__": {}})
+    function.__doc__, function.__name__ = source, name
+    return function
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """The compiled formulas; all in normal form but the change of units."""
+
+    margin: Compiled  # (x, w) -> positive exactly where the period has an impact
+    impact: Compiled  # (alpha, x, w) -> f1
+    flight: Compiled  # (x, w, K) -> K periods without an impact
+    end_of_flight: (
+        Compiled  # (x, w) -> b, d: the margin after K periods is K^2 + b K + c, of discriminant d
+    )
+    fixed: Compiled  # (alpha) -> e_1
+    later: Compiled  # (x, w, e_x, e_w, n, power) -> f1^n, power being (-alpha)^n
+    # (alpha, w) -> two numbers, positive exactly where alpha w < 1 at the state and after its
+    # impact
+    kept: Compiled
+    energy: Compiled  # (x, w) -> energy in units of r^2
+    scaled: Compiled  # (beta, v, r, g) -> (x, w)
+    unscaled: Compiled  # (x, w, r, g) -> (beta, v)
+
+
+@cache
+def formulas() -> Formulas:
+    """The formulas, derived and compiled once.
+
+    >>> from fractions import Fraction
+    >>> f = formulas()
+    >>> third = Fraction(1, 3)
+    >>> f.impact(third, Fraction(0), Fraction(3)), f.flight(1, 1, 1), f.fixed(third)
+    ((Fraction(1, 1), Fraction(1, 1)), (0, 3), (Fraction(3, 8), Fraction(3, 2)))
+    """
+    if any(
+        lowest_terms(one - two) != 0
+        for one, two in zip(normal_flight_power().xreplace({K: 1}), normal_f2())
+    ):
+        raise DerivationError("one period of flight is not f2")
+    flown = normal_flight_power()
+    after = Poly(normal_margin().xreplace({x: flown[0], w: flown[1]}), K)
+    if after.degree() != 2 or after.nth(2) != 1:
+        raise DerivationError("the margin after K periods of flight is not K^2 + b K + c")
+    struck = normal_f1()
+    return Formulas(
+        margin=compiled("margin", "x w", normal_margin()),
+        impact=compiled("impact", "alpha x w", *struck),
+        flight=compiled("flight", "x w K", *flown, first=K),
+        end_of_flight=compiled(
+            "end_of_flight", "x w", after.nth(1), after.nth(1) ** 2 - 4 * after.nth(0), first=w
+        ),
+        fixed=compiled("fixed", "alpha", *normal_e_1()),
+        later=compiled("later", "x w e_x e_w n power", *_closed_form(), first=power),
+        kept=compiled("kept", "alpha w", 1 - alpha * w, 1 - alpha * struck[1]),
+        energy=compiled("energy", "x w", normal_energy(), first=w),
+        scaled=compiled("scaled", "beta v r g", *scaling(), first=beta),
+        unscaled=compiled("unscaled", "x w r g", *unscaling(), first=r),
+    )
+
+
+@cache
+def region() -> Compiled:
+    """(alpha) -> the greatest energy of R, in units of r^2 (23); by itself, since its derivation
+    takes longest.
+
+    >>> region().__doc__
+    'lambda alpha: (alpha + 1)/((alpha*(alpha - 2)) + 1)'
+    """
+    return compiled("region", "alpha", lowest_terms(region_energy() / r**2))
+
+
+def _closed_form() -> tuple[Expr, Expr]:
+    """f1^n(x, w) = e + (-alpha)^n M^n ((x, w) - e), M the unipotent matrix with f1 = e - alpha M (.
+    - e); `power` stands for (-alpha)^n.
+    """
+    struck = normal_f1()
+    matrix = ImmutableMatrix(struck.jacobian([x, w]) / -alpha).applyfunc(lowest_terms)
+    shear = unipotent_power(matrix, n)
+    offset = shear * ImmutableMatrix([x - p_e, w - q_e])
+    return p_e + power * offset[0], q_e + power * offset[1]
+
+
+# -------------------------------------------------------------------------------------------------
+# Numbers as they are given: taken exactly and within their ranges, or refused in one line with the
+# value and what is allowed.
 
 Number: TypeAlias = int | float | str | Fraction  # a float means the binary number that it is
 BITS = (

@@ -1,22 +1,118 @@
-"""`orbit`: the orbits of a scene in the arithmetic of one's choice; its result is filled as it
-goes: an interrupted run keeps what is done.
-"""
+"""The orbits of a scene."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from scenes.errors import SceneError
-from scenes.juggler import enclosed, exact, fast, high
-from scenes.juggler.formulas import formulas
-from scenes.juggler.given import Number, brief, counted, rational
-from scenes.juggler.setting import MOST_STEPS, Goal, Scene, goal
-from scenes.juggler.track import Arithmetic, Sample, Stop, Track, advance, begin
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler import bounded, exact
+from juggleproof.scenes.juggler.exact import flight, flight_length, impact
+from juggleproof.scenes.juggler.given import (
+    Compiled,
+    Number,
+    brief,
+    compiled,
+    counted,
+    formulas,
+    rational,
+)
+from juggleproof.scenes.juggler.starts import MOST_STEPS, Goal, Scene, goal
+from juggleproof.scenes.juggler.track import Arithmetic, Sample, Stop, Track, advance, begin
+from juggleproof.symbolic import ball_after_collision, collision_time, fly, period, state, table_at
+from juggleproof.symbolic.algebra import alpha, beta, r, t, v
+
+# -------------------------------------------------------------------------------------------------
+# The motion between samples: heights of ball and table at any times, exactly, by the flights,
+# impacts and parabolas that the map is derived from.
+
+MOST_IMPACTS = 10**4  # before the last of the times
+MOST_TIMES = 10**6
+
+
+class Heights(NamedTuple):
+    """At a time: the heights of ball and table."""
+
+    time: Fraction
+    ball: Fraction
+    table: Fraction
+
+
+@cache
+def _formulas() -> tuple[Compiled, Compiled, Compiled, Compiled, Compiled]:
+    """Period, time of collision, height of the table, of the ball before and after the collision,
+    in the paper's units.
+    """
+    after = fly(ball_after_collision(), t - collision_time())
+    return (
+        compiled("period", "r g", period(), first=r),
+        compiled("collision_time", "beta v r g", collision_time(), first=beta),
+        compiled("table", "t r g", table_at()[0], first=t),
+        compiled("before", "t beta v r g", fly(state(beta, v), t)[0], first=t),
+        compiled("after", "t alpha beta v r g", after[0], first=alpha),
+    )
+
+
+def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heights]:
+    """The heights of ball and table at times >= 0, in the units of r and g, for the start of this
+    number.
+
+    The table is at its lowest at time 0, as at every sample.  Source: (1), the table's launch of
+    section 3.1, (6) and (8).
+
+    >>> from juggleproof.scenes.juggler import point, scene
+    >>> path = heights(scene("1/3", point(0, 3), r=1, g=2), (0, "1/2", 1, "3/2", 2))
+    >>> [str(one.ball) for one in path]
+    ['0', '3/4', '1', '3/4', '0']
+    """
+    length, struck_at, table, before, after = _formulas()
+    whole = length(scene.r, scene.g)
+    if isinstance(times, str) or not hasattr(times, "__len__") or len(times) > MOST_TIMES:
+        raise SceneError(f"times are to be a list of at most {MOST_TIMES} numbers >= 0")
+    asked = sorted({_time(one) for one in times})
+    x, w = scene.starts.exact(counted(index, "index", 0, scene.starts.count - 1))
+    found: dict[Fraction, Heights] = {}
+    passed, struck = 0, 0
+    for time in asked:
+        now = int(time / whole // 1)
+        while passed < now:
+            free = min(flight_length(x, w), now - passed)
+            if free:
+                passed, (x, w) = passed + free, flight(x, w, free)
+            else:
+                passed, (x, w), struck = passed + 1, impact(scene.alpha, x, w), struck + 1
+                if struck > MOST_IMPACTS:
+                    raise SceneError(
+                        f"time {brief(time)} comes after more than {MOST_IMPACTS} impacts; choose"
+                        " an earlier one"
+                    )
+        height, speed = formulas().unscaled(x, w, scene.r, scene.g)
+        within = time - now * whole
+        hit = formulas().margin(x, w) > 0 and within > struck_at(height, speed, scene.r, scene.g)
+        ball = (
+            after(within, scene.alpha, height, speed, scene.r, scene.g)
+            if hit
+            else before(within, height, speed, scene.r, scene.g)
+        )
+        found[time] = Heights(time, ball, table(within, scene.r, scene.g))
+    return [found[_time(one)] for one in times]
+
+
+def _time(value: Number) -> Fraction:
+    time = rational(value, "time")
+    if time < 0:
+        raise SceneError(f"time = {brief(time)} is before the start; times are >= 0")
+    return time
+
+
+# -------------------------------------------------------------------------------------------------
+# `orbit`: the orbits of a scene in the arithmetic of one's choice; its result is filled as it
+# goes: an interrupted run keeps what is done.
 
 ARITHMETICS = ("exact", "enclosed", "mp", "fast")
 MOST_TRACKS, MOST_KEPT = 10**6, 4 * 10**6  # as single numbers, of a kilobyte each
@@ -53,10 +149,10 @@ class Orbits:
     goal: Goal
     keep: bool
     precision: int
-    radius: Fraction = enclosed.RADIUS
+    radius: Fraction = bounded.RADIUS
     most_bits: int = 0
     tracks: list[Track] = field(default_factory=list)
-    ensemble: fast.Ensemble | None = None
+    ensemble: bounded.Ensemble | None = None
 
     def __len__(self) -> int:
         return self.scene.starts.count
@@ -69,8 +165,8 @@ class Orbits:
     def run(self, report: Report | None = None) -> Orbits:
         """Follows all orbits; may be interrupted, and then holds what was done."""
         if self.arithmetic == "fast":
-            self.ensemble = fast.Ensemble.empty(len(self), self.goal, self.keep)
-            fast.follow(self.scene, self.goal, self.ensemble, report)
+            self.ensemble = bounded.Ensemble.empty(len(self), self.goal, self.keep)
+            bounded.follow_fast(self.scene, self.goal, self.ensemble, report)
             return self
         for index in range(len(self)):
             self.tracks.append(Track(None, Sample(0, 0, *self.scene.starts.exact(index))))
@@ -98,7 +194,7 @@ class Orbits:
     ) -> None:
         alpha = self.scene.alpha
         if self.arithmetic == "enclosed":
-            enclosed.follow(
+            bounded.follow(
                 alpha,
                 start,
                 self.goal,
@@ -113,7 +209,7 @@ class Orbits:
         numbers: Arithmetic = (
             exact.Exact(alpha, self.most_bits)
             if self.arithmetic == "exact"
-            else high.HighPrecision(self.precision)
+            else exact.HighPrecision(self.precision)
         )
         track = begin(numbers, alpha, Sample(0, 0, *start), self.keep)
         show(track)
@@ -144,7 +240,7 @@ class Orbits:
                 float(e.x[index]),
                 float(e.w[index]),
                 (float(e.error_x[index]), float(e.error_w[index])),
-                fast.ENDS[e.end[index]],
+                bounded.ENDS[e.end[index]],
             )
         return self._row(index, self.tracks[index].here, self.tracks[index].end)
 
@@ -153,7 +249,7 @@ class Orbits:
         if isinstance(x, Fraction):  # exact, or a start that has not moved yet
             error = (Fraction(0), Fraction(0))
         elif self.arithmetic == "enclosed":
-            error = (enclosed.radius_of(here.x), enclosed.radius_of(here.w))
+            error = (bounded.radius_of(here.x), bounded.radius_of(here.w))
         return Row(index, here.periods, here.impacts, x, w, error, end)
 
     def history(self, index: int) -> list[Row]:
@@ -186,7 +282,7 @@ class Orbits:
     def each_undecided(self) -> Iterator[tuple[int, int]]:
         """The same, one by one."""
         if self.ensemble is not None:
-            found = (self.ensemble.end[: self.followed] == fast.UNDECIDED).nonzero()[0]
+            found = (self.ensemble.end[: self.followed] == bounded.UNDECIDED).nonzero()[0]
             yield from ((int(index), int(self.ensemble.periods[index])) for index in found)
         yield from (
             (index, track.here.periods)
@@ -199,11 +295,11 @@ class Orbits:
         if self.ensemble is not None:
             found = {
                 name: int((self.ensemble.end[: self.followed] == code).sum())
-                for code, name in enumerate(fast.ENDS)
+                for code, name in enumerate(bounded.ENDS)
             }
         else:
-            found = {name: sum(track.end == name for track in self.tracks) for name in fast.ENDS}
-        return {name: found[name] for name in (*fast.ENDS[1:], "") if found[name]}
+            found = {name: sum(track.end == name for track in self.tracks) for name in bounded.ENDS}
+        return {name: found[name] for name in (*bounded.ENDS[1:], "") if found[name]}
 
 
 def told(value: Any, arithmetic: str) -> Any:
@@ -240,7 +336,7 @@ def prepare(
     until_trap: bool = False,
     keep: bool = False,
     precision: int | None = None,
-    radius: Number = enclosed.RADIUS,
+    radius: Number = bounded.RADIUS,
     most_bits: int | None = None,
 ) -> Orbits:
     """The orbits that `orbit` follows, before anything is followed; SceneError, one line, for what
@@ -258,7 +354,7 @@ def prepare(
             " with enclosed (bits) and mp (digits)"
         )
     _refuse_many(scene.starts.count, arithmetic, steps, keep)
-    digits = {"enclosed": enclosed.BITS, "mp": high.DIGITS}.get(arithmetic, 2)
+    digits = {"enclosed": bounded.BITS, "mp": exact.DIGITS}.get(arithmetic, 2)
     width = rational(radius, "radius")
     if width <= 0:
         raise SceneError(
@@ -269,7 +365,7 @@ def prepare(
         if most_bits is not None
         else exact.MOST_BITS
         if arithmetic == "exact"
-        else enclosed.MOST_BITS
+        else bounded.MOST_BITS
     )
     return Orbits(
         scene,
@@ -291,7 +387,7 @@ def orbit(
     until_trap: bool = False,
     keep: bool = False,
     precision: int | None = None,
-    radius: Number = enclosed.RADIUS,
+    radius: Number = bounded.RADIUS,
     most_bits: int | None = None,
     report: Report | None = None,
 ) -> Orbits:
@@ -304,7 +400,7 @@ def orbit(
     first.  keep: all states, not the ends only. States are (x, w), in units of r T and r.  Errors:
     SceneError (a ValueError), one line with the value and the allowed range.
 
-    >>> from scenes.juggler import point, scene
+    >>> from juggleproof.scenes.juggler import point, scene
     >>> row = orbit(scene("1/3", point(0, 3)), steps=3).row(0)
     >>> row.x, row.w, row.periods, row.impacts
     (Fraction(1, 1), Fraction(1, 1), 3, 2)

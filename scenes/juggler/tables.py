@@ -1,26 +1,153 @@
-"""Orbits as tables: rows of text in either system of units, CSV, and arrays of floats with
-bounds.
-"""
+"""Tables, pictures, hard cases."""
 
 from __future__ import annotations
 
 import csv
 import io
 from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, nextafter
-from typing import Any, BinaryIO
+from math import ceil, floor, inf, log10, nextafter
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 from flint import arb, ctx
 
-from scenes.errors import SceneError
-from scenes.juggler.bounded import Bounded
-from scenes.juggler.exact import lifted
-from scenes.juggler.fast import CHUNK, ENDS
-from scenes.juggler.formulas import formulas
-from scenes.juggler.given import brief, nearest
-from scenes.juggler.orbits import Orbits, Row
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.figures.arcs import straight
+from juggleproof.scenes.figures.drawing import B1, Plane, blank, styled, svg, ticks
+from juggleproof.scenes.juggler.bounded import CHUNK, ENDS, Bounded
+from juggleproof.scenes.juggler.exact import flight, impact, lifted, strikes
+from juggleproof.scenes.juggler.given import brief, formulas, nearest
+from juggleproof.scenes.juggler.orbits import Orbits, Row, heights, orbit
+from juggleproof.scenes.juggler.starts import Scene, point, scene
+
+# -------------------------------------------------------------------------------------------------
+# The cases at which floats go wrong or might, each followed in plain float64, exactly, in bounded
+# float64 and in balls.
+
+TINY, HUGE, THIRD = Fraction(1, 10**300), Fraction(10**300), Fraction(1, 3)
+FLIGHT = 1000  # periods that plain floats are followed for where a case counts impacts
+
+
+@dataclass(frozen=True)
+class Case:
+    """An exact start, followed for so many periods (or impacts); in exact numbers up to so many
+    bits.
+    """
+
+    name: str
+    alpha: Fraction
+    x: Fraction
+    w: Fraction
+    steps: int
+    impacts: bool = False
+    most_bits: int | None = None
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of this one start."""
+        return scene(self.alpha, point(self.x, self.w))
+
+
+class Finding(NamedTuple):
+    """What each arithmetic comes to: where plain floats first took a wrong branch (None: nowhere),
+    and the rows of exact, fast and enclosed.
+    """
+
+    case: Case
+    floats: tuple[float, float]
+    wrong_at: int | None
+    exact: Row
+    fast: Row
+    enclosed: Row
+    edges: int  # states proved to lie on x = w
+
+
+def _case(
+    name: str, alpha: Fraction | str, x: Fraction | str, w: Fraction | str, steps: int, *more: Any
+) -> Case:
+    return Case(name, Fraction(alpha), Fraction(x), Fraction(w), steps, *more)
+
+
+CASES = (
+    _case("alpha -> 0: 10^-300", TINY, "10", "-3", 50),
+    _case("alpha -> 0: 10^-400, no float", Fraction(1, 10**400), "10", "-3", 50),
+    _case("alpha -> 1/3 from below, by 10^-300", THIRD - TINY, "0", "3", 100),
+    _case("alpha = 1/3, on e_2", THIRD, "0", "3", 100),
+    _case("alpha = (K - 1)/(K + 1), K = 4, on e_4", "3/5", "0", "5", 100),
+    _case("alpha -> 1: 1 - 10^-20", 1 - Fraction(1, 10**20), "1", "-2", 100),
+    _case("start on x = w", "3/10", "5/7", "5/7", 50),
+    _case("x = w after an impact", "3/10", "4/3", "4", 50),
+    _case("x = w after an impact, two limits: e_1 or e_2", "3/7", "4/3", "3", 100),
+    _case("10^-300 above x = w", "3/10", 1 + TINY, "1", 50),
+    _case("10^-300 below x = w", "3/10", 1 - TINY, "1", 50),
+    _case("x = 0", "3/10", "0", "7/3", 50),
+    _case("x = 10^-300", "3/10", TINY, "7/3", 50),
+    _case("w = 0, x = 0", "3/10", "0", "0", 50),
+    _case("w = 10^-300, x = 0", "3/10", "0", TINY, 50),
+    _case("w = -10^-300, x = 0", "3/10", "0", -TINY, 50),
+    _case("w < 0", "3/10", "2", "-1/4", 50),
+    _case("energy 10^-300", "3/10", TINY / 2, "1", 50),
+    _case("energy 10^300", "3/10", HUGE / 2, "1", 3, True),
+    _case("10^6 periods", "3/10", "1000", "-41", 10**6),
+    _case("digits that grow, 1000 bits allowed", "97/100", "1", "-4", 2000, False, 1000),
+)
+
+
+def plain_floats(case: Case, most: int = 10**5) -> tuple[tuple[float, float], int | None]:
+    """The orbit of plain float64, period by period up to so many, and the first period whose branch
+    is not that of the exact orbit.
+
+    Floats are followed without an eye on their error: alpha and start are rounded, a state strikes
+    where x < w as floats.  The exact orbit is followed beside them up to numbers of 5000 bits.
+
+    >>> plain_floats(_case("", "3/7", "4/3", "3", 50))[1]
+    1
+    """
+    alpha, x, w = (nearest(value)[0] for value in (case.alpha, case.x, case.w))
+    map_, wrong = formulas(), None
+    true = _branches(case)
+    for period in range(min(case.steps, most) if not case.impacts else FLIGHT):
+        struck = map_.margin(x, w) > 0
+        branch = next(true, None) if wrong is None else None
+        if branch is not None and struck != branch:
+            wrong = period
+        x, w = map_.impact(alpha, x, w) if struck else map_.flight(x, w, 1)
+    return (x, w), wrong
+
+
+def _branches(case: Case) -> Iterator[bool]:
+    """Whether each period of the exact orbit has an impact."""
+    x, w = case.x, case.w
+    while True:
+        struck = strikes(x, w)
+        yield struck
+        x, w = impact(case.alpha, x, w) if struck else flight(x, w, 1)
+        if max(x.denominator, w.denominator).bit_length() > 5000:
+            return
+
+
+def finding(case: Case) -> Finding:
+    """All that is found of a case."""
+    floats, wrong = plain_floats(case)
+    balls = orbit(case.scene, "enclosed", case.steps, impacts=case.impacts)
+    return Finding(
+        case,
+        floats,
+        wrong,
+        orbit(case.scene, "exact", case.steps, impacts=case.impacts, most_bits=case.most_bits).row(
+            0
+        ),
+        orbit(case.scene, "fast", case.steps, impacts=case.impacts).row(0),
+        balls.row(0),
+        balls.tracks[0].edges,
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# Orbits as tables: rows of text in either system of units, CSV, and arrays of floats with
+# bounds.
 
 UNITS = ("normal", "physical")
 NAMES = {"normal": ("x", "w"), "physical": ("beta", "v")}
@@ -54,7 +181,7 @@ def in_units(orbits: Orbits, row: Row, units: str) -> Row:
     if orbits.arithmetic == "enclosed":
         with ctx.workprec(max(row.x.bits(), row.w.bits(), 128) + 64):
             found = unscaled(row.x, row.w, arb(lifted(r)), arb(lifted(g)))
-        from scenes.juggler.enclosed import radius_of
+        from juggleproof.scenes.juggler.bounded import radius_of
 
         return row._replace(
             x=found[0], w=found[1], error=(radius_of(found[0]), radius_of(found[1]))
@@ -220,3 +347,97 @@ def as_npz(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:
     np.savez_compressed(
         file, allow_pickle=False, ends=np.array(ENDS), **told, **as_arrays(orbits, units)
     )
+
+
+# -------------------------------------------------------------------------------------------------
+# Pictures of orbits: ball and table against time, or the states of many orbits in the plane of x
+# and w.
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MOST_PERIODS, A_PERIOD, MOST_DOTS = 40, 32, 5000
+
+
+def picture(orbits: Orbits, file: BinaryIO) -> None:
+    """Writes a picture.  One start: ball and table over the periods asked for, 40 at most.
+    Several: where they stand, or all that was kept; SVG.
+    """
+    if len(orbits) == 1:
+        file.write(
+            svg(against_time(orbits.scene, max(1, min(MOST_PERIODS, orbits.goal.steps))), "orbit")
+        )
+    else:
+        file.write(svg(in_the_plane(orbits), "orbits"))
+
+
+def spaced(low: float, high: float) -> list[float]:
+    """Round numbers within these ends, three to eight of them.
+
+    >>> spaced(0, 40), spaced(-0.2, 0.9)
+    ([0.0, 10.0, 20.0, 30.0, 40.0], [-0.2, 0.0, 0.2, 0.4, 0.6, 0.8])
+    """
+    power = floor(log10(high - low)) - 1
+    step = (
+        next(part for part in (1, 2, 5, 10, 20) if (high - low) / (part * 10.0**power) <= 7)
+        * 10.0**power
+    )
+    return [
+        round(k * step, max(0, -power))
+        for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)
+    ]
+
+
+@styled
+def against_time(scene: Scene, periods: int) -> Figure:
+    """Heights in units of r T against time in periods."""
+    units = Scene(scene.alpha, Fraction(1), Fraction(2), scene.starts)  # in which r T = T = 1
+    found = heights(units, [Fraction(k, A_PERIOD) for k in range(periods * A_PERIOD + 1)])
+    top = 1.05 * max(max(float(one.ball) for one in found), 0.25)
+    figure = blank(6.4, 3.2)
+    plane = Plane(figure, (0.1, 0.16, 0.87, 0.8), (0, periods), (-0.02 * top, top))
+    plane.frame(
+        ticks(spaced(0, periods)),
+        ticks(spaced(0, top)),
+        r"$t\,/\,T$",
+        r"height$\,/\,(\dot\rho_0 T)$",
+        26,
+    )
+    times = [float(one.time) for one in found]
+    for name, values, look in (
+        ("table", [float(one.table) for one in found], None),
+        ("ball", [float(one.ball) for one in found], B1),
+    ):
+        points = list(zip(times, values))
+        plane.line([straight(a, b) for a, b in zip(points, points[1:])], name, look, linewidth=1.2)
+    return figure
+
+
+@styled
+def in_the_plane(orbits: Orbits) -> Figure:
+    """The states in normal form, undecided ones marked apart; 5000 at most, taken evenly."""
+    arrays = as_arrays(orbits)
+    undecided = np.broadcast_to(
+        (arrays["end"] == ENDS.index("undecided")).reshape(-1, *[1] * (arrays["x"].ndim - 1)),
+        arrays["x"].shape,
+    )
+    near = np.flatnonzero(np.abs(arrays["x"]) + np.abs(arrays["w"]) < 1e300)
+    drawn = np.unravel_index(near[:: -(-len(near) // MOST_DOTS) or 1], arrays["x"].shape)
+    states = [
+        (float(x), float(w), bool(odd))
+        for x, w, odd in zip(arrays["x"][drawn], arrays["w"][drawn], undecided[drawn])
+    ]
+    if not states:
+        raise SceneError("no state is near enough to be drawn; choose a table instead")
+    known = [(x, w) for x, w, _ in states]
+    figure = blank(5.2, 4.4)
+    lows, highs = ([pick(one[place] for one in known) for place in (0, 1)] for pick in (min, max))
+    rooms = [0.05 * (high - low) or 0.5 for low, high in zip(lows, highs)]
+    across, up = ((low - room, high + room) for low, high, room in zip(lows, highs, rooms))
+    plane = Plane(figure, (0.13, 0.13, 0.84, 0.84), across, up)
+    plane.frame(ticks(spaced(*across)), ticks(spaced(*up)), r"$x$", r"$w$", 30)
+    for odd, name, size, mark in ((False, "states", 1.6, "o"), (True, "undecided", 4.0, "x")):
+        some = [(x, w) for x, w, one in states if one is odd]
+        if some:
+            plane.dots(some, name, size, mark)
+    return figure

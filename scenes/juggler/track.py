@@ -18,8 +18,8 @@ from fractions import Fraction
 from math import isqrt
 from typing import Any, Literal, NamedTuple, Protocol
 
-from scenes.juggler.formulas import formulas
-from scenes.juggler.setting import Goal
+from juggleproof.scenes.juggler.given import formulas
+from juggleproof.scenes.juggler.starts import Goal
 
 End = Literal["", "reached", "trap", "undecided", "too long"]
 

@@ -1,7 +1,7 @@
 """The part on the vibrating table (section 2.1, figure 2, table I): a rectangle that falls, strikes
 with its corners, turns, and comes to rest.
 
-    from scenes.part import run, scene, standing, table_one
+    from juggleproof.scenes.part import run, scene, standing, table_one
 
     table_one(scene(e=0.7, mu=0.08))
 
@@ -15,11 +15,10 @@ from importlib import import_module
 from typing import Any
 
 _NAMES = {
-    "scenes.errors": "SceneError",
-    "scenes.part.setting": "Scene scene standing moving",
-    "scenes.part.ensemble": "Run run fresh_notes",
-    "scenes.part.onsets": "Row Table table_one",
-    "scenes.part.sweeping": "Point chosen misfit recorded sweep",
+    "juggleproof.scenes.errors": ("SceneError"),
+    "juggleproof.scenes.part.setting": ("Scene scene standing moving"),
+    "juggleproof.scenes.part.ensemble": ("Run run fresh_notes"),
+    "juggleproof.scenes.part.onsets": ("Row Table table_one Point chosen misfit recorded sweep"),
 }
 _PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
 

@@ -20,12 +20,11 @@ from typing import BinaryIO
 
 import numpy as np
 
-from scenes.errors import SceneError
-from scenes.part import body
-from scenes.part.frames import frames
-from scenes.part.grid import COLUMNS, lying, pitch, rows
-from scenes.part.picture import vibration
-from scenes.part.setting import Array, Scene
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part import body
+from juggleproof.scenes.part.ensemble import frames
+from juggleproof.scenes.part.picture import COLUMNS, lying, pitch, rows, vibration
+from juggleproof.scenes.part.setting import Array, Scene
 
 HERE = Path(__file__).parent
 RATE = 60  # frames a second

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from scenes.part.body import (
+from juggleproof.scenes.part.body import (
     A_Y,
     DONE,
     HALF_LONG,
@@ -35,9 +35,9 @@ from scenes.part.body import (
     G,
     X,
     Y,
+    compiled,
     table_height,
 )
-from scenes.part.compiling import compiled
 
 MOST_STEPS = 1_000_000  # of one flight
 NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton's

@@ -1,17 +1,28 @@
-"""The orbit of one block: flights, impacts and contact in turn; and of many, one after another."""
+"""The orbit of one block."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scenes.part.body import DONE, FACE, MODE, NO_PROGRESS, PIVOT, THETA, TIME, Floats
-from scenes.part.compiling import compiled
-from scenes.part.face import lie
-from scenes.part.flight import fly
-from scenes.part.pivot import pivot
-from scenes.part.strike import strike
-from scenes.part.turns import note_turn
+from juggleproof.scenes.part.body import (
+    DONE,
+    FACE,
+    MODE,
+    NO_PROGRESS,
+    NOTES,
+    PIVOT,
+    THETA,
+    TIME,
+    Floats,
+    compiled,
+)
+from juggleproof.scenes.part.flight import fly
+from juggleproof.scenes.part.rest import lie, note_turn, pivot
+from juggleproof.scenes.part.strike import strike
+
+# -------------------------------------------------------------------------------------------------
+# The orbit of one block: flights, impacts and contact in turn; and of many, one after another.
 
 MOST_EVENTS = 100_000_000
 MOST_AT_ONCE = 10_000  # events that do not move time on
@@ -61,4 +72,58 @@ def follow_all(
     codes = np.zeros(len(states))
     for k in range(len(states)):
         codes[k] = follow(p, states[k], until, notes[k])
+    return codes
+
+
+# -------------------------------------------------------------------------------------------------
+# Where blocks are at given times of an orbit that is not stopped there: a stop rounds, and chaos
+# soon makes another orbit of that.
+
+
+@compiled
+def watch(
+    p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, seen: NDArray[np.float64]
+) -> int:
+    """One block at times that do not fall, a row of `seen` each, while it is moved on, event by
+    event, to the last; DONE, or why it gave up.
+
+    Between two events the block is where a copy comes to that sets out from the earlier one; the
+    block itself does not stop.
+    """
+    aside, scratch = z.copy(), np.zeros(NOTES)
+    last, k, still = len(seen) - 1, 0, 0
+    for _ in range(MOST_EVENTS):
+        aside[:] = z
+        if z[TIME] < times[last]:
+            code = go_on(p, z, times[last], notes)
+            if code != DONE:
+                return code
+        while k <= last and times[k] <= z[TIME]:
+            seen[k] = aside
+            code = follow(p, seen[k], times[k], scratch)
+            if code != DONE:
+                return code
+            k += 1
+        if k > last:
+            return DONE
+        still = still + 1 if z[TIME] == aside[TIME] else 0
+        if still > MOST_AT_ONCE:
+            return NO_PROGRESS
+    return NO_PROGRESS
+
+
+@compiled
+def watch_all(
+    p: Floats,
+    states: NDArray[np.float64],
+    times: Floats,
+    notes: NDArray[np.float64],
+    seen: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """The same for many blocks, one after another; `seen` has the shape (blocks, times, 10).  How
+    each ended.
+    """
+    codes = np.zeros(len(states))
+    for k in range(len(states)):
+        codes[k] = watch(p, states[k], times, notes[k], seen[k])
     return codes

@@ -12,8 +12,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scenes.errors import SceneError
-from scenes.part import body
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part import body
 
 Launch = Literal["rest", "table"]
 Array = NDArray[np.float64]
@@ -75,7 +75,7 @@ class Scene:
     launch: Launch
 
     def parameters(self) -> Array:
-        """The numbers that the kernels take (`scenes.part.body`)."""
+        """The numbers that the kernels take (`juggleproof.scenes.part.body`)."""
         p = np.zeros(body.PARAMETERS)
         p[body.G], p[body.RESTITUTION], p[body.FRICTION] = self.g, self.e, self.mu
         p[body.A_X], p[body.W_X], p[body.PHASE_X] = self.A_x, 2 * math.pi * self.f_x, self.phase_x

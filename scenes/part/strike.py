@@ -1,19 +1,10 @@
-"""What happens where corners meet the table: impacts, one after another, until no corner that
-touches approaches; then how the block goes on.
-
-The corner that approaches fastest is struck first.  Where two approach alike, as when a face lands
-flat, one impulse acts midway between them, so that the mirror image of an orbit is an orbit.  A
-corner slower than the rest speed v is struck without restitution and stays.  A face whose two
-corners are slower than v comes to lie: turning and closing are taken away, and sliding if it is
-slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length; none is added.
-Coming to rest moves a corner by at most two tolerances.
-"""
+"""Impacts."""
 
 from __future__ import annotations
 
 from math import cos, floor, sin, sqrt
 
-from scenes.part.body import (
+from juggleproof.scenes.part.body import (
     CLOSINGS,
     CONES,
     CORNER,
@@ -45,16 +36,150 @@ from scenes.part.body import (
     Floats,
     G,
     Y,
+    compiled,
     corner_x,
     corner_y,
     table_glide,
     table_height,
     table_lift,
+    table_push,
     table_rise,
 )
-from scenes.part.compiling import compiled
-from scenes.part.contact import first_turn, hold
-from scenes.part.impact import JAMMING, first_slide, impulse, mode_of
+
+# -------------------------------------------------------------------------------------------------
+# What holds a block that stays on the table: the force at one corner, which sticks or slides, and
+# when it lets go.
+#
+# The corner's acceleration is (B1 F - B3 N - omega^2 x, B2 N - B3 F - g - omega^2 y), as impulses
+# change its velocity (`juggleproof.symbolic.corner_impact`); the table's is subtracted.  SLIDE of a
+# state is the
+# direction of sliding, 0 where the corner or face sticks; CORNER the corner, or the number of
+# quarter
+# turns of the face.
+
+
+@compiled
+def hold(
+    p: Floats, t: float, theta: float, omega: float, i: int, slide: float
+) -> tuple[float, float, float]:
+    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the
+    direction `slide`, or sticking where that is 0.
+
+    Third, the angular acceleration by this force.
+    """
+    c, s = cos(theta), sin(theta)
+    x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
+    k2 = p[GYRATION]
+    B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
+    down = p[G] + omega * omega * y + table_lift(p, t)
+    if slide != 0:
+        normal = down / (B2 + slide * p[FRICTION] * B3)
+        along = -slide * p[FRICTION] * normal
+    else:
+        across = omega * omega * x + table_push(p, t)
+        full = B1 * B2 - B3 * B3
+        along, normal = (B2 * across + B3 * down) / full, (B1 * down + B3 * across) / full
+    return along, normal, (x * normal - y * along) / k2
+
+
+@compiled
+def first_turn(i: int, theta: float) -> float:
+    """The number of quarter turns, near theta, from which on corner i is the lowest, for one
+    quarter turn.
+    """
+    start = (4 - i) % 4
+    return start + 4 * floor((theta - QUARTER * start - QUARTER / 2) / (4 * QUARTER) + 0.5)
+
+
+# -------------------------------------------------------------------------------------------------
+# The impact of one corner: Wang and Mason's five contact modes with Poisson's restitution, as
+# `juggleproof.symbolic.corner_impact` derives them.
+#
+# The formulas stand here once more so that they can be compiled; a test compares them, exactly,
+# with
+# the derived ones in every mode.
+
+(
+    SLIDING,
+    STICKING_IN_COMPRESSION,
+    STICKING_IN_RESTITUTION,
+    REVERSED_IN_COMPRESSION,
+    REVERSED_IN_RESTITUTION,
+) = range(5)
+JAMMING = -1
+
+
+@compiled
+def mode_of(
+    S0: float, C0: float, B1: float, B2: float, B3: float, e: float, mu: float, sigma: int
+) -> int:
+    """The mode of an impact in which the corner slides in the direction sigma at first; C0 < 0.
+
+    P_d and P_q are the closing rate times sigma S0, and the stopping rate times -C0.
+    """
+    closing, stopping = B2 + sigma * mu * B3, mu * B1 + sigma * B3
+    if closing <= 0:
+        return JAMMING
+    P_d, P_q = closing * (sigma * S0), stopping * -C0
+    if P_d >= (1 + e) * P_q:
+        return SLIDING
+    holds = mu * B1 >= abs(B3)
+    if P_d <= P_q:
+        return STICKING_IN_COMPRESSION if holds else REVERSED_IN_COMPRESSION
+    return STICKING_IN_RESTITUTION if holds else REVERSED_IN_RESTITUTION
+
+
+@compiled
+def first_slide(S0: float, B1: float, B3: float, mu: float) -> int:
+    """The direction in which the corner slides at first, 1 or -1; where S0 = 0, the one in which
+    friction fails to hold it.
+    """
+    if S0 > 0 or S0 == 0 and B3 < 0:
+        return 1
+    return -1
+
+
+@compiled
+def impulse(
+    mode: int,
+    S0: float,
+    C0: float,
+    B1: float,
+    B2: float,
+    B3: float,
+    e: float,
+    mu: float,
+    sigma: int,
+) -> tuple[float, float]:
+    """The impulse (P_x, P_y) at the corner, per unit of mass."""
+    if mode == STICKING_IN_COMPRESSION:
+        P_y = (1 + e) * -(B1 * C0 + B3 * S0) / (B1 * B2 - B3 * B3)
+    elif mode == REVERSED_IN_COMPRESSION:
+        P_y = (
+            (1 + e)
+            * -(C0 + 2 * sigma * mu * B3 * S0 / (B3 + sigma * mu * B1))
+            / (B2 - sigma * mu * B3)
+        )
+    else:
+        P_y = (1 + e) * -C0 / (B2 + sigma * mu * B3)
+    if mode == SLIDING:
+        return -sigma * mu * P_y, P_y
+    if mode == STICKING_IN_COMPRESSION or mode == STICKING_IN_RESTITUTION:
+        return (B3 * P_y - S0) / B1, P_y
+    return sigma * mu * (P_y - 2 * S0 / (B3 + sigma * mu * B1)), P_y
+
+
+# -------------------------------------------------------------------------------------------------
+# What happens where corners meet the table: impacts, one after another, until no corner that
+# touches approaches; then how the block goes on.
+#
+# The corner that approaches fastest is struck first.  Where two approach alike, as when a face
+# lands
+# flat, one impulse acts midway between them, so that the mirror image of an orbit is an orbit.  A
+# corner slower than the rest speed v is struck without restitution and stays.  A face whose two
+# corners are slower than v comes to lie: turning and closing are taken away, and sliding if it is
+# slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length; none is added.
+# Coming to rest moves a corner by at most two tolerances.
 
 MOST_IMPACTS = 10_000  # at one time
 STILL = 1e-12  # metres a second: closing speeds below are rounding

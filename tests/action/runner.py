@@ -49,7 +49,8 @@ class Runner:
         self.tool("python", f"exec '{sys.executable}' \"$@\"", self.venv)
         self.tool(
             "juggleproof",
-            f"PYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m proofs.command.main \"$@\"",
+            f"PYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m"
+            ' juggleproof.proofs.command.main "$@"',
             self.venv,
         )
 

@@ -16,8 +16,8 @@ from typing import Any
 import pytest
 import yaml
 
-from certificates.store import DEFAULT
-from proofs.verdicts import VERDICTS
+from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.claims import VERDICTS
 from tests.action.runner import ACTION, ROOT, SCRIPTS, Runner
 from tests.reports.runs import FALSE, HOLDS, file_with
 
@@ -268,7 +268,8 @@ def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_pa
     shutil.copytree(DEFAULT, tmp_path / "store")
     runner.tool(
         "juggleproof",
-        f"command=$1; shift\nPYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m proofs.command.main"
+        f"command=$1; shift\nPYTHONPATH='{ROOT}' exec '{sys.executable}' -P"
+        " -m juggleproof.proofs.command.main"
         f' "$command" --store \'{tmp_path / "store"}\' "$@"',
         runner.venv,
     )

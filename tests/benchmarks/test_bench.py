@@ -15,21 +15,41 @@ from typing import Any
 import pytest
 import sympy
 
-import symbolic
-from benchmarks.bench import growth, methods_ours, orbits, run, table
-from benchmarks.bench.answers import Answer, GaveUp, Measured, Strayed
-from benchmarks.bench.coq_interval import goal
-from benchmarks.bench.finding import best_point
-from benchmarks.bench.methods import METHODS, ORBITS, Method
-from benchmarks.bench.methods_boxes import Arb, Mpmath, never_negative
-from benchmarks.bench.methods_ours import bernstein
-from benchmarks.bench.problems import Problem
-from benchmarks.bench.questions import ALPHAS, kept_curve, outside_region, p, put, q, questions, s
-from benchmarks.bench.timing import measure
-from certificates import checker
-from certificates.terms import ClaimError
-from proofs.command.main import run as command
-from symbolic.symbols import alpha, r, w, x
+from juggleproof import symbolic
+from juggleproof.benchmarks.bench import methods as methods_ours
+from juggleproof.benchmarks.bench import questions as growth
+from juggleproof.benchmarks.bench import run, table
+from juggleproof.benchmarks.bench.answers import (
+    Answer,
+    GaveUp,
+    Measured,
+    Problem,
+    Strayed,
+    best_point,
+)
+from juggleproof.benchmarks.bench.methods import (
+    METHODS,
+    ORBITS,
+    Method,
+    bernstein,
+)
+from juggleproof.benchmarks.bench.numerics import Arb, Mpmath, never_negative
+from juggleproof.benchmarks.bench.questions import (
+    ALPHAS,
+    kept_curve,
+    outside_region,
+    p,
+    put,
+    q,
+    questions,
+    s,
+)
+from juggleproof.benchmarks.bench.run import measure
+from juggleproof.benchmarks.bench.solvers import goal
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command.main import run as command
+from juggleproof.symbolic.algebra import alpha, r, w, x
 
 WIDTH, COARSE = Fraction(1, 1000), Fraction(1, 10)
 NAMES = tuple(questions())
@@ -76,7 +96,8 @@ def test_a_point_is_found_in_many_variables_holds(balls: int) -> None:
 def test_our_method_loads_without_numpy_holds() -> None:
     """What it loads counts as part of its first answer."""
     script = (
-        "import sys, benchmarks.bench.child, benchmarks.bench.methods_ours; print({'numpy',"
+        "import sys, juggleproof.benchmarks.bench.child, juggleproof.benchmarks.bench.methods\n"
+        "print({'numpy',"
         " 'sympy', 'z3', 'flint'} & {*sys.modules})"
     )
     assert (
@@ -97,8 +118,8 @@ def test_the_closed_form_is_the_bound_of_set_and_box_holds(name: str, more: Frac
         (problem.of_box(truth(name) - 1, truth(name) + more), True),
         (problem.of_box(truth(name) - 1, truth(name) - Fraction(1, 10**6)), False),
     ):
-        from benchmarks.peer_smt import z3
-        from certificates.routes.questions import read_statement
+        from juggleproof.benchmarks.peers import z3
+        from juggleproof.certificates.votes.questions import read_statement
 
         assert z3(read_statement(text), 60.0) == ("holds" if holds else "fails")
 
@@ -206,12 +227,12 @@ def test_a_bound_that_the_exact_orbit_breaks_is_noticed() -> None:
 @pytest.mark.parametrize("arithmetic", ORBITS)
 @pytest.mark.parametrize("steps", [1, 1000])
 def test_orbits_stay_within_their_bounds_holds(arithmetic: str, steps: int) -> None:
-    found = ORBITS[arithmetic].solve(orbits.STARTS["orbit"], Fraction(steps))()
+    found = ORBITS[arithmetic].solve(growth.STARTS["orbit"], Fraction(steps))()
     assert not found.beyond and found.distance < Fraction(1, 10**12)
 
 
 def test_floats_stray_where_the_others_do_not_holds() -> None:
-    start, steps = orbits.STARTS["orbit-edge"], Fraction(50)
+    start, steps = growth.STARTS["orbit-edge"], Fraction(50)
     assert (
         ORBITS["floats"].solve(start, steps)().distance
         > 1
@@ -312,7 +333,7 @@ def test_a_quick_run_ends_with_table_plot_and_verdict_holds(
         "no certified peer was measured" in said and "faster than every certified peer" not in said
     )
     assert "1e-1" in said and "1e-6" in said and "slope" in said
-    from benchmarks.bench.plot import ABSENT, can_plot
+    from juggleproof.benchmarks.bench.table import ABSENT, can_plot
 
     assert (
         (tmp_path / "bench" / "p-outside-R.svg").read_bytes().startswith(b"<?xml")
@@ -363,18 +384,8 @@ def test_rejects(defect: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert reason in said.err and len(said.err.strip().splitlines()) == 1 and not said.out
 
 
-def test_rejects_an_installation_without_benchmarks(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setitem(sys.modules, "benchmarks", None)
-    for name in [name for name in sys.modules if name.startswith("benchmarks.")]:
-        monkeypatch.delitem(sys.modules, name)
-    assert command(["bench", "--quick"]) == 2
-    assert "bench needs a checkout" in capsys.readouterr().err
-
-
 def test_rejects_a_question_that_is_not_rational() -> None:
-    from benchmarks.bench.questions import fraction
+    from juggleproof.benchmarks.bench.questions import fraction
 
     with pytest.raises(ClaimError, match="not rational"):
         fraction(sympy.sqrt(2))

@@ -8,8 +8,8 @@ from fractions import Fraction
 
 import pytest
 
-from benchmarks import orbits
-from scenes.juggler import orbit, point, scene
+from juggleproof.benchmarks import orbits
+from juggleproof.scenes.juggler import orbit, point, scene
 
 
 def test_slopes_are_those_of_powers_holds() -> None:

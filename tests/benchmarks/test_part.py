@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("numba")
 
-from benchmarks import part
+from juggleproof.benchmarks import part
 
 
 def test_benchmark_prints_every_figure_and_draws_holds(

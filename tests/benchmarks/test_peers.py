@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from benchmarks import peer_coq, peer_qepcad, peer_smt, peers
-from benchmarks.running import Clock
-from certificates.routes.questions import read_statement
+from juggleproof.benchmarks import peers
+from juggleproof.benchmarks.peers import Clock
+from juggleproof.certificates.votes.questions import read_statement
 from tests.certificates.routes.corpus import STATEMENTS
 
 SECONDS = 60.0  # far more than any of them takes, also on a busy machine
@@ -25,9 +25,9 @@ LINEAR = ("f1-in-H", "collision-time", "gain-identity")
 @pytest.mark.parametrize(
     "settle, present",
     [
-        (peer_smt.z3, peer_smt.z3_command()),
-        (peer_smt.cvc5, peer_smt.has_cvc5()),
-        (peer_qepcad.qepcad, peer_qepcad.has_qepcad()),
+        (peers.z3, peers.z3_command()),
+        (peers.cvc5, peers.has_cvc5()),
+        (peers.qepcad, peers.has_qepcad()),
         (peers.ours, True),
     ],
 )
@@ -48,20 +48,18 @@ def test_a_peer_gives_the_right_answer_holds(name: str, settle: Any, present: ob
     ],
 )
 def test_nra_proves_what_is_true_and_nothing_false_holds(name: str, answer: str) -> None:
-    if not peer_coq.has_coq():
+    if not peers.has_coq():
         pytest.skip("coqc is not installed")
-    assert peer_coq.coq_nra(STATEMENTS[name][0], SECONDS) == answer
+    assert peers.coq_nra(STATEMENTS[name][0], SECONDS) == answer
 
 
 def test_what_a_peer_has_no_words_for_is_not_expressible_holds() -> None:
     integer, exists = STATEMENTS["flight-count"][0], STATEMENTS["B1-plus-not-empty"][0]
-    assert peer_qepcad.qepcad(integer, SECONDS) == "not expressible"
-    assert (
-        peer_coq.coq_nra(integer, SECONDS) == peer_coq.coq_nra(exists, SECONDS) == "not expressible"
-    )
+    assert peers.qepcad(integer, SECONDS) == "not expressible"
+    assert peers.coq_nra(integer, SECONDS) == peers.coq_nra(exists, SECONDS) == "not expressible"
 
 
-@pytest.mark.parametrize("module", [peer_coq, peer_qepcad])
+@pytest.mark.parametrize("module", [peers, peers])
 def test_the_formats_are_those_of_the_examples_holds(module: Any) -> None:
     result = doctest.testmod(module)
     assert result.attempted and not result.failed
@@ -71,7 +69,7 @@ def test_disjunctions_and_fractions_are_written_for_nra_holds() -> None:
     statement = read_statement(
         "statement t/t\nforall x y\ngiven x/3 > 1 or y < -1/2\ngiven x*y != 0\nshow x^2 + y^2 > 1/4"
     )
-    (text,) = [peer_coq.goal(question) for question in peer_coq.questions(statement)]
+    (text,) = [peers.goal(question) for question in peers.questions(statement)]
     assert (
         text is not None
         and text.splitlines()[0]

@@ -1,5 +1,5 @@
 """The set of problems is what the README says of it; the whole of it is answered in CI by
-`python -m benchmarks.problems`.
+`python -m juggleproof.benchmarks.problems`.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ import zlib
 
 import pytest
 
-from benchmarks import problems
-from proofs.smtlib.script import problems_of_file
+from juggleproof.benchmarks import problems
+from juggleproof.proofs.smtlib.script import problems_of_file
 
 SCRIPTS = problems.scripts()
 SAMPLE = [path for path in SCRIPTS if zlib.crc32(path.name.encode()) % 6 == 0]

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from proofs.theorem import coq_table
-from proofs.theorem.coq_statements import current, statements
-from proofs.theorem.coq_table import Attraction, Piece
+from juggleproof.proofs.theorem import coq
+from juggleproof.proofs.theorem.coq import Attraction, Piece, current, statements
 from tests.coq.development import SOURCES, compiled, order
 
 # What Coq's standard Reals rest on; nothing else may be assumed.
@@ -129,13 +128,13 @@ TABLES: dict[str, Callable[[Attraction], Attraction]] = {
 
 @pytest.mark.parametrize("name", list(TABLES)[::SHARE])
 def test_rejects_a_changed_table(name: str, development: Path) -> None:
-    theorem = TABLES[name](coq_table.ball())
+    theorem = TABLES[name](coq.ball())
     text = statements(
         theorem,
-        coq_table.NEIGHBOURHOOD,
-        coq_table.other_orbit(),
-        coq_table.physical(),
-        coq_table.boundary_speed(),
+        coq.NEIGHBOURHOOD,
+        coq.other_orbit(),
+        coq.physical(),
+        coq.boundary_speed(),
     )
     assert text != current()
     result = compiled(development, "Mutant.v", text)

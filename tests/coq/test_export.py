@@ -12,12 +12,11 @@ from typing import Any
 
 import pytest
 
-from certificates import checker
-from certificates.coq_formulas import PRELUDE
-from certificates.coq_proofs import lemma
-from certificates.store import DEFAULT, Store
-from certificates.terms import ClaimError
-from proofs.command.main import run
+from juggleproof.certificates import checker
+from juggleproof.certificates.coq import PRELUDE, lemma
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.command.main import run
 from tests.coq.development import compiled, coqc
 
 

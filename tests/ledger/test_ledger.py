@@ -6,8 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from proofs.ledger.ledger import ROWS, LedgerError, Row, check_claims, check_rows, load_ledger
-from proofs.ledger.reasons import REASONS, REASONS_WITH_KEY, UNPRINTED
+from juggleproof.proofs.ledger.ledger import (
+    REASONS,
+    REASONS_WITH_KEY,
+    ROWS,
+    UNPRINTED,
+    LedgerError,
+    Row,
+    check_claims,
+    check_rows,
+    load_ledger,
+)
 
 Rows = list[Row]
 

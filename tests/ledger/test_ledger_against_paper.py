@@ -8,11 +8,17 @@ from pathlib import Path
 
 import pytest
 
-import proofs.ledger.ledger
-from proofs.ledger.ledger import LedgerError, Row, check_against_paper, load_ledger
-from proofs.ledger.scan import Item, scan
+from juggleproof.proofs.ledger import ledger
+from juggleproof.proofs.ledger.ledger import (
+    Item,
+    LedgerError,
+    Row,
+    check_against_paper,
+    load_ledger,
+    scan,
+)
 
-ROOT = Path(proofs.ledger.ledger.__file__).resolve().parents[2]
+ROOT = Path(ledger.__file__).resolve().parents[2]
 ARGUES = re.compile(
     r"\b(since|therefore|thus|conclude|note that|noting|because|it follows|so"
     r" that|must|moreover|hence)\b",
@@ -92,7 +98,7 @@ def test_every_formula_that_relates_two_sides_has_claims(
 def test_no_row_of_prose_can_be_read_back_from_the_ledger(
     rows: list[Row], items: list[Item]
 ) -> None:
-    text = Path(proofs.ledger.ledger.ROWS).read_text(encoding="utf-8")
+    text = Path(ledger.ROWS).read_text(encoding="utf-8")
     assert not [
         item.key
         for item in items

@@ -4,7 +4,7 @@ order.
 
 import pytest
 
-from proofs.ledger.scan import Item, scan
+from juggleproof.proofs.ledger.ledger import Item, scan
 
 
 def shape(text: str) -> list[tuple[str, int, str]]:

@@ -39,10 +39,11 @@ from search_needs import (
     without,
 )
 
-from certificates import checker
-from certificates.store import DEFAULT, Store
-from certificates.terms import reals
-from proofs.paper import events, orbits, outside, vocabulary
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import reals
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.paper import names, regions
+from juggleproof.proofs.paper import states as orbits
 
 HERE = Path(__file__).resolve().parent
 TABLE, GIVEN_REASONS = HERE / "hypotheses.txt", HERE / "hypothesis_reasons.tsv"
@@ -64,7 +65,7 @@ REASONS = {
 }
 STANDING = [
     str(formula)
-    for table in (vocabulary.WITH_INTEGER_K.ranges, vocabulary.WITH_INTEGER_K.givens)
+    for table in (names.WITH_INTEGER_K.ranges, names.WITH_INTEGER_K.givens)
     for formulas in table.values()
     for formula in formulas
 ]
@@ -139,27 +140,27 @@ def meanings() -> dict[str, str]:
     """What the conditions for regions and impacts say, as statements write them, and the reason
     that they are.
     """
-    b, b_0, f1 = vocabulary.b, orbits.b_0, vocabulary.f1
+    b, b_0, f1 = names.b, orbits.b_0, names.f1
     inside = (
-        vocabulary.H,
-        vocabulary.STRIKES,
-        vocabulary.B1,
-        vocabulary.B2,
-        vocabulary.R,
-        vocabulary.B1_ZERO,
-        vocabulary.B1_PLUS,
-        outside.CLOSED_B1,
-        outside.ON_R,
+        names.H,
+        names.STRIKES,
+        names.B1,
+        names.B2,
+        names.R,
+        names.B1_ZERO,
+        names.B1_PLUS,
+        regions.CLOSED_B1,
+        regions.ON_R,
     )
     states = [region(state) for region in inside for state in (b, b_0)] + [
-        vocabulary.H(f1(b)),
-        vocabulary.H(vocabulary.f2(b)),
+        names.H(f1(b)),
+        names.H(names.f2(b)),
     ]
     t, tau = reals("t tau")
-    impacts = [events.strikes_at(t), events.meet(t)]
+    impacts = [names.strikes_at(t), names.meet(t)]
     impacts += [
         orbits.strikes_from(start, time)
-        for start in (b, b_0, events.vector(f1(b)))
+        for start in (b, b_0, names.vector(f1(b)))
         for time in (t, tau)
     ]
     found = {

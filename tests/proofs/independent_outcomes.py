@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from flint import fmpq
 from independent import NAMES, Independent, Point, compiled, named_values
 
-from certificates import checker
+from juggleproof.certificates import checker
 
 POINTS, PARAMETERS, INSIDE, STEPS = 1_000, 20, 20, 4
 

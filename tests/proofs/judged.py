@@ -7,10 +7,10 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from certificates import checker
-from certificates.statements import Statement
-from proofs.claims import Claim, assertions, named_statements
-from proofs.reading.printed import read
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import Statement
+from juggleproof.proofs.claims import Claim, assertions, named_statements
+from juggleproof.proofs.reading.meaning import read
 
 
 def content(claim: Claim, latex: str) -> list[Any]:

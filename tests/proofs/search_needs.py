@@ -14,12 +14,12 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from certificates import checker
-from certificates.routes.z3_route import vote
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import found, search_proof
-from certificates.search.condition import Condition, ring_of
-from certificates.search.points import as_found, assignments
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.conditions import Condition, ring_of
+from juggleproof.certificates.search.certificate import found, search_proof
+from juggleproof.certificates.search.points import as_found_point, assignments
+from juggleproof.certificates.votes.z3 import vote
+from juggleproof.certificates.work import Budget, Exhausted
 
 NEEDED, LICENSES, NOT_NEEDED, UNDECIDED = "needed", "licenses a division", "not needed", "undecided"
 BUDGET = 2_000_000
@@ -229,7 +229,7 @@ def refuted_there(plain: checker.Statement, narrow: checker.Statement, budget: B
     names, integers = list(story.universal), frozenset(story.integers)
     for effort in (0, 1):
         for assignment in islice(assignments(condition, names, integers, budget, effort), 8):
-            refutation = as_found(
+            refutation = as_found_point(
                 plain,
                 checker.State(checker.Context()),
                 assignment,

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from certificates import checker
-from certificates.coq_proofs import lemma
-from certificates.terms import ClaimError, reals
-from proofs.bounds import ATTAINED, LOWER, enclose_minimum
-from proofs.command.bound import decimals
-from proofs.command.main import run
+from juggleproof.certificates import checker
+from juggleproof.certificates.coq import lemma
+from juggleproof.certificates.language import ClaimError, reals
+from juggleproof.proofs.bounds import ATTAINED, LOWER, enclose_minimum
+from juggleproof.proofs.command.bound import decimals
+from juggleproof.proofs.command.main import run
 
 UNIT = {"x": (0, 1)}
 README = Path(__file__).resolve().parents[2] / "README.md"

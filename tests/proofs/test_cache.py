@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from certificates.store import canonical
-from proofs import cache
+from juggleproof.certificates.store import canonical
+from juggleproof.proofs import kept
 
 KEY = "0" * 64
 RECORDS = [{"id": "a", "says": "It says so."}, {"id": "b"}]
@@ -18,80 +18,80 @@ RECORDS = [{"id": "a", "says": "It says so."}, {"id": "b"}]
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "kept"))
+    monkeypatch.setenv(kept.VARIABLE, str(tmp_path / "kept"))
     return tmp_path / "kept"
 
 
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
-    for package in cache.SOURCES:
+    for package in kept.SOURCES:
         (tmp_path / "tree" / package / "inner").mkdir(parents=True)
         (tmp_path / "tree" / package / "inner" / "one.py").write_text("x = 1\n", encoding="utf-8")
     return tmp_path / "tree"
 
 
-@pytest.mark.parametrize("package", cache.SOURCES)
+@pytest.mark.parametrize("package", kept.SOURCES)
 def test_a_changed_source_changes_the_key_holds(package: str, tree: Path) -> None:
     path = tree / package / "inner" / "one.py"
-    seen = [cache.key(root=tree)]
-    assert cache.key(root=tree) == seen[0]
+    seen = [kept.key(root=tree)]
+    assert kept.key(root=tree) == seen[0]
     path.write_text("x = 2\n", encoding="utf-8")
-    seen.append(cache.key(root=tree))
+    seen.append(kept.key(root=tree))
     path.rename(path.with_name("two.py"))
-    seen.append(cache.key(root=tree))
+    seen.append(kept.key(root=tree))
     path.write_text("", encoding="utf-8")
-    seen.append(cache.key(root=tree))
+    seen.append(kept.key(root=tree))
     assert len(set(seen)) == len(seen)
 
 
 def test_settings_and_versions_change_the_key_holds(
     tree: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    seen = {cache.key(1, root=tree), cache.key(2, root=tree)}
+    seen = {kept.key(1, root=tree), kept.key(2, root=tree)}
     monkeypatch.setattr(
-        cache, "version_of", lambda tool: "another" if tool == "sympy" else "the same"
+        kept, "version_of", lambda tool: "another" if tool == "sympy" else "the same"
     )
-    seen.add(cache.key(1, root=tree))
-    monkeypatch.setattr(cache.sys, "version", "another")
-    seen.add(cache.key(1, root=tree))
+    seen.add(kept.key(1, root=tree))
+    monkeypatch.setattr(kept.sys, "version", "another")
+    seen.add(kept.key(1, root=tree))
     assert len(seen) == 4
 
 
 def test_the_key_reads_the_prints_and_the_checker_holds() -> None:
-    read = {path.relative_to(cache.ROOT).as_posix() for path in cache._sources(cache.ROOT)}
+    read = {path.relative_to(kept.ROOT).as_posix() for path in kept._sources(kept.ROOT)}
     assert {
         "certificates/checker.py",
-        "proofs/paper/a3_supremum.py",
+        "proofs/paper/a3_a4_supremum.py",
         "proofs/reading/parser.py",
         "symbolic/bounds.py",
     } <= read
 
 
 def test_records_come_back_holds(place: Path) -> None:
-    assert cache.load(KEY) == []
-    cache.keep(KEY, RECORDS)
-    assert cache.load(KEY) == RECORDS
-    assert cache.load("1" * 64) == []
+    assert kept.load(KEY) == []
+    kept.keep(KEY, RECORDS)
+    assert kept.load(KEY) == RECORDS
+    assert kept.load("1" * 64) == []
     assert [path.name for path in place.iterdir()] == [f"{KEY}.json"]
 
 
 def test_rejects_truncated_and_changed_files(place: Path) -> None:
-    cache.keep(KEY, RECORDS)
+    kept.keep(KEY, RECORDS)
     path = place / f"{KEY}.json"
     whole = path.read_bytes()
     for end in range(len(whole)):
         path.write_bytes(whole[:end])
-        assert cache.load(KEY) == []
+        assert kept.load(KEY) == []
         path.write_bytes(whole[:end] + bytes([whole[end] ^ 1]) + whole[end + 1 :])
-        assert cache.load(KEY) == []
+        assert kept.load(KEY) == []
     path.write_bytes(whole)
-    assert cache.load(KEY) == RECORDS
+    assert kept.load(KEY) == RECORDS
 
 
 def test_rejects_a_file_of_another_key(place: Path) -> None:
-    cache.keep(KEY, RECORDS)
+    kept.keep(KEY, RECORDS)
     (place / f"{KEY}.json").rename(place / f"{'1' * 64}.json")
-    assert cache.load("1" * 64) == []
+    assert kept.load("1" * 64) == []
 
 
 @pytest.mark.parametrize(
@@ -111,13 +111,13 @@ def test_rejects_what_is_no_list_of_records(content: bytes, place: Path) -> None
     place.mkdir()
     digest = hashlib.sha256(KEY.encode() + content).hexdigest().encode()
     (place / f"{KEY}.json").write_bytes(digest + b"\n" + content)
-    assert cache.load(KEY) == []
+    assert kept.load(KEY) == []
 
 
 def test_rejects_a_file_that_others_may_write(place: Path) -> None:
-    cache.keep(KEY, RECORDS)
+    kept.keep(KEY, RECORDS)
     (place / f"{KEY}.json").chmod(0o666)
-    assert cache.load(KEY) == []
+    assert kept.load(KEY) == []
 
 
 def test_a_folder_that_cannot_be_written_is_no_error_holds(
@@ -125,9 +125,9 @@ def test_a_folder_that_cannot_be_written_is_no_error_holds(
 ) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     for place in (tmp_path / "file", tmp_path / "file" / "below"):
-        monkeypatch.setenv(cache.VARIABLE, str(place))
-        cache.keep(KEY, RECORDS)
-        assert cache.load(KEY) == []
+        monkeypatch.setenv(kept.VARIABLE, str(place))
+        kept.keep(KEY, RECORDS)
+        assert kept.load(KEY) == []
     assert (tmp_path / "file").read_bytes() == b""
 
 
@@ -135,12 +135,12 @@ def test_off_and_no_home_keep_nothing_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setenv(cache.VARIABLE, "off")
-    cache.keep(KEY, RECORDS)
-    assert cache.folder() is None and cache.load(KEY) == [] and not list(tmp_path.iterdir())
-    monkeypatch.delenv(cache.VARIABLE)
-    cache.keep(KEY, RECORDS)
-    assert cache.load(KEY) == RECORDS and [path.name for path in tmp_path.iterdir()] == [
+    monkeypatch.setenv(kept.VARIABLE, "off")
+    kept.keep(KEY, RECORDS)
+    assert kept.folder() is None and kept.load(KEY) == [] and not list(tmp_path.iterdir())
+    monkeypatch.delenv(kept.VARIABLE)
+    kept.keep(KEY, RECORDS)
+    assert kept.load(KEY) == RECORDS and [path.name for path in tmp_path.iterdir()] == [
         "juggleproof"
     ]
     monkeypatch.delenv("XDG_CACHE_HOME")
@@ -148,14 +148,14 @@ def test_off_and_no_home_keep_nothing_holds(
     def homeless() -> Path:
         raise RuntimeError("no home")
 
-    monkeypatch.setattr(cache.Path, "home", homeless)
-    assert cache.folder() is None
+    monkeypatch.setattr(kept.Path, "home", homeless)
+    assert kept.folder() is None
 
 
 def test_only_the_latest_files_are_kept_holds(place: Path) -> None:
-    for number in range(cache.KEPT + 3):
-        cache.keep(f"{number:064x}", RECORDS)
-    assert len(list(place.iterdir())) == cache.KEPT
+    for number in range(kept.KEPT + 3):
+        kept.keep(f"{number:064x}", RECORDS)
+    assert len(list(place.iterdir())) == kept.KEPT
     (place / "notes.txt").write_text(canonical({}).decode(), encoding="utf-8")
-    cache.keep(KEY, RECORDS)
+    kept.keep(KEY, RECORDS)
     assert (place / "notes.txt").exists()

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from certificates import checker
-from certificates.store import DEFAULT, canonical
-from proofs.checking import Reading, shares
+from juggleproof.certificates import checker
+from juggleproof.certificates.store import DEFAULT, canonical
+from juggleproof.proofs.run import Reading, shares
 
 CLOSE = ["close"]
 TRUE = "forall x\nshow x^2 >= 0"

@@ -24,7 +24,7 @@ HEAD = (
 def run(*arguments: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
     return subprocess.run(
-        [sys.executable, "-m", "proofs.command.main", *arguments],
+        [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
         capture_output=True,
         text=True,
         cwd=cwd,
@@ -96,7 +96,7 @@ def test_rejects_claim_with(defect: str, tmp_path: Path) -> None:
 
 def test_rejects_undeclared_symbol(tmp_path: Path) -> None:
     body = "Statement('', ('x',), (), x < y)"
-    done = certify(claim_file(tmp_path, body, more="from proofs import Statement\n"))
+    done = certify(claim_file(tmp_path, body, more="from juggleproof.proofs import Statement\n"))
     assert done.returncode == 2 and "undeclared symbol y" in done.stderr
 
 
@@ -206,7 +206,15 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
     path.write_text(path.read_text(encoding="utf-8") + slow, encoding="utf-8")
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     process = subprocess.Popen(
-        [sys.executable, "-m", "proofs.command.main", "certify", str(path), "--jobs", "2"],
+        [
+            sys.executable,
+            "-m",
+            "juggleproof.proofs.command.main",
+            "certify",
+            str(path),
+            "--jobs",
+            "2",
+        ],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -231,7 +239,9 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
     ],
 )
 def test_rejects_claim_whose_function_fails(body: str, told: str, tmp_path: Path) -> None:
-    done = certify(claim_file(tmp_path, body, more="from proofs import MapRule, exists_some"))
+    done = certify(
+        claim_file(tmp_path, body, more="from juggleproof.proofs import MapRule, exists_some")
+    )
     assert (
         done.returncode == 2
         and told in done.stderr
@@ -265,7 +275,7 @@ def test_rejects_wrong_arguments_in_one_line(tmp_path: Path) -> None:
         )
 
 
-RULES = '''from proofs import MapRule, claim
+RULES = '''from juggleproof.proofs import MapRule, claim
 
 
 @claim("mine")
@@ -325,7 +335,7 @@ def test_claims_that_the_readme_shows_hold(tmp_path: Path) -> None:
 def test_rejects_standard_output_that_is_full(arguments: tuple[str, ...]) -> None:
     with open("/dev/full", "w", encoding="utf-8") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "proofs.command.main", *arguments],
+            [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
@@ -342,7 +352,8 @@ def test_rejects_standard_output_that_is_full(arguments: tuple[str, ...]) -> Non
 
 def test_a_closed_standard_output_changes_nothing_holds(tmp_path: Path) -> None:
     command = (
-        f"{shlex.quote(sys.executable)} -m proofs.command.main bound x --box x=0..1 --width 0 -o"
+        f"{shlex.quote(sys.executable)} -m juggleproof.proofs.command.main"
+        " bound x --box x=0..1 --width 0 -o"
         f" {shlex.quote(str(tmp_path / 'bound'))} >&-"
     )
     done = subprocess.run(

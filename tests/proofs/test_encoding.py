@@ -13,10 +13,10 @@ import sympy
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-import symbolic
-from certificates.terms import ClaimError
-from proofs.encoding import from_sympy
-from proofs.paper.vocabulary import encoded
+from juggleproof import symbolic
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.paper.names import encoded
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reading"))
 

@@ -9,11 +9,11 @@ import re
 
 import pytest
 
-from certificates.store import DEFAULT, Store
-from proofs.command import errata
-from proofs.command.certify import FINDINGS
-from proofs.loading import paper_claims
-from proofs.register import load_register
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.command.certify import FINDINGS
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports import errata
+from juggleproof.proofs.run import paper_claims
 
 TITLES = list(errata.GROUPS.values())
 

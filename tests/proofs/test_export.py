@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from certificates.store import DEFAULT, Store
-from certificates.terms import ClaimError
-from proofs.command.export import export_smt2
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.command.show import export_smt2
 
 
 def heads(text: str) -> list[str]:

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from certificates import checker
-from certificates.terms import reals
-from proofs.forms import Vocabulary, always
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import reals
+from juggleproof.proofs.forms import Vocabulary, always
 
 a, b, x, y = reals("a b x y")
 

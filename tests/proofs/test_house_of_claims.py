@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from certificates import checker
-from certificates.store import DEFAULT, Store
-from proofs.command import readme, show
-from proofs.ledger.ledger import check_claims, load_ledger
-from proofs.loading import paper_claims
-from proofs.register import changes, load_register
-from proofs.verdicts import VERDICTS
+from juggleproof.certificates import checker
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.claims import VERDICTS
+from juggleproof.proofs.command import certify, show
+from juggleproof.proofs.ledger.ledger import check_claims, load_ledger
+from juggleproof.proofs.register import changes, load_register
+from juggleproof.proofs.run import paper_claims
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -52,8 +52,8 @@ def test_bare_checker_accepts_the_store_holds() -> None:
 
 
 def test_readme_shows_the_register_holds() -> None:
-    text = readme.README.read_text(encoding="utf-8")
-    assert readme.with_results(text) == text, (
+    text = certify.README.read_text(encoding="utf-8")
+    assert certify.with_results(text) == text, (
         "run juggleproof certify --accept, which writes the results into README.md"
     )
 

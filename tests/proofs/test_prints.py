@@ -14,11 +14,11 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from judged import content
 
-from certificates import checker
-from certificates.terms import ClaimError
-from proofs.claims import Claim
-from proofs.loading import paper_claims
-from proofs.reading.mutations import mutations
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.reading.edits import mutations
+from juggleproof.proofs.run import paper_claims
 
 REVIEWED = Path(__file__).with_name("changes_that_mean_the_same.tsv")
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from proofs.register import load_register
+from juggleproof.proofs.register import load_register
 from tests.reports.runs import FALSE, HOLDS, OPEN, file_with
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,7 +25,7 @@ def inner(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.
     installed or not.
     """
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
-    monkeypatch.setenv("PYTEST_PLUGINS", "proofs.pytest_plugin")
+    monkeypatch.setenv("PYTEST_PLUGINS", "juggleproof.proofs.pytest_plugin")
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     monkeypatch.delenv("PYTEST_ADDOPTS", raising=False)
     return pytester
@@ -123,7 +123,8 @@ def test_without_the_options_nothing_is_judged_holds(inner: pytest.Pytester) -> 
         ("x = 1\n", "mine.py: no claims; decorate"),
         (
             (
-                "from proofs import always, claim, reals\nx, = reals('x')\n@claim('a')\ndef a():\n "
+                "from juggleproof.proofs import always, claim, reals\n"
+                "x, = reals('x')\n@claim('a')\ndef a():\n "
                 "   'A.'\n    return always(x < 0.5)\n"
             ),
             "0.5 is not exact",
@@ -160,11 +161,11 @@ def test_rejects_claim_of_a_file_with_a_name_of_the_paper(inner: pytest.Pytester
 
 
 COUNTING = """
-import proofs.register
+from juggleproof.proofs import register
 from pathlib import Path
-import proofs.command.certify as certify
+from juggleproof.proofs.command import certify
 
-proofs.register.PATH = Path(__file__).with_name("register.json")
+register.PATH = Path(__file__).with_name("register.json")
 judged, run = [], certify.run
 
 def counted(*arguments):
@@ -212,7 +213,9 @@ def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
 
 def test_plugin_is_registered_and_cheap_to_load_holds() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    assert project["entry-points"]["pytest11"] == {"juggleproof": "proofs.pytest_plugin"}
+    assert project["entry-points"]["pytest11"] == {
+        "juggleproof": "juggleproof.proofs.pytest_plugin"
+    }
     heavy = {
         "sympy",
         "z3",
@@ -221,11 +224,13 @@ def test_plugin_is_registered_and_cheap_to_load_holds() -> None:
         "mpmath",
         "numpy",
         "rich",
-        "proofs.judging",
-        "proofs.command",
-        "proofs.paper",
+        "juggleproof.proofs.judging",
+        "juggleproof.proofs.command",
+        "juggleproof.proofs.paper",
     }
-    code = f"import sys, proofs.pytest_plugin; print(sorted({heavy} & set(sys.modules)))"
+    code = (
+        f"import sys, juggleproof.proofs.pytest_plugin; print(sorted({heavy} & set(sys.modules)))"
+    )
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
     )

@@ -8,17 +8,29 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates.terms import ClaimError, reals
-from proofs.command import bounds, theorem
-from proofs.command.main import run
-from proofs.command.numbers import exact, shown
-from proofs.theorem import quantities
-from proofs.theorem.comparison import bracket, entry_into_region, into_region
-from proofs.theorem.counts import PRINTED_LOSS, TRUE_LOSS
-from proofs.theorem.definition import CORE, TRAP
-from proofs.theorem.exact import ceiling, least_integer, sign_with_root, value_of
-from proofs.theorem.orbits import State, a_state, flight_length, moves, step
-from proofs.theorem.quantities import Bound
+from juggleproof.certificates.language import ClaimError, reals
+from juggleproof.proofs.command import theorem
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.reports.tables import exact, shown
+from juggleproof.proofs.theorem import quantities
+from juggleproof.proofs.theorem.definition import (
+    CORE,
+    TRAP,
+    ceiling,
+    least_integer,
+    sign_with_root,
+    value_of,
+)
+from juggleproof.proofs.theorem.orbits import (
+    PRINTED_LOSS,
+    TRUE_LOSS,
+    State,
+    a_state,
+    flight_length,
+    moves,
+    step,
+)
+from juggleproof.proofs.theorem.quantities import Bound, bracket, entry_into_region, into_region
 
 THIRD = Fraction(1, 3)
 below_a_third = st.fractions(Fraction(1, 100), Fraction(33, 100), max_denominator=100)
@@ -250,14 +262,15 @@ def test_bounds_of_the_paper_in_known_rows_holds() -> None:
     assert (row.true, row.printed, row.impacts.impacts) == ((3, 4), (0, 1), 2)
     assert row.time.time > row.flight == Fraction(29, 8)
     assert [
-        bool(bounds.violations([row], measure, loss, "ceiling"))
-        for measure in bounds.MEASURES
-        for loss in bounds.LOSSES
+        bool(theorem.violations([row], measure, loss, "ceiling"))
+        for measure in theorem.MEASURES
+        for loss in theorem.LOSSES
     ] == [False, True, False, True, False, True]
     # At the border of R (26) is early of sampled states only.
     row = into_region(Fraction(3, 10), Fraction(41, 16))
     assert [
-        bool(bounds.violations([row], measure, "derived", "ceiling")) for measure in bounds.MEASURES
+        bool(theorem.violations([row], measure, "derived", "ceiling"))
+        for measure in theorem.MEASURES
     ] == [False, False, True]
 
 

@@ -8,15 +8,14 @@ from fractions import Fraction
 import pytest
 from flint import fmpq_poly
 
-from certificates import checker
-from certificates.search.algebraic import real_roots
-from certificates.search.ranges import Line
-from certificates.statements import Statement
-from certificates.terms import conjunction, real, reals
-from proofs.claims import Assertion, Claim
-from proofs.hypotheses import read, speaks_of_range
-from proofs.judging import Options, judge
-from proofs.ranges import search_sharp_range, told
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.numbers import real_roots
+from juggleproof.certificates.language import Statement, conjunction, real, reals
+from juggleproof.certificates.search.ranges import Line
+from juggleproof.proofs.claims import Assertion, Claim
+from juggleproof.proofs.forms import read, speaks_of_range
+from juggleproof.proofs.judging import Options, judge
+from juggleproof.proofs.ranges import search_sharp_range, told
 
 alpha, K, n, k, x = reals("alpha K n k x")
 WHOLE = (("range", alpha > 0), ("range", alpha < 1))

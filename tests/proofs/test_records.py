@@ -13,15 +13,16 @@ from typing import Any
 
 import pytest
 
-from certificates import checker
-from proofs import cache, loading, recall
-from proofs.claims import Claim
-from proofs.command import certify as command
-from proofs.command import show
-from proofs.command.main import run
-from proofs.derivations import body_and_derivations
-from proofs.judging import DEFAULT_BUDGET
-from proofs.records import claim_of
+from juggleproof.certificates import checker
+from juggleproof.proofs import kept as cache
+from juggleproof.proofs import run as loading
+from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.command import certify as command
+from juggleproof.proofs.command import show
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.derivations import body_and_derivations
+from juggleproof.proofs.judging import DEFAULT_BUDGET
+from juggleproof.proofs.kept import claim_of
 
 # Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem and
 # one, one that nothing corrects, sharp ranges.
@@ -64,7 +65,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 def few(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(command, "paper_claims", lambda: PAPER)
-    patch.setattr(recall, "paper_claims", lambda: PAPER)
+    patch.setattr(loading, "paper_claims", lambda: PAPER)
     patch.setattr(show, "paper_claims", lambda: PAPER)
 
 
@@ -92,7 +93,7 @@ def nothing_is_stated(patch: pytest.MonkeyPatch) -> None:
     def refuse() -> list[Claim]:
         raise AssertionError("the claims were loaded from their sources")
 
-    patch.setattr(recall, "paper_claims", refuse)
+    patch.setattr(loading, "paper_claims", refuse)
     patch.setattr(command, "paper_claims", refuse)
     patch.setattr(show, "paper_claims", refuse)
 
@@ -208,7 +209,7 @@ def test_rejects_records_that_say_something_else(
     place: Path, output: Callable[..., dict[str, str]]
 ) -> None:
     plain = output("--jobs", "1")
-    key = recall.Records(DEFAULT_BUDGET).key
+    key = loading.Records(DEFAULT_BUDGET).key
     kept = records_of(place)
     for defect, records in lies(kept):
         cache.keep(key, records)
@@ -222,10 +223,10 @@ def test_rejects_the_body_of_a_claim_from_its_record_alone() -> None:
         ("id", "section", "place", "says", "printed", "as_it_stands", "repeats", "source"), ""
     )
     claim = claim_of({**record, "parameters": ["alpha"], "nearby": True})
-    with pytest.raises(recall.Forgotten):
+    with pytest.raises(loading.Forgotten):
         claim.body()
     assert claim.nearby is not None
-    with pytest.raises(recall.Forgotten):
+    with pytest.raises(loading.Forgotten):
         claim.nearby[1]()
 
 

@@ -15,10 +15,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from certificates.store import DEFAULT
-from proofs.command import certify
-from proofs.command.main import run
-from proofs.register import PATH, Change, load_register
+from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.command import certify
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.register import PATH, Change, load_register
 from tests.reports.runs import FALSE, HOLDS, file_with
 
 Certify = Callable[..., int]

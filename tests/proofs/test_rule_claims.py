@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIMS = """
-from proofs import MapRule, claim
+from juggleproof.proofs import MapRule, claim
 
 @claim("mine")
 def it_comes_to_rest():
@@ -37,7 +37,7 @@ def certify(folder: Path, on: str) -> subprocess.CompletedProcess[str]:
         [
             sys.executable,
             "-m",
-            "proofs.command.main",
+            "juggleproof.proofs.command.main",
             "certify",
             str(path),
             "--routes",
@@ -79,7 +79,8 @@ def test_no_claim_is_left_out_where_its_file_was_loaded_before() -> None:
                 sys.executable,
                 "-c",
                 (
-                    f"{before}from proofs.loading import paper_claims\nprint(*(one.id for one in"
+                    f"{before}from juggleproof.proofs.run import paper_claims\n"
+                    "print(*(one.id for one in"
                     " paper_claims()))"
                 ),
             ],
@@ -89,6 +90,9 @@ def test_no_claim_is_left_out_where_its_file_was_loaded_before() -> None:
             cwd=ROOT,
             timeout=240,
         ).stdout
-        for before in ("", "import proofs.theorem.sharper, proofs.paper.s4_2_proposition\n")
+        for before in (
+            "",
+            "import juggleproof.proofs.theorem.orbits, juggleproof.proofs.paper.s4_2_proposition\n",
+        )
     ]
     assert told[0] == told[1] and "theorem-roots" in told[0]

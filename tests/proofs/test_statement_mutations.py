@@ -24,11 +24,11 @@ from independent import Independent
 from independent_outcomes import iterates_contradiction
 from statement_mutants import mutants
 
-from certificates import checker
-from certificates.routes.z3_route import vote
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import search_certificate
-from certificates.store import DEFAULT, Store
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.certificate import search_certificate
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.votes.z3 import vote
+from juggleproof.certificates.work import Budget, Exhausted
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 SHARE = 1 if ALL else 40  # one certified statement in so many

@@ -27,8 +27,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 from independent_outcomes import contradiction
 from statement_mutants import changes
 
-from certificates import checker
-from certificates.store import DEFAULT, Store
+from juggleproof.certificates import checker
+from juggleproof.certificates.store import DEFAULT, Store
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
 SHARE, FIELDS, LINES = (

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from certificates import checker
-from certificates.store import DEFAULT, Store
+from juggleproof.certificates import checker
+from juggleproof.certificates.store import DEFAULT, Store
 
 Json = Any
 CLAIMS = ("theorem-roots", "theorem")

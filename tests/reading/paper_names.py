@@ -5,10 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from certificates.terms import Formula, Term, equal, reals, term
-from proofs.reading.environment import Environment
-from proofs.reading.notions import Region, StateFunction
-from proofs.reading.values import Matrix, Scalar, Vector
+from juggleproof.certificates.language import Formula, Term, equal, reals, term
+from juggleproof.proofs.reading.evaluation import Environment
+from juggleproof.proofs.reading.values import Matrix, Region, Scalar, StateFunction, Vector
 
 ALPHA, BETA, V, R, G, TIME, K, EPS, S, LAMBDA = reals("alpha beta v r g t K eps s mu")
 BETA0, V0 = reals("beta0 v0")

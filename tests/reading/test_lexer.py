@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import pytest
 
-from proofs.reading.errors import PrintError
-from proofs.reading.lexer import lex
+from juggleproof.proofs.reading.lexer import PrintError, lex
 
 
 def texts(latex: str) -> list[str]:

@@ -9,19 +9,20 @@ from typing import Any
 
 import pytest
 
-from certificates.terms import ClaimError, Term, equal, implies, reals
-from proofs.reading.environment import Environment
-from proofs.reading.errors import PrintError
-from proofs.reading.notions import (
+from juggleproof.certificates.language import ClaimError, Term, equal, implies, reals
+from juggleproof.proofs.reading.evaluation import Environment
+from juggleproof.proofs.reading.lexer import PrintError
+from juggleproof.proofs.reading.meaning import Printed, read
+from juggleproof.proofs.reading.values import (
     ExtremalValue,
     LimitValue,
+    Matrix,
     Region,
     Restricted,
     Rounded,
     StateFunction,
+    Vector,
 )
-from proofs.reading.printed import Printed, read
-from proofs.reading.values import Matrix, Vector
 from tests.reading.displays import ALL
 from tests.reading.paper_names import BETA, KINETIC, PAPER, POINTS, WIDE, V, value_at
 

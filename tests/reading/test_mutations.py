@@ -10,12 +10,12 @@ from fractions import Fraction
 
 import pytest
 
-from certificates.terms import Formula
-from proofs.reading import environment, lexer, parser
-from proofs.reading.errors import PrintError
-from proofs.reading.mutations import ALTERNATIVES, mutations, one_mark_changes
-from proofs.reading.parser import parse
-from proofs.reading.printed import Printed
+from juggleproof.certificates.language import Formula
+from juggleproof.proofs.reading import evaluation, lexer, parser
+from juggleproof.proofs.reading.edits import ALTERNATIVES, mutations, one_mark_changes
+from juggleproof.proofs.reading.lexer import PrintError
+from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.parser import parse
 from tests.reading.displays import ALL
 from tests.reading.paper_names import KINETIC, PAPER, WIDE, value_at
 
@@ -52,7 +52,7 @@ REVIEWED = {
 }
 
 
-def formula_of(latex: str) -> tuple[Formula, environment.Environment] | None:
+def formula_of(latex: str) -> tuple[Formula, evaluation.Environment] | None:
     for names in (PAPER, WIDE, KINETIC):
         try:
             return Printed(latex).formula(names), names
@@ -190,7 +190,7 @@ def test_all_displays_are_lexed_parsed_and_evaluated_quickly() -> None:
     """Counted in calls of Python's functions, which no other load of the machine changes: 10^5 take
     a tenth of a second.
     """
-    for cached in (lexer.lex, parser.parse, environment._key):
+    for cached in (lexer.lex, parser.parse, evaluation._key):
         cached.cache_clear()
     calls = Counter[str]()
     sys.setprofile(lambda _frame, event, _of: calls.update([event]) if event == "call" else None)

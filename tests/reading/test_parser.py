@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import pytest
 
-from proofs.reading.errors import PrintError
-from proofs.reading.parser import parse
-from proofs.reading.tree import (
+from juggleproof.proofs.reading.lexer import PrintError
+from juggleproof.proofs.reading.parser import parse
+from juggleproof.proofs.reading.tree import (
     Absolute,
     Binary,
     Cases,

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from certificates.terms import ClaimError, reals
-from proofs.reading.values import Matrix, ShapeError, Vector, over, plus, times
+from juggleproof.certificates.language import ClaimError, reals
+from juggleproof.proofs.reading.values import Matrix, ShapeError, Vector, over, plus, times
 
 rationals = st.fractions(min_value=-9, max_value=9, max_denominator=9)
 vectors = st.tuples(rationals, rationals).map(Vector)

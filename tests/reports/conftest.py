@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from proofs import cache
+from juggleproof.proofs import kept as cache
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
-from proofs.reports.contents import Contents, gather
-from proofs.reports.page import Picture, build, pictures
+from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.page import Picture, build, pictures
 
 
 @cache

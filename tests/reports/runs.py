@@ -11,14 +11,17 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from certificates.store import DEFAULT
-from proofs.command.certify import Run, run
-from proofs.command.main import build_parser
-from proofs.register import load_register
-from proofs.reports.contents import Contents, gather
-from proofs.reports.results import Results, results_of_run
+from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.command.certify import Run, run
+from juggleproof.proofs.command.main import build_parser
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.results import Results, results_of_run
 
-HEAD = "from proofs import MapRule, always, claim, exists_some, reals\nx, y = reals('x y')\n"
+HEAD = (
+    "from juggleproof.proofs import MapRule, always, claim, exists_some, reals\n"
+    "x, y = reals('x y')\n"
+)
 CLAIMS = {
     "squares": "always(x * y <= (x**2 + y**2) / 2)",
     "above": "always(x**2 > x, given=[x > 0])",

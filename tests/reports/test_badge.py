@@ -8,9 +8,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from proofs.register import load_register
-from proofs.reports.badge import BAD, GOOD, NAME, badge
-from proofs.reports.results import Results
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.ci import BAD, GOOD, NAME, badge
+from juggleproof.proofs.reports.results import Results
 from tests.reports.runs import HOLDS, OPEN, gathered, own, paper
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -11,12 +11,11 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from proofs.command import report
-from proofs.register import load_register
-from proofs.reports.badge import badge
-from proofs.reports.data import SCHEMA, SCHEMA_FILE, TOOLS, as_json
-from proofs.reports.markdown import markdown
-from proofs.reports.results import Results, results_of
+from juggleproof.proofs.command import report
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.ci import badge, markdown
+from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json
+from juggleproof.proofs.reports.results import Results, results_of
 from tests.reports.runs import FALSE, OPEN, gathered, own, paper
 
 DESCRIBED = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))

@@ -8,11 +8,10 @@ from functools import cache
 
 import pytest
 
-from certificates import checker
-from proofs.reports.contents import Contents, gather
-from proofs.reports.latex import latex_of
-from proofs.reports.notation import narrow, with_macros, without_macros
-from proofs.reports.statements import formulas_of
+from juggleproof.certificates import checker
+from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.latex import latex_of, narrow, with_macros, without_macros
+from juggleproof.proofs.reports.words import formulas_of
 from tests.reports.comparison import differences
 
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from certificates.terms import ClaimError, equal, reals
-from proofs.reports import figures
-from proofs.reports.ranges import read, rows, without_alpha
+from juggleproof.certificates.language import ClaimError, equal, reals
+from juggleproof.proofs.reports import figures
+from juggleproof.proofs.reports.words import read, rows, without_alpha
 
 F = Fraction
 README = Path(__file__).resolve().parents[2] / "README.md"
@@ -111,7 +111,7 @@ def test_every_range_of_the_results_is_read_holds() -> None:
 def test_trap_and_rank_are_those_of_the_theorem_holds() -> None:
     from sympy import symbols
 
-    from proofs.theorem.definition import TO_THE_POINT, TRAP
+    from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 
     alpha, u, w, x = symbols("alpha u w x")
     rank, (root, square), margins = figures.what_the_trap_shows()

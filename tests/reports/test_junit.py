@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from xml.etree import ElementTree
 
-from proofs.register import load_register
-from proofs.reports.junit import as_junit
-from proofs.reports.results import Results
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.ci import as_junit
+from juggleproof.proofs.reports.results import Results
 from tests.reports.runs import FALSE, HOLDS, OPEN, gathered, own, paper
 
 # What the schema that Jenkins publishes, and others follow, allows of what is used here.

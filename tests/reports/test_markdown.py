@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from markdown_it import MarkdownIt
 
-from proofs.register import load_register
-from proofs.reports.markdown import LIMIT, code, escaped, markdown
-from proofs.reports.results import Results
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.ci import LIMIT, code, escaped, markdown
+from juggleproof.proofs.reports.results import Results
 from tests.reports.runs import FALSE, OPEN, gathered, own, paper
 
 NASTY = (

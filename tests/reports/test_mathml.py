@@ -11,10 +11,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from certificates.terms import ClaimError
-from proofs.reports.latex import latex_of
-from proofs.reports.page.formulas import FORMULAS, lines_of
-from proofs.reports.page.mathml import mathml
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.reports.latex import latex_of
+from juggleproof.proofs.reports.markup import FORMULAS, lines_of
+from juggleproof.proofs.reports.mathml import mathml
 from tests.reports.made import contents
 
 CHILDREN = {"mfrac": 2, "msup": 2, "msub": 2, "msubsup": 3, "mover": 2, "munder": 2, "msqrt": 1}

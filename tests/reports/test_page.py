@@ -13,8 +13,8 @@ from urllib.parse import unquote
 
 import pytest
 
-from proofs.reports.contents import Contents
-from proofs.reports.page import build
+from juggleproof.proofs.reports.contents import Contents
+from juggleproof.proofs.reports.page import build
 from tests.reports.html_reader import Element, NotNested, read_html
 from tests.reports.made import contents, drawn, page
 

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from proofs import cache as records
-from proofs.reports import part
-from proofs.reports.page import build
-from proofs.reports.part import HEADS, Results, kept_results
+from juggleproof.proofs import kept as records
+from juggleproof.proofs.reports import part
+from juggleproof.proofs.reports.page import build
+from juggleproof.proofs.reports.part import HEADS, Results, kept_results
 from tests.reports.html_reader import Element, read_html
 from tests.reports.made import contents
 
@@ -162,9 +162,12 @@ def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.Mon
     """
     pytest.importorskip("numba")
     pytest.importorskip("matplotlib")
-    from scenes.part import scene
+    from juggleproof.scenes.part import scene
 
-    swept, onsets = import_module("scenes.part.sweeping"), import_module("scenes.part.onsets")
+    swept, onsets = (
+        import_module("juggleproof.scenes.part.onsets"),
+        import_module("juggleproof.scenes.part.onsets"),
+    )
     monkeypatch.setenv(records.VARIABLE, str(tmp_path))
     monkeypatch.setattr(
         swept,

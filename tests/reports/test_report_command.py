@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
-from certificates.terms import ClaimError
-from proofs.command import report
-from proofs.command.main import run
-from proofs.reports import extras, page
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command import report
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.reports import contents as extras
+from juggleproof.proofs.reports import page
 from tests.reports.made import contents
 
 

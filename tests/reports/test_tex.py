@@ -11,12 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from certificates.terms import ClaimError
-from proofs.command.main import run
-from proofs.reports.contents import Contents, gather
-from proofs.reports.tex import files, words
-from proofs.reports.tex.equations import equation
-from proofs.reports.tex.pdf import compiled, complaints
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.reports import tex_words
+from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 
 latex = pytest.mark.skipif(
     not (shutil.which("latexmk") and shutil.which("pdflatex")),
@@ -77,7 +76,7 @@ def test_every_line_of_the_written_proof_is_certified_and_printed_holds() -> Non
     assert len(entry.statements) == 25 and all(
         one.outcome == "certified" for one in entry.statements
     )
-    text, steps = made()["theorem.tex"], words.Steps(entry)
+    text, steps = made()["theorem.tex"], tex_words.Steps(entry)
     left = [
         label
         for label in steps.by_label
@@ -94,14 +93,14 @@ def test_rejects_a_line_that_is_not_certified() -> None:
         entry, statements=tuple(replace(one, outcome="unknown") for one in entry.statements)
     )
     with pytest.raises(ClaimError, match="theorem-by-hand/units is unknown"):
-        words.Steps(broken).show("units")
+        tex_words.Steps(broken).show("units")
 
 
 def test_templates_hold_no_formula_of_the_paper_holds() -> None:
     """Between their slots the templates name things, and count from 0 or 1; every other number or
     relation comes from a statement.
     """
-    folder = Path(str(words.__file__)).parent
+    folder = Path(str(tex_words.__file__)).parent / "templates"
     paths = sorted(folder.glob("*.j2"))
     assert len(paths) > 5
     for path in paths:

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from proofs.reports.figures import what_the_trap_shows
-from scenes.figures import TABLE
-from scenes.figures.ranges import Row
+from juggleproof.proofs.reports.figures import what_the_trap_shows
+from juggleproof.scenes.figures import TABLE
+from juggleproof.scenes.figures.ours import Row
 
 Path = pytest.importorskip("matplotlib.path", reason="matplotlib is not installed").Path
 PathPatch = pytest.importorskip("matplotlib.patches").PathPatch
@@ -68,8 +68,8 @@ def states(slug: str, name: str) -> list[dict[Any, float]]:
     """The states beta, v of the points of a curve in the plane of states, where 1 is r T across and
     r up, at alpha = 1/4 and r = g = 1.
     """
-    from symbolic import period
-    from symbolic.symbols import alpha, beta, g, r, v
+    from juggleproof.symbolic import period
+    from juggleproof.symbolic.algebra import alpha, beta, g, r, v
 
     at = {alpha: Fraction(1, 4), r: 1, g: 1}
     unit = float(period().xreplace({r: 1, g: 1}))

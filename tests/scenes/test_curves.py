@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from sympy import Expr
 
-import symbolic
-from scenes.figures import TABLE
-from symbolic.symbols import alpha, beta, g, r, t, v
+from juggleproof import symbolic
+from juggleproof.scenes.figures import TABLE
+from juggleproof.symbolic.algebra import alpha, beta, g, r, t, v
 from tests.scenes.drawn import curves, figure, points, states
 
 NEAR = 1e-9
@@ -63,7 +63,7 @@ def test_line_drawn_elsewhere_fails_without_its_equation() -> None:
 
 
 def test_levels_of_energy_are_levels_holds() -> None:
-    from scenes.figures.energies import LEVELS
+    from juggleproof.scenes.figures.paper import LEVELS
 
     for level in LEVELS:
         for where in states("fig-7", f"level-{level}"):
@@ -99,7 +99,7 @@ def test_outline_stays_on_the_right_side_holds(
 
 
 def test_band_has_the_width_that_its_caption_says_holds() -> None:
-    from symbolic.symbols import z2
+    from juggleproof.symbolic.algebra import z2
 
     half = max(where[v] for where in states("fig-14", "K")) - float(
         symbolic.e_1()[1].subs({alpha: Fraction(1, 4), r: 1})
@@ -111,7 +111,7 @@ def test_band_has_the_width_that_its_caption_says_holds() -> None:
 
 
 def test_band_beyond_B1_fails_without_small_epsilon() -> None:
-    from scenes.figures.attractor import outline_band
+    from juggleproof.scenes.figures.paper import outline_band
 
     with pytest.raises(ValueError, match="leaves B1"):
         outline_band(1.5)
@@ -153,7 +153,7 @@ def test_table_and_its_phase_portrait_are_the_tables_motion_holds() -> None:
 
 
 def test_ball_flies_falls_on_the_table_and_is_sampled_by_f_holds() -> None:
-    from scenes.figures.motion import START
+    from juggleproof.scenes.figures.paper import START
 
     state, at_setting = START, {alpha: Fraction(1, 4), r: 1, g: 1}
     for k in range(6):

@@ -9,11 +9,10 @@ from fractions import Fraction
 import pytest
 from sympy import Rational
 
-import symbolic
-from scenes.figures.arcs import Arc, cut_at_the_bounce, images
-from scenes.figures.evolution import STEPS, boundary_image, torn_ends
-from scenes.figures.numbers import margin
-from symbolic.symbols import alpha, beta, g, r, v
+from juggleproof import symbolic
+from juggleproof.scenes.figures.arcs import Arc, cut_at_the_bounce, images, margin
+from juggleproof.scenes.figures.paper import STEPS, boundary_image, torn_ends
+from juggleproof.symbolic.algebra import alpha, beta, g, r, v
 from tests.scenes.drawn import points
 
 SETTING = {alpha: Rational(1, 4), r: 1, g: 1}

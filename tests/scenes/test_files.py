@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from scenes.figures import TABLE, drawing, entry
+from juggleproof.scenes.figures import TABLE, drawing, entry
 from tests.scenes.drawn import figure
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -33,7 +33,7 @@ PAPER = [
 ]
 PRINT_DIGESTS = """
 import hashlib, sys
-from scenes.figures import drawing
+from juggleproof.scenes.figures import drawing
 from tests.scenes.drawn import figure
 for slug in ("fig-3", "fig-8", "fig-11", "fig-trap", "fig-ranges"):
     data = figure(slug)

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import pytest
 
-from scenes.figures.drawing import B1, B2, BAND, GAIN, INK, LOSS, PALETTE, Look, R
+from juggleproof.scenes.figures.drawing import B1, B2, BAND, GAIN, INK, LOSS, PALETTE, Look, R
 
 Colour = tuple[float, float, float]
 OKABE_AND_ITO = {

@@ -6,7 +6,15 @@ from fractions import Fraction
 
 import pytest
 
-from scenes.figures.ranges import MOST_NAMED, TICKS, Row, footnote, grouped, names, verdicts
+from juggleproof.scenes.figures.ours import (
+    MOST_NAMED,
+    TICKS,
+    Row,
+    footnote,
+    grouped,
+    names,
+    verdicts,
+)
 from tests.scenes.drawn import ROWS, figure, points
 
 THIRD = (Fraction(0), Fraction(1, 3), False, False)

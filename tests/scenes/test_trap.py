@@ -7,10 +7,18 @@ from fractions import Fraction
 import pytest
 from sympy import Rational, sqrt
 
-import symbolic
-from proofs.reports.figures import what_the_trap_shows
-from scenes.figures.trap import LEVELS, STARTS, inside, normal_step, orbit_into, rank_level, sides
-from symbolic.symbols import alpha, w, x
+from juggleproof import symbolic
+from juggleproof.proofs.reports.figures import what_the_trap_shows
+from juggleproof.scenes.figures.ours import (
+    LEVELS,
+    STARTS,
+    inside,
+    normal_step,
+    orbit_into,
+    rank_level,
+    sides,
+)
+from juggleproof.symbolic.algebra import alpha, w, x
 from tests.scenes.drawn import points
 
 RANK, (ROOT, SQUARE), TRAP = what_the_trap_shows()

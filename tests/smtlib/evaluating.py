@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
-from certificates.terms import RELATIONS, Formula, Term
+from juggleproof.certificates.language import RELATIONS, Formula, Term
 
 COMPARE = {
     "<": operator.lt,

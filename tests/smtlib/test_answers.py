@@ -16,11 +16,10 @@ from typing import Any
 
 import pytest
 
-from certificates import checker
-from certificates.terms import ClaimError
-from proofs.api import certify
-from proofs.smtlib.answering import Question, answer, settled
-from proofs.smtlib.running import answer_files
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.api import certify
+from juggleproof.proofs.smtlib.answering import Question, answer, answer_files, settled
 from tests.smtlib.evaluating import truth
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -49,7 +48,7 @@ SEVERAL = """(set-logic QF_NRA)(declare-const x Real)(declare-const b Bool)
 def run(*arguments: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
     return subprocess.run(
-        [sys.executable, "-m", "proofs.command.main", *arguments],
+        [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
         capture_output=True,
         text=True,
         cwd=cwd,
@@ -165,7 +164,7 @@ def test_a_small_budget_leaves_a_problem_unknown_and_says_so(tmp_path: Path) -> 
 # ------------------------------------------------------------ who does the work
 
 
-CLAIMS = """from proofs import always, claim, reals
+CLAIMS = """from juggleproof.proofs import always, claim, reals
 x, y = reals("x y")
 @claim("mean")
 def one():
@@ -191,8 +190,8 @@ def stored(folder: Path) -> dict[str, bytes]:
 
 def everything(folder: Path, executor: Executor | None) -> dict[str, bytes]:
     """What is stored of claims, of a script, and of a claim of the paper, with this executor."""
-    from proofs.command.certify import run as judged
-    from proofs.command.main import build_parser
+    from juggleproof.proofs.command.certify import run as judged
+    from juggleproof.proofs.command.main import build_parser
 
     folder.mkdir()
     (folder / "claims.py").write_text(CLAIMS, encoding="utf-8")

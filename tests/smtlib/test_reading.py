@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from certificates.terms import ClaimError
-from proofs.smtlib.script import problems_of_file, read_problems
-from proofs.smtlib.stating import statement_of
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.smtlib.answering import statement_of
+from juggleproof.proofs.smtlib.script import problems_of_file, read_problems
 
 XY = "(declare-const x Real)(declare-fun y () Real)"
 B = "(declare-const b Bool)"

@@ -13,11 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates.routes.polynomials import Atom
-from certificates.routes.questions import questions, read_statement
-from certificates.routes.smtlib import script
-from certificates.store import Store
-from proofs.smtlib.script import read_problems
+from juggleproof.certificates.store import Store
+from juggleproof.certificates.votes.questions import Atom, questions, read_statement
+from juggleproof.certificates.votes.smtlib import script
+from juggleproof.proofs.smtlib.script import read_problems
 from tests.smtlib.evaluating import differences, truth
 
 NAMES = ("x", "y", "z")

@@ -12,7 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import Poly, Rational, sqrt
 
-import symbolic as s
+import juggleproof.symbolic as s
 
 Value = Callable[..., Fraction]
 # alpha = q^2 / 2 - 1 makes sqrt(2 (1 + alpha)) = q rational.

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import pytest
 from sympy import Expr, S, lambdify
 
-import symbolic as s
+import juggleproof.symbolic as s
 
 COUNT = 3000
 NAMES = (s.B1, s.B2, s.B3, s.S0, s.C0, s.e, s.mu, s.sigma, s.P_y)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-import symbolic as s
+import juggleproof.symbolic as s
 
 Value = Callable[..., Fraction]
 numbers = st.fractions(min_value=-20, max_value=20, max_denominator=50)

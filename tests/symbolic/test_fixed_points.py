@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Integer, Rational
 
-import symbolic as s
+import juggleproof.symbolic as s
 
 Value = Callable[..., Fraction]
 restitutions = st.fractions(

@@ -6,7 +6,7 @@ from typing import Any
 
 from sympy import diff, expand, symbols
 
-import symbolic as s
+import juggleproof.symbolic as s
 
 
 def vanishes(difference: Any) -> bool:

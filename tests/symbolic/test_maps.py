@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import Integer, eye
 
-import symbolic as s
+import juggleproof.symbolic as s
 
 Value = Callable[..., Fraction]
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from sympy import ImmutableMatrix, sqrt
 
-import symbolic as s
+import juggleproof.symbolic as s
 
 MODULES = sorted(
     path.stem for path in Path(s.__file__).parent.glob("*.py") if path.stem != "__init__"
@@ -21,7 +21,7 @@ MODULES = sorted(
 
 
 def test_importing_the_package_loads_no_sympy_holds() -> None:
-    code = "import symbolic, sys; sys.exit('sympy' in sys.modules)"
+    code = "import juggleproof.symbolic, sys; sys.exit('sympy' in sys.modules)"
     assert (
         subprocess.run(
             [sys.executable, "-c", code], cwd=Path(s.__file__).parents[1], check=False
@@ -34,7 +34,9 @@ def test_every_listed_name_resolves_to_its_module_holds() -> None:
     names = [name for name in dir(s) if name in s._PLACE]
     assert names == sorted(s._PLACE)
     for name in names:
-        assert getattr(s, name) is getattr(import_module(f"symbolic.{s._PLACE[name]}"), name)
+        assert getattr(s, name) is getattr(
+            import_module(f"juggleproof.symbolic.{s._PLACE[name]}"), name
+        )
     # A function named like a module would be hidden by the module once that is loaded.
     assert not set(names) & set(MODULES)
 

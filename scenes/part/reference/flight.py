@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from scenes.part.reference.setting import Model, Setting, State
+from juggleproof.scenes.part.reference.setting import Model, Setting, State
 
 CORNERS = (
     (1, 1),

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from scenes.errors import SceneError
+from juggleproof.scenes.errors import SceneError
 
 Motion = tuple[
     Any, Any, Any

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from scenes.errors import SceneError
-from scenes.part.reference.flight import Flight, places
-from scenes.part.reference.impact import impact
-from scenes.part.reference.roots import first_crossing
-from scenes.part.reference.setting import Model, Setting, State
-from scenes.part.reference.stops import Chatter, Simultaneous, Stopped
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part.reference.flight import Flight, places
+from juggleproof.scenes.part.reference.impact import impact
+from juggleproof.scenes.part.reference.roots import first_crossing
+from juggleproof.scenes.part.reference.setting import Model, Setting, State
+from juggleproof.scenes.part.reference.stops import Chatter, Simultaneous, Stopped
 
 TOGETHER = "1e-12"  # metres: corners so close to the table strike together
 MOST_IMPACTS, WITHIN = 20, "1e-6"  # more impacts in so many seconds are chatter
@@ -45,7 +45,7 @@ def reference_orbit(
     with e = 1/2, again after 0.2 s:
 
     >>> from math import atan
-    >>> from scenes.part.reference import dropped, setting
+    >>> from juggleproof.scenes.part.reference import dropped, setting
     >>> block = setting(3, 4, e="1/2", mu="1/2", g=10)
     >>> tilted = dropped(block, theta=atan(3 / 4), height="0.2")
     >>> events = reference_orbit(block, tilted, until="0.41")

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from scenes.part.reference.stops import Undecided
+from juggleproof.scenes.part.reference.stops import Undecided
 
 Gaps = Callable[[Any], list[tuple[Any, Any]]]  # the gaps at a time, each with its rate
 MOST_STEPS = 1000

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from mpmath import MPContext
 
-from scenes.errors import SceneError
+from juggleproof.scenes.errors import SceneError
 
 FEWEST_DIGITS = 30
 GUARD_DIGITS = 10  # digits left to rounding: times and gaps are told apart to the others

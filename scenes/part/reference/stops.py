@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from scenes.errors import SceneError
+from juggleproof.scenes.errors import SceneError
 
 
 class Stopped(SceneError):

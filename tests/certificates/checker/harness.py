@@ -8,7 +8,7 @@ import json
 from dataclasses import dataclass, field
 from typing import Any
 
-from certificates import checker
+from juggleproof.certificates import checker
 
 Json = Any
 OPEN = ["psatz", [], []]  # a node that closes nothing: whatever reaches it is rejected

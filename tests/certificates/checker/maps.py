@@ -7,8 +7,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from certificates import checker
-from certificates.search.map_rules import search_map_rule
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.certificate import search_map_rule
 
 Json = Any
 BUDGET = 300_000

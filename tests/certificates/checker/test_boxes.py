@@ -12,7 +12,7 @@ from math import comb, lcm, prod
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates import checker
+from juggleproof.certificates import checker
 from tests.certificates.checker.evaluator import term_at
 from tests.certificates.checker.harness import lines, proof, verdict
 

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from certificates import checker
+from juggleproof.certificates import checker
 from tests.certificates.checker.maps import SUBTRACT, TURN, checked, edited, read, searched
 
 Json = Any

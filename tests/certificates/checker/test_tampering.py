@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from certificates import checker
+from juggleproof.certificates import checker
 from tests.certificates.checker.claims import contradiction
 from tests.certificates.checker.harness import Case, Json, verdict
 from tests.certificates.checker.rules import TABLES

@@ -4,7 +4,7 @@ by hand.
 
 from __future__ import annotations
 
-from certificates.routes.questions import read_statement
+from juggleproof.certificates.votes.questions import read_statement
 
 H, B1, B2 = "given x >= 0", "given x >= 0 and x < w", "given x >= 0 and x >= w"
 UNIT, THIRD = "range 0 < alpha and alpha < 1", "range 0 < alpha and 3*alpha < 1"

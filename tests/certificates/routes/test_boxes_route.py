@@ -7,10 +7,10 @@ from functools import cache
 
 import pytest
 
-from certificates.routes import arithmetic, boxes_route, search_boxes
-from certificates.routes.polynomials import Atom
-from certificates.routes.questions import questions, read_statement
-from certificates.routes.votes import Budget, Disagreement, Vote
+from juggleproof.certificates.algebra import intervals
+from juggleproof.certificates.votes import box_search, boxes
+from juggleproof.certificates.votes.questions import Atom, questions, read_statement
+from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote
 from tests.certificates.routes.corpus import FALSE, STATEMENTS, TRUE
 from tests.certificates.routes.independent import fails_at
 
@@ -30,11 +30,11 @@ ATTAINED = ["bump", "third-gain-at-most-max", "third-B1-plus-in-Emax"]
 
 @cache
 def vote_on(name: str) -> Vote:
-    return boxes_route.vote(STATEMENTS[name][0])
+    return boxes.vote(STATEMENTS[name][0])
 
 
 def vote(*rows: str, budget: Budget | None = None) -> Vote:
-    return boxes_route.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
+    return boxes.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
 
 
 @pytest.mark.parametrize("name", STATEMENTS)
@@ -100,10 +100,10 @@ def test_an_unbounded_true_statement_is_not_applicable() -> None:
 
 def test_an_undecided_comparison_is_no_vote(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("below_zero", "at_most_zero"):
-        monkeypatch.setattr(arithmetic.Balls, name, lambda self, value: False)
-    monkeypatch.setattr(arithmetic.Balls, "ends", lambda self, value: None)
+        monkeypatch.setattr(intervals.Balls, name, lambda self, value: False)
+    monkeypatch.setattr(intervals.Balls, "ends", lambda self, value: None)
     for name in ("circle", "square", "e1-in-R"):
-        assert boxes_route.vote(STATEMENTS[name][0], None, Budget(boxes=200)).answer != "holds"
+        assert boxes.vote(STATEMENTS[name][0], None, Budget(boxes=200)).answer != "holds"
 
 
 def test_touching_the_edge_of_a_fact_decides_nothing() -> None:
@@ -127,29 +127,29 @@ def test_touching_the_edge_of_a_fact_decides_nothing() -> None:
 
 def test_undecided_second_opinions_confirm_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("below_zero", "at_most_zero"):
-        monkeypatch.setattr(arithmetic.Ends, name, lambda self, value: False)
-    cast = boxes_route.vote(STATEMENTS["circle"][0])
+        monkeypatch.setattr(intervals.Ends, name, lambda self, value: False)
+    cast = boxes.vote(STATEMENTS["circle"][0])
     assert cast.opinions[1][1].startswith("0 of ")
 
 
 def test_a_second_opinion_that_contradicts_stops(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        arithmetic.Ends, "ends", lambda self, value: (Fraction(10**9), Fraction(10**9 + 1))
+        intervals.Ends, "ends", lambda self, value: (Fraction(10**9), Fraction(10**9 + 1))
     )
     with pytest.raises(Disagreement, match=r"true/circle: arb discards .* but mpmath.iv"):
-        boxes_route.vote(STATEMENTS["circle"][0])
+        boxes.vote(STATEMENTS["circle"][0])
 
 
 def test_counted_boxes_end_as_unknown() -> None:
-    cast = boxes_route.vote(STATEMENTS["third-f1-R-in-R"][0], None, Budget(boxes=32))
+    cast = boxes.vote(STATEMENTS["third-f1-R-in-R"][0], None, Budget(boxes=32))
     assert cast.answer == "unknown" and cast.work <= 128
 
 
 def test_the_same_leaves_are_replayed_by_both_arithmetics() -> None:
     facts, box = [fact_of("forall x y", "given x*y + x - 3 > 0")], ((1, 1, -1), (1, 1, -1))
-    found = search_boxes.refute(facts, box, 100, lambda point: False)
+    found = box_search.refute(facts, box, 100, lambda point: False)
     assert found.empty and found.leaves
-    assert search_boxes.second_opinion(facts, found.leaves)[:2] == (
+    assert box_search.second_opinion(facts, found.leaves)[:2] == (
         len(found.leaves),
         len(found.leaves),
     )
@@ -166,7 +166,7 @@ def test_votes_do_not_depend_on_the_precision_set_outside_and_leave_it() -> None
     flint = pytest.importorskip("flint")
     before = vote_on("circle")
     with flint.ctx.workprec(200):
-        assert boxes_route.vote(STATEMENTS["circle"][0]) == before and flint.ctx.prec == 200
+        assert boxes.vote(STATEMENTS["circle"][0]) == before and flint.ctx.prec == 200
 
 
 def test_true_statements_are_many() -> None:

@@ -7,14 +7,28 @@ from random import Random
 
 import pytest
 
-from certificates.routes.algebraic import Root, root_number, sign_at
-from certificates.routes.arithmetic import Balls, Ends, Fact, Placed, ends, split
-from certificates.routes.bounding import bounding_box, dyadic, intervals
-from certificates.routes.polynomials import Atom, Join, Polynomial, branches, truth
-from certificates.routes.questions import Question, questions, read_statement
-from certificates.routes.reduction import factorization, reduce_factors, solve_equations
-from certificates.routes.scaling import at_unit_values, fixed_by_units
-from certificates.routes.spans import span, zero_end
+from juggleproof.certificates.algebra.intervals import Balls, Ends, Fact, Placed, ends, split
+from juggleproof.certificates.votes.questions import (
+    Atom,
+    Join,
+    Polynomial,
+    Question,
+    branches,
+    questions,
+    read_statement,
+    truth,
+)
+from juggleproof.certificates.votes.regions import (
+    Root,
+    at_unit_values,
+    factorization,
+    fixed_by_units,
+    reduce_factors,
+    root_number,
+    sign_at,
+    solve_equations,
+)
+from juggleproof.certificates.votes.spans import bounding_box, dyadic, intervals, span, zero_end
 
 F = Fraction
 

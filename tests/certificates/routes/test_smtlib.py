@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import pytest
 
-from certificates import checker
-from certificates.routes.questions import questions, read_statement
-from certificates.routes.smtlib import logic, script
-from certificates.store import DEFAULT, Store
+from juggleproof.certificates import checker
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.votes.questions import questions, read_statement
+from juggleproof.certificates.votes.smtlib import logic, script
 from tests.certificates.routes.corpus import ITERATES, SHARP, STATEMENTS
 
 

@@ -6,9 +6,9 @@ import pickle
 
 import pytest
 
-from certificates.routes import boxes_route, z3_route
-from certificates.routes.questions import read_statement
-from certificates.routes.votes import Budget, Disagreement, Vote, cast_votes, compare
+from juggleproof.certificates.votes import boxes, z3
+from juggleproof.certificates.votes.questions import read_statement
+from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote, cast_votes, compare
 from tests.certificates.routes.corpus import STATEMENTS
 
 HOLDS = Vote("z3", "holds", "unsat")
@@ -82,12 +82,10 @@ def test_a_wrong_outcome_is_contradicted_by_either_route(name: str, route: str) 
 
 def test_a_route_gone_wrong_is_stopped_by_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
     statement = read_statement("statement t/t\nforall x\ngiven 0 <= x and x <= 1\nshow x < 2")
-    monkeypatch.setattr(
-        z3_route, "vote", lambda *rest: Vote("z3", "fails", "sat", model=(("x", "3"),))
-    )
+    monkeypatch.setattr(z3, "vote", lambda *rest: Vote("z3", "fails", "sat", model=(("x", "3"),)))
     with pytest.raises(Disagreement, match=r"t/t: z3 says fails at x = 3 .*, but boxes says holds"):
         cast_votes(statement, "unknown")
-    monkeypatch.setattr(boxes_route, "vote", lambda *rest: Vote("boxes", "unknown", ""))
+    monkeypatch.setattr(boxes, "vote", lambda *rest: Vote("boxes", "unknown", ""))
     with pytest.raises(
         Disagreement, match="the checked certificate says certified, but z3 says fails"
     ):

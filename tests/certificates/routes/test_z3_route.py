@@ -10,22 +10,22 @@ from multiprocessing import get_context
 
 import pytest
 
-from certificates import checker
-from certificates.routes import z3_route
-from certificates.routes.questions import read_statement
-from certificates.routes.votes import Budget, Vote
+from juggleproof.certificates import checker
+from juggleproof.certificates.votes import z3
+from juggleproof.certificates.votes.questions import read_statement
+from juggleproof.certificates.votes.vote import Budget, Vote
 from tests.certificates.routes.corpus import FALSE, ITERATES, SHARP, STATEMENTS, TRUE
 from tests.certificates.routes.independent import fails_at
 
 
 def vote(*rows: str, budget: Budget | None = None) -> Vote:
-    return z3_route.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
+    return z3.vote(read_statement("\n".join(("statement t/t", *rows))), None, budget)
 
 
 @pytest.mark.parametrize("name", STATEMENTS)
 def test_every_statement_of_the_corpus_is_decided_as_it_is_known_to_be(name: str) -> None:
     statement, expected = STATEMENTS[name]
-    cast = z3_route.vote(statement)
+    cast = z3.vote(statement)
     assert cast.answer == ("holds" if expected else "fails"), str(cast)
     assert bool(cast.model) == (not expected)
     assert 0 < cast.work <= Budget().rlimit + 1000
@@ -37,7 +37,7 @@ def test_the_corpus_is_large_and_has_both_kinds() -> None:
 
 @pytest.mark.parametrize("name", FALSE)
 def test_a_rational_model_refutes_the_text_by_an_independent_evaluator(name: str) -> None:
-    model = z3_route.vote(STATEMENTS[name][0]).model
+    model = z3.vote(STATEMENTS[name][0]).model
     if any("root" in value for _, value in model) or "exists" in FALSE[name]:
         pytest.skip("the model is algebraic, or something is said to exist")
     assert fails_at(FALSE[name], model)
@@ -68,7 +68,7 @@ def test_an_algebraic_model_counts_only_after_exact_evaluation(
     rows = ("forall x y", "given x^2 = 2 and x > 0 and y^3 = x", "show y^6 != 2")
     cast = vote(*rows)
     assert cast.answer == "fails" and "root of" in dict(cast.model)["y"]
-    monkeypatch.setattr(z3_route.Session, "_exact", lambda self, value: Fraction(3, 2))
+    monkeypatch.setattr(z3.Session, "_exact", lambda self, value: Fraction(3, 2))
     wrong = vote(*rows)
     assert wrong.answer == "unknown" and "does not pass exact evaluation" in wrong.detail
 
@@ -98,9 +98,7 @@ def test_what_exists_is_found_and_refuted() -> None:
 
 def test_sharp_ranges_are_asked_inside_and_outside() -> None:
     statements = checker.read_statements(SHARP)
-    answers = {
-        name: z3_route.vote(statements[name], statements) for name in statements if "-" in name
-    }
+    answers = {name: z3.vote(statements[name], statements) for name in statements if "-" in name}
     assert {name: cast.answer for name, cast in answers.items()} == {
         "sharp/trap-range": "holds",
         "sharp/trap-wrong": "fails",
@@ -120,7 +118,7 @@ def test_sharp_ranges_are_asked_inside_and_outside() -> None:
 def test_recurrences_are_asked_as_identities() -> None:
     (right,) = checker.read_statements(ITERATES).values()
     (wrong,) = checker.read_statements(ITERATES.replace("K*(K - 1)", "K*(K + 1)")).values()
-    assert (z3_route.vote(right).answer, z3_route.vote(wrong).answer) == ("holds", "fails")
+    assert (z3.vote(right).answer, z3.vote(wrong).answer) == ("holds", "fails")
 
 
 def test_work_is_counted_and_its_end_says_nothing() -> None:
@@ -145,13 +143,14 @@ def test_votes_are_the_same_from_run_to_run_and_in_other_processes() -> None:
 
 
 def _vote_on(text: str) -> Vote:
-    return z3_route.vote(read_statement(text))
+    return z3.vote(read_statement(text))
 
 
 def test_solvers_are_loaded_only_when_they_are_asked() -> None:
     code = (
-        "import sys, certificates.routes.votes, certificates.routes.z3_route,"
-        " certificates.routes.boxes_route\nprint([name for name in ('z3', 'flint', 'mpmath') if"
+        "import sys, juggleproof.certificates.votes.vote, juggleproof.certificates.votes.z3,"
+        " juggleproof.certificates.votes.boxes\n"
+        "print([name for name in ('z3', 'flint', 'mpmath') if"
         " name in sys.modules])"
     )
     assert (

@@ -13,12 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates import checker
-from certificates.search.bernstein_form import bernstein_tensor
-from certificates.search.box_tree import Branching
-from certificates.search.plain_polynomials import value_at
-from certificates.search.sum_of_squares import search_squares
-from proofs.bounds import LOWER, Enclosure, enclose_minimum
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.boxes import Branching, bernstein_tensor
+from juggleproof.certificates.search.small_boxes import value_at
+from juggleproof.certificates.search.sums_of_squares import search_squares
+from juggleproof.proofs.bounds import LOWER, Enclosure, enclose_minimum
 from tests.certificates.checker.evaluator import term_at
 
 MANY = settings(max_examples=40, deadline=None, derandomize=True)

@@ -12,15 +12,19 @@ from flint import fmpz_mpoly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates import checker
-from certificates.search.budget import Budget, Exhausted, accepted
-from certificates.search.closing import search_closing
-from certificates.search.interior import has_interior_point
-from certificates.search.linear_program import Program, solve
-from certificates.search.polynomials import Packing, Ring, coefficients_in, pseudo_divide
-from certificates.search.problem import Problem
-from certificates.search.scaling import Scaling
-from certificates.search.sturm import positive_between, univariate
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.numbers import positive_between, univariate
+from juggleproof.certificates.algebra.polynomials import (
+    Packing,
+    Ring,
+    coefficients_in,
+    pseudo_divide,
+)
+from juggleproof.certificates.search.closing import search_closing
+from juggleproof.certificates.search.facts import Scaling
+from juggleproof.certificates.search.linear_program import Program, solve
+from juggleproof.certificates.search.problem import Problem, has_interior_point
+from juggleproof.certificates.work import Budget, Exhausted, accepted
 
 RING = Ring(("x", "y", "z"))
 monomials = st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(0, 2))

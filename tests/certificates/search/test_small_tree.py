@@ -11,10 +11,9 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates import checker
-from certificates.search.box_tree import Branching
-from certificates.search.plain_polynomials import value_at
-from certificates.search.small_tree import search_tree
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.boxes import Branching
+from juggleproof.certificates.search.small_boxes import search_tree, value_at
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
 NAMES = ("x", "y", "z")

@@ -11,13 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates import checker
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import SQUARES_FIRST, search_certificate
-from certificates.search.closing import SQUARED, search_closing
-from certificates.search.points import search_found
-from certificates.search.rational_gram import as_squares, rational_image
-from certificates.search.semidefinite import feasible
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.semidefinite import as_squares, feasible, rational_image
+from juggleproof.certificates.search.certificate import SQUARES_FIRST, search_certificate
+from juggleproof.certificates.search.closing import SQUARED, search_closing
+from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.work import Budget, Exhausted
 
 rows = st.lists(st.lists(st.integers(-3, 3), min_size=4, max_size=4), min_size=1, max_size=4)
 

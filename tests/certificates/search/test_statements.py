@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from certificates import checker
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.certificate import search_certificate, search_proof
-from certificates.search.closing import Hints, search_closing
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.certificate import search_certificate, search_proof
+from juggleproof.certificates.search.closing import Hints, search_closing
+from juggleproof.certificates.work import Budget, Exhausted
 
 STATEMENTS = checker.read_statements((Path(__file__).parent / "statements.txt").read_text())
 BUDGET = 3_000_000

@@ -1,7 +1,7 @@
 """Statements that the tests of this folder share, with short ways to read them."""
 
-from certificates import checker
-from certificates.search.budget import Budget
+from juggleproof.certificates import checker
+from juggleproof.certificates.work import Budget
 
 
 def read(text: str) -> checker.Statement:

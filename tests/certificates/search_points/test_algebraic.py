@@ -6,8 +6,8 @@ from flint import fmpq, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
-from certificates.search.algebraic import AlgebraicNumber, real_roots, simplest_between
-from certificates.search.elimination import candidate_numbers
+from juggleproof.certificates.algebra.conditions import candidate_numbers
+from juggleproof.certificates.algebra.numbers import AlgebraicNumber, real_roots, simplest_between
 
 fractions = st.fractions(min_value=-5, max_value=5, max_denominator=60)
 

@@ -4,9 +4,9 @@ root among them.
 
 import pytest
 
-from certificates import checker
-from certificates.search.sharp import find_sharp_range, read
-from certificates.terms import reals
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import reals
+from juggleproof.certificates.search.sharp import find_sharp_range, read
 from tests.certificates.search_points import cases
 
 (alpha,) = reals("alpha")

@@ -2,9 +2,9 @@
 
 import pytest
 
-from certificates import checker
-from certificates.search.budget import accepted
-from certificates.search.points import search_found, search_points
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.points import search_found, search_points
+from juggleproof.certificates.work import accepted
 from tests.certificates.search_points.cases import UNIT, budget, read
 
 REFUTED = {

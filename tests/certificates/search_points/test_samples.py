@@ -9,14 +9,18 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from certificates import checker
-from certificates.search.budget import Budget, Exhausted
-from certificates.search.closing import Closing
-from certificates.search.condition import Condition, coefficients_in, univariate, valued
-from certificates.search.near import Trial
-from certificates.search.positivstellensatz import FIRST, search
-from certificates.search.quotients import Point, Quotient
-from certificates.search.solver import ask
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.conditions import (
+    Condition,
+    coefficients_in,
+    univariate,
+    valued,
+)
+from juggleproof.certificates.search.closing import Closing
+from juggleproof.certificates.search.linear import FIRST, search
+from juggleproof.certificates.search.models import ask
+from juggleproof.certificates.search.terms import Point, Quotient, Trial
+from juggleproof.certificates.work import Budget, Exhausted
 
 RING = fmpq_mpoly_ctx.get(["a", "x", "y"], Ordering.lex)
 A, X, Y = RING.gens()

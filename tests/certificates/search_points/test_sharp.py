@@ -5,9 +5,9 @@ sides.
 import mpmath
 import pytest
 
-from certificates import checker
-from certificates.search.sharp import find_sharp_range, read, search_sharp
-from certificates.terms import reals
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import reals
+from juggleproof.certificates.search.sharp import find_sharp_range, read, search_sharp
 from tests.certificates.search_points import cases
 
 (alpha,) = reals("alpha")

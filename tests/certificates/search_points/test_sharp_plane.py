@@ -2,10 +2,10 @@
 
 import pytest
 
-from certificates import checker
-from certificates.search.sharp import read
-from certificates.search.sharp_plane import find_sharp_region
-from certificates.terms import reals
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import reals
+from juggleproof.certificates.search.sharp import read
+from juggleproof.certificates.search.sharp_plane import find_sharp_region
 from tests.certificates.search_points import cases
 
 alpha, K, eps = reals("alpha K eps")

@@ -7,10 +7,9 @@ from itertools import product
 
 import pytest
 
-from certificates import checker
-from certificates.search.solved import says_domain, solved
-from certificates.statements import SharpRange
-from certificates.terms import reals
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import SharpRange, reals
+from juggleproof.certificates.search.families import says_domain, solved
 
 alpha, K, n = reals("alpha K n")
 UNIT = (alpha > 0) & (alpha < 1)

@@ -4,8 +4,8 @@ checker.
 
 import pytest
 
-from certificates import checker
-from certificates.search.points import search_found
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.points import search_found
 from tests.certificates.search_points.cases import UNIT, budget, read
 
 WITNESSES = {

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.errors import SceneError
-from scenes.juggler import (
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler import (
     arrays,
     boundary,
     grid,
@@ -23,9 +23,9 @@ from scenes.juggler import (
     random,
     scene,
 )
-from scenes.juggler.motion import heights
-from scenes.juggler.periodic import exists_for, family, orbit_of
-from scenes.juggler.tables import as_arrays
+from juggleproof.scenes.juggler.orbits import heights
+from juggleproof.scenes.juggler.periodic import exists_for, family, orbit_of
+from juggleproof.scenes.juggler.tables import as_arrays
 
 NAN, INF = float("nan"), float("inf")
 STARTS = point(0, 1)

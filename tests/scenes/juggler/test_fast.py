@@ -14,8 +14,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from scenes.errors import SceneError
-from scenes.juggler import (
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler import (
     arrays,
     boundary,
     grid,
@@ -26,12 +26,11 @@ from scenes.juggler import (
     random,
     scene,
 )
-from scenes.juggler import fast as engine
-from scenes.juggler.bounded import Bounded, powers
-from scenes.juggler.given import nearest
-from scenes.juggler.picture import in_the_plane
-from scenes.juggler.setting import goal
-from scenes.juggler.tables import as_arrays
+from juggleproof.scenes.juggler import bounded as engine
+from juggleproof.scenes.juggler.bounded import Bounded, powers
+from juggleproof.scenes.juggler.given import nearest
+from juggleproof.scenes.juggler.starts import goal
+from juggleproof.scenes.juggler.tables import as_arrays, in_the_plane
 
 FULL = st.floats(allow_nan=False, allow_infinity=False)
 SIZES = st.floats(0, 1e300) | st.sampled_from([0.0, 5e-324, 1e-310])
@@ -115,7 +114,7 @@ def test_chunks_change_nothing_holds(
     found = []
     for chunk in (1, 10, 37, 1000):
         ensemble = engine.Ensemble.empty(37, aim, keep)
-        engine.follow(setting, aim, ensemble, chunk=chunk)
+        engine.follow_fast(setting, aim, ensemble, chunk=chunk)
         assert ensemble.done == 37
         found.append(ensemble)
     for other in found[1:]:

@@ -8,8 +8,8 @@ from fractions import Fraction
 
 import pytest
 
-from scenes.juggler.exact import told
-from scenes.juggler.hard_cases import CASES, Case, Finding, finding
+from juggleproof.scenes.juggler.exact import told
+from juggleproof.scenes.juggler.tables import CASES, Case, Finding, finding
 
 LONG = "10^6 periods"
 WRONG = {

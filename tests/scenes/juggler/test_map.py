@@ -10,13 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Symbol, sympify
 
-from certificates.terms import term
-from proofs.theorem.closed_form import SHEARED, from_the_fixed_point
-from proofs.theorem.definition import FIXED, PIECES, TRAP
-from proofs.theorem.exact import holds_at, value_of
-from scenes.juggler.exact import flight, flight_length, impact, later, strikes
-from scenes.juggler.formulas import formulas, region
-from symbolic import (
+from juggleproof.certificates.language import term
+from juggleproof.proofs.theorem.definition import FIXED, PIECES, TRAP, holds_at, value_of
+from juggleproof.proofs.theorem.orbits import SHEARED, from_the_fixed_point
+from juggleproof.scenes.juggler.exact import flight, flight_length, impact, later, strikes
+from juggleproof.scenes.juggler.given import formulas, region
+from juggleproof.symbolic import (
     lowest_terms,
     normal_e_1,
     normal_energy,
@@ -27,7 +26,7 @@ from symbolic import (
     scaling,
     unscaling,
 )
-from symbolic.symbols import r
+from juggleproof.symbolic.algebra import r
 
 alphas = st.fractions(Fraction(1, 100), Fraction(99, 100), max_denominator=100)
 heights = st.fractions(0, 30, max_denominator=60)

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes.errors import SceneError
-from scenes.juggler import orbit, point, scene
-from scenes.juggler.motion import heights
-from scenes.juggler.tables import in_units
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler import orbit, point, scene
+from juggleproof.scenes.juggler.orbits import heights
+from juggleproof.scenes.juggler.tables import in_units
 
 alphas = st.fractions(Fraction(1, 20), Fraction(19, 20), max_denominator=20)
 

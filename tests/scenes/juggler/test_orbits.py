@@ -12,12 +12,12 @@ from flint import arb
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from scenes.juggler import boundary, grid, listed, orbit, physical, point, random, scene
-from scenes.juggler.enclosed import RADIUS, radius_of
-from scenes.juggler.exact import flight, told
-from scenes.juggler.formulas import formulas, region
-from scenes.juggler.orbits import Row
-from scenes.juggler.tables import in_units
+from juggleproof.scenes.juggler import boundary, grid, listed, orbit, physical, point, random, scene
+from juggleproof.scenes.juggler.bounded import RADIUS, radius_of
+from juggleproof.scenes.juggler.exact import flight, told
+from juggleproof.scenes.juggler.given import formulas, region
+from juggleproof.scenes.juggler.orbits import Row
+from juggleproof.scenes.juggler.tables import in_units
 
 alphas = st.fractions(Fraction(1, 50), Fraction(49, 50), max_denominator=50)
 heights = st.fractions(0, 40, max_denominator=40)

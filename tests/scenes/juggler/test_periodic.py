@@ -11,18 +11,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes.errors import SceneError
-from scenes.juggler import orbit, point, scene
-from scenes.juggler.periodic import (
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler import orbit, point, scene
+from juggleproof.scenes.juggler.periodic import (
     exists_for,
     family,
     longest_flight,
     orbit_of,
     search_words,
+    where,
     words,
 )
-from scenes.juggler.roots import where
-from symbolic.symbols import alpha as symbol
+from juggleproof.symbolic.algebra import alpha as symbol
 
 alphas = st.fractions(Fraction(1, 30), Fraction(29, 30), max_denominator=30)
 

@@ -11,9 +11,20 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scenes.juggler import orbit, point, scene
-from scenes.juggler.exact import FEW_BITS, flight, flight_length, impact, lifted, strikes, told
-from scenes.juggler.ratios import Powers, Ratio, lowest, shortened
+from juggleproof.scenes.juggler import orbit, point, scene
+from juggleproof.scenes.juggler.exact import (
+    FEW_BITS,
+    Powers,
+    Ratio,
+    flight,
+    flight_length,
+    impact,
+    lifted,
+    lowest,
+    shortened,
+    strikes,
+    told,
+)
 
 numbers = st.fractions(-50, 50, max_denominator=600)
 

@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from proofs.command import simulate
-from proofs.command.main import run
-from scenes.juggler.fast import CHUNK
+from juggleproof.proofs.command import simulate
+from juggleproof.proofs.command.main import run
+from juggleproof.scenes.juggler.bounded import CHUNK
 
 START = ["--alpha", "1/3", "--state", "x=1,w=2"]
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from proofs.command.main import run
+from juggleproof.proofs.command.main import run
 
-CLAIM = '''from proofs import always, claim, reals
+CLAIM = '''from juggleproof.proofs import always, claim, reals
 
 a, x, w = reals("a x w")
 

@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.part import body, fresh_notes, scene
-from scenes.part.flight import fly
-from scenes.part.impact import first_slide, mode_of
-from scenes.part.reference import Chatter, State, dropped, reference_orbit, setting
-from scenes.part.strike import strike
+from juggleproof.scenes.part import body, fresh_notes, scene
+from juggleproof.scenes.part.flight import fly
+from juggleproof.scenes.part.reference import Chatter, State, dropped, reference_orbit, setting
+from juggleproof.scenes.part.strike import first_slide, mode_of, strike
 
 UNTIL = 0.2
 MODES = (

@@ -16,12 +16,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.errors import SceneError
-from scenes.part import body, scene
-from scenes.part.animation import ANGLE, LENGTH, RATE, animation, digest, varied
-from scenes.part.frames import frames
-from scenes.part.grid import ANGLES, lying
-from scenes.part.picture import as_in_figure_two
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part import body, scene
+from juggleproof.scenes.part.animation import ANGLE, LENGTH, RATE, animation, digest, varied
+from juggleproof.scenes.part.ensemble import frames
+from juggleproof.scenes.part.picture import ANGLES, as_in_figure_two, lying
 from tests.reports.browser import chromium, requests, resize
 from tests.reports.html_reader import Element, read_html
 
@@ -211,7 +210,7 @@ def test_blocks_are_drawn_where_they_are_holds(driver: Any) -> None:
 
 
 def pitch() -> float:
-    from scenes.part.grid import pitch as of
+    from juggleproof.scenes.part.picture import pitch as of
 
     return of(SETTING)
 

@@ -11,12 +11,11 @@ import mpmath
 import numpy as np
 import pytest
 
-from scenes.part import body, moving, run, scene, standing
-from scenes.part.ensemble import fresh_notes
-from scenes.part.face import lie, lift_off, slip_time, stop_time
-from scenes.part.motion import follow
-from scenes.part.pivot import pivot
-from scenes.part.strike import lie_down
+from juggleproof.scenes.part import body, moving, run, scene, standing
+from juggleproof.scenes.part.ensemble import fresh_notes
+from juggleproof.scenes.part.motion import follow
+from juggleproof.scenes.part.rest import lie, lift_off, pivot, slip_time, stop_time
+from juggleproof.scenes.part.strike import lie_down
 
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 

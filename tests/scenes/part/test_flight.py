@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.part import body, moving, scene
-from scenes.part.ensemble import fresh_notes
-from scenes.part.flight import fly, safe_step
-from scenes.part.reference import setting
-from scenes.part.reference.flight import Flight
-from scenes.part.reference.roots import first_crossing
-from scenes.part.reference.setting import Model, State
+from juggleproof.scenes.part import body, moving, scene
+from juggleproof.scenes.part.ensemble import fresh_notes
+from juggleproof.scenes.part.flight import fly, safe_step
+from juggleproof.scenes.part.reference import setting
+from juggleproof.scenes.part.reference.flight import Flight
+from juggleproof.scenes.part.reference.roots import first_crossing
+from juggleproof.scenes.part.reference.setting import Model, State
 
 UNTIL = 0.2
 TO_REFERENCE = (2, 3, 0, 1)  # the corner's number there

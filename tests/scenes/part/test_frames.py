@@ -8,10 +8,9 @@ from math import nan
 import numpy as np
 import pytest
 
-from scenes.errors import SceneError
-from scenes.part import body, run, scene, standing
-from scenes.part.ensemble import CHUNK
-from scenes.part.frames import frames
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part import body, run, scene, standing
+from juggleproof.scenes.part.ensemble import CHUNK, frames
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
 

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.part import body, fresh_notes, moving, scene, table_one
-from scenes.part import strike as striking
-from scenes.part.compiling import plain
-from scenes.part.impact import impulse
+from juggleproof.scenes.part import body, fresh_notes, moving, scene, table_one
+from juggleproof.scenes.part import strike as striking
+from juggleproof.scenes.part.body import plain
+from juggleproof.scenes.part.strike import impulse
 
 SCENES: tuple[dict[str, Any], ...] = (
     {"e": 0.7, "mu": 0.08},

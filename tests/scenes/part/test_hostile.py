@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.part import body, fresh_notes, moving, scene, standing
-from scenes.part.ending import LANDS, LASTS, LETS_GO, SLIPS, STOPS, ending
-from scenes.part.motion import follow_all
-from scenes.part.pivot import pivot
-from scenes.part.strike import strike
+from juggleproof.scenes.part import body, fresh_notes, moving, scene, standing
+from juggleproof.scenes.part.motion import follow_all
+from juggleproof.scenes.part.rest import LANDS, LASTS, LETS_GO, SLIPS, STOPS, ending, pivot
+from juggleproof.scenes.part.strike import strike
 
 GUARANTEES = [body.PULLS, body.CONES, body.GAINS, body.CLOSINGS]
 

@@ -13,21 +13,21 @@ from typing import Any
 import pytest
 import sympy
 
-import symbolic as s
-from scenes.part import impact
-from scenes.part.compiling import plain
+import juggleproof.symbolic as s
+from juggleproof.scenes.part import strike
+from juggleproof.scenes.part.body import plain
 
 mode_of, first_slide, impulse = (
-    plain(impact.mode_of),
-    plain(impact.first_slide),
-    plain(impact.impulse),
+    plain(strike.mode_of),
+    plain(strike.first_slide),
+    plain(strike.impulse),
 )
 MODES = {
-    impact.SLIDING: "sliding",
-    impact.STICKING_IN_COMPRESSION: "sticking-in-compression",
-    impact.STICKING_IN_RESTITUTION: "sticking-in-restitution",
-    impact.REVERSED_IN_COMPRESSION: "reversed-in-compression",
-    impact.REVERSED_IN_RESTITUTION: "reversed-in-restitution",
+    strike.SLIDING: "sliding",
+    strike.STICKING_IN_COMPRESSION: "sticking-in-compression",
+    strike.STICKING_IN_RESTITUTION: "sticking-in-restitution",
+    strike.REVERSED_IN_COMPRESSION: "reversed-in-compression",
+    strike.REVERSED_IN_RESTITUTION: "reversed-in-restitution",
 }
 SYMBOLS = (s.S0, s.C0, s.B1, s.B2, s.B3, s.e, s.mu, s.sigma)
 
@@ -82,7 +82,7 @@ def test_impulse_is_the_derived_one_holds() -> None:
     for S0, C0, B1, B2, B3, e, mu in CASES:
         sigma = first_slide(S0, B1, B3, mu)
         mode = mode_of(S0, C0, B1, B2, B3, e, mu, sigma)
-        if mode == impact.JAMMING:
+        if mode == strike.JAMMING:
             continue
         seen[MODES[mode] + (" from no sliding" if S0 == 0 else "")] += 1
         assert list(impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)) == as_function(
@@ -111,10 +111,10 @@ def test_mode_is_the_one_whose_criteria_hold_holds() -> None:
             )
         )
         if closing <= 0:
-            assert mode == impact.JAMMING
+            assert mode == strike.JAMMING
             continue
-        assert (mode == impact.SLIDING) == (restitution >= 0)
-        if mode != impact.SLIDING:
+        assert (mode == strike.SLIDING) == (restitution >= 0)
+        if mode != strike.SLIDING:
             assert stopping > 0
             assert MODES[mode].endswith("in-compression") == (compression <= 0)
             assert MODES[mode].startswith("reversed") == (back > 0)
@@ -128,11 +128,11 @@ def test_jams_exactly_where_the_closing_rate_is_not_positive_holds() -> None:
     ]
     assert len(jammed) >= 20
     for S0, C0, B1, B2, B3, e, mu in CASES:
-        met = mode_of(S0, C0, B1, B2, B3, e, mu, first_slide(S0, B1, B3, mu)) == impact.JAMMING
+        met = mode_of(S0, C0, B1, B2, B3, e, mu, first_slide(S0, B1, B3, mu)) == strike.JAMMING
         assert met == ((S0, C0, B1, B2, B3, e, mu) in jammed)
     assert (
-        mode_of(1, -1, 2, 2, 1, 0, 2, -1) == impact.JAMMING
-        and mode_of(1, -1, 2, 3, 1, 0, 2, -1) != impact.JAMMING
+        mode_of(1, -1, 2, 2, 1, 0, 2, -1) == strike.JAMMING
+        and mode_of(1, -1, 2, 3, 1, 0, 2, -1) != strike.JAMMING
     )
 
 
@@ -157,7 +157,7 @@ def test_mirror_image_of_an_impact_is_one_holds(sign: int) -> None:
         ways = [first_slide(given[0], given[2], given[4], mu) for given in (here, there)]
         modes = [mode_of(*given, way) for given, way in zip((here, there), ways)]
         assert modes[0] == modes[1]
-        if modes[0] != impact.JAMMING:
+        if modes[0] != strike.JAMMING:
             (x, y), (left, up) = (
                 impulse(modes[0], *given, way) for given, way in zip((here, there), ways)
             )

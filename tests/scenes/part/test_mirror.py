@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.part import body, run, scene, standing
-from scenes.part.onsets import PAPER
+from juggleproof.scenes.part import body, run, scene, standing
+from juggleproof.scenes.part.onsets import PAPER
 
 ANGLES = np.radians(np.arange(91.0))
 EVEN = [body.TIME, body.Y, body.V_Y, body.MODE]

@@ -11,10 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from proofs.command.main import run
-from scenes.part.assumptions import discrepancies
-from scenes.part.onsets import PAPER, Row
-from scenes.part.sweeping import chosen, recorded
+from juggleproof.proofs.command.main import run
+from juggleproof.scenes.part.onsets import PAPER, Row, chosen, discrepancies, recorded
 
 pytest.importorskip("numba")
 SMALL = ["simulate", "part", "--ensembles", "2", "--horizon", "0.05"]

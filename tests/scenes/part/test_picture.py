@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.errors import SceneError
-from scenes.figures.drawing import Look
-from scenes.part import body, run, scene, standing
-from scenes.part import picture as p
-from scenes.part.grid import ANGLES, lying, pitch, place, rows
-from scenes.part.turns import side
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.figures.drawing import Look
+from juggleproof.scenes.part import body, run, scene, standing
+from juggleproof.scenes.part import picture as p
+from juggleproof.scenes.part.picture import ANGLES, lying, pitch, place, rows
+from juggleproof.scenes.part.rest import side
 from tests.scenes.test_palette import DEFICIENCIES, apart, filled, lab, seen
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")

@@ -18,14 +18,14 @@ import mpmath
 import pytest
 from sympy import Rational
 
-import symbolic as s
-from scenes.errors import SceneError
-from scenes.part.reference.flight import CORNERS, Flight, dropped
-from scenes.part.reference.impact import corner_velocity, impact
-from scenes.part.reference.orbit import Event, reference_orbit
-from scenes.part.reference.roots import first_crossing
-from scenes.part.reference.setting import Model, Setting, State, setting
-from scenes.part.reference.stops import Chatter, Simultaneous, Stopped, Undecided
+import juggleproof.symbolic as s
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part.reference.flight import CORNERS, Flight, dropped
+from juggleproof.scenes.part.reference.impact import corner_velocity, impact
+from juggleproof.scenes.part.reference.orbit import Event, reference_orbit
+from juggleproof.scenes.part.reference.roots import first_crossing
+from juggleproof.scenes.part.reference.setting import Model, Setting, State, setting
+from juggleproof.scenes.part.reference.stops import Chatter, Simultaneous, Stopped, Undecided
 
 MP = Model(setting(1, 1, e=1, mu=0), 50).context
 SHAKEN = setting(
@@ -480,9 +480,10 @@ def test_reference_shares_nothing_with_what_it_measures_holds() -> None:
     ]
     named = {name.name for node in nodes if isinstance(node, ast.Import) for name in node.names}
     named |= {str(node.module) for node in nodes if isinstance(node, ast.ImportFrom)}
-    ours = {name for name in named if name.startswith("scenes.")}
+    ours = {name for name in named if name.startswith("juggleproof.scenes.")}
     assert len(files) >= 6 and all(
-        name == "scenes.errors" or name.startswith("scenes.part.reference.") for name in ours
+        name == "juggleproof.scenes.errors" or name.startswith("juggleproof.scenes.part.reference.")
+        for name in ours
     )
     assert named - ours == {
         "__future__",

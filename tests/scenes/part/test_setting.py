@@ -15,9 +15,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenes.errors import SceneError
-from scenes.part import body, fresh_notes, moving, run, scene, standing, sweep, table_one
-from scenes.part.ensemble import moved
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part import (
+    body,
+    fresh_notes,
+    moving,
+    run,
+    scene,
+    standing,
+    sweep,
+    table_one,
+)
+from juggleproof.scenes.part.ensemble import moved
 
 ROOT = Path(__file__).resolve().parents[3]
 BLOCK = scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3)
@@ -162,40 +171,44 @@ def loaded_by(code: str) -> set[str]:
 @pytest.mark.parametrize(
     "code",
     [
-        "import scenes.juggler; scenes.juggler.orbit, scenes.juggler.scene",
-        "import proofs.command.main",
-        "import scenes.figures",
-        "import symbolic",
+        "from juggleproof.scenes import juggler; juggler.orbit, juggler.scene",
+        "import juggleproof.proofs.command.main",
+        "import juggleproof.scenes.figures",
+        "import juggleproof.symbolic",
     ],
 )
 def test_scenes_of_one_degree_of_freedom_load_nothing_of_the_part_holds(code: str) -> None:
     loaded = loaded_by(code)
-    assert "numba" not in loaded and not [name for name in loaded if name.startswith("scenes.part")]
+    assert "numba" not in loaded and not [
+        name for name in loaded if name.startswith("juggleproof.scenes.part")
+    ]
 
 
 def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
-    assert "numba" not in loaded_by("import scenes.part; dir(scenes.part)")
-    assert "numba" in loaded_by("from scenes.part import scene")
+    assert "numba" not in loaded_by("import juggleproof.scenes.part; dir(juggleproof.scenes.part)")
+    assert "numba" in loaded_by("from juggleproof.scenes.part import scene")
 
 
 @pytest.mark.parametrize(
     "first",
     [
-        "import scenes.part.onsets, scenes.part.sweeping",
-        "from scenes.part import sweep, table_one",
+        "import juggleproof.scenes.part.onsets, juggleproof.scenes.part.onsets",
+        "from juggleproof.scenes.part import sweep, table_one",
         "pass",
     ],
 )
 def test_names_of_the_door_mean_the_same_whatever_is_imported_first_holds(first: str) -> None:
     code = (
-        f"{first}\nimport scenes.part\nassert all(callable(getattr(scenes.part, name)) for name in"
-        " scenes.part.__all__ if name.islower())"
+        f"{first}\nfrom juggleproof.scenes import part\n"
+        "assert all(callable(getattr(part, name)) for name in part.__all__ if name.islower())"
     )
-    assert loaded_by(code) and set(dir(__import__("scenes.part", fromlist=["part"]))) >= {
+    assert loaded_by(code) and set(
+        dir(__import__("juggleproof.scenes.part", fromlist=["part"]))
+    ) >= {
         "run",
         "scene",
         "table_one",
         "sweep",
     }
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
-        getattr(__import__("scenes.part", fromlist=["part"]), "nothing")  # noqa: B009
+        getattr(__import__("juggleproof.scenes.part", fromlist=["part"]), "nothing")  # noqa: B009

@@ -6,9 +6,9 @@ from math import atan, degrees
 
 import pytest
 
-from scenes.errors import SceneError
-from scenes.part import scene
-from scenes.part.split import WIDTH, ends_of, no_vibration
+from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.part import scene
+from juggleproof.scenes.part.ensemble import WIDTH, ends_of, no_vibration
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
 
@@ -38,9 +38,9 @@ def test_rejects_a_block_that_does_not_come_to_rest() -> None:
 
 
 def test_rejects_ends_that_are_not_parted_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    from scenes.part import split
+    from juggleproof.scenes.part import ensemble
 
     for ends in ([0] * 91, [90] * 91, [0, 90, *[0] * 89]):
-        monkeypatch.setattr(split, "ends_of", lambda *_, ends=ends: ends)
+        monkeypatch.setattr(ensemble, "ends_of", lambda *_, ends=ends: ends)
         with pytest.raises(SceneError, match="not parted once"):
             no_vibration(scene(e=0.7, mu=0.08))

@@ -9,9 +9,9 @@ import math
 import numpy as np
 import pytest
 
-from scenes.part import body, run, scene, standing, table_one
-from scenes.part.onsets import PAPER, jittered, judged
-from scenes.part.setting import Scene
+from juggleproof.scenes.part import body, run, scene, standing, table_one
+from juggleproof.scenes.part.onsets import PAPER, jittered, judged
+from juggleproof.scenes.part.setting import Scene
 
 HORIZON, ENSEMBLES = 6.0, 24
 SPLIT = math.degrees(math.atan(0.5))  # 26.56505...

@@ -1,0 +1,248 @@
+"""Methods that compute in floating point: boxes in Arb and in mpmath, and no proof at all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from juggleproof.benchmarks.bench.answers import Answer, GaveUp, Problem, best_point
+from juggleproof.certificates.search.enclosing import FloatPolynomial
+from juggleproof.certificates.search.small_boxes import Terms
+
+# -------------------------------------------------------------------------------------------------
+# Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps; rigorous,
+# but nothing is left that one could check.
+#
+# A box is done where the excess is certainly >= 0, by its natural extension or by its mean-value
+# form; a variable in which it is monotone is put to its end; else the axis is halved along which
+# slope times side is largest.  Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis
+# (2009).
+
+SHARE = 8  # of the width, which the value at the point may take
+BITS = 128
+Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put to an end
+
+
+class Intervals(Protocol):
+    """Numbers that enclose: made from rationals, and asked for their least and their greatest
+    value.
+    """
+
+    def over(self, low: Fraction, high: Fraction) -> Any: ...
+
+    def least(self, value: Any) -> Any: ...
+
+    def most(self, value: Any) -> Any: ...
+
+
+class Arb:
+    """python-flint's balls."""
+
+    def __init__(self) -> None:
+        from flint import arb, ctx, fmpq
+
+        ctx.prec = BITS
+        self._arb, self._fmpq = arb, fmpq
+
+    def _of(self, value: Fraction) -> Any:
+        return self._arb(self._fmpq(value.numerator, value.denominator))
+
+    def over(self, low: Fraction, high: Fraction) -> Any:
+        return self._of(low) if low == high else self._of(low).union(self._of(high))
+
+    def least(self, value: Any) -> Any:
+        return value.lower()
+
+    def most(self, value: Any) -> Any:
+        return value.upper()
+
+
+class Mpmath:
+    """mpmath's intervals."""
+
+    def __init__(self) -> None:
+        from mpmath import iv
+
+        iv.prec = BITS
+        self._iv = iv
+
+    def over(self, low: Fraction, high: Fraction) -> Any:
+        first, last = (self._iv.mpf(value.numerator) / value.denominator for value in (low, high))
+        return self._iv.mpf([first.a, last.b])
+
+    def least(self, value: Any) -> Any:
+        return value.a
+
+    def most(self, value: Any) -> Any:
+        return value.b
+
+
+class Enclosed:
+    """A polynomial and its slopes on boxes."""
+
+    def __init__(self, terms: Terms, size: int, numbers: Intervals) -> None:
+        self.numbers = numbers
+        slopes = [
+            {(*e[:i], e[i] - 1, *e[i + 1 :]): c * e[i] for e, c in terms.items() if e[i]}
+            for i in range(size)
+        ]
+        self.parts = [
+            [(numbers.over(c, c), [(i, k) for i, k in enumerate(e) if k]) for e, c in part.items()]
+            for part in (terms, *slopes)
+        ]
+        self.most = [max((e[i] for e in terms), default=0) for i in range(size)]
+        self.zero = numbers.over(Fraction(0), Fraction(0))
+
+    def powers(self, sides: Sequence[Side]) -> list[list[Any]]:
+        """The powers of each variable, as products: quicker here than powers of rational ends, and
+        no box has a variable of both signs.
+        """
+        table = []
+        for side, most in zip(sides, self.most):
+            row = [None, self.numbers.over(*side)]
+            for k in range(2, most + 1):
+                row.append(row[k // 2] * row[k - k // 2])
+            table.append(row)
+        return table
+
+    def value(self, part: int, powers: list[list[Any]]) -> Any:
+        """The polynomial (part 0) or its slope along axis part - 1."""
+        total = self.zero
+        for c, factors in self.parts[part]:
+            for i, k in factors:
+                c = c * powers[i][k]
+            total = total + c
+        return total
+
+
+def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> int | None:
+    """How many boxes show that the polynomial is >= 0 on the box; None where it is not, or where a
+    point was met that is undecided.
+    """
+    excess, boxes, stack = Enclosed(terms, len(box), numbers), 0, [box]
+    while stack:
+        sides, boxes = stack.pop(), boxes + 1
+        powers = excess.powers(sides)
+        value = excess.value(0, powers)
+        if numbers.least(value) >= 0:
+            continue
+        if numbers.most(value) < 0:
+            return None
+        free = [i for i, (low, high) in enumerate(sides) if low < high]
+        if not free:
+            return None
+        slopes = {i: excess.value(1 + i, powers) for i in free}
+        faces = {
+            i: sides[i][0] if numbers.least(slope) >= 0 else sides[i][1]
+            for i, slope in slopes.items()
+            if numbers.least(slope) >= 0 or numbers.most(slope) <= 0
+        }
+        if faces:
+            stack.append(
+                tuple((faces[i], faces[i]) if i in faces else side for i, side in enumerate(sides))
+            )
+        elif not _by_mean_value(excess, sides, slopes, numbers):
+            axis = max(
+                free,
+                key=lambda i: (
+                    (abs(numbers.most(slopes[i])) + abs(numbers.least(slopes[i])))
+                    * float(sides[i][1] - sides[i][0])
+                ),
+            )
+            low, high = sides[axis]
+            middle = (low + high) / 2
+            stack += [
+                sides[:axis] + (half,) + sides[axis + 1 :]
+                for half in ((low, middle), (middle, high))
+            ]
+    return boxes
+
+
+def _by_mean_value(
+    excess: Enclosed, sides: Sequence[Side], slopes: Mapping[int, Any], numbers: Intervals
+) -> bool:
+    middles = [(low + high) / 2 for low, high in sides]
+    value = excess.value(0, excess.powers([(middle, middle) for middle in middles]))
+    for i, slope in slopes.items():
+        value = value + slope * numbers.over(sides[i][0] - middles[i], sides[i][1] - middles[i])
+    return bool(numbers.least(value) >= 0)
+
+
+def _enclosed(make: Callable[[], Intervals], problem: Problem, width: Fraction) -> Answer:
+    low = best_point(problem, width / SHARE)[1]
+    high = low + width * (SHARE - 1) / SHARE
+    boxes = never_negative(problem.excess(high), problem.box, make())
+    if boxes is None:
+        raise GaveUp("undecided at a point")
+    return Answer(low, high, f"{boxes} boxes")
+
+
+def arb_boxes(problem: Problem, width: Fraction) -> Answer:
+    """Branch and bound in Arb's balls."""
+    return _enclosed(Arb, problem, width)
+
+
+def mpmath_boxes(problem: Problem, width: Fraction) -> Answer:
+    """Branch and bound in mpmath's intervals."""
+    return _enclosed(Mpmath, problem, width)
+
+
+# -------------------------------------------------------------------------------------------------
+# Floating point without proof: random samples, and an optimiser of SciPy; what they miss by is
+# measured, not known to them.
+
+Array = NDArray[np.float64]
+
+MOST, AT_ONCE = 10**7, 10**5  # samples
+
+
+def sampling(problem: Problem, width: Fraction) -> Answer:
+    """The greatest of 1/width samples, 10^7 at most, uniform in the box from a fixed seed."""
+    random, left, best = np.random.default_rng(1), min(max(int(1 / width), 100), MOST), -np.inf
+    low, high = (np.array([float(pair[k]) for pair in problem.box]) for k in (0, 1))
+    count = left
+    while left > 0:
+        points = low + (high - low) * random.random((min(left, AT_ONCE), len(low)))
+        best, left = (
+            max(best, float((values(problem.over, points) / values(problem.under, points)).max())),
+            left - len(points),
+        )
+    return Answer(Fraction(best), None, f"{count} samples")
+
+
+def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
+    """SciPy's differential evolution to this tolerance, from a fixed seed, polished."""
+    from scipy.optimize import differential_evolution
+
+    over, under = (
+        FloatPolynomial(terms, len(problem.box)) for terms in (problem.over, problem.under)
+    )
+
+    def loss(x: Array) -> float:
+        below = under(x)
+        return -over(x) / below if below > 0 else np.inf
+
+    found = differential_evolution(
+        loss,
+        [(float(low), float(high)) for low, high in problem.box],
+        tol=float(width),
+        atol=float(width),
+        seed=1,
+    )
+    return Answer(Fraction(-float(found.fun)), None, f"{found.nfev} values")
+
+
+def values(terms: Terms, points: Array) -> Array:
+    """The values of a polynomial at many points."""
+    total = np.zeros(len(points))
+    for exponents, c in terms.items():
+        part = np.full(len(points), float(c))
+        for axis, e in enumerate(exponents):
+            for _ in range(e):
+                part *= points[:, axis]
+        total += part
+    return total

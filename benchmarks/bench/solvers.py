@@ -1,0 +1,217 @@
+"""The excess of a problem as a goal for Coq's tactic interval (Debian package libcoq-interval)."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from juggleproof.benchmarks.bench.answers import Answer, GaveUp, Problem, horner
+from juggleproof.benchmarks.peers import Clock
+
+# -------------------------------------------------------------------------------------------------
+# The excess of a problem as a goal for Coq's tactic interval (Debian package libcoq-interval).
+
+HEAD = "From Coq Require Import Reals.\nFrom Interval Require Import Tactic.\nOpen Scope R_scope.\n"
+BITS, DEPTH = 100, 60
+
+
+@cache
+def has_coq_interval() -> bool:
+    """Whether the compiler and the library are there."""
+    coqc = shutil.which("coqc")
+    if coqc is None:
+        return False
+    where = subprocess.run(
+        [coqc, "-where"], capture_output=True, text=True, check=False
+    ).stdout.strip()
+    folders = [
+        Path(where) / "user-contrib",
+        *map(Path, filter(None, os.environ.get("COQPATH", "").split(":"))),
+    ]
+    return any((folder / "Interval" / "Tactic.vo").exists() for folder in folders)
+
+
+def goal(problem: Problem, bound: Fraction) -> str:
+    """That the excess is >= 0 on the box, by bisection of all variables, with slopes along the
+    last.
+
+    >>> from fractions import Fraction as F
+    >>> one = Problem("half", ("p",), ((F(0), F(1)),), {(1,): F(1)}, {(0,): F(2)}, 1, "", "")
+    >>> print(goal(one, F(1)).splitlines()[-2])
+    Goal forall v0 : R, 0/1 <= v0 <= 1/1 -> 0 <= 2/1 + v0*(-1/1).
+    """
+    short = [f"v{i}" for i in range(len(problem.names))]
+    sides = "".join(
+        f"{_number(low)} <= {v} <= {_number(high)} -> "
+        for v, (low, high) in zip(short, problem.box)
+    )
+    excess = horner(problem.excess(bound), short, _number)
+    halved = ", ".join(f"i_bisect {v}" for v in short)
+    return (
+        f"{HEAD}Goal forall {' '.join(short)} : R, {sides}0 <= {excess}.\nProof. intros; interval"
+        f" with ({halved}, i_autodiff {short[-1]}, i_prec {BITS}, i_depth {DEPTH}). Qed.\n"
+    )
+
+
+def _number(value: Fraction) -> str:
+    return f"{value.numerator}/{value.denominator}"
+
+
+def proves(text: str, seconds: float) -> bool:
+    """Whether coqc accepts the goal."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "goal.v"
+        path.write_text(text, encoding="utf-8")
+        return (
+            Clock(seconds).output_of(["coqc", "-q", str(path)], "") is not None
+            and path.with_suffix(".vo").exists()
+        )
+
+
+# -------------------------------------------------------------------------------------------------
+# Solvers that answer whether something exceeds a bound: by bisection, and by one question just
+# above the value at a point found for them.
+#
+# An enclosure made of such answers is worth what the solver's word is worth; none leaves a proof
+# behind that is checked here.
+
+SHARE = 8
+START = Fraction(4)  # every supremum asked for lies between -4 and 4, which is asked too
+ENOUGH = 3600.0  # seconds: the process that asks is ended long before
+Exceeds = Callable[[Problem, Fraction], bool]
+
+
+def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
+    """The range halved until it is as narrow as the width."""
+    low, high, asked = -START, START, 2
+    if not exceeds(problem, low) or exceeds(problem, high):
+        raise GaveUp("the supremum is not between -4 and 4")
+    while high - low > width:
+        middle, asked = (low + high) / 2, asked + 1
+        low, high = (middle, high) if exceeds(problem, middle) else (low, middle)
+    return Answer(low, high, f"{asked} questions")
+
+
+def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
+    """One question, a little above the value at a point, which floating point finds and exact
+    arithmetic evaluates.
+    """
+    from juggleproof.benchmarks.bench.answers import (
+        best_point,  # NumPy, which bisection has no need of
+    )
+
+    low = best_point(problem, width / SHARE)[1]
+    high = low + width * (SHARE - 1) / SHARE
+    if exceeds(problem, high):
+        raise GaveUp("the point found is not good enough")
+    return Answer(low, high, "1 question")
+
+
+def _decided(answer: str) -> bool:
+    if answer not in ("sat", "unsat"):
+        raise GaveUp(answer or "no answer")
+    return answer == "sat"
+
+
+def by_z3(problem: Problem, bound: Fraction) -> bool:
+    """Z3's nlsat, in this process, which is its fastest way."""
+    import z3
+
+    solver = z3.Tactic("qfnra-nlsat").solver()
+    solver.from_string(problem.asked(bound))
+    return _decided(str(solver.check()))
+
+
+def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
+    """cvc5, in this process; if asked to, it writes its proof, in its own format."""
+    import cvc5
+
+    solver = cvc5.Solver()
+    solver.setOption("produce-proofs", "true" if proof else "false")
+    parser: Any = cvc5.InputParser(solver)
+    parser.setStringInput(
+        cvc5.InputLanguage.SMT_LIB_2_6,
+        f"(set-logic QF_NRA)\n{problem.asked(bound)}(check-sat)\n",
+        "question",
+    )
+    said = ""
+    while not (command := parser.nextCommand()).isNull():
+        said += str(command.invoke(solver, parser.getSymbolManager()))
+    exceeds = _decided(said.strip())
+    if proof and not exceeds and not solver.proofToString(solver.getProof()[0]):
+        raise GaveUp("no proof")
+    return exceeds
+
+
+def by_cvc5_with_proof(problem: Problem, bound: Fraction) -> bool:
+    """cvc5, which writes its proof where nothing exceeds the bound."""
+    return by_cvc5(problem, bound, True)
+
+
+def by_qepcad(problem: Problem, bound: Fraction) -> bool:
+    """QEPCAD B, a program each time, which is how it is used."""
+    from juggleproof.benchmarks.peers import qepcad
+    from juggleproof.certificates.votes.questions import read_statement
+
+    return _decided(
+        {"holds": "unsat", "fails": "sat"}.get(
+            qepcad(read_statement(problem.of_set(bound)), ENOUGH), ""
+        )
+    )
+
+
+def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
+    """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
+    Its proof is checked by Coq's kernel.
+    """
+
+    if not proves(goal(problem, bound), ENOUGH):
+        raise GaveUp("no proof")
+    return False
+
+
+def z3_bisection(problem: Problem, width: Fraction) -> Answer:
+    """Z3 by bisection."""
+    return bisected(by_z3, problem, width)
+
+
+def z3_once(problem: Problem, width: Fraction) -> Answer:
+    """Z3, asked once."""
+    return asked_once(by_z3, problem, width)
+
+
+def cvc5_bisection(problem: Problem, width: Fraction) -> Answer:
+    """cvc5 by bisection."""
+    return bisected(by_cvc5, problem, width)
+
+
+def cvc5_once(problem: Problem, width: Fraction) -> Answer:
+    """cvc5, asked once."""
+    return asked_once(by_cvc5, problem, width)
+
+
+def cvc5_proof_once(problem: Problem, width: Fraction) -> Answer:
+    """cvc5, asked once, with its proof."""
+    return asked_once(by_cvc5_with_proof, problem, width)
+
+
+def qepcad_bisection(problem: Problem, width: Fraction) -> Answer:
+    """QEPCAD B by bisection."""
+    return bisected(by_qepcad, problem, width)
+
+
+def qepcad_once(problem: Problem, width: Fraction) -> Answer:
+    """QEPCAD B, asked once."""
+    return asked_once(by_qepcad, problem, width)
+
+
+def coq_interval_once(problem: Problem, width: Fraction) -> Answer:
+    """coq-interval, asked once."""
+    return asked_once(by_coq_interval, problem, width)

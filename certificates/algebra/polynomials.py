@@ -1,0 +1,219 @@
+"""Polynomials and boxes as plain data, and what is computed of them exactly; nothing here loads."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable
+from math import lcm
+from typing import Any
+
+import numpy as np
+from flint import Ordering, fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_ctx
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.numbers import fraction
+from juggleproof.certificates.language import Formula, Term, real, term
+
+# -------------------------------------------------------------------------------------------------
+# Polynomials of a state as python-flint polynomials, and as arrays of monomial keys and
+# coefficients for linear programs.
+
+Keys = np.ndarray[Any, np.dtype[np.int64]]
+Row = tuple[
+    Keys, np.ndarray[Any, np.dtype[np.float64]]
+]  # the keys of a polynomial's monomials, and its coefficients
+
+# With many variables: one odd number for each, a monomial's key being the sum of exponent times
+# number, modulo 2^64.  Two monomials
+# share a key with negligible probability, and then an exact solution fails its check and is
+# dropped.
+WEIGHTS = (
+    np.random.default_rng(20).integers(-(1 << 62), 1 << 62, checker.MAX_VARIABLES, dtype=np.int64)
+    | 1
+)
+
+
+class Ring:
+    """The integer polynomials in the variables of a context.
+
+    >>> ring = Ring(("x", "y"))
+    >>> str(ring.gens[0] ** 2 - 3 * ring.gens[1])
+    'x^2 - 3*y'
+    """
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        self.names = names
+        self.ctx = fmpz_mpoly_ctx.get(names or ("none",), Ordering.degrevlex)
+        self.gens = self.ctx.gens()
+        self.size = max(1, len(names))
+        self.form = struct.Struct(f"<{self.size}H")
+        self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
+        self.differences: dict[
+            int, tuple[fmpz_mpoly, frozenset[tuple[int, ...]]]
+        ] = {}  # what was found of units, for all states of a search
+        self.lowered: dict[tuple[int, tuple[int, ...]], tuple[fmpz_mpoly, fmpz_mpoly]] = {}
+        self.scalings: dict[Any, Any] = {}
+        self.one = self.ctx.constant(1)
+        self.zero = self.ctx.constant(0)
+
+    def read(self, poly: checker.Poly) -> fmpz_mpoly:
+        """The numerator of a polynomial of the checker."""
+        known = self.seen.get(id(poly))
+        if known is not None:
+            return known[1]
+        unpack, width = self.form.unpack, 2 * self.size
+        terms = {unpack(m.to_bytes(width, "little")): c for m, c in poly.terms.items()}
+        result = self.ctx.from_dict(terms) if terms else self.zero
+        self.seen[id(poly)] = (
+            poly,
+            result,
+        )  # holding the polynomial keeps its id from being used again
+        return result
+
+
+class Packing:
+    """Monomials in some of a ring's variables as integers that add where monomials multiply.
+
+    >>> ring = Ring(("x", "y"))
+    >>> x, y = ring.gens
+    >>> packing = Packing(ring, [x**2 + y])
+    >>> packing.exponents(packing.row(x**2 * y - 1)[0]).tolist()
+    [[2, 1], [0, 0]]
+    """
+
+    def __init__(self, ring: Ring, polys: Iterable[fmpz_mpoly]) -> None:
+        degrees = [poly.degrees() for poly in polys if poly]
+        self.used = [v for v in range(ring.size) if any(d[v] for d in degrees)]
+        self.bits = 62 // max(1, len(self.used))
+        self.exact = (
+            self.bits >= 6
+            # else keys tell monomials apart with all but certainty, yet do not give the exponents
+            # back
+        )
+        self.weights = np.zeros(ring.size, np.int64) if self.exact else WEIGHTS[: ring.size]
+        for place, v in enumerate(self.used if self.exact else ()):
+            self.weights[v] = 1 << (self.bits * place)
+
+    def row(self, poly: fmpz_mpoly) -> Row:
+        """The polynomial as keys and float coefficients."""
+        if not poly:
+            return np.zeros(0, np.int64), np.zeros(0)
+        return np.array(poly.monoms(), dtype=np.int64) @ self.weights, np.array(
+            [int(c) for c in poly.coeffs()], dtype=np.float64
+        )
+
+    def keys(self, monomials: list[tuple[int, ...]]) -> Keys:
+        """The keys of monomials given by the exponents of all variables."""
+        return (
+            np.array(monomials, dtype=np.int64).reshape(len(monomials), len(self.weights))
+            @ self.weights
+        )
+
+    def exponents(self, keys: Keys) -> Keys:
+        """The exponents of the used variables, one row a key."""
+        shifts = np.arange(len(self.used), dtype=np.int64) * self.bits
+        return (keys[:, None] >> shifts) & ((1 << self.bits) - 1)
+
+
+def multiply(a: Row, b: Row) -> Row:
+    """The product of two polynomials as arrays; equal monomials are left apart."""
+    if len(a[0]) == 1 and len(b[0]) == 1 and a[0][0] == 0 and a[1][0] == 1:
+        return b
+    return (a[0][:, None] + b[0][None, :]).ravel(), (a[1][:, None] * b[1][None, :]).ravel()
+
+
+def collect(a: Row) -> Row:
+    """The same polynomial with equal monomials added."""
+    keys, inverse = np.unique(a[0], return_inverse=True)
+    sums = np.bincount(inverse, a[1], len(keys))
+    kept = sums != 0
+    return keys[kept], sums[kept]
+
+
+def constant_of(poly: fmpz_mpoly) -> int | None:
+    """The value of a constant polynomial; None for any other."""
+    if not poly:
+        return 0
+    return int(poly.leading_coefficient()) if poly.is_constant() else None
+
+
+def degree_in(poly: fmpz_mpoly, variable: int) -> int:
+    """The degree in one variable; 0 for the zero polynomial."""
+    return int(poly.degrees()[variable]) if poly else 0
+
+
+def coefficients_in(poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly) -> list[fmpz_mpoly]:
+    """The coefficients of the powers of one variable, from the constant up, by derivatives.
+
+    >>> ring = Ring(("x", "y"))
+    >>> x, y = ring.gens
+    >>> [str(c) for c in coefficients_in(x**2 * y + 3 * x - y, 0, x)]
+    ['-y', '3', 'y']
+    """
+    result, rest = [], poly
+    for k in range(degree_in(poly, variable), 0, -1):
+        top, factorial = rest, 1
+        for j in range(k):
+            top, factorial = top.derivative(variable), factorial * (j + 1)
+        top = top / factorial if factorial > 1 and top else top
+        result.append(top)
+        rest = rest - top * gen**k
+    result.append(rest)
+    return result[::-1]
+
+
+def pseudo_divide(
+    poly: fmpz_mpoly, variable: int, gen: fmpz_mpoly, lead: fmpz_mpoly, rest: fmpz_mpoly
+) -> tuple[int, fmpz_mpoly, fmpz_mpoly]:
+    """(n, q, r) with lead^n * poly = q * (lead * gen - rest) + r, where gen occurs in none of lead,
+    rest and r.
+    """
+    coefficients = coefficients_in(poly, variable, gen)
+    degree = len(coefficients) - 1
+    if degree == 0:
+        return 0, poly * 0, poly
+    value, power = coefficients[degree], None
+    for c in reversed(coefficients[:degree]):
+        power = lead if power is None else power * lead
+        value = value * rest + c * power
+    scaled = poly * lead**degree
+    return degree, (scaled - value) / (lead * gen - rest), value
+
+
+def total_degree(poly: fmpz_mpoly) -> int:
+    """The total degree; 0 for the zero polynomial."""
+    return int(poly.total_degree()) if poly else 0
+
+
+# -------------------------------------------------------------------------------------------------
+# Polynomials of a search as terms and formulas of the language of statements.
+
+
+def relation_of(poly: fmpq_mpoly, relation: str) -> Formula:
+    """The formula: polynomial relation 0, coefficients made whole."""
+    return Formula(relation, term_of(poly), term(0))
+
+
+def term_of(poly: fmpq_mpoly) -> Term:
+    """A polynomial, times the least number that makes its coefficients whole, as a term."""
+    names = poly.context().names()
+    scale = lcm(*(int(c.q) for c in poly.coeffs()))
+    total: Term | None = None
+    for powers, c in (poly * scale).to_dict().items():
+        value = fraction(c)
+        part: Term | None = None
+        for name, e in zip(names, powers):
+            if e:
+                factor: Term = real(name) if e == 1 else real(name) ** int(e)
+                part = factor if part is None else part * factor
+        size: Term = (
+            term(abs(value)) if part is None else part if abs(value) == 1 else abs(value) * part
+        )
+        total = (
+            (size if value > 0 else -size)
+            if total is None
+            else total + size
+            if value > 0
+            else total - size
+        )
+    return term(0) if total is None else total

@@ -1,0 +1,499 @@
+"""One leaf: a linear program over products of facts."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product as choices
+from math import lcm, prod
+from typing import Any
+
+import numpy as np
+from flint import fmpz_mpoly
+
+from juggleproof.certificates.algebra.polynomials import (
+    Keys,
+    Packing,
+    Row,
+    collect,
+    constant_of,
+    multiply,
+    total_degree,
+)
+from juggleproof.certificates.search.facts import Fact, Factors, Sum, merge, power, times
+from juggleproof.certificates.search.linear_program import Mask, Program, solve
+from juggleproof.certificates.search.problem import Problem, Term, finish
+from juggleproof.certificates.work import Budget
+
+# -------------------------------------------------------------------------------------------------
+# The columns of a linear program made from a problem's facts, and the certificate read off its
+# solution.
+
+Node = list[Any]
+Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
+
+
+class Combination:
+    """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable,
+    times squares of the roots.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        degree: int,
+        bernstein: int,
+        roots: list[fmpz_mpoly],
+        only: list[int] | None = None,
+    ) -> None:
+        self.problem, self.roots, self.program = problem, roots, Program()
+        self.blocks: list[Block] = []
+        self.cofactors: list[Cofactor] = []
+        facts, bounded = problem.facts, problem.bounded if bernstein else None
+        others, degrees = only if only is not None else list(range(len(facts))), [0] * len(facts)
+        if bounded is not None:
+            others = [k for k in others if not problem.said_by_bounds(k, bounded)]
+            degrees = [fact.degree(bounded.variable) for fact in facts]
+        most = (
+            bernstein + max((degrees[k] for k in others), default=0) if bounded is not None else 0
+        )
+        self.packing = Packing(problem.ring, [*problem.polys(), *roots])
+        squares = [collect(multiply(row, row)) for row in map(self.packing.row, roots)]
+        heights = [2 * self._height(root) for root in roots]
+        own_heights = [self._height(fact.poly) for fact in facts]
+        highest = max([2, *own_heights])
+        products = Products(problem, others, self.packing)
+        in_bounded, in_others = (
+            np.array(degrees, dtype=np.int64),
+            np.array(own_heights, dtype=np.int64),
+        )
+        levels: dict[int, Level] = {}
+        for count in range(degree + 1):
+            if count:
+                products = products.times_facts()
+            rooms = most - in_bounded[products.chosen].sum(axis=1)
+            for room in np.unique(rooms).tolist():
+                part = products.only(rooms == room)
+                for level in {0, room} if room >= 0 else ():
+                    if level not in levels:
+                        levels[level] = Level(problem, level, self.packing)
+                    self._add(levels[level], part, -1)
+                    for which, square in enumerate(squares if count < 2 else ()):
+                        low = heights[which] + in_others[part.chosen].sum(axis=1) <= highest
+                        if low.any():
+                            self._add(levels[level], part.only(low).times_row(square), which)
+        basis = problem.reduction.basis() if self.packing.exact else []
+        for equation in basis:
+            poly = equation.poly / int(equation.poly.content())
+            keys, values = self.packing.row(poly)
+            self.program.add_rewriting(self.packing.exponents(keys[:1])[0], keys, values)
+        self.program.exponents = self.packing.exponents
+        self._add_equations(
+            [k for k, equation in enumerate(problem.reduction.left) if equation not in basis],
+            degree,
+            bernstein,
+        )
+
+    def _height(self, poly: fmpz_mpoly) -> int:
+        """The total degree in all but the bounded variable."""
+        bounded = self.problem.bounded
+        if bounded is None:
+            return total_degree(poly)
+        return max(
+            sum(int(e) for v, e in enumerate(monomial) if v != bounded.variable)
+            for monomial in poly.monoms()
+        )
+
+    def _add(self, level: Level, products: Products, root: int) -> None:
+        """A block of columns: every product times every Bernstein polynomial of one degree."""
+        count, size = len(products.places), len(level.strict)
+        columns = (products.at[:, None] * size + level.at).ravel()
+        keys = (products.keys[:, None] + level.keys).ravel()
+        values = (products.values[:, None] * level.values).ravel()
+        strict = (
+            np.outer(products.strict, level.strict).ravel()
+            if root < 0
+            else np.zeros(count * size, dtype=bool)
+        )
+        costs = 1.0 + products.widths / 4 + products.places.shape[1] + level.degree / 8
+        self.blocks.append(Block(self.program.count, level, products.chosen, root))
+        self.program.add(columns, keys, values, strict, np.repeat(costs, size))
+
+    def _column(self, place: int) -> tuple[Factors, int]:
+        """The facts and the root (-1 for 1) of a column."""
+        block = self.blocks[bisect_right(self.blocks, place, key=lambda one: one.start) - 1]
+        product, power_of_bounds = divmod(place - block.start, len(block.level.strict))
+        return (
+            merge(
+                powers_of(tuple(block.chosen[product].tolist())),
+                block.level.factors[power_of_bounds],
+            ),
+            block.root,
+        )
+
+    def _add_equations(self, places: list[int], degree: int, bernstein: int) -> None:
+        """Adds equations that are left, times monomials, as free columns."""
+        problem = self.problem
+        degree = max(1, degree)
+        polys = problem.polys() if places else []
+        bounds = (
+            [max(int(p.degrees()[v]) for p in polys) for v in range(problem.ring.size)]
+            if places
+            else []
+        )
+        top = max((total_degree(p) for p in polys), default=0) * degree + bernstein
+        for place in places:
+            equation = problem.reduction.left[place]
+            room, own = top - total_degree(equation.poly), [int(d) for d in equation.poly.degrees()]
+            ranges = [
+                range(max(0, min(room, b * degree + (bernstein if b else 0) - o)) + 1 if b else 1)
+                for b, o in zip(bounds, own)
+            ]
+            monomials = [exponents for exponents in choices(*ranges) if sum(exponents) <= room]
+            keys, values = self.packing.row(equation.poly)
+            self.cofactors += [(place, exponents) for exponents in monomials]
+            self.program.add_free(
+                len(monomials),
+                (self.packing.keys(monomials)[:, None] + keys).ravel(),
+                np.tile(values, len(monomials)),
+            )
+
+    def node(self, budget: Budget) -> Node | None:
+        """Solves the program, and gives the node of its solution."""
+        budget.spend(3 * self.program.count + 3 * len(self.cofactors))
+        found = solve(self.program, budget)
+        if found is None:
+            return None
+        used = [(self._column(k), c) for k, c in found[0].items()]
+        cofactors = [(self.cofactors[k], c) for k, c in found[1].items()]
+        return lift(self.problem, used, cofactors, self.roots)
+
+
+@dataclass
+class Block:
+    """Columns that were added together: the number of the first, the facts of every product, and
+    what each was multiplied by.
+    """
+
+    start: int
+    level: Level
+    chosen: Keys
+    root: int
+
+
+class Products:
+    """Products of the same number of facts: what stands in each as rows of keys and values, one
+    after another.
+    """
+
+    def __init__(self, problem: Problem, others: list[int], packing: Packing) -> None:
+        rows = [problem.row(problem.facts[k].poly, packing) for k in others]
+        self.lengths = np.array([len(keys) for keys, _ in rows], dtype=np.int64)
+        self.own_keys = np.concatenate([np.zeros(0, np.int64), *(keys for keys, _ in rows)])
+        self.own_values = np.concatenate([np.zeros(0), *(values for _, values in rows)])
+        self.own_strict = np.array([problem.facts[k].strict for k in others], dtype=bool)
+        self.others = np.array(others, dtype=np.int64)
+        self.places = np.zeros(
+            (1, 0), np.int64
+        )  # the facts of every product, by their places among the others
+        self.strict: Mask = np.ones(1, dtype=bool)
+        self.at, self.keys, self.values = np.zeros(1, np.int64), np.zeros(1, np.int64), np.ones(1)
+        self.widths = np.ones(1, np.int64)
+
+    @property
+    def chosen(self) -> Keys:
+        """The facts of every product."""
+        return self.others[self.places]
+
+    def _changed(self, places: Keys, strict: Mask, at: Keys, keys: Keys, values: Any) -> Products:
+        new = object.__new__(Products)
+        new.__dict__.update(self.__dict__)
+        new.places, new.strict, new.at, new.keys, new.values = places, strict, at, keys, values
+        new.widths = np.bincount(at, minlength=len(places))
+        return new
+
+    def times_facts(self) -> Products:
+        """The products with one fact more, each once."""
+        last = self.places[:, -1] if self.places.shape[1] else np.zeros(len(self.places), np.int64)
+        counts = len(self.others) - last
+        old = np.repeat(np.arange(len(last)), counts)
+        fact = counted(counts) + last[old]
+        lengths = self.lengths[fact]
+        whole = self.widths[old] * lengths
+        at, inner = np.repeat(np.arange(len(old)), whole), counted(whole)
+        here, there = np.divmod(inner, lengths[at])
+        here += (np.cumsum(self.widths) - self.widths)[old[at]]
+        there += (np.cumsum(self.lengths) - self.lengths)[fact[at]]
+        return self._changed(
+            np.hstack([self.places[old], fact[:, None]]),
+            self.strict[old] & self.own_strict[fact],
+            at,
+            self.keys[here] + self.own_keys[there],
+            self.values[here] * self.own_values[there],
+        )
+
+    def only(self, kept: Mask) -> Products:
+        """Some of the products."""
+        if kept.all():
+            return self
+        inside = kept[self.at]
+        new_place = np.cumsum(kept) - 1
+        return self._changed(
+            self.places[kept],
+            self.strict[kept],
+            new_place[self.at[inside]],
+            self.keys[inside],
+            self.values[inside],
+        )
+
+    def times_row(self, row: Row) -> Products:
+        """All of the products times one polynomial."""
+        at = np.repeat(self.at, len(row[0]))
+        return self._changed(
+            self.places,
+            self.strict,
+            at,
+            (self.keys[:, None] + row[0]).ravel(),
+            (self.values[:, None] * row[1]).ravel(),
+        )
+
+
+def counted(counts: Keys) -> Keys:
+    """0, 1, .., c - 1 for every count c in turn."""
+    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
+def powers_of(chosen: tuple[int, ...]) -> Factors:
+    """A product of facts, each with its exponent."""
+    return tuple((k, chosen.count(k)) for k in sorted(set(chosen)))
+
+
+class Level:
+    """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded
+    variable, and how often.
+    """
+
+    def __init__(self, problem: Problem, degree: int, packing: Packing) -> None:
+        self.degree = degree
+        bounded, facts = problem.bounded, problem.facts
+        if bounded is None or degree == 0:
+            self.factors: list[Factors] = [()]
+            self.strict, self.at, self.keys, self.values = (
+                np.ones(1, dtype=bool),
+                np.zeros(1, np.int64),
+                np.zeros(1, np.int64),
+                np.ones(1),
+            )
+            return
+        lines = []
+        for k in (bounded.low, bounded.high):
+            slope = float(int(facts[k].poly.derivative(bounded.variable).leading_coefficient()))
+            line, base = (
+                [np.ones(1)],
+                np.array([float(-facts[k].end(bounded.variable) * int(slope)), slope]),
+            )
+            for _ in range(degree):
+                line.append(np.convolve(line[-1], base))
+            lines.append(line)
+        table = np.array(
+            [np.convolve(lines[0][i], lines[1][degree - i]) for i in range(degree + 1)]
+        )
+        self.at, powers = np.nonzero(table)
+        self.keys, self.values = powers * packing.weights[bounded.variable], table[self.at, powers]
+        pairs = [((bounded.low, i), (bounded.high, degree - i)) for i in range(degree + 1)]
+        self.factors = [tuple(sorted((k, e) for k, e in pair if e)) for pair in pairs]
+        self.strict = np.array(
+            [all(facts[k].strict for k, _ in own) for own in self.factors], dtype=bool
+        )
+
+
+def lift(
+    problem: Problem,
+    used: list[tuple[tuple[Factors, int], Fraction]],
+    cofactors: list[tuple[Cofactor, Fraction]],
+    roots: list[fmpz_mpoly],
+) -> Node | None:
+    """The node of an identity between the problem's facts and the equations left."""
+    ring, facts = problem.ring, problem.facts
+    divided: dict[int, int] = {}  # facts with a multiplier -> the largest exponent in use
+    for (factors, _), _ in used:
+        for k, e in factors:
+            if facts[k].multiplier is not None:
+                divided[k] = max(divided.get(k, 0), e)
+    terms: list[Term] = []
+    for (factors, root), c in used:
+        have = dict(factors)
+        whole: Sum = [(c, factors)]
+        for k, most in divided.items():
+            for _ in range(most - have.get(k, 0)):
+                whole = times(whole, facts[k].multiplier or [])
+        for value, product in whole:
+            terms.append(term(problem, value, product, roots[root] if root >= 0 else ring.one))
+    common = lcm(
+        1, *(c.denominator for _, c in cofactors), *(t.coefficient.denominator for t in terms)
+    )
+    extra = ring.one  # what the terms have been multiplied by
+    scale = Fraction(common)
+    for k, most in divided.items():
+        poly, unit = sum_of(problem, facts[k].multiplier or [])
+        extra, scale = extra * poly**most, scale * unit**most
+    terms = [Term(t.coefficient * common * scale.denominator, t.factors, t.root) for t in terms]
+    scale *= scale.denominator
+    owed: dict[int, fmpz_mpoly] = {}
+    used_equations = sorted({place for (place, _), _ in cofactors})
+    multiples = [squared(problem, place) for place in used_equations]
+    for at, place in enumerate(used_equations):
+        equation = problem.reduction.left[place]
+        own = [(monomial, c) for (where, monomial), c in cofactors if where == place]
+        # every term is multiplied by all multiples: an equation's own multiple is part of its
+        # combination
+        cofactor = extra * prod(
+            (multiple for other, (multiple, _) in enumerate(multiples) if other != at),
+            start=ring.one,
+        )
+        if multiples[at][0] != equation.multiple:
+            cofactor = cofactor * equation.multiple
+        whole_cofactor = ring.zero
+        clear = lcm(1, *(Fraction(c * scale).denominator for _, c in own))
+        if clear != 1:
+            return None
+        for monomial, c in own:
+            whole_cofactor = whole_cofactor + ring.ctx.from_dict({monomial: int(c * scale)})
+        for k, part in equation.combination.items():
+            owed[k] = owed.get(k, ring.zero) + part * whole_cofactor * cofactor
+    shared = merge(*(factors for _, factors in multiples))
+    terms = [Term(t.coefficient, merge(t.factors, shared), t.root) for t in terms]
+    return finish(problem.source, problem.reduction, terms, owed)
+
+
+def term(problem: Problem, coefficient: Fraction, product: Factors, root: fmpz_mpoly) -> Term:
+    """A product of the problem's facts in terms of the state's facts."""
+    factors: Factors = ()
+    for k, e in product:
+        fact: Fact = problem.facts[k]
+        factors, coefficient = merge(factors, power(fact.factors, e)), coefficient / fact.scale**e
+        for step, n in zip(problem.reduction.steps, fact.counts):
+            factors, coefficient = (
+                merge(factors, power(step.lead_factors, n * e)),
+                coefficient * step.lead_scale ** (n * e),
+            )
+    return Term(coefficient, factors, root)
+
+
+def sum_of(problem: Problem, total: Sum) -> tuple[fmpz_mpoly, Fraction]:
+    """(p, c) with c * p the value of a sum over the problem's facts."""
+    common = lcm(*(c.denominator for c, _ in total))
+    poly = problem.ring.zero
+    for c, factors in total:
+        poly = poly + prod(
+            (problem.facts[k].poly ** e for k, e in factors), start=problem.ring.one
+        ) * int(c * common)
+    return poly, Fraction(1, common)
+
+
+def squared(problem: Problem, place: int) -> tuple[fmpz_mpoly, Factors]:
+    """The multiple of an equation left and its facts, squared where a fact in it has no known
+    sign.
+    """
+    equation = problem.reduction.left[place]
+    even = any(problem.source.relations[k] == "!=" for k, _ in equation.factors)
+    return (
+        (equation.multiple * equation.multiple, power(equation.factors, 2))
+        if even
+        else (equation.multiple, equation.factors)
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# One leaf of a proof: facts that contradict one another, shown by a positive combination that
+# vanishes identically.
+
+MOST_FOR_TRIPLES = 10
+MOST_FAILED = 5000
+_failed: dict[
+    tuple[Hashable, int, int, str], int
+] = {}  # (facts, stage) -> the work that it takes to find nothing
+# (products of facts, extra Bernstein degree, kind of squares; or "near": no squares, and only facts
+# in the goal's variables)
+Stage = tuple[int, int, str]
+QUICK: tuple[Stage, ...] = ((1, 0, ""),)
+FIRST: tuple[Stage, ...] = ((2, 0, ""),)
+USUAL: tuple[Stage, ...] = ((2, 2, "near"), (2, 2, ""), (1, 0, "squares"))
+SQUARES: tuple[Stage, ...] = ((1, 2, "squares"), (1, 2, "resultants"))
+TRIPLES: tuple[Stage, ...] = ((3, 2, ""),)
+DEEP: tuple[Stage, ...] = (
+    (2, 4, ""),
+    (2, 2, "squares"),
+    (2, 2, "resultants"),
+    (2, 4, "resultants"),
+)
+
+
+def close_by_equations(problem: Problem) -> Node | None:
+    """Closes a state whose equations are contradictory, or make a fact false or a nonzero
+    polynomial zero.
+    """
+    ring, reduction = problem.ring, problem.reduction
+    fact, equation = problem.contradiction, reduction.contradiction
+    if fact is not None:
+        value = constant_of(fact.poly) or 0
+        pairs = list(zip(reduction.steps, fact.counts))
+        factors = merge(fact.factors, *(power(step.lead_factors, n) for step, n in pairs))
+        scale = prod((step.lead_scale**n for step, n in pairs), start=Fraction(1))
+        terms = [Term(scale, factors, ring.one)] + (
+            [Term(Fraction(-value), (), ring.one)] if value else []
+        )
+        return finish(problem.source, reduction, terms, {})
+    if equation is not None:
+        value = constant_of(equation.poly) or 0
+        # multiple * value = sum of combination, so multiple^2 * value^2 is a sum of equations, and
+        # positive
+        owed = {k: -c * equation.multiple * value for k, c in equation.combination.items()}
+        return finish(
+            problem.source,
+            reduction,
+            [Term(Fraction(value * value), power(equation.factors, 2), ring.one)],
+            owed,
+        )
+    return None
+
+
+def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | None:
+    """The first node that one of the stages finds."""
+    if not problem.facts and not problem.reduction.left:
+        return None
+    key = problem.content()
+    roots: dict[str, list[fmpz_mpoly]] = {"": []}
+    for degree, bernstein, kind in stages:
+        stage = (key, degree, bernstein, kind)
+        if (
+            stage in _failed
+            # the same facts come back, in other cases and at greater effort: the work counts, but
+            # is
+            # not done again
+        ):
+            budget.spend(_failed[stage])
+            continue
+        left = budget.left
+        near = problem.near_goal() if kind == "near" else None
+        if kind not in roots:
+            roots[kind] = problem.candidates(kind) if kind != "near" else []
+        same = (
+            bernstein == 2
+            and degree == 2
+            and problem.bounded is None
+            and not problem.reduction.left
+        )
+        if near is None if kind == "near" else not roots[kind] if kind else same:
+            continue  # nothing that a smaller stage did not have
+        if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
+            continue
+        node = Combination(problem, degree, bernstein, roots[kind], near).node(budget)
+        if node is not None:
+            return node
+        if len(_failed) >= MOST_FAILED:
+            _failed.clear()
+        _failed[stage] = left - budget.left
+    return None

@@ -1,0 +1,180 @@
+"""Small boxes: polynomials as plain data, and box trees in lists of integers; loads no NumPy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from math import ceil, floor, lcm, prod
+from typing import Any
+
+from juggleproof.certificates import checker
+
+# -------------------------------------------------------------------------------------------------
+# Polynomials and boxes as plain data, and what is computed of them exactly; nothing here loads
+# NumPy.
+
+Exponents = tuple[int, ...]
+Terms = Mapping[Exponents, Fraction]  # a polynomial: its coefficients, none of them 0
+Box = Sequence[tuple[Fraction, Fraction]]
+LETTERS = "abcdefghijklmnopqrstuvwxyz"  # the axes of a box, in the text of a tree
+DENOMINATORS = (1, 2, 12, 120, 1000, 10**4, 10**6, 10**8, 10**10, 10**13, 10**16, 10**20)
+
+
+def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
+    """The exact value at a point."""
+    powers = (
+        [
+            [x**e for e in range(1 + max(exponents[i] for exponents in terms))]
+            for i, x in enumerate(point)
+        ]
+        if terms
+        else []
+    )
+    total = Fraction(0)
+    for exponents, c in terms.items():
+        for table, e in zip(powers, exponents):
+            c = c * table[e] if e else c
+        total += c
+    return total
+
+
+def derivative(part: Mapping[Exponents, Any], axis: int) -> dict[Exponents, Any]:
+    """The derivative along an axis."""
+    return {
+        (*e[:axis], e[axis] - 1, *e[axis + 1 :]): c * e[axis] for e, c in part.items() if e[axis]
+    }
+
+
+def simple_points(x: Iterable[float], box: Box) -> Iterator[tuple[Fraction, ...]]:
+    """Rational points of the box near x, the simplest first."""
+    seen = set()
+    for most in DENOMINATORS:
+        point = tuple(
+            min(max(Fraction(float(v)).limit_denominator(most), low), high)
+            for v, (low, high) in zip(x, box)
+        )
+        if point not in seen:
+            seen.add(point)
+            yield point
+
+
+def rounded_up(value: Fraction, unit: Fraction) -> Fraction:
+    """The least multiple of the unit that is not below the value."""
+    return ceil(value / unit) * unit
+
+
+def rounded_down(value: Fraction, unit: Fraction) -> Fraction:
+    """The greatest multiple of the unit that is not above the value."""
+    return floor(value / unit) * unit
+
+
+# -------------------------------------------------------------------------------------------------
+# A box tree that shows that a polynomial is nowhere negative on a box: depth first, in plain lists
+# of integers, for small problems.
+#
+# Where boxes have few coefficients this takes about as long as the check; `box_tree` is for bounds
+# that are not known before, and for large boxes.
+
+Part = tuple[
+    list[int], list[int]
+]  # the sizes of a box's coefficients, and these, as the checker orders them
+
+
+def search_tree(terms: Terms, box: Box, most: int) -> str | None:
+    """The text of a tree of at most `most` letters for `terms` >= 0; None where it has more, or
+    where a corner has a negative value.
+
+    >>> from fractions import Fraction as F
+    >>> search_tree({(2,): F(1), (1,): F(-1), (0,): F(1, 4)}, [(F(0), F(1))], 9)
+    'a..'
+    """
+    used = [k for k in range(len(box)) if any(e[k] for e in terms)]
+    unit = lcm(*(c.denominator for c in terms.values()))
+    packed = {
+        sum(e[k] << checker.BITS * k for k in used): -c.numerator * (unit // c.denominator)
+        for e, c in terms.items()
+    }
+    checker.work_left[0] = checker.MAX_WORK
+    try:
+        boxes = [
+            checker.bernstein(
+                checker.Poly(packed, 1, 0), [(checker.BITS * k, *box[k]) for k in used]
+            )
+        ]
+    except checker.Rejected:
+        return None
+    letters: list[str] = []
+    while boxes:
+        letter, parts = (_on_a_line if len(boxes[-1][0]) == 1 else _treated)(*boxes.pop())
+        letters.append(letter)
+        boxes += parts
+        if not letter or len(letters) > most:
+            return None
+    return "".join(letters)
+
+
+def _on_a_line(sizes: list[int], c: list[int]) -> tuple[str, list[Part]]:
+    """The same as `_treated`, for one axis: which nearly all boxes have that are close to the
+    minimum.
+    """
+    if max(c) <= 0:
+        return ".", []
+    if c[0] > 0 or c[-1] > 0:
+        return "", []
+    return LETTERS[0], _halves(sizes, c)
+
+
+def _treated(sizes: list[int], c: list[int]) -> tuple[str, list[Part]]:
+    """The letter of a box, and its parts: a leaf, a face, or halves along the axis with the largest
+    n (n - 1) max |second difference|.
+
+    No letter where halving is in vain: a corner has a positive value, or all are corners.
+    """
+    if max(c) <= 0:
+        return ".", []
+    weight, choice, best = 0, 0, c
+    for axis, count in enumerate(sizes):
+        step, size = prod(sizes[axis + 1 :]), len(c) // count
+        first = (
+            [
+                x
+                for j in range(0, step * count, step)
+                for k in range(j, len(c), count * step)
+                for x in c[k : k + step]
+            ]
+            if axis
+            else c
+        )
+        rises = [y - x for x, y in zip(first, first[size:])]
+        least, greatest = min(rises), max(rises)
+        if least >= 0 or greatest <= 0:
+            return LETTERS[axis].upper(), [
+                (sizes[:axis] + sizes[axis + 1 :], first[-size:] if greatest > 0 else first[:size])
+            ]
+        bends = [y - x for x, y in zip(rises, rises[size:])]
+        found = max(max(bends), -min(bends)) * (count - 1) * (count - 2) if bends else 0
+        if found > weight:
+            weight, choice, best = found, axis, first
+    if not weight or _corner_is_positive(sizes, c):
+        return "", []
+    return LETTERS[choice], _halves([sizes[choice], *sizes[:choice], *sizes[choice + 1 :]], best)
+
+
+def _halves(sizes: list[int], c: list[int]) -> list[Part]:
+    """The halves along the first axis, the lower one last."""
+    n, size = sizes[0] - 1, len(c) // sizes[0]
+    levels = [c]
+    for _ in range(n):
+        levels.append([x + y for x, y in zip(levels[-1], levels[-1][size:])])
+    return [
+        (sizes, [x << k for k, level in enumerate(levels[::-1]) for x in level[-size:]]),
+        (sizes, [x << n - k for k, level in enumerate(levels) for x in level[:size]]),
+    ]
+
+
+def _corner_is_positive(sizes: list[int], c: list[int]) -> bool:
+    places, step = [0], len(c)
+    for size in sizes:
+        step //= size
+        places += [place + (size - 1) * step for place in places]
+    return any(c[place] > 0 for place in places)

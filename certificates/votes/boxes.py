@@ -1,0 +1,216 @@
+"""The vote of interval boxes: a proof that no box holds a counterexample, an exact counterexample,
+or the enclosure of a bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from juggleproof.certificates.algebra.intervals import working_precision
+from juggleproof.certificates.votes.box_search import (
+    GoalBound,
+    Leaf,
+    enclose_goal,
+    refute,
+    second_opinion,
+)
+from juggleproof.certificates.votes.questions import Atom, Question, questions
+from juggleproof.certificates.votes.regions import (
+    MOST_BRANCHES,
+    at_unit_values,
+    fixed_by_units,
+    regions,
+)
+from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote
+
+TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point there counts
+
+
+@dataclass
+class Finding:
+    """What became of one question: an exact solution, reasons why nothing was decided, or neither,
+    which says that it has none.
+    """
+
+    point: list[Fraction] | None = None
+    reasons: list[str] = field(default_factory=list)
+    unbounded: bool = False
+    thin: bool = (
+        False  # an equation or its negation is among the facts: boxes only come near such sets
+    )
+
+
+@dataclass
+class Tally:
+    """Boxes looked at so far, and the discarded ones of every region that was settled."""
+
+    boxes: int = 0
+    leaves: list[tuple[Sequence[Atom], list[Leaf]]] = field(default_factory=list)
+
+
+def vote(
+    statement: Any,
+    earlier: Mapping[str, Any] | None = None,
+    budget: Budget | None = None,
+    asked: Sequence[Question] | None = None,
+) -> Vote:
+    """The boxes' vote on a universal statement in reals.
+
+    `holds`: on every box some premise or the negated goal surely fails; `fails`: an exact point;
+    `enclosed`: the infimum of what is to be positive lies between two rationals, where equality is
+    attained or approached; `not applicable`, with the reason.
+
+    >>> from juggleproof.certificates.votes.questions import read_statement
+    >>> text = "statement demo/disc\\nforall x y\\ngiven x^2 + y^2 <= 1\\nshow x*y < 3/5"
+    >>> v = vote(read_statement(text))
+    >>> v.answer, v.opinions[0][0], v.opinions[1][0]
+    ('holds', 'arb', 'mpmath.iv')
+    """
+    budget = budget or Budget()
+    if statement.kind != "universal":
+        return Vote(
+            "boxes", "not applicable", "the statement is not about all points of one region"
+        )
+    *lines, goal = asked or questions(statement, earlier)
+    if goal.quantified or goal.integers:
+        return Vote(
+            "boxes",
+            "not applicable",
+            "something is said to exist" if goal.quantified else "a variable is an integer",
+        )
+    with working_precision():
+        return _vote(statement.name, lines, goal, budget)
+
+
+def _vote(name: str, lines: Sequence[Question], goal: Question, budget: Budget) -> Vote:
+    tally, reasons, unbounded = Tally(), list[str](), True
+    for line in lines:
+        finding = _settle(line, budget.boxes // 8, tally)
+        if finding.point is not None or finding.reasons:
+            reasons.append(
+                f"{line.part}: "
+                + ("; ".join(dict.fromkeys(finding.reasons)) or "this line does not follow")
+            )
+            unbounded = unbounded and finding.unbounded
+    units = fixed_by_units(goal)
+    goal = at_unit_values(goal, units)
+    finding, bound = _settle(goal, budget.boxes // 8, tally), None
+    if finding.reasons:
+        bound = enclose_goal(goal, budget.width, 3 * budget.boxes // 8)
+        tally.boxes += bound.boxes if bound else 0
+        finding.point = bound.point if bound else None
+        if bound.room if bound else not (finding.unbounded or finding.thin):
+            finding = _settle(goal, budget.boxes - tally.boxes, tally)
+    if finding.point is not None:
+        return _failure(goal, finding.point, tally, units)
+    if bound is not None and not reasons and finding.reasons:
+        return _enclosed(bound, tally)
+    reasons += [
+        f"goal: {reason}"
+        for reason in dict.fromkeys(finding.reasons)
+        if not (bound and bound.positive)
+    ]
+    if reasons:
+        undecided = not unbounded or finding.reasons and not finding.unbounded
+        return Vote(
+            "boxes", "unknown" if undecided else "not applicable", "; ".join(reasons), tally.boxes
+        )
+    return _success(name, tally)
+
+
+def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
+    """Whether the question has a solution, branch by branch; what it is, or why nothing was
+    decided.
+    """
+    matrix, finding = question.matrix(), Finding()
+    parts = regions(question.names, matrix)
+    if parts is None:
+        return Finding(reasons=[f"more than {MOST_BRANCHES} branches"])
+    leaves: list[tuple[Sequence[Atom], list[Leaf]]] = []
+    for region in parts:
+        unbounded = region.unbounded()
+        found = refute(
+            region.facts,
+            region.box(),
+            TRIAL if unbounded else max(TRIAL, allowance // len(parts)),
+            region.test(matrix),
+        )
+        tally.boxes += found.boxes
+        if found.point is not None:
+            return Finding(point=region.complete(found.point))
+        if unbounded:
+            finding.unbounded = True
+            finding.reasons.append(f"the region is not bounded in {', '.join(unbounded)}")
+        elif not found.empty:
+            finding.thin = finding.thin or any(
+                fact.relation in ("=", "!=") for fact in region.facts
+            )
+            finding.reasons.append(
+                "undecided after the counted boxes" + (", near an equation" if finding.thin else "")
+            )
+        else:
+            leaves.append((region.facts, found.leaves))
+    if not finding.reasons:
+        tally.leaves += leaves
+    return finding
+
+
+def _failure(
+    question: Question, point: list[Fraction], tally: Tally, units: tuple[str, ...]
+) -> Vote:
+    model = tuple(
+        (name, "1" if name in units else str(value)) for name, value in zip(question.names, point)
+    )
+    return Vote(
+        "boxes",
+        "fails",
+        f"an exact point after {tally.boxes} boxes",
+        tally.boxes,
+        model,
+        opinions=(
+            ("arb", "led to the point"),
+            ("exact rationals", "every premise holds there and the goal fails"),
+        ),
+    )
+
+
+def _enclosed(bound: GoalBound, tally: Tally) -> Vote:
+    answer = "holds" if bound.positive else "enclosed" if bound.narrow else "unknown"
+    detail = f"the bound of what is shown, {tally.boxes} boxes in all"
+    return Vote(
+        "boxes", answer, detail, tally.boxes, enclosures=bound.enclosures, opinions=bound.opinions()
+    )
+
+
+def _success(name: str, tally: Tally) -> Vote:
+    asked = confirmed = count = 0
+    for facts, leaves in tally.leaves:
+        some, sure, contradiction = second_opinion(facts, leaves)
+        asked, confirmed, count = asked + some, confirmed + sure, count + len(leaves)
+        if contradiction:
+            raise Disagreement(
+                name,
+                f"arb discards a box by {contradiction}",
+                "mpmath.iv encloses the polynomial there elsewhere",
+            )
+    if not count:
+        return Vote(
+            "boxes",
+            "holds",
+            "the facts contradict each other before any box is cut",
+            tally.boxes,
+            opinions=(("arb", "not needed"), ("mpmath.iv", "not needed")),
+        )
+    second = f"{confirmed} of {asked} boxes confirmed" + (
+        f", {count - asked} not asked" if count > asked else ""
+    )
+    return Vote(
+        "boxes",
+        "holds",
+        f"{count} boxes discarded",
+        tally.boxes,
+        opinions=(("arb", "holds"), ("mpmath.iv", second)),
+    )

@@ -1,0 +1,510 @@
+"""A statement as questions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import gcd
+from typing import Any, Union
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.work import unfolded
+
+# -------------------------------------------------------------------------------------------------
+# Polynomials with integer coefficients over one positive denominator, and formulas over their
+# signs: what the routes compute with.
+
+Exponents = tuple[int, ...]
+OPPOSITE = {">": "<=", ">=": "<", "=": "!=", "!=": "=", "<": ">=", "<=": ">"}
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """sum c * x^e / den over the variables `names`; `terms` holds (exponents, c) from the largest
+    exponents down.
+
+    >>> p = Polynomial(("x", "y"), (((2, 0), 1), ((0, 1), -3)), 2)
+    >>> str(p), p.at([Fraction(1, 2), Fraction(0)])
+    ('1/2*x^2 - 3/2*y', Fraction(1, 8))
+    """
+
+    names: tuple[str, ...]
+    terms: tuple[tuple[Exponents, int], ...]
+    den: int = 1
+
+    @staticmethod
+    def of(names: tuple[str, ...], terms: Mapping[Exponents, int], den: int = 1) -> Polynomial:
+        """The polynomial with these terms, zeros left out, in the one order that makes equal
+        polynomials equal.
+        """
+        return Polynomial(
+            names, tuple(sorted(((e, c) for e, c in terms.items() if c), reverse=True)), den
+        )
+
+    @cached_property
+    def used(self) -> tuple[int, ...]:
+        """The numbers of the variables that occur."""
+        return tuple(i for i in range(len(self.names)) if any(e[i] for e, _ in self.terms))
+
+    @cached_property
+    def degrees(self) -> Exponents:
+        """The degree in each variable."""
+        return tuple(max((e[i] for e, _ in self.terms), default=0) for i in range(len(self.names)))
+
+    @cached_property
+    def _collections(self) -> dict[int, tuple[tuple[int, Polynomial], ...]]:
+        return {}
+
+    def collected(self, i: int) -> tuple[tuple[int, Polynomial], ...]:
+        """The pairs (k, c_k) with the polynomial = sum c_k x_i^k / den, each c_k not 0 and without
+        x_i, from k = 0 up.
+        """
+        if i not in self._collections:
+            parts: dict[int, dict[Exponents, int]] = {}
+            for e, c in self.terms:
+                parts.setdefault(e[i], {})[(*e[:i], 0, *e[i + 1 :])] = c
+            self._collections[i] = tuple(
+                (k, Polynomial.of(self.names, terms)) for k, terms in sorted(parts.items())
+            )
+        return self._collections[i]
+
+    @cached_property
+    def minus(self) -> Polynomial:
+        """The negative."""
+        return Polynomial(self.names, tuple((e, -c) for e, c in self.terms), self.den)
+
+    def at(self, point: Sequence[Fraction]) -> Fraction:
+        """The exact value at a rational point.
+
+        Source: the definition, in integers: every variable is brought to its own denominator once.
+        """
+        powers = []
+        for value, degree in zip(point, self.degrees):
+            n, d = value.numerator, value.denominator
+            powers.append([n**k * d ** (degree - k) for k in range(degree + 1)])
+        total, den = 0, self.den
+        for value, degree in zip(point, self.degrees):
+            den *= value.denominator**degree
+        for exponents, c in self.terms:
+            for table, e in zip(powers, exponents):
+                c *= table[e]
+            total += c
+        return Fraction(total, den)
+
+    def derivative(self, i: int) -> Polynomial:
+        """The partial derivative by the i-th variable."""
+        return Polynomial.of(
+            self.names,
+            {(*e[:i], e[i] - 1, *e[i + 1 :]): c * e[i] for e, c in self.terms if e[i]},
+            self.den,
+        )
+
+    def with_value(self, i: int, value: Fraction) -> Polynomial:
+        """The polynomial with a rational in place of the i-th variable; it stays a polynomial in
+        the same names.
+        """
+        degree, terms = self.degrees[i], dict[Exponents, int]()
+        for e, c in self.terms:
+            key = (*e[:i], 0, *e[i + 1 :])
+            terms[key] = terms.get(key, 0) + c * value.numerator ** e[i] * value.denominator ** (
+                degree - e[i]
+            )
+        return Polynomial.of(self.names, terms, self.den * value.denominator**degree)
+
+    def __str__(self) -> str:
+        text = ""
+        for exponents, c in self.terms:
+            size = Fraction(abs(c), self.den)
+            factors = [n if e == 1 else f"{n}^{e}" for n, e in zip(self.names, exponents) if e]
+            factors = ([str(size)] if size != 1 or not factors else []) + factors
+            text += (" - " if c < 0 else " + ") + "*".join(factors)
+        return (text[3:] if text[:3] == " + " else "-" + text[3:]) if text else "0"
+
+
+@dataclass(frozen=True)
+class Atom:
+    """The fact poly > 0, >= 0, = 0 or != 0."""
+
+    poly: Polynomial
+    relation: str
+
+    def holds(self, value: Fraction | int) -> bool:
+        """Whether the relation holds where the polynomial has this value (or a number of the same
+        sign).
+        """
+        return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[self.relation]
+
+    def __str__(self) -> str:
+        return f"{self.poly} {self.relation} 0"
+
+
+@dataclass(frozen=True)
+class Join:
+    """The conjunction ("and") or disjunction ("or") of formulas."""
+
+    op: str
+    parts: tuple[Formula, ...]
+
+
+Formula = Union[bool, Atom, Join]
+
+
+def conjuncts(formula: Formula) -> tuple[Formula, ...]:
+    """The parts of a top-level conjunction; a formula of another kind alone."""
+    if formula is True:
+        return ()
+    return formula.parts if isinstance(formula, Join) and formula.op == "and" else (formula,)
+
+
+def atoms(formula: Formula) -> Iterator[Atom]:
+    """Every atom in the formula, from left to right."""
+    if isinstance(formula, Atom):
+        yield formula
+    elif isinstance(formula, Join):
+        for part in formula.parts:
+            yield from atoms(part)
+
+
+def map_atoms(formula: Formula, change: Callable[[Atom], Formula]) -> Formula:
+    """The same formula with `change` applied to every atom."""
+    if isinstance(formula, Atom):
+        return change(formula)
+    if isinstance(formula, Join):
+        return join(formula.op, [map_atoms(part, change) for part in formula.parts])
+    return formula
+
+
+def join(op: str, formulas: Sequence[Formula]) -> Formula:
+    """The conjunction or disjunction, without constants, repetitions and joins of the same kind
+    inside.
+    """
+    flat: list[Formula] = []
+    for formula in formulas:
+        if isinstance(formula, bool):
+            if formula is (op == "or"):
+                return formula
+            continue
+        for part in formula.parts if isinstance(formula, Join) and formula.op == op else (formula,):
+            if part not in flat:
+                flat.append(part)
+    return op == "and" if not flat else flat[0] if len(flat) == 1 else Join(op, tuple(flat))
+
+
+def atom(poly: Polynomial, relation: str) -> Formula:
+    """The atom over coprime integer coefficients, or its truth value where the polynomial is
+    constant.
+    """
+    if not poly.used:
+        return Atom(poly, relation).holds(poly.terms[0][1] if poly.terms else 0)
+    content = gcd(*(c for _, c in poly.terms))
+    if relation in ("=", "!=") and poly.terms[0][1] < 0:
+        content = -content
+    return Atom(Polynomial(poly.names, tuple((e, c // content) for e, c in poly.terms)), relation)
+
+
+def truth(formula: Formula, decide: Callable[[Atom], bool | None]) -> bool | None:
+    """The truth value of the formula from those of its atoms; None where they do not tell."""
+    if isinstance(formula, bool):
+        return formula
+    if isinstance(formula, Atom):
+        return decide(formula)
+    decisive, unsure = formula.op == "or", False
+    for part in formula.parts:
+        value = truth(part, decide)
+        if value is decisive:
+            return value
+        unsure = unsure or value is None
+    return None if unsure else not decisive
+
+
+def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
+    """The disjunctive normal form: each branch a conjunction of atoms; None where it has more than
+    `limit` branches.
+
+    >>> x = Polynomial(("x",), (((1,), 1),))
+    >>> either = Join("or", (Atom(x, ">"), Atom(x, "=")))
+    >>> [[str(fact) for fact in b] for b in branches(either, 4) or []]
+    [['x > 0'], ['x = 0']]
+    """
+    if isinstance(formula, bool):
+        return [()] if formula else []
+    if isinstance(formula, Atom):
+        return [(formula,)]
+    found: list[tuple[Atom, ...]] = [] if formula.op == "or" else [()]
+    for part in formula.parts:
+        inner = branches(part, limit)
+        if inner is None:
+            return None
+        if formula.op == "or":
+            found += inner
+        else:
+            found = [merged for a in found for b in inner if (merged := _merge(a, b)) is not None]
+        if len(found) > limit:
+            return None
+    return found
+
+
+def _merge(first: tuple[Atom, ...], second: tuple[Atom, ...]) -> tuple[Atom, ...] | None:
+    facts = dict.fromkeys(first + second)
+    # p > 0 and p <= 0 in one branch: it is empty, and dropping it here keeps the normal form small
+    if any(f.relation == "=" and Atom(f.poly, r) in facts for f in facts for r in (">", "!=")):
+        return None
+    for fact in facts:
+        if fact.relation == ">" and any(
+            Atom(fact.poly.minus, r) in facts for r in (">", ">=", "=")
+        ):
+            return None
+    return tuple(facts)
+
+
+# -------------------------------------------------------------------------------------------------
+# A statement as the questions that decide it: polynomials only, with the denominators cleared by
+# the checker's own unfolding.
+#
+# A question is a formula "assumed, and for all bound variables denied"; the statement holds if and
+# only if no question has a solution.
+
+TRUSTED: Any = checker  # the trusted file carries no annotations
+
+
+@dataclass(frozen=True)
+class Denial:
+    """For all values of the bound variables (none for a universal statement) there are values of
+    the `chosen` ones with the formula.
+
+    Only the outside of a sharp range chooses: a named statement with `exists` is assumed there, not
+    denied.
+    """
+
+    bound: tuple[str, ...]
+    formula: Formula
+    chosen: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Question:
+    """Is there a point that meets all of `assumed` and every denial?  `part` says of which line of
+    the statement this is the denial.
+
+    A point refutes the statement where `refutes`; else (a `have` line, or the term under a root) it
+    shows that a line does not follow.
+    """
+
+    statement: str
+    part: str
+    names: tuple[str, ...]
+    integers: frozenset[str]
+    assumed: tuple[Formula, ...]
+    denials: tuple[Denial, ...]
+    refutes: bool = True
+
+    @property
+    def bound(self) -> frozenset[str]:
+        """The names that a denial binds."""
+        return frozenset(
+            name for denial in self.denials for name in (*denial.bound, *denial.chosen)
+        )
+
+    @property
+    def quantified(self) -> bool:
+        """Whether a denial binds variables."""
+        return bool(self.bound)
+
+    @property
+    def beyond_routes(self) -> bool:
+        """Whether it has one alternation of quantifiers more, or integers under a quantifier
+        outside a range: only exported, no route asks.
+        """
+        return (
+            any(denial.chosen for denial in self.denials)
+            or self.part == "outside"
+            and bool(self.integers)
+        )
+
+    def occurring(self) -> tuple[str, ...]:
+        """The names of the variables that occur, in order."""
+        formulas = [*self.assumed, *(denial.formula for denial in self.denials)]
+        used = {i for formula in formulas for fact in atoms(formula) for i in fact.poly.used}
+        return tuple(name for i, name in enumerate(self.names) if i in used)
+
+    def matrix(self) -> Formula:
+        """The whole question of a universal statement as one formula."""
+        return join("and", [*self.assumed, *(denial.formula for denial in self.denials)])
+
+
+def read_statement(text: str) -> Any:
+    """The checker's statement of this text (one statement, as `Statement.text` writes it)."""
+    (statement,) = TRUSTED.read_statements(text).values()
+    return statement
+
+
+def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[Question]:
+    """The questions of a statement, in the order: `have` and `root` lines, then what is shown.
+
+    A sharp range asks one question more than the statements it names ask inside it: outside, is
+    there a parameter at which all of them hold?  Recurrences ask whether an identity fails.
+    """
+    TRUSTED.work_left[0] = TRUSTED.MAX_WORK
+    if statement.kind == "sharp":
+        return _sharp_questions(statement, earlier or {})
+    if statement.kind == "iterates":
+        return _iterate_questions(statement)
+    return _universal_questions(statement, statement.name, None, "")
+
+
+def _universal_questions(
+    statement: Any, name: str, sharp: Sequence[Any] | None, where: str
+) -> list[Question]:
+    story: Any = unfolded(statement, sharp if sharp is None else list(sharp))
+    own, universal = tuple(story.context.index), set(story.universal)
+    free, integers = tuple(n for n in own if n in universal), frozenset(story.integers)
+    asked = []
+    for number, (count, negation) in enumerate(story.obligations, 1):
+        asked.append(
+            Question(
+                name,
+                f"{where}obligation {number}",
+                free,
+                integers & universal,
+                _premises(story, own, free, count),
+                (Denial((), formula_of(negation, own, free)),),
+                refutes=False,
+            )
+        )
+    denial = Denial(
+        tuple(n for n in own if n not in universal), formula_of(story.goal(False), own, own)
+    )
+    return [
+        *asked,
+        Question(name, f"{where}goal", own, integers, _premises(story, own, own), (denial,)),
+    ]
+
+
+def _sharp_questions(statement: Any, earlier: Mapping[str, Any]) -> list[Question]:
+    (named,), (over,), (domain,), (condition,) = (
+        statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
+    )
+    asked: list[Question] = []
+    for name in named:
+        asked += _universal_questions(
+            earlier[name], statement.name, [domain, condition], f"inside, {name}: "
+        )
+    return [
+        *asked,
+        _outside(statement.name, over, domain, condition, [earlier[name] for name in named]),
+    ]
+
+
+def _outside(
+    name: str, over: Sequence[str], domain: Any, condition: Any, named: Sequence[Any]
+) -> Question:
+    """Is there a parameter in the domain, but outside the range, at which all the named statements
+    hold?
+    """
+    stories = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
+    names, integers = list[str](over), {p for p in over if p in stories[0].integers}
+    renamed = list[tuple[str, ...]]()
+    # every denial binds its own variables; a name is shared unless it is an integer in one
+    # statement only
+    for story in stories:
+        own = [
+            (
+                n
+                if n in over or n not in names or (n in integers) == (n in story.integers)
+                else _fresh(n, {*names, *story.context.index})
+            )
+            for n in story.context.index
+        ]
+        names += [n for n in own if n not in names]
+        integers |= {n for n, key in zip(own, story.context.index) if key in story.integers}
+        renamed.append(tuple(own))
+    context, order = TRUSTED.Context(), tuple(names)
+    for parameter in over:
+        context.declare(parameter)
+    outside = [
+        formula_of(f, tuple(over), order)
+        for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))
+    ]
+    denials = []
+    for story, bound in zip(stories, renamed):
+        held = TRUSTED.join(
+            "or", [TRUSTED.negate(TRUSTED.join("and", story.premises)), story.goal(True)]
+        )
+        of_all = {n for n, key in zip(bound, story.context.index) if key in story.universal}
+        denials.append(
+            Denial(
+                tuple(n for n in bound if n in of_all and n not in over),
+                formula_of(held, bound, order),
+                tuple(n for n in bound if n not in of_all),
+            )
+        )
+    return Question(name, "outside", order, frozenset(integers), flat(outside), tuple(denials))
+
+
+def _fresh(name: str, taken: set[str]) -> str:
+    """The name with underscores until it is none of those taken."""
+    while name in taken:
+        name += "_"
+    return name
+
+
+def _iterate_questions(statement: Any) -> list[Question]:
+    (variables,), ((arguments, images),), ((count, powers),) = (
+        statement.get(keyword) for keyword in ("forall", "iterates", "after")
+    )
+    images, powers = ([TRUSTED.parse(text) for text in terms] for terms in (images, powers))
+    context = TRUSTED.Context()
+    for name in variables:
+        context.declare(name)
+    plain, (k,), names = dict(context.values), count, tuple(context.index)
+
+    def image(trees: Sequence[Any], changes: Mapping[str, Any]) -> list[Any]:
+        inner = TRUSTED.Context(context, {**plain, **changes})
+        for name, tree in statement.get("let"):
+            inner.define(name, inner.value(tree))
+        return [inner.value(tree) for tree in trees]
+
+    pairs = [
+        *zip(image(powers, {k: TRUSTED.ZERO}), (plain[name] for name in arguments)),
+        *zip(
+            image(images, dict(zip(arguments, image(powers, {})))),
+            image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}),
+        ),
+    ]
+    fails = join(
+        "or", [formula_of(context.atom(left, "!=", right), names, names) for left, right in pairs]
+    )
+    # the identities hold for all real K where they hold for all integers, so no variable need be an
+    # integer here
+    return [Question(statement.name, "recurrence", names, frozenset(), (), (Denial((), fails),))]
+
+
+def _premises(
+    story: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None
+) -> tuple[Formula, ...]:
+    return flat([formula_of(premise, own, names) for premise in story.premises[:count]])
+
+
+def flat(formulas: Sequence[Formula]) -> tuple[Formula, ...]:
+    """The formulas with top-level conjunctions taken apart, each once."""
+    return tuple(dict.fromkeys(part for formula in formulas for part in conjuncts(formula)))
+
+
+def formula_of(formula: Any, own: tuple[str, ...], names: tuple[str, ...]) -> Formula:
+    """The checker's formula, whose variables are `own` in order, over the variables `names`."""
+    if isinstance(formula, bool):
+        return formula
+    if formula[0] == "atom":
+        return atom(polynomial_of(formula[1], own, names), formula[2])
+    return join(formula[0], [formula_of(part, own, names) for part in formula[1]])
+
+
+def polynomial_of(poly: Any, own: tuple[str, ...], names: tuple[str, ...]) -> Polynomial:
+    """The checker's polynomial, unpacked: 16 bits for each variable."""
+    bits, terms = TRUSTED.BITS, dict[tuple[int, ...], int]()
+    for packed, c in poly.terms.items():
+        powers = {name: packed >> (bits * i) & ((1 << bits) - 1) for i, name in enumerate(own)}
+        terms[tuple(powers.get(name, 0) for name in names)] = c
+    return Polynomial.of(names, terms, poly.den)

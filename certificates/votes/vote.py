@@ -1,0 +1,152 @@
+"""Votes on a statement by routes other than the certificate, and the stop when one of them
+contradicts what was checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+AGREES = {"certified": "holds", "refuted": "fails"}
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Counted work for one statement: Z3's resource units, boxes, and the width to which a bound is
+    enclosed.
+
+    The statements of this subject take Z3 under 20,000 units each (a few ms).  Above 500,000 a
+    single unit can hide a resultant that takes minutes, which no count interrupts, so more is not
+    better.
+    """
+
+    rlimit: int = 300_000
+    boxes: int = 3_000
+    width: Fraction = Fraction(1, 16)
+
+    def times(self, factor: int) -> Budget:
+        """The budget with `factor` times as much work.
+
+        >>> Budget().times(3).boxes
+        9000
+        """
+        return Budget(self.rlimit * factor, self.boxes * factor, self.width)
+
+
+@dataclass(frozen=True)
+class Enclosure:
+    """low <= inf of the polynomial over the region <= high, both exact; `wanted` is the width that
+    was asked for.
+    """
+
+    polynomial: str
+    low: Fraction
+    high: Fraction
+    wanted: Fraction
+
+    def __str__(self) -> str:
+        return (
+            f"{self.low} <= inf({self.polynomial}) <= {self.high} (width {self.high - self.low},"
+            f" wanted {self.wanted})"
+        )
+
+
+@dataclass(frozen=True)
+class Vote:
+    """What one route says of one statement: `holds` or `fails` decide it; `unknown`, `enclosed` and
+    `not applicable` do not.
+
+    `model` is an exact point (name, value) at which the statement fails; `opinions` are
+    (arithmetic, what it found) where two were asked.
+    """
+
+    route: str
+    answer: str
+    detail: str
+    work: int = 0
+    model: tuple[tuple[str, str], ...] = ()
+    enclosures: tuple[Enclosure, ...] = ()
+    opinions: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def decided(self) -> bool:
+        """Whether the vote says that the statement holds or that it fails."""
+        return self.answer in ("holds", "fails")
+
+    def __str__(self) -> str:
+        said = "; ".join(
+            [
+                self.detail,
+                *(f"{how}: {what}" for how, what in self.opinions),
+                *map(str, self.enclosures),
+            ]
+        )
+        at = (
+            " at " + ", ".join(f"{name} = {value}" for name, value in self.model)
+            if self.model
+            else ""
+        )
+        return f"{self.route} says {self.answer}{at} ({said})"
+
+
+class Disagreement(Exception):
+    """Two routes contradict each other about one statement; the message is one line with both
+    sides.
+    """
+
+    def __init__(self, statement: str, first: str, second: str) -> None:
+        super().__init__(f"{statement}: {first}, but {second}")
+        self.statement, self.first, self.second = statement, first, second
+
+    def __reduce__(self) -> tuple[type[Disagreement], tuple[str, str, str]]:
+        return Disagreement, (self.statement, self.first, self.second)
+
+
+def compare(statement: str, outcome: str, votes: Sequence[Vote]) -> None:
+    """Raises Disagreement where a vote contradicts the checked outcome or another vote.
+
+    Formula: `holds` contradicts `refuted` and `fails`; `fails` contradicts `certified` and `holds`;
+    nothing else contradicts.
+    """
+    checked = AGREES.get(outcome)
+    sides = [(checked, f"the checked certificate says {outcome}")] if checked else []
+    for vote in votes:
+        if vote.decided:
+            for answer, said in sides:
+                if answer != vote.answer:
+                    raise Disagreement(statement, said, str(vote))
+            sides.append((vote.answer, str(vote)))
+
+
+def cast_votes(
+    statement: Any,
+    outcome: str,
+    routes: Sequence[str] = ("z3", "boxes"),
+    budget: Budget | None = None,
+    earlier: Mapping[str, Any] | None = None,
+) -> tuple[Vote, ...]:
+    """One vote for each of the routes named that casts any ("z3", "boxes"), on a statement of the
+    checker with its checked outcome.
+
+    `earlier` gives the statements that a sharp range names.  Raises Disagreement where a vote
+    contradicts the outcome or another vote.
+    """
+    from juggleproof.certificates.votes.questions import questions  # only where a vote is cast anew
+
+    asked = questions(statement, earlier)
+    votes: list[Vote] = []
+    for route in routes:
+        if route == "z3":
+            from juggleproof.certificates.votes import (
+                z3,  # loading Z3 takes 70 ms: only where it is asked
+            )
+
+            votes.append(z3.vote(statement, earlier, budget, asked))
+        elif route == "boxes":
+            from juggleproof.certificates.votes import boxes as boxes_route
+
+            votes.append(boxes_route.vote(statement, earlier, budget, asked))
+    compare(statement.name, outcome, votes)
+    return tuple(votes)

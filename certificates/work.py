@@ -1,0 +1,98 @@
+"""Counted work: every search spends from a budget, so that it ends after the same work on every."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from juggleproof.certificates import checker
+
+# -------------------------------------------------------------------------------------------------
+# Counted work: every search spends from a budget, so that it ends after the same work on every
+# machine.
+
+
+class Exhausted(Exception):
+    """The counted work of a search is used up."""
+
+
+class Budget:
+    """A number of units of work, a few microseconds each; what a part spends, the whole spends too.
+
+    >>> whole = Budget(100)
+    >>> part = whole.part(30)
+    >>> part.spend(20)
+    >>> whole.left, part.left
+    (80, 10)
+    """
+
+    def __init__(self, units: int, whole: Budget | None = None) -> None:
+        self.left, self.whole = units, whole
+
+    def spend(self, amount: int) -> None:
+        """Takes `amount` units; raises Exhausted when fewer are left."""
+        self.left -= amount
+        if self.whole is not None:
+            self.whole.spend(amount)
+        if self.left < 0:
+            raise Exhausted
+
+    def part(self, units: int) -> Budget:
+        """A smaller budget within this one."""
+        return Budget(min(units, self.left), self)
+
+
+MALFORMED = (
+    RecursionError,
+    MemoryError,
+    ValueError,
+    TypeError,
+    KeyError,
+    AttributeError,
+    IndexError,
+    OverflowError,
+)
+
+
+def accepted(check: Callable[..., Any], *arguments: Any) -> bool:
+    """Whether the checker's function accepts what a search found.
+
+    >>> accepted(checker.close, checker.State(checker.Context()).assume(False), ["close"], {})
+    True
+    """
+    checker.work_left[0] = checker.MAX_WORK
+    try:
+        check(*arguments)
+    except (checker.Rejected, *MALFORMED):
+        return False
+    return True
+
+
+# -------------------------------------------------------------------------------------------------
+# Statements unfolded once: the searches for points, proofs and witnesses share what the checker
+# makes of a text.
+
+MOST = 32
+_kept: dict[tuple[int, ...], tuple[Any, ...]] = {}
+
+
+def unfolded(statement: checker.Statement, sharp: list[Any] | None = None) -> checker.Unfolding:
+    """The statement's variables, premises, obligations and goals in a context of its own; not to be
+    changed.
+
+    >>> text = "statement a/b\\nforall x\\ngiven x > 1\\nshow x > 0"
+    >>> story = unfolded(checker.read_statements(text)["a/b"])
+    >>> story.universal, len(story.premises)
+    (['x'], 1)
+    """
+    key = (id(statement), *map(id, sharp or ()))
+    if key not in _kept:
+        while len(_kept) >= MOST:
+            del _kept[next(iter(_kept))]
+        # the statement and the trees are kept with it, so that their ids stay theirs
+        _kept[key] = (
+            checker.Unfolding(statement, checker.Context(), sharp),
+            statement,
+            sharp and list(sharp),
+        )
+    return _kept[key][0]

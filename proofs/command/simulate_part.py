@@ -1,0 +1,264 @@
+"""Simulate part."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager, nullcontext
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
+from juggleproof.proofs.reports import part as part_tables
+from juggleproof.proofs.reports.part import keep_results
+from juggleproof.scenes.part.onsets import (
+    AMPLITUDES,
+    FACES,
+    Point,
+    Table,
+    as_json,
+    chosen,
+    recorded,
+    sweep,
+    table_one,
+)
+from juggleproof.scenes.part.setting import Scene, scene
+
+# -------------------------------------------------------------------------------------------------
+# `juggleproof simulate part`: table I, a sweep, the still table, figure 2 and its animation.
+
+WISHES = ("sweep", "still", "figure", "animation")
+SUFFIXES = {
+    "figure": (".svg", ".pdf"),
+    "animation": (".html",),
+    "sweep": (".json",),
+    "table": (".csv", ".npz"),
+}
+
+
+def part(options: argparse.Namespace) -> int:
+    """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was
+    interrupted.
+    """
+    _needed("numba")
+    wishes = [name for name in WISHES if getattr(options, name)] or ["table"]
+    if len(wishes) > 1:
+        raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
+    _refuse_unwritable(options, wishes[0])
+    with _threads(options.jobs) as executor:
+        return DONE_BY[wishes[0]](options, _setting(options), executor)
+
+
+def _needed(module: str) -> None:
+    try:
+        __import__(module)
+    except ImportError:
+        raise ClaimError(
+            f"{module} is needed for this scene; install it with pip install -e '.[part]'"
+        ) from None
+
+
+def _threads(jobs: int | None) -> AbstractContextManager[Any]:
+    if jobs is None:
+        return nullcontext(None)
+    if not 1 <= jobs <= 1024:
+        raise ClaimError(f"--jobs {jobs} is outside 1 .. 1024")
+    return ThreadPoolExecutor(jobs)
+
+
+def _refuse_unwritable(options: argparse.Namespace, wish: str) -> None:
+    path: Path | None = options.output
+    if wish in ("figure", "animation"):
+        if path is not None:
+            raise ClaimError(
+                f"--output {path} goes with table I or a sweep; --{wish} names its own file"
+            )
+        path = getattr(options, wish)
+    if path is None:
+        return
+    if wish == "still":
+        raise ClaimError(f"--output {path} goes with table I or a sweep")
+    if path.suffix not in SUFFIXES[wish]:
+        raise ClaimError(f"{path}: the name is to end in {' or '.join(SUFFIXES[wish])}")
+    fault = fault_of(path)
+    if fault:
+        raise ClaimError(f"{path}: {fault}; name another file")
+
+
+def _number(text: str, name: str) -> float:
+    """A number of physics, such as 0.7, 1e-3 or 2/3."""
+    try:
+        return float(Fraction(text)) if len(text) <= 60 else math.nan
+    except (ValueError, ZeroDivisionError, OverflowError):
+        raise ClaimError(
+            f"{name} = {text[:40]!r} is no number; write it as 0.7, 1e-3 or 2/3"
+        ) from None
+
+
+def _one_of(text: str, name: str, known: dict[str, Any]) -> Any:
+    if text not in known:
+        raise ClaimError(f"{name} {text[:40]!r}: choose from {', '.join(known)}")
+    return known[text]
+
+
+def _setting(options: argparse.Namespace) -> Scene:
+    """The scene of the options; e and mu, where they are not given, those of the stored sweep."""
+    a, b = _one_of(options.face, "--face", FACES)
+    peak = _one_of(options.amplitudes, "--amplitudes", AMPLITUDES)
+    stored = options.sweep is None and (options.e is None or options.mu is None)
+    pair = chosen(recorded()) if stored else Point(0, 0, (), (), 0)
+    frequency, amplitude = _vibration(options.vibration)
+    return scene(
+        a=a,
+        b=b,
+        e=pair.e if options.e is None else _number(options.e, "e"),
+        mu=pair.mu if options.mu is None else _number(options.mu, "mu"),
+        A_x=peak * amplitude,
+        f_x=frequency,
+        phase_x=math.radians(_number(options.phase, "phase")),
+        A_y=peak * 2e-4,
+        f_y=60.0,
+        tolerance=_number(options.tolerance, "tolerance"),
+        rest_speed=_number(options.rest_speed, "rest speed"),
+        launch=options.launch,
+    )
+
+
+def _vibration(text: str) -> tuple[float, float]:
+    pieces = text.split(":")
+    if len(pieces) != 2:
+        raise ClaimError(f"--vibration {text[:40]!r} is not HERTZ:MILLIMETRES, such as 30:1")
+    return _number(pieces[0], "the frequency"), _number(pieces[1], "the amplitude") / 1000
+
+
+def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
+    found = table_one(
+        setting,
+        ensembles=options.ensembles,
+        horizon=_number(options.horizon, "horizon"),
+        seed=options.seed,
+        peak=AMPLITUDES[options.amplitudes],
+        executor=executor,
+        tell=progress(),
+    )
+    clear()
+    keep_results(
+        setting, found, options.amplitudes, options.seed
+    )  # before anything is printed, to a reader who may not stay
+    part_tables.table(found, setting, options.amplitudes, options.e is None and options.mu is None)
+    if options.output is not None:
+        with written_aside(options.output) as file:
+            _writer(options.output)(found, file)
+        print(f"{options.output}: {len(found.rows)} rows of {options.ensembles} ensembles written")
+    if not options.check:
+        return 0
+    return 1 if part_tables.violations(found.run, setting) else 0
+
+
+def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:
+    from juggleproof.scenes.part import onsets as tables
+
+    return tables.as_csv if path.suffix == ".csv" else tables.as_npz
+
+
+def _axis(text: str, name: str) -> list[float]:
+    """The numbers of FROM:TO:COUNT, rounded to ten digits."""
+    pieces = text.split(":")
+    if len(pieces) != 3:
+        raise ClaimError(f"--sweep {name}: {text[:40]!r} is not FROM:TO:COUNT")
+    low, high, count = (
+        _number(pieces[0], name),
+        _number(pieces[1], name),
+        _number(pieces[2], f"the count of {name}"),
+    )
+    if not 1 <= count <= 1000 or count != int(count):
+        raise ClaimError(
+            f"--sweep {name}: a count of {pieces[2][:20]} is not a whole number from 1 to 1000"
+        )
+    return [round(low + (high - low) * k / max(count - 1, 1), 10) for k in range(int(count))]
+
+
+def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
+    if options.e is not None or options.mu is not None:
+        raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
+    axes = {
+        name.strip(): text
+        for name, _, text in (piece.partition("=") for piece in options.sweep.split(","))
+    }
+    if set(axes) != {"e", "mu"}:
+        raise ClaimError(
+            f"--sweep {options.sweep[:40]!r} has not e and mu; write"
+            " e=FROM:TO:COUNT,mu=FROM:TO:COUNT"
+        )
+    horizon = _number(options.horizon, "horizon")
+    points: list[Point] = []
+
+    def tell(point: Point) -> None:
+        points.append(point)
+        print(part_tables.point(point), flush=True)
+
+    print(part_tables.POINT_HEADS)
+    interrupted = False
+    try:
+        sweep(
+            setting,
+            _axis(axes["e"], "e"),
+            _axis(axes["mu"], "mu"),
+            ensembles=options.ensembles,
+            horizon=horizon,
+            seed=options.seed,
+            peak=AMPLITUDES[options.amplitudes],
+            executor=executor,
+            tell=tell,
+        )
+    except KeyboardInterrupt:
+        interrupted = True
+        print(f"juggleproof: interrupted; {len(points)} points are done", file=sys.stderr)
+    if points:
+        best = chosen(points)
+        print(f"least misfit: e = {best.e:g}, mu = {best.mu:g}, {best.misfit:.3f}")
+    if options.output is not None and points:
+        with written_aside(options.output) as file:
+            file.write(as_json(points, options.ensembles, horizon, options.seed).encode())
+        print(f"{options.output}: {len(points)} points written")
+    return 130 if interrupted else 0
+
+
+def _still(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
+    from juggleproof.scenes.part.ensemble import in_words, no_vibration
+
+    print(in_words(no_vibration(setting, executor)))
+    return 0
+
+
+def _drawn(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
+    path: Path = options.figure or options.animation
+    if options.figure:
+        from juggleproof.proofs.reports.contents import needed
+        from juggleproof.scenes.part.picture import figure_two
+
+        needed("matplotlib")
+        with written_aside(path) as file:
+            figure_two(setting, file, path.suffix[1:])
+    else:
+        from juggleproof.scenes.part.animation import HORIZON, animation
+        from juggleproof.scenes.part.picture import ANGLES
+
+        with written_aside(path) as file:
+            animation(setting, ANGLES, HORIZON, file, executor)
+    print(f"{path}: written")
+    return 0
+
+
+DONE_BY: dict[str, Callable[[argparse.Namespace, Scene, Any], int]] = {
+    "table": _table,
+    "sweep": _sweep,
+    "still": _still,
+    "figure": _drawn,
+    "animation": _drawn,
+}

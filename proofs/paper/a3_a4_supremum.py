@@ -1,0 +1,571 @@
+"""Appendix A.3, A.4."""
+
+from __future__ import annotations
+
+from juggleproof.certificates.language import (
+    Formula,
+    Statement,
+    Term,
+    conjunction,
+    equal,
+    iff,
+    reals,
+    term,
+)
+from juggleproof.proofs.claims import Argument, Assertion, Readings, claim
+from juggleproof.proofs.paper.names import (
+    B1,
+    B2,
+    PAPER,
+    H,
+    R,
+    always,
+    at,
+    b,
+    beta,
+    derived,
+    energy,
+    eps,
+    exists_some,
+    f2,
+    g,
+    impact_energy_change,
+    only_at,
+    r,
+    strikes_at,
+    t,
+    v,
+    value_of,
+)
+from juggleproof.proofs.paper.regions import (
+    B1_OUTSIDE,
+    BEYOND_R,
+    CLOSED_B1,
+    CORNER,
+    NAMED,
+    ON_R,
+    OUTSIDE,
+    PRINTED_SUPREMUM,
+    SUPREMAL,
+    b_0,
+    beta0,
+    ceiling_of,
+    change,
+    dE_sup,
+    floor_of,
+    impacts_suffice,
+    least,
+    not_supremal,
+    pieces,
+    v0,
+    with_rounding,
+)
+from juggleproof.proofs.paper.states import (
+    STEEP,
+    are_slopes,
+    dE_dbeta,
+    dE_dv,
+    dR_dbeta,
+    dR_dv,
+    with_slopes,
+)
+from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.parser import parse_name
+from juggleproof.proofs.reading.values import Region, Vector
+
+# -------------------------------------------------------------------------------------------------
+# Appendix A.3: how little an impact takes outside the region R, at least.
+
+lam, edge, height, h = reals("lam edge height h")
+AT_CORNER = PAPER.at(parse_name(r"\overline b"), b_0).extended(
+    {r"\overline b_s": b_0, r"\Delta E_{sup}": dE_sup}
+)
+MULTIPLIED = with_slopes(PAPER, b_0).extended({r"\lambda": lam, r"\overline b_s": b_0})
+
+
+def is_least_bound(
+    value: Term, region: Region, given: list[Formula]
+) -> tuple[Statement, Statement]:
+    """The value bounds the energy change of the impacts from the region, and those above the corner
+    come as close to it as one likes.
+    """
+    above = Vector((height, v0))
+    return (
+        always(change < value, given=[*given, region(b)], label="bound"),
+        exists_some(
+            ["height"],
+            term(impact_energy_change(above)) > value - eps,
+            within=[region(above)],
+            given=[*given, eps > 0],
+            label="approached",
+        ),
+    )
+
+
+@claim(
+    "sA.3-sup",
+    "A.3",
+    "line 679",
+    printed=r"\mathcal{H} - \mathcal{R}",
+    as_it_stands=r"\mathcal{A} - \mathcal{R}",
+)
+def supremum_outside_the_region(printed: Printed) -> Readings:
+    """The energy change at the corner of R is the supremum outside R: over all states there, or
+    over those whose impact comes.
+    """
+    region = value_of(printed, PAPER)
+    impacts = is_least_bound(least, region & B1, [CORNER(b_0)])
+    flights = always(
+        energy(f2(b)) - energy(b) < least, given=[CORNER(b_0), region(b), B2(b)], label="flights"
+    )
+    return Readings(
+        {"all-states": Assertion((*impacts, flights)), "with-impact": Assertion(impacts)}
+    )
+
+
+@claim(
+    "eq-38",
+    "A.3.1",
+    "(38)",
+    printed=(
+        r"D_{\overline{\beta}} \Delta_1 E(\overline{b}_s) = \lambda D_{\overline{\beta}}"
+        r" R(\overline{b}_s) \\ "
+        r"D_{\dot{\overline{\beta}}} \Delta_1 E(\overline{b}_s) = \lambda"
+        r" D_{\dot{\overline{\beta}}} R(\overline{b}_s)"
+    ),
+    as_it_stands=(
+        r"D_{\overline{\beta}} \Delta_1 E(\overline{b}_s) = \lambda D_{\overline{\beta}}"
+        r" R(\overline{b}_s) \\ "
+        r"D_{\overline{\beta}} \Delta_1 E(\overline{b}_s) = \lambda D_{\overline{\beta}}"
+        r" R(\overline{b}_s)"
+    ),
+)
+def condition_on_the_boundary(printed: Printed) -> list[Statement]:
+    """Along a level line of R the energy change is stationary exactly where both gradients are
+    parallel.
+    """
+    p, q = reals("p q")
+    down, along = (term(entry) for entry in at(derived("region_gradient"), b_0).entries)
+    names = {
+        r"D_{\overline\beta} R": only_at(b_0, down),
+        r"D_{\dot{\overline\beta}} R": only_at(b_0, along),
+    }
+    parallel = printed.formula(MULTIPLIED.extended(names))
+    return [
+        exists_some(
+            ["lam"], parallel, given=[equal(dE_dv * down, dE_dbeta * along)], label="needed"
+        ),
+        always(
+            equal(dE_dbeta * p + dE_dv * q, 0),
+            given=[parallel, equal(down * p + along * q, 0)],
+            label="enough",
+        ),
+    ]
+
+
+@claim(
+    "sA.3.1-DR",
+    "A.3.1",
+    "line 690",
+    printed=r"D_{\overline{\beta}} R(\overline{b}) = -\gamma \text{ and } "
+    r"D_{\dot{\overline{\beta}}} R(\overline{b}) = -\dot{\overline{\beta}}.",
+)
+def slopes_of_the_region(printed: Printed) -> Statement:
+    """How R(b) varies with height and velocity."""
+    return always(printed.formula(STEEP), given=[are_slopes(dR_dbeta, dR_dv)])
+
+
+@claim(
+    "sA.3.1-35",
+    "A.3.1",
+    "line 694",
+    printed=r"D_{\overline{\beta}} \Delta_1 E = -\alpha\gamma - \gamma",
+    as_it_stands=r"D_{\overline{B}} \Delta_1 E = -\alpha \gamma - \gamma",
+    repeats="eq-35",
+)
+def slope_with_the_height_recalled(printed: Printed) -> Statement:
+    """How the energy change of an impact falls with the height, once more."""
+    return always(printed.formula(STEEP), given=[are_slopes(dE_dbeta)])
+
+
+@claim("sA.3.1-lambda", "A.3.1", "line 696", printed=r"\lambda = \alpha + 1")
+def multiplier(printed: Printed) -> Statement:
+    """The slopes with the height leave one multiplier only."""
+    parallel = equal(dE_dbeta, lam * dR_dbeta)
+    return always(
+        iff(parallel, printed.formula(MULTIPLIED)),
+        given=[are_slopes(dE_dbeta, dR_dbeta, state=b_0)],
+    )
+
+
+@claim(
+    "sA.3.1-36",
+    "A.3.1",
+    "line 698",
+    repeats="eq-36",
+    printed=r"D_{\dot{\overline{\beta}}} \Delta_1 E = "
+    r"-\alpha\gamma T - (1-\alpha^2) \dot{\overline{\beta}} - \alpha(\alpha-1) \dot{\rho}_0",
+    as_it_stands=r"D_{\dot{\overline{B}}} \Delta_1 E = "
+    r"-\alpha \gamma T - (1-\alpha^2) \dot{\overline{B}} - \alpha (\alpha - 1) \dot{\rho}_0",
+)
+def slope_with_the_velocity_recalled(printed: Printed) -> Statement:
+    """How the energy change of an impact varies with the velocity, once more."""
+    return always(printed.formula(STEEP), given=[are_slopes(dE_dv)])
+
+
+@claim("sA.3.1-not-satisfied", "A.3.1", "line 700", printed=r"\lambda = \alpha + 1")
+def multiplier_does_not_fit(printed: Printed) -> Argument:
+    """With this multiplier the gradients are nowhere parallel on R(b) = 0, so that no state there,
+    on B1 or its boundary, is stationary.
+    """
+    parallel = equal(dE_dbeta, lam * dR_dbeta) & equal(dE_dv, lam * dR_dv)
+    on_curve = [H(b_0), ON_R(b_0), are_slopes(dE_dbeta, dE_dv, dR_dbeta, dR_dv, state=b_0)]
+    return Argument(
+        steps={
+            "nowhere-parallel": Assertion(
+                (always(~parallel, given=[*on_curve, printed.formula(MULTIPLIED)]),)
+            )
+        },
+        conclusion=Assertion((always(~parallel, given=[*on_curve, CLOSED_B1(b_0)]),)),
+    )
+
+
+@claim("sA.3.1-not-on-R0", "A.3.1", "lines 681 and 700", printed=r"R(\overline{b}) = 0")
+def supremum_is_not_on_the_boundary(printed: Printed) -> Readings:
+    """On R(b) = 0 no state at the edge of the impacts outside R has the supremal energy change:
+    none at all, or none above the ground.
+    """
+    return not_supremal(printed.formula(PAPER))
+
+
+@claim("sA.3.2-leftmost", "A.3.2", "line 702", printed=r"\overline{\beta} = 0")
+def leftmost_states(printed: Printed) -> Readings:
+    """The leftmost boundary of the impacts outside R is the edge of H: this alone, or with the arc
+    of R(b) = 0 above it.
+
+    From any such state a move to the left at the same velocity ends there, and raises the energy
+    change.
+    """
+    left = Vector((edge, v))
+    edge_of_h = printed.formula(PAPER.extended({r"\overline\beta": edge}))
+    still_outside = at(derived("region_margin"), left) <= 0
+
+    def reading(boundary: Formula) -> Assertion:
+        return Assertion(
+            (
+                exists_some(
+                    ["edge"],
+                    conjunction(
+                        [boundary, still_outside, B1(left), change <= impact_energy_change(left)]
+                    ),
+                    within=[edge >= 0, edge <= beta],
+                    given=[B1_OUTSIDE(b)],
+                ),
+            )
+        )
+
+    return Readings(
+        {"edge-alone": reading(edge_of_h), "edge-and-arc": reading(edge_of_h | ON_R(left))}
+    )
+
+
+@claim("sA.3.2-concave", "A.3.2", "line 702", printed=r"\alpha^2 - 1 < 0 \\ 0 \le \alpha < 1")
+def energy_change_is_concave_on_the_edge(printed: Printed) -> list[Statement]:
+    """For these alpha this number is negative: the second derivative of the energy change on the
+    edge, which is concave there.
+    """
+    negative, physical = pieces(printed, 2)
+    second = negative.left(PAPER)
+    before, here, after = (
+        term(impact_energy_change(Vector((0, speed)))) for speed in (v - h, v, v + h)
+    )
+    return [
+        always(negative.formula(PAPER), in_range=[physical.formula(PAPER)], label="negative"),
+        always(equal(before - 2 * here + after, second * h**2), label="second-derivative"),
+    ]
+
+
+@claim(
+    "sA.3.2-corner", "A.3.2", "line 702", printed=r"R(\overline{b}) = 0, \quad \overline{\beta} = 0"
+)
+def supremum_belongs_to_the_corner(printed: Printed) -> list[Statement]:
+    """The supremum is the energy change where the level line of R meets the edge of H, at the
+    boundary of the impacts outside R.
+    """
+    return list(is_least_bound(least, B1_OUTSIDE, [CLOSED_B1(b_0), printed.formula(AT_CORNER)]))
+
+
+@claim(
+    "eq-39",
+    "A.3.2",
+    "(39)",
+    printed=(
+        r"\overline{\beta} = 0 \\ \dot{\overline{\beta}} = -\sqrt{2(1+\alpha)}"
+        r" \frac{\dot{\rho}_0}{1-\alpha}"
+    ),
+)
+def corner_of_the_region(printed: Printed) -> Statement:
+    """The only state of B1 on the ground and on the level line of R."""
+    return always(iff(CORNER(b), printed.formula(PAPER)))
+
+
+@claim("sA.3.2-tau-zero", "A.3.2", "line 708", printed=r"\tau_c = 0")
+def corner_strikes_at_once(printed: Printed) -> Statement:
+    """From the corner the ball strikes the table at once."""
+    return always(
+        iff(strikes_at(t), printed.formula(PAPER.extended({r"\tau_c": only_at(b, t)}))),
+        given=[CORNER(b)],
+    )
+
+
+@claim("sA.3.2-sup1", "A.3.2", "line 710", printed=r"\Delta E_{sup} := \Delta_1 E(\overline{b}_s)")
+def supremum_is_the_energy_change_at_the_corner(printed: Printed) -> list[Statement]:
+    """The energy change at the corner is the supremum over the impacts outside R, and is not
+    attained there.
+    """
+    names = PAPER.extended({r"\overline b_s": b_0})
+    return [
+        always(printed.formula(names), given=[CORNER(b_0)], label="value"),
+        *is_least_bound(printed.right(names), B1_OUTSIDE, [CORNER(b_0)]),
+    ]
+
+
+@claim(
+    "sA.3.2-sup2",
+    "A.3.2",
+    "line 710",
+    printed=r"\Delta E_{sup} = "
+    r"\frac{1}{2} [-\alpha \dot{\overline{\beta}} + (1+\alpha) \dot{\rho}_0]^2 - \frac{1}{2}"
+    r" \dot{\overline{\beta}}^2",
+)
+def supremum_by_the_velocity(printed: Printed) -> Statement:
+    """The energy change at the corner, by its velocity."""
+    return always(printed.formula(AT_CORNER), given=SUPREMAL)
+
+
+@claim(
+    "sA.3.2-sup3",
+    "A.3.2",
+    "line 710",
+    derived=lambda: term(derived("delta_E_sup")),
+    printed=PRINTED_SUPREMUM,
+)
+def supremum_by_alpha(printed: Printed) -> Statement:
+    """The supremum, which is that of sA.3.2-sup1, by alpha and the table's launch velocity."""
+    return always(printed.formula(PAPER))
+
+
+@claim("sA.3.2-sup4", "A.3.2", "line 710", printed=r"\Delta E_{sup} < 0")
+def supremum_is_negative(printed: Printed) -> Statement:
+    """The energy change at the corner is negative."""
+    return always(printed.formula(AT_CORNER), given=SUPREMAL)
+
+
+@claim(
+    "sA.3.2-strict",
+    "A.3.2",
+    "line 712",
+    printed=(
+        r"\forall \overline{b} \in \mathcal{B}_1 - \mathcal{R}, \Delta E(\overline{b}) < \Delta"
+        r" E_{sup}"
+    ),
+    as_it_stands=r"\forall \overline{b} \in \beta_1 - R, \Delta E(\overline{b}) < \Delta E_{sup}",
+)
+def impacts_outside_take_more(printed: Printed) -> Statement:
+    """Every impact outside R takes more than at the corner."""
+    return always(
+        printed.formula(
+            PAPER.extended({r"\Delta E": impact_energy_change, r"\Delta E_{sup}": least})
+        ),
+        given=[CORNER(b_0)],
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# Appendix A.4: where the supremum lies, and how many impacts lead into the region R.
+
+edge, delta, k, p, q = reals("edge delta k p q")
+LEFT = Vector((edge, v))  # a state beside b, at another height
+# The states near b: the height moves by at most delta r^2 / g and the velocity by at most delta r;
+# (k - 2) r bounds the velocity of b.
+NEAR = b + Vector((p, q))
+WITHIN_DELTA = [-(r**2) * delta <= g * p, g * p <= r**2 * delta, -r * delta <= q, q <= r * delta]
+BOUNDED = [-(k - 2) * r <= v, v <= (k - 2) * r]
+
+
+def room(*margins: Term) -> Formula:
+    """Moving by delta changes none of these margins of energy so much that it vanishes."""
+    return conjunction([k * r**2 * delta < margin for margin in margins])
+
+
+@claim("sA.4-distinct", "A.4", "line 716")
+def supremum_and_maximum_differ() -> Statement:
+    """The least loss outside R and the greatest gain are different: one is negative and the other
+    positive.
+    """
+    return always((dE_sup < 0) & (term(derived("delta_E_max")) > 0), given=SUPREMAL)
+
+
+@claim("sA.4-leftmost", "A.4", "line 716", repeats="sA.3.2-leftmost")
+def supremum_is_at_the_left() -> list[Statement]:
+    """An impact outside R takes less from a lower state of the same velocity, still outside R, so
+    that the supremum is at the left.
+    """
+    ground = Vector((0, v))
+    return [
+        always(
+            B1_OUTSIDE(ground) & (term(impact_energy_change(ground)) > change),
+            given=[B1_OUTSIDE(b), beta > 0, BEYOND_R(ground)],
+            label="down-to-the-edge",
+        ),
+        exists_some(
+            ["edge"],
+            B1_OUTSIDE(LEFT) & (term(impact_energy_change(LEFT)) > change),
+            within=[edge >= 0, edge < beta],
+            given=[B1_OUTSIDE(b), ~BEYOND_R(ground)],
+            label="towards-the-arc",
+        ),
+    ]
+
+
+@claim("sA.4-open", "A.4", "line 716")
+def impacts_outside_are_open() -> Readings:
+    """The states outside R whose impact comes are an open set: of the plane, or of H only."""
+    margins = {
+        "collision": at(derived("collision_margin"), b),
+        "energy": -term(at(derived("region_margin"), b)),
+    }
+    # What is room for a delta is room for every smaller one, so that one delta serves both margins.
+    rooms = [
+        exists_some(
+            ["delta"],
+            room(margin),
+            within=[delta > 0],
+            given=[B1_OUTSIDE(b), *BOUNDED],
+            label=f"room-for-{name}",
+        )
+        for name, margin in margins.items()
+    ]
+    near = always(
+        B1_OUTSIDE(NEAR),
+        given=[B1_OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(*margins.values()), H(NEAR)],
+        label="all-near",
+    )
+    return Readings(
+        {
+            "of-the-plane": Assertion(
+                (
+                    exists_some(
+                        ["edge"], B1_OUTSIDE(LEFT), within=[edge < beta], given=[B1_OUTSIDE(b)]
+                    ),
+                )
+            ),
+            "of-H": Assertion((*rooms, near)),
+        }
+    )
+
+
+@claim("sA.4-boundary", "A.4", "line 716", printed=r"R(\overline{b}) = 0", as_it_stands=r"R(b) = 0")
+def boundary_of_the_region(printed: Printed) -> Readings:
+    """The boundary of R is where R(b) = 0: as a set of states of H, or as a set of the plane."""
+    on_it, margin = printed.formula(PAPER), term(at(derived("region_margin"), b))
+    both_sides = exists_some(
+        ["edge"],
+        OUTSIDE(LEFT),
+        within=[edge > beta, edge < beta + delta],
+        given=[H(b), on_it, delta > 0],
+        label="both-sides",
+    )
+    return Readings(
+        {
+            "in-H": Assertion(
+                (
+                    always(R(b), given=[H(b), on_it], label="one-side"),
+                    both_sides,
+                    exists_some(
+                        ["delta"],
+                        room(margin),
+                        within=[delta > 0],
+                        given=[R(b), ~on_it, *BOUNDED],
+                        label="room-inside",
+                    ),
+                    exists_some(
+                        ["delta"],
+                        room(-margin),
+                        within=[delta > 0],
+                        given=[OUTSIDE(b), *BOUNDED],
+                        label="room-outside",
+                    ),
+                    always(
+                        R(NEAR),
+                        given=[R(b), *BOUNDED, *WITHIN_DELTA, delta < 1, room(margin), H(NEAR)],
+                        label="inside",
+                    ),
+                    always(
+                        ~R(NEAR),
+                        given=[OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(-margin)],
+                        label="outside",
+                    ),
+                )
+            ),
+            "in-the-plane": Assertion(
+                (
+                    both_sides,
+                    exists_some(
+                        ["edge"],
+                        R(LEFT),
+                        within=[edge < beta],
+                        given=[R(b), ~on_it],
+                        label="inside",
+                    ),
+                )
+            ),
+        }
+    )
+
+
+@claim("sA.4-not-on-boundary", "A.4", "line 716", repeats="sA.3.1-not-on-R0")
+def supremum_is_not_on_the_boundary_of_the_region() -> Readings:
+    """The supremum does not belong to a state of the boundary R(b) = 0: to none at all, or to none
+    above the ground.
+    """
+    return not_supremal(ON_R(b))
+
+
+@claim(
+    "sA.4-on-edge",
+    "A.4",
+    "line 716",
+    printed=r"\overline{\beta} = 0",
+    as_it_stands=r"\overline{b} = 0",
+    repeats="sA.3.2-corner",
+)
+def supremum_is_on_the_edge_and_negative(printed: Printed) -> Statement:
+    """The supremum belongs to a state on the edge of H, and is negative."""
+    there = [CLOSED_B1(b_0), ON_R(b_0), printed.formula(PAPER.extended({r"\overline\beta": beta0}))]
+    return always(conjunction([least < 0, change < least]), given=[*there, B1_OUTSIDE(b)])
+
+
+@claim("sA.4-each-impact", "A.4", "line 718")
+def each_impact_takes_the_least_loss() -> Readings:
+    """Each impact changes the energy by Delta E_sup at most: those outside R, or all."""
+
+    def reading(region: Formula) -> Assertion:
+        return Assertion((always(change <= least, given=[CORNER(b_0), region]),))
+
+    return Readings({"outside-R": reading(B1_OUTSIDE(b)), "every-impact": reading(B1(b))})
+
+
+@claim(
+    "sA.4-count",
+    "A.4",
+    "lines 718 to 722",
+    repeats="s4.2-count",
+    printed=r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}]",
+)
+def impacts_to_enter_the_region(printed: Printed) -> Readings:
+    """So many impacts lead from b_0 into R, the number rounded down or rounded up."""
+    count = with_rounding(printed, NAMED)[1]
+    return Readings(
+        {"floor": impacts_suffice(floor_of(count)), "ceiling": impacts_suffice(ceiling_of(count))}
+    )

@@ -1,0 +1,350 @@
+"""The paper's names and what happens in a period."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache, partial
+from typing import Any
+
+from juggleproof import symbolic
+from juggleproof.certificates.language import (
+    Formula,
+    Number,
+    Term,
+    conjunction,
+    equal,
+    real,
+    reals,
+    substitute,
+    term,
+)
+from juggleproof.proofs import forms
+from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.forms import Vocabulary
+from juggleproof.proofs.reading.evaluation import Environment, relate
+from juggleproof.proofs.reading.meaning import Meaning, Printed
+from juggleproof.proofs.reading.values import (
+    Matrix,
+    Region,
+    Scalar,
+    ShapeError,
+    StateFunction,
+    Vector,
+)
+
+# -------------------------------------------------------------------------------------------------
+# The paper's names: what stands for what in statements, what is assumed where nothing is said,
+# and what prints mean.
+#
+# Physical units: alpha restitution; r the table's launch speed \dot\rho_0; g gravity \gamma; beta,
+# v
+# height and velocity of the ball when the table is at its lowest; T = 2 r/g.  Normal form: x =
+# beta/(r T), w = 1 - v/r.  Where nothing is said, 0 < alpha < 1 and r, g > 0. Formulas come from
+# `symbolic`, which derives them; none is typed here.
+
+alpha, beta, v, r, g, t, T, K, eps, s = reals("alpha beta v r g t T K eps s")
+x, w = reals("x w")
+b = Vector((beta, v))
+
+
+derivations_used: list[tuple[str, tuple[Any, ...]]] = []
+
+
+def derived(name: str, *arguments: Any) -> Any:
+    """A derived expression of `symbolic` by its function's name: a term, or a vector or matrix of
+    terms.
+    """
+    derivations_used.append((name, arguments))
+    return _derived(name, *arguments)
+
+
+@cache
+def _derived(name: str, *arguments: Any) -> Any:
+    return encoded(getattr(symbolic, name)(*arguments))
+
+
+def rows_of(name: str, arguments: tuple[Any, ...] = ()) -> tuple[tuple[str, ...], ...]:
+    """The entries of a derivation's result by rows, in the language of statements."""
+    value = _derived(name, *arguments)
+    rows = (
+        value.rows
+        if isinstance(value, Matrix)
+        else [value.entries]
+        if isinstance(value, Vector)
+        else [[value]]
+    )
+    return tuple(tuple(map(str, row)) for row in rows)
+
+
+def encoded(value: Any) -> Any:
+    """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
+    alpha is named s.
+    """
+    from sympy import MatrixBase
+
+    if isinstance(value, MatrixBase):
+        if value.shape[1] == 1:
+            return Vector(tuple(_term(entry) for entry in value))
+        return Matrix(
+            tuple(
+                tuple(_term(value[i, j]) for j in range(value.shape[1]))
+                for i in range(value.shape[0])
+            )
+        )
+    return _term(value)
+
+
+def _term(expression: Any) -> Term:
+    return from_sympy(
+        expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
+    )
+
+
+ORDER = ("alpha", "r", "g", "K", "n", "eps", "beta", "v", "beta0", "v0", "x", "w", "t", "tau")
+STANDING = Vocabulary(
+    order=ORDER,
+    ranges={"alpha": (alpha > 0, alpha < 1)},
+    givens={"r": (r > 0,), "g": (g > 0,)},
+    abbreviations={"T": derived("period")},
+    roots={"s": 2 * (1 + alpha)},
+)
+always = partial(forms.always, vocabulary=STANDING)
+exists_some = partial(forms.exists_some, vocabulary=STANDING)
+is_maximum = partial(forms.is_maximum, vocabulary=STANDING)
+is_supremum = partial(forms.is_supremum, vocabulary=STANDING)
+same_set = partial(forms.same_set, vocabulary=STANDING)
+WITH_INTEGER_K = Vocabulary(
+    ORDER,
+    STANDING.ranges,
+    {**STANDING.givens, "K": (K >= 1,)},
+    STANDING.abbreviations,
+    STANDING.roots,
+    frozenset({"K"}),
+)
+
+
+def at(thing: Any, place: Vector | Mapping[str, Number]) -> Any:
+    """A term, formula or vector of the state (beta, v), at another state or with other values."""
+    values = (
+        dict(zip(("beta", "v"), (term(entry) for entry in place.entries)))
+        if isinstance(place, Vector)
+        else place
+    )
+    if isinstance(thing, Vector):
+        return Vector(tuple(substitute(term(entry), values) for entry in thing.entries))
+    return substitute(thing, values)
+
+
+def function(name: str) -> StateFunction:
+    """The derived function of a state of this name in `symbolic`, as a function that prints can
+    apply.
+    """
+    return StateFunction(lambda state: at(derived(name), state))
+
+
+f1, f2 = function("f1"), function("f2")
+energy = function("total_energy")
+impact_energy_change = function("energy_change_1")
+collision_time = StateFunction(lambda state: at(derived("collision_time"), state), factor=True)
+
+
+def flight(time: Scalar) -> StateFunction:
+    """F^t: the derived flight for this time."""
+    # All three at once: the state may itself contain a time.
+    return StateFunction(
+        lambda state: at(
+            derived("flight_map"), {"beta": state.component(1), "v": state.component(2), "t": time}
+        )
+    )
+
+
+def flight_matrix(time: Scalar) -> Matrix:
+    """A_t, the derived linear part of flight."""
+    return Matrix(
+        tuple(
+            tuple(at(term(entry), {"t": term(time)}) for entry in row)
+            for row in derived("flight_matrix").rows
+        )
+    )
+
+
+def flight_offset(time: Scalar) -> Vector:
+    """a_t, what gravity takes off in flight, as derived."""
+    return Vector(
+        tuple(at(term(entry), {"t": term(time)}) for entry in derived("flight_offset").entries)
+    )
+
+
+def collide(table: Vector) -> StateFunction:
+    """C_y: the derived change of the ball's state at an impact with a table in the state y."""
+
+    def after(ball: Vector) -> Vector:
+        import sympy
+
+        names = sympy.symbols("ball_height ball_speed table_height table_speed")
+        image = encoded(
+            symbolic.collide(sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:]))
+        )
+        values = dict(
+            zip(
+                (str(name) for name in names),
+                (term(entry) for entry in (*ball.entries, *table.entries)),
+            )
+        )
+        struck: Vector = at(image, values)
+        return struck
+
+    return StateFunction(after)
+
+
+H = Region(lambda state: term(state.component(1)) >= 0)
+STRIKES = Region(lambda state: at(derived("collision_margin") > 0, state))
+B1 = H & STRIKES
+B2 = H - STRIKES
+B1_PLUS = B1 & Region(lambda state: at(derived("energy_change_1") > 0, state))
+B1_MINUS = B1 & Region(lambda state: at(derived("energy_change_1") < 0, state))
+B1_ZERO = B1 & Region(lambda state: equal(at(derived("energy_change_1"), state), 0))
+R = H & Region(lambda state: at(derived("region_margin"), state) >= 0)
+r_0 = derived("launch_state")
+e_1 = derived("e_1")
+I = Matrix(((1, 0), (0, 1)))  # noqa: E741  (the paper's name)
+
+
+def next_states(state: Vector, image: Vector) -> Formula:
+    """image = f(state), for the piecewise map f."""
+    one, two = f1(state), f2(state)
+    return (B1(state) & equals(image, one)) | (B2(state) & equals(image, two))
+
+
+def equals(left: Vector | Matrix, right: Vector | Matrix) -> Formula:
+    """The vectors or matrices are equal entry by entry."""
+    return relate(left, "=", right)
+
+
+CONSTANTS = {  # names of prints that stand for what `symbolic` derives
+    r"R_\alpha": "restitution_matrix",
+    r"\xi_1": "xi_1",
+    r"\epsilon_1": "epsilon_1",
+    r"e_1": "e_1",
+    r"E_{max}": "E_max",
+    r"\Delta E_{max}": "delta_E_max",
+    r"r_0": "launch_state",
+    r"T": "period",
+}
+NAMES: dict[str, Any] = {
+    r"\alpha": alpha,
+    r"\gamma": g,
+    r"\overline\beta": beta,
+    r"\dot{\overline\beta}": v,
+    r"\dot\rho_0": r,
+    r"t": t,
+    r"T": T,
+    r"\overline\beta_0": real("beta0"),
+    r"\dot{\overline\beta}_0": real("v0"),
+    r"I": I,
+    r"r_0": r_0,
+    r"K": K,
+    r"\epsilon": eps,
+    r"A_{\cdot}": flight_matrix,
+    r"a_{\cdot}": flight_offset,
+    r"F^{\cdot}": flight,
+    r"C_{\cdot}": collide,
+    r"R_\alpha": derived("restitution_matrix"),
+    r"\xi_1": derived("xi_1"),
+    r"\epsilon_1": derived("epsilon_1"),
+    r"e_1": e_1,
+    r"\tau_c": collision_time,
+    r"\overline f_1": f1,
+    r"\overline f_2": f2,
+    r"E": energy,
+    r"\Delta_1 E": impact_energy_change,
+    r"E_{max}": derived("E_max"),
+    r"\Delta E_{max}": derived("delta_E_max"),
+    r"\Delta E_{sup}": derived("delta_E_sup"),
+    r"\sqrt{2(1+\alpha)}": s,
+    r"\mathcal{H}": H,
+    r"\mathcal{B}_1": B1,
+    r"\mathcal{B}_2": B2,
+    r"\mathcal{R}": R,
+    r"R": StateFunction(lambda state: at(derived("region_margin"), state)),
+}
+POINTS = {
+    r"\overline b": (r"\overline\beta", r"\dot{\overline\beta}"),
+    r"\overline b_0": (r"\overline\beta_0", r"\dot{\overline\beta}_0"),
+}
+PAPER = Environment(NAMES, points=POINTS, state=r"\overline b")
+
+
+# -------------------------------------------------------------------------------------------------
+# What happens within a period, in formulas of derived flight and impact: ball and table meet,
+# approach, collide, and fly on.
+#
+# A time at which something happens is left unknown and told by what happens then: nothing that was
+# solved for enters here.
+
+
+def ball_at(time: Number, start: Vector = b) -> Vector:
+    """The ball's state after free flight for this time."""
+    return vector(flight(time)(start))
+
+
+def table_at(time: Number, start: Vector | None = None) -> Vector:
+    """The table's state after free flight for this time, from its launch unless told otherwise."""
+    return vector(flight(time)(r_0 if start is None else start))
+
+
+def vector(value: Any) -> Vector:
+    """The value itself, which has to be a state."""
+    if not isinstance(value, Vector):
+        raise ShapeError("a state was expected")
+    return value
+
+
+def as_region(value: Any) -> Region:
+    """The value itself, which has to be a region."""
+    if not isinstance(value, Region):
+        raise ShapeError("a region was expected")
+    return value
+
+
+def height(state: Vector) -> Term:
+    """The first component of a state."""
+    return term(state.component(1))
+
+
+def speed(state: Vector) -> Term:
+    """The second component of a state."""
+    return term(state.component(2))
+
+
+def meet(time: Number, ball: Vector = b) -> Formula:
+    """Ball and table are at one height at this time, if neither is deflected before."""
+    return equal(height(ball_at(time, ball)), height(table_at(time)))
+
+
+def strikes_at(time: Term) -> Formula:
+    """The ball strikes the table at this time, which lies within the period: they meet, and
+    approach each other.
+    """
+    return conjunction([time >= 0, time < T, meet(time), v < r])
+
+
+def after_impact(time: Number) -> Vector:
+    """The ball's state just after an impact at this time."""
+    return vector(collide(table_at(time))(ball_at(time)))
+
+
+def only_at(place: Vector, value: Any, factor: bool = False) -> StateFunction:
+    """The function that has this value at this state, and is refused at any other."""
+
+    def call(state: Vector) -> Any:
+        if state != place:
+            raise ShapeError("this function is known at the state of the claim only")
+        return value
+
+    return StateFunction(call, factor)
+
+
+def value_of(printed: Printed, environment: Environment) -> Any:
+    """The value of a print that is an expression and states no relation."""
+    return Meaning(environment).here(printed.tree)

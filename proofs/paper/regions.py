@@ -1,0 +1,196 @@
+"""Outside the region R: the states there, how long they may fly, and what an impact takes from them
+(sections 4.2 and A.3).
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from juggleproof.certificates.language import (
+    ClaimError,
+    Formula,
+    Statement,
+    Term,
+    conjunction,
+    different,
+    equal,
+    reals,
+    term,
+)
+from juggleproof.proofs import forms
+from juggleproof.proofs.claims import Assertion, Readings
+from juggleproof.proofs.forms import Vocabulary
+from juggleproof.proofs.paper.names import (
+    B1,
+    ORDER,
+    PAPER,
+    STANDING,
+    H,
+    R,
+    always,
+    at,
+    b,
+    ball_at,
+    beta,
+    derived,
+    energy,
+    f1,
+    height,
+    impact_energy_change,
+    r,
+    speed,
+    t,
+    table_at,
+    value_of,
+)
+from juggleproof.proofs.reading import tree
+from juggleproof.proofs.reading.evaluation import Environment
+from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.values import Region, Vector
+
+beta0, v0, u, tau_w, dE_sup, n, m, j = reals("beta0 v0 u tau_w dE_sup n m j")
+b_0 = Vector((beta0, v0))
+WITH_INTEGERS = Vocabulary(
+    ORDER,
+    STANDING.ranges,
+    STANDING.givens,
+    STANDING.abbreviations,
+    {**STANDING.roots, "u": 2 * energy(b_0)},
+    frozenset({"n", "m", "j"}),
+)
+always_counting = partial(forms.always, vocabulary=WITH_INTEGERS)
+exists_counting = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
+
+BEYOND_R = Region(lambda state: at(derived("region_margin"), state) < 0)
+OUTSIDE, B1_OUTSIDE = H & BEYOND_R, B1 & BEYOND_R
+CLOSED_B1 = H & Region(lambda state: at(derived("collision_margin"), state) >= 0)
+ON_R = Region(lambda state: equal(at(derived("region_margin"), state), 0))
+CORNER = B1 & ON_R & Region(lambda state: equal(state.component(1), 0))
+change, least = (
+    term(impact_energy_change(b)),
+    term(impact_energy_change(b_0)),
+)  # the least loss is that at the corner b_0
+SUPREMAL = [CORNER(b_0), equal(dE_sup, least)]
+ATTRACTION = ("theorem-region/enters",)  # from some period on, every orbit is in R
+LEVEL: Term = derived("region_energy")
+NAMED = PAPER.extended({r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
+PRINTED_SUPREMUM = (
+    r"\Delta E_{sup} = [-\frac{1+\alpha}{1-\alpha} + 1 + \alpha - \sqrt{2(1+\alpha)}"
+    r" \frac{\alpha}{1-\alpha}] "
+    r"\times (1+\alpha) \dot{\rho}_0^2"
+)  # the third line of A.3.2, which sA.3.2-sup3 judges
+worst_wait: Term = at(
+    derived("hang_time"), {"v": u}
+)  # the flight from the ground up and back that has all the energy of b_0
+
+
+def pieces(printed: Printed, count: int) -> tuple[Printed, ...]:
+    """The parts of a print that has to have this many."""
+    if len(printed.parts) != count:
+        raise ClaimError(f"this print has {len(printed.parts)} parts, where {count} are expected")
+    return printed.parts
+
+
+def flown(periods: Term) -> Vector:
+    """The state b_0 after this many periods without an impact."""
+    image = at(at(derived("flight_power"), b_0), {"K": periods})
+    if not isinstance(image, Vector):
+        raise ClaimError("the power of a map of states is a map of states")
+    return image
+
+
+def strikes_in_period(periods: Term, time: Term) -> Formula:
+    """After this many periods without an impact, and this time more, ball and table are at one
+    height and approach each other.
+    """
+    ball = flown(periods)
+    return equal(height(ball_at(time, ball)), height(table_at(time))) & (speed(ball) < r)
+
+
+def lands(state: Vector, time: Term) -> Formula:
+    """The ball comes down to the ground at this time, if nothing is in its way."""
+    there = ball_at(time, state)
+    return conjunction([time >= 0, equal(height(there), 0), speed(there) <= 0])
+
+
+def grounded_after(wait: Term, state: Vector, given: list[Formula], label: str) -> Statement:
+    """From this time on the ball of this state would be on or below the ground, so an impact has
+    come before.
+    """
+    return always_counting(
+        height(ball_at(t, state)) <= 0, given=[H(state), *given, t >= wait], label=label
+    )
+
+
+def floor_of(value: Term) -> Formula:
+    """n is the greatest integer that is not above the value."""
+    return (n <= value) & (value < n + 1)
+
+
+def ceiling_of(value: Term) -> Formula:
+    """n is the least integer that is not below the value."""
+    return (value <= n) & (n < value + 1)
+
+
+def not_supremal(on_boundary: Formula) -> Readings:
+    """No state of this boundary of the impacts outside R has the supremal energy change: none at
+    all, or none above the ground.
+    """
+    least_loss = derived("delta_E_sup")
+    there = [CLOSED_B1(b), on_boundary]
+    return Readings(
+        {
+            "none-at-all": Assertion((always(different(change, least_loss), given=there),)),
+            "none-above-ground": Assertion(
+                (always(change < least_loss, given=[*there, beta > 0]),)
+            ),
+        }
+    )
+
+
+def impacts_suffice(rounding: Formula) -> Assertion:
+    """After n impacts the energy of b_0 is down to the level of R: n times the least loss covers
+    what is above it.
+    """
+    loss = -term(derived("delta_E_sup"))
+    return Assertion(
+        (
+            always_counting(R(b_0), given=[H(b_0), rounding, n <= 0], label="none-needed"),
+            always_counting(
+                energy(b_0) <= LEVEL + n * loss, given=[H(b_0), rounding], label="losses-cover"
+            ),
+            always(energy(f1(b)) <= energy(b) - loss, given=[B1_OUTSIDE(b)], label="each-impact"),
+        )
+    )
+
+
+def with_rounding(printed: Printed, environment: Environment) -> tuple[Environment, Term]:
+    """The environment in which the square bracket of the print is the integer n, and what stands
+    inside the bracket.
+    """
+    for group in _square_brackets(printed.tree):
+        start = end = group.at
+        depth = 0
+        while depth or start == end:
+            depth += {"[": 1, "]": -1}.get(printed.latex[end], 0)
+            end += 1
+        inside = value_of(Printed(printed.latex[start:end]), environment)
+        return environment.extended({printed.latex[start:end]: n}), term(inside)
+    raise ClaimError("this print has no square bracket that could round a number")
+
+
+def _square_brackets(node: object) -> list[tree.Group]:
+    if isinstance(node, tuple):
+        return [group for item in node for group in _square_brackets(item)]
+    if not isinstance(node, tree.Tree):
+        return []
+    found = (
+        [node]
+        if isinstance(node, tree.Group) and node.bracket == "[" and len(node.items) == 1
+        else []
+    )
+    return found + [
+        group
+        for name in node.__dataclass_fields__
+        for group in _square_brackets(getattr(node, name))
+    ]

@@ -1,0 +1,430 @@
+"""JUnit, Markdown, badge."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+from xml.etree import ElementTree
+from xml.sax.saxutils import escape
+
+from juggleproof.proofs.register import FIELDS, Change
+from juggleproof.proofs.reports.results import COLUMNS, Result, Results, results_of, writable
+
+# -------------------------------------------------------------------------------------------------
+# A badge for a page: what the verdicts say in a few words, as an SVG of our own that loads
+# nothing.
+
+LABEL = "juggleproof"
+GOOD, BAD, NAME = "#1a7f37", "#b42318", "#3b4148"  # white on each of them has a contrast above 6
+NARROW, WIDE = "fijlrt,.: 1", "mwMWNOD%"
+PAD = 8
+
+
+def badge(contents: Any) -> bytes:
+    """The badge as SVG, the same bytes for the same verdicts."""
+    text, colour = told(results_of(contents))
+    left, right = _width(LABEL) + 2 * PAD, _width(text) + 2 * PAD
+    title = escape(f"{LABEL}: {text}", {'"': "&quot;"})
+    return f"""\
+<svg xmlns="http://www.w3.org/2000/svg" width="{left + right}" height="20" \
+viewBox="0 0 {left + right} 20" role="img" aria-label="{title}">
+<title>{title}</title>
+<rect width="{left + right}" height="20" rx="3" fill="{NAME}"/>
+<path d="M{left} 0h{right - 3}a3 3 0 0 1 3 3v14a3 3 0 0 1-3 3h-{right - 3}z" fill="{colour}"/>
+<g fill="#fff" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11">
+<text x="{PAD}" y="14" textLength="{left - 2 * PAD}" lengthAdjust="spacingAndGlyphs">{LABEL}</text>
+<text x="{left + PAD}" y="14" textLength="{right - 2 * PAD}" \
+lengthAdjust="spacingAndGlyphs">{escape(text)}</text>
+</g>
+</svg>
+""".encode()
+
+
+def told(results: Results) -> tuple[str, str]:
+    """The words and the colour: red where the theorem is not proved, something is unknown or
+    rejected, or a verdict is not as registered.
+    """
+    count, unknown = len(results.claims), results.verdicts()["unknown"]
+    claims = f"{count} claim{'' if count == 1 else 's'}, {unknown} unknown"
+    if results.own:
+        holds = results.verdicts()["holds"]
+        return (
+            f"{holds} of {count} {'holds' if holds == 1 else 'hold'}, {unknown} unknown",
+            BAD if results.exit else GOOD,
+        )
+    words = [f"theorem {'' if results.is_proved else 'NOT '}proved", claims]
+    if results.changes and not results.accepted:
+        words.append(f"{len(results.changes)} changed")
+    if results.rejected:
+        words.append(f"{len(results.rejected)} rejected")
+    return ", ".join(words), BAD if results.exit or unknown or not results.is_proved else GOOD
+
+
+def _width(text: str) -> int:
+    """About the width of the text in Verdana of 11 pixels; the text is set to this very width."""
+    return round(sum(4.2 if c in NARROW else 9.2 if c in WIDE else 6.8 for c in text))
+
+
+# -------------------------------------------------------------------------------------------------
+# The results as a JUnit report, which CI systems show: one test case a claim, and nothing is ever
+# skipped.
+#
+# Of the paper a verdict is a failure where it differs from the register, whatever it is; of a file
+# of
+# one's own where the claim does not hold. What is unknown, and what the checker rejects, is an
+# error.
+
+
+def as_junit(contents: Any) -> bytes:
+    """The report as XML, without times."""
+    results = results_of(contents)
+    changes = results.change_of()
+    suite = ElementTree.Element("testsuite")
+    for one in results.claims:
+        _case(
+            suite,
+            (
+                f"own.{one.section}"
+                if results.own and one.section
+                else "own"
+                if results.own
+                else f"paper.{one.section}"
+            ),
+            one.id,
+            *_told(one, changes.get(one.id), results),
+            out=said(one),
+        )
+    judged = {one.id for one in results.claims}
+    for gone in (change for change in results.changes if change.claim not in judged):
+        _case(
+            suite,
+            "paper.gone",
+            gone.claim,
+            "" if results.accepted else "failure",
+            f"the claim is gone from the sources; {gone}",
+        )
+    for name, reason in results.rejected:
+        if name.split("/")[0] not in judged:
+            _case(suite, "checker", name, "error", f"rejected by the checker: {reason}")
+    counted = {
+        "tests": len(suite),
+        "failures": len(suite.findall("testcase/failure")),
+        "errors": len(suite.findall("testcase/error")),
+        "skipped": 0,
+    }
+    root = ElementTree.Element(
+        "testsuites",
+        {
+            "name": "juggleproof",
+            **{name: str(count) for name, count in counted.items() if name != "skipped"},
+        },
+    )
+    suite.attrib = {"name": "juggleproof", **{name: str(count) for name, count in counted.items()}}
+    root.append(suite)
+    ElementTree.indent(root)
+    text: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
+    return text + b"\n"
+
+
+def _case(
+    suite: ElementTree.Element, classname: str, name: str, kind: str, message: str, out: str = ""
+) -> None:
+    case = ElementTree.SubElement(suite, "testcase", classname=classname, name=writable(name))
+    if kind:
+        lines = writable(message).splitlines()
+        ElementTree.SubElement(
+            case, kind, message="; ".join(lines[:2]), type=kind
+        ).text = "\n".join(lines)
+    if out:
+        ElementTree.SubElement(case, "system-out").text = out
+
+
+def _told(one: Result, change: Change | None, results: Results) -> tuple[str, str]:
+    """failure, error or nothing, and the message: what differs first, then where the claim
+    fails.
+    """
+    changed = (
+        ""
+        if change is None
+        else f"{'new' if change.before is None else 'changed'} since the register: {change}"
+    )
+    if one.verdict == "unknown":
+        return "error", "unknown: " + (one.detail or "neither proved nor refuted") + (
+            f"; {changed}" if changed else ""
+        )
+    if results.own and one.verdict != "holds":
+        return "failure", failing(one)
+    if changed and not results.accepted:
+        return "failure", "\n".join([changed, *fails_at(one)])
+    return "", ""
+
+
+def said(one: Result) -> str:
+    """The verdict and how it was settled."""
+    return f"{one.verdict_text}{f'; {one.detail}' if one.detail else ''}; {one.settled_by}"
+
+
+def failing(one: Result) -> str:
+    """Why a claim does not hold: the verdict with its detail, then where its statements fail."""
+    return "\n".join([one.verdict_text + (f": {one.detail}" if one.detail else ""), *fails_at(one)])
+
+
+def fails_at(one: Result) -> list[str]:
+    """One line for each refuted statement, with the counterexample."""
+    return [f"{stated.name} fails at {stated.at}" for stated in one.statements if stated.at]
+
+
+# -------------------------------------------------------------------------------------------------
+# The results as Markdown for the summary of a CI job: what matters first, every claim folded away,
+# under GitHub's limit of a megabyte.
+#
+# What is not known comes first, then what the checker rejects, what changed since the register,
+# what
+# is wrong and how it is mended.
+
+LIMIT = 1_000_000  # bytes; GitHub refuses a summary above 1024 * 1024
+LONGEST = 2_000  # characters of one text
+ROOM = 2_000  # bytes kept for the lines that end the file and tell what is left out
+GROUPS = {
+    "errors": "errors",
+    "readings": "false in one reading",
+    "repeats": "wrong again: repeats",
+    "transcription": "possible transcription errors",
+}
+
+
+def markdown(contents: Any) -> str:
+    """The summary of a run or of a report's contents."""
+    results = results_of(contents)
+    page = _Page()
+    page.add([*_head(results), *_unknown(results), *_rejected(results), *_changes(results)])
+    page.add(_errata(results))
+    page.add(["<details><summary>Every claim</summary>", ""])
+    page.add(
+        _table(
+            [
+                COLUMNS,
+                *(
+                    (
+                        one.id,
+                        f"{one.section} {one.place}".strip(),
+                        _verdict(one),
+                        one.settled_by,
+                        one.sharp,
+                    )
+                    for one in results.claims
+                ),
+            ]
+        )
+    )
+    page.end(["", "</details>"])
+    return "\n".join(page.lines) + "\n"
+
+
+class _Page:
+    """Lines as long as there is room; what is left out is told."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.room = LIMIT - ROOM
+        self.left_out = 0
+
+    def add(self, lines: Iterable[str]) -> None:
+        for line in lines:
+            self.room -= len(line.encode()) + 1
+            if self.room < 0 or self.left_out:
+                self.left_out += 1
+            else:
+                self.lines.append(line)
+
+    def end(self, lines: Iterable[str]) -> None:
+        self.lines += lines
+        if self.left_out:
+            self.lines += [
+                "",
+                (
+                    f"**{self.left_out} lines are left out, for a summary may have a megabyte;"
+                    " `--json` writes everything.**"
+                ),
+            ]
+
+
+def escaped(text: str) -> str:
+    """A text that Markdown shows as it stands, in a paragraph or a cell.
+
+    >>> escaped("a|b <c> `d` 2*x_1 $5 [e](f)")
+    'a\\\\|b \\\\<c\\\\> \\\\`d\\\\` 2\\\\*x\\\\_1 &#36;5 \\\\[e\\\\](f)'
+    """
+    return (
+        re.sub(r"([\\`*_{}\[\]<>#|~!&])", r"\\\1", _one_line(text))
+        .replace("$", "&#36;")
+        .replace("@", "&#64;")
+    )
+
+
+def code(text: str) -> str:
+    """A text as code, in a paragraph: fenced by more backticks than it has in a row.
+
+    >>> code("a`b")
+    '``a`b``'
+    """
+    line = _one_line(text)
+    fence = "`" * (1 + max((len(run) for run in re.findall("`+", line)), default=0))
+    pad = " " if line.startswith("`") or line.endswith("`") else ""
+    return f"{fence}{pad}{line}{pad}{fence}" if line else ""
+
+
+def _one_line(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= LONGEST else f"{line[:LONGEST]}... ({len(line)} characters)"
+
+
+def _table(rows: Iterable[tuple[str, ...]]) -> Iterable[str]:
+    for number, row in enumerate(rows):
+        yield f"| {' | '.join(map(escaped, row))} |"
+        if not number:
+            yield "|" + " --- |" * len(row)
+
+
+def _head(results: Results) -> list[str]:
+    told = [" ".join(line.split()) for line in results.theorem.splitlines()]
+    if not (results.own or told):
+        told = ["theorem: the store does not hold it"]
+    counts, outcomes = (
+        results.verdicts(),
+        {word: n for word, n in results.outcomes().items() if n or word != "rejected"},
+    )
+    return [
+        f"# {_title(results)}",
+        "",
+        *(escaped(line) + "  " for line in told),
+        *([""] if told else []),
+        (
+            f"{_many(len(results.claims), 'claim')}{' of a selection' if results.partial else ''}:"
+            f" {_counts(counts)}.  "
+        ),
+        f"{_many(sum(outcomes.values()), 'statement')}: {_counts(outcomes)}.",
+        "",
+    ]
+
+
+def _title(results: Results) -> str:
+    if not results.own:
+        return "The theorem is proved" if results.is_proved else "The theorem is NOT proved"
+    holds = results.verdicts()["holds"]
+    return f"{holds} of {_many(len(results.claims), 'claim')} {'holds' if holds == 1 else 'hold'}"
+
+
+def _counts(counts: Mapping[str, int]) -> str:
+    return ", ".join(f"{count} {word}" for word, count in counts.items())
+
+
+def _many(count: int, thing: str) -> str:
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def _unknown(results: Results) -> list[str]:
+    found = [one for one in results.claims if one.verdict == "unknown"]
+    if not found:
+        return []
+    return [
+        f"## Unknown ({len(found)}): neither proved nor refuted",
+        "",
+        *(
+            f"- **{escaped(one.id)}**{_place(one)}:"
+            f" {escaped(one.detail or 'no certificate was found')}. {escaped(one.says)}"
+            for one in found
+        ),
+        "",
+    ]
+
+
+def _rejected(results: Results) -> list[str]:
+    if not results.rejected:
+        return []
+    return [
+        f"## Rejected by the checker ({len(results.rejected)})",
+        "",
+        *(f"- **{escaped(name)}**: {escaped(reason)}" for name, reason in results.rejected),
+        "",
+    ]
+
+
+def _changes(results: Results) -> list[str]:
+    if results.own:
+        return []
+    heading = "## Changes of verdicts " + (
+        "accepted into the register" if results.accepted else "since the register"
+    )
+    if not results.changes:
+        return [heading, "", "No change.", ""]
+    rows = [
+        ("claim", "", "before", "after"),
+        *(row for change in results.changes for row in _change(change)),
+    ]
+    return [f"{heading} ({len(results.changes)})", "", *_table(rows), ""]
+
+
+def _change(change: Change) -> list[tuple[str, str, str, str]]:
+    """One row for each field that differs; a claim that is new or gone says so."""
+    before, after = change.before, change.after
+    if before is None or after is None:
+        absent = "not registered" if before is None else "no longer in the sources"
+        return [
+            (
+                change.claim,
+                "verdict",
+                str((before or {}).get("verdict", absent)),
+                str((after or {}).get("verdict", absent)),
+            )
+        ]
+    return [
+        (change.claim, name, str(before.get(name, "none")), str(after.get(name, "none")))
+        for name in FIELDS
+        if before.get(name) != after.get(name)
+    ]
+
+
+def _errata(results: Results) -> Iterable[str]:
+    wrong = [one for one in results.claims if one.group]
+    if not wrong:
+        return
+    yield from (
+        (
+            f"## {'What does not hold' if results.own else 'What the paper prints wrongly'}"
+            f" ({len(wrong)})"
+        ),
+        "",
+    )
+    for group, title in GROUPS.items():
+        found = [one for one in wrong if one.group == group]
+        if not found:
+            continue
+        if not results.own:
+            yield from (f"{title[0].upper()}{title[1:]} ({len(found)}):", "")
+        yield from (_erratum(one) for one in found)
+        yield ""
+
+
+def _erratum(one: Result) -> str:
+    told = [line for line in one.wrong if line != one.verdict_text] or [one.says]
+    parts = [
+        f"- **{escaped(one.id)}**{_place(one)}: {escaped(one.verdict_text)};"
+        f" {escaped('; '.join(told))}"
+    ]
+    if one.correction:
+        parts.append(f"corrected: {code(one.correction['text'])}")
+    fails = [stated.at for stated in one.statements if stated.at]
+    if fails:
+        parts.append(f"fails at {code(fails[0])}")
+    return "; ".join(parts)
+
+
+def _place(one: Result) -> str:
+    where = f"{one.section} {one.place}".strip()
+    return f" ({escaped(where)})" if where else ""
+
+
+def _verdict(one: Result) -> str:
+    return one.verdict_text + (f": {one.detail}" if one.detail else "")

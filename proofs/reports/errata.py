@@ -1,0 +1,251 @@
+"""`juggleproof errata`: what the paper prints wrongly, with what is wrong, the correction, and
+exact values at which the print fails.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import textwrap
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.command.certify import FINDINGS
+from juggleproof.proofs.command.show import counterexample, kept_claims
+from juggleproof.proofs.register import load_register
+
+ERRORS = ("misprint", "false", "gap")
+HEAD = """\
+What the paper prints wrongly: the print, what is wrong with it, the correction, and exact \
+values at which it fails.
+  misprint  false as printed, certified as corrected
+  false     refuted, and no correction is known
+  gap       a step of the argument is refuted; the conclusion may stand by another route
+alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
+ball's height and velocity when the table is
+at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
+words; a line is one of the transcription.
+`juggleproof explain ID` shows the other names, the derivation, the statements and their \
+certificates.
+"""
+GROUPS = {
+    "errors": "Errors of the paper",
+    "readings": (
+        "False in one reading: what is said can be read in several ways, and not all of them are"
+        " true"
+    ),
+    "repeats": "Wrong again: prints that repeat one of these",
+    "transcription": (
+        "Possible transcription errors: one lost mark mends the print, so the fault may not be the"
+        " authors'"
+    ),
+}
+WIDTH, SAYS_MORE = 124, 110  # characters of a formula that are still read at a glance
+
+
+def errata() -> int:
+    """Every claim that is not simply true, in groups; a heading with its number opens each."""
+    register, store = load_register(), Store(DEFAULT)
+    if not register:
+        raise ClaimError(
+            "no verdict is registered yet; `juggleproof certify --accept` registers them"
+        )
+    findings = (
+        json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8"))
+        if (DEFAULT / FINDINGS).exists()
+        else {}
+    )
+    claims = kept_claims()
+    print(HEAD)
+    for group, title in GROUPS.items():
+        found = [claim for claim in claims if group_of(claim, register, findings) == group]
+        print(f"{title} ({len(found)})\n")
+        for claim in found:
+            print("\n".join(entry_of(claim, register, findings.get(claim.id, {}), store)) + "\n")
+    restored = [
+        claim.id
+        for claim in claims
+        if claim.as_it_stands and register.get(claim.id, {}).get("verdict") == "holds"
+    ]
+    print(
+        textwrap.fill(
+            f"Mangled in the transcription, and true as restored ({len(restored)}):"
+            f" {', '.join(restored) or 'none'}",
+            WIDTH,
+            break_on_hyphens=False,
+        )
+    )
+    return 0
+
+
+def group_of(
+    claim: Claim,
+    register: Mapping[str, Mapping[str, Any]],
+    findings: Mapping[str, Mapping[str, Any]],
+) -> str:
+    """The group that lists the claim, or none: a repeat is one only of a print that is itself
+    listed.
+    """
+
+    def wrong(name: str) -> bool:
+        return register.get(name, {}).get("verdict") in (*ERRORS, "ambiguous")
+
+    if not wrong(claim.id):
+        return ""
+    if claim.repeats and wrong(claim.repeats):
+        return "repeats"
+    if register[claim.id]["verdict"] == "ambiguous":
+        return "readings"
+    return (
+        "transcription"
+        if (findings.get(claim.id, {}).get("correction") or {}).get("possible transcription error")
+        else "errors"
+    )
+
+
+def entry_of(
+    claim: Claim,
+    register: Mapping[str, Mapping[str, Any]],
+    finding: Mapping[str, Any],
+    store: Store,
+) -> list[str]:
+    """The lines of one entry: place and verdict, what is said, the print, what is wrong, the
+    correction, exact counterexamples.
+    """
+    entry = register[claim.id]
+    rows = [f"{claim.id}, {_place(claim)}: {entry['verdict']}"]
+    if claim.repeats:
+        holds = register.get(claim.repeats, {}).get("verdict") == "holds"
+        which = (
+            ""
+            if not holds
+            else ", which holds"
+            if entry["verdict"] == "ambiguous"
+            else ", which prints it right"
+        )
+        rows[0] += f"; repeats {claim.repeats}{which}"
+    rows.append(_row("said", textwrap.fill(claim.says, WIDTH, break_on_hyphens=False)))
+    if claim.as_it_stands:
+        rows.append(_row("transcribed", claim.as_it_stands))
+    if claim.printed:
+        rows.append(_row("restored" if claim.as_it_stands else "printed", claim.printed))
+    title = "readings" if entry["verdict"] == "ambiguous" else "wrong"
+    rows.append(_row(title, "\n".join(what_is_wrong(entry, finding.get("sharp", {})))))
+    correction = finding.get("correction")
+    if correction:
+        rows.append(_row("correction", correction["text"]))
+        rows.append(
+            _row("", "; ".join([correction["change"], *_roots_named(correction, claim, store)]))
+        )
+    elif entry["verdict"] not in ("ambiguous", "gap"):
+        rows.append(_row("correction", "none found"))
+    return [*rows, *(_row("fails at", text) for text in _counterexamples(claim, store))]
+
+
+def _row(title: str, text: str) -> str:
+    return (
+        f"    {title:12}"
+        + "\n".join(f"{'':16}{line.strip()}" for line in text.splitlines()).lstrip()
+    )
+
+
+def _place(claim: Claim) -> str:
+    section = f"section {claim.section}" if re.match(r"[A-Z0-9]", claim.section) else claim.section
+    return f"{section}, " + (
+        f"equation {claim.place}" if claim.place.startswith("(") else claim.place
+    )
+
+
+def what_is_wrong(entry: Mapping[str, Any], sharp: Mapping[str, str]) -> list[str]:
+    """One line for each reading where there are several, else one in all, with the alpha for which
+    it holds where that is known.
+    """
+    detail, verdict = entry.get("detail", ""), entry["verdict"]
+    readings = dict(part.split(": ") for part in detail.split("; ")) if ": " in detail else {}
+    if readings:
+        words = {"holds": "true", "false": "false", "unknown": "open"}
+        return [
+            f"read as {name}: {words[word]}{_for_alpha(sharp.get(name + '.', ''), word)}"
+            for name, word in readings.items()
+        ]
+    for pattern, told in (
+        (r"^its conclusion is refuted(, and)?", r"the conclusion is false\1"),
+        (r", and (step .*)", r", and so is \1"),
+        (r"^step (.*,.*) is false", r"steps \1 are false"),
+        ("conclusion open", "the conclusion stays open"),
+        ("conclusion certified", "the conclusion is certified all the same"),
+        ("conclusion by", "the conclusion stands by"),
+    ):
+        detail = re.sub(pattern, told, detail)
+    if detail:
+        return [detail]
+    return [
+        ("false as printed" if verdict == "misprint" else "false")
+        + _for_alpha(sharp.get("", ""), "false")
+    ]
+
+
+def _for_alpha(sharp: str, word: str) -> str:
+    if sharp in ("", "not found"):
+        return ""
+    if word == "holds":
+        return "" if sharp == "0 < alpha < 1" else f", exactly for {sharp}"
+    return ", for every alpha" if sharp == "nowhere" else f"; it would be true exactly for {sharp}"
+
+
+def _roots_named(correction: Mapping[str, Any], claim: Claim, store: Store) -> Iterator[str]:
+    """What a name of a root in a corrected term means: the statements say it."""
+    lines = {
+        line
+        for name, text in store.texts.items()
+        if name.split("/")[0] == claim.id
+        for line in text.splitlines()
+        if line.startswith("root ")
+    }
+    for line in sorted(lines):
+        name = line.split()[1]
+        if correction["kind"] in ("coefficients", "derived") and re.search(
+            rf"\b{name}\b", correction["text"]
+        ):
+            yield line.removeprefix("root ")
+
+
+def _counterexamples(claim: Claim, store: Store) -> list[str]:
+    """The exact values of every refuted statement, with the part of the claim that fails there, and
+    what it says where that is short.
+    """
+    found = dict[str, str]()
+    for name, text in store.texts.items():
+        certificate = store.certificate(name, text) if name.split("/")[0] == claim.id else None
+        if isinstance(certificate, dict) and "refuted" in certificate:
+            label = name.split("/")[1].removesuffix(".main")
+            values = counterexample(certificate["refuted"]) + (
+                "" if label == "main" else f"   [{label}]"
+            )
+            found.setdefault(values, said_there(text))
+    return [values + (f"\nfalse there: {said}" if said else "") for values, said in found.items()]
+
+
+def said_there(text: str) -> str:
+    """What the statement says at a point of its givens, in the statement's own words; nothing where
+    that is long.
+
+    >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nwith y > 0\\nshow y < x - 1"
+    >>> said_there(text)
+    'some y has y > 0 and y < x - 1'
+    """
+    lines = [line.partition(" ") for line in text.splitlines()]
+    chosen = " ".join(said for keyword, _, said in lines if keyword == "exists")
+    shown = (f"some {chosen} has " if chosen else "") + " and ".join(
+        said for keyword, _, said in lines if keyword in ("with", "show")
+    )
+    lets = [
+        said
+        for keyword, _, said in lines
+        if keyword == "let" and re.search(rf"\b{said.split()[0]}\b", shown)
+    ]
+    said = shown + "".join(f", where {let}" for let in lets)
+    return said if len(said) <= SAYS_MORE else ""

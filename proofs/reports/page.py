@@ -1,0 +1,482 @@
+"""The page."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from juggleproof.certificates import checker
+from juggleproof.proofs.reports import markup
+from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown, needed
+from juggleproof.proofs.reports.errata import GROUPS, said_there
+from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
+from juggleproof.proofs.reports.markup import Chip, Node, picture
+from juggleproof.proofs.reports.mathml import mathml
+from juggleproof.proofs.reports.part import HEADS, Results
+
+# -------------------------------------------------------------------------------------------------
+# What the page shows of the contents: words, marks and links for the templates, which hold no
+# logic of their own.
+
+# characters: a longer certificate is shown in the theorem's tree only, and else told where it
+# stands
+LONGEST = 300
+VERDICTS = {  # word -> mark, and what it means
+    "holds": ("✓", "true as printed, with a certificate"),
+    "misprint": ("✎", "false as printed, certified as corrected"),
+    "false": ("✗", "refuted, and no correction is known"),
+    "gap": ("⋯", "a step of the argument is refuted; the conclusion may stand by another route"),
+    "ambiguous": ("⇄", "can be read in several ways, and not all of them are true"),
+    "unknown": ("?", "open: the counted work ran out, which says nothing"),
+}
+KINDS = {  # kind of rule -> what it says, in a few words
+    "exactly": "stable and attracting for these alpha only",
+    "attracts": "every orbit tends to the point",
+    "escapes": "a periodic orbit stays away",
+    "descends": "a falling rank leads to the trap",
+    "contracts": "orbits in the trap close in on the point",
+    "map": "a map of the space into itself, piece by piece",
+}
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A statement with its lines as markup, its outcome, and its certificate as text."""
+
+    name: str
+    label: str
+    outcome: str
+    rows: Sequence[markup.Row]
+    text: str
+    at: str
+    false_there: str
+    votes: str
+    certificate: str
+    length: int
+    stands_in: str
+
+
+Line = tuple[str, str]  # a keyword and one thing that it says
+
+
+def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) -> Statement:
+    """A statement for the page; a long certificate is left to the store unless the whole is wanted.
+
+    Lines that it shares with all statements of its claim are left out: they are told before.
+    """
+    text = certificate_text(shown.certificate)
+    refuted = shown.outcome == "refuted"
+    lines = [
+        (keyword, [one for one in said if (keyword, one) not in shared])
+        for keyword, said in markup.lines_of(shown.text)
+    ]
+    votes = ", ".join(
+        f"{route} {answer}" for route, answer in shown.votes.items() if answer != "not applicable"
+    )
+    return Statement(
+        shown.name,
+        shown.name.partition("/")[2],
+        shown.outcome,
+        markup.rows_of([line for line in lines if line[1]]),
+        shown.text,
+        markup.values(shown.at) if refuted and shown.at else "",
+        _false_there(shown.text) if refuted else "",
+        votes,
+        text if whole or len(text) <= LONGEST else "",
+        len(text),
+        f"certificates/store/{shown.name.partition('/')[0]}.json",
+    )
+
+
+SHARED = ("given", "let", "root")
+
+
+def shared_lines(statements: Sequence[Shown]) -> list[Line]:
+    """What all statements of a claim assume, where there are several; rules and sharp ranges assume
+    nothing.
+    """
+    assumed = [
+        [
+            (keyword, one)
+            for keyword, said in markup.lines_of(shown.text)
+            if keyword in SHARED
+            for one in said
+        ]
+        for shown in statements
+        if "\nshow " in shown.text
+    ]
+    if len(assumed) < 2:
+        return []
+    return [line for line in dict.fromkeys(assumed[0]) if all(line in others for others in assumed)]
+
+
+def _false_there(text: str) -> str:
+    """What is false at a counterexample, as markup; nothing where it is long."""
+    said = said_there(text)
+    if not said or "\nexists " in text:
+        return markup.prose(said)
+    formula, *lets = said.split(", where ")
+    return ", where ".join(
+        [markup.formula(formula), *(markup.named(*let.split(" = ", 1)) for let in lets)]
+    )
+
+
+def certificate_text(certificate: Any) -> str:
+    """A certificate as it is stored; empty where there is none."""
+    return json.dumps(certificate, separators=(",", ":"), ensure_ascii=True) if certificate else ""
+
+
+@dataclass(frozen=True)
+class Told:
+    """A claim for the page; markup where formulas stand in it."""
+
+    entry: Entry
+    place: str
+    says: str
+    transcribed: str
+    printed: str
+    wrong: Sequence[str]
+    corrected: str
+    change: str
+    roots: Sequence[str]
+    sharp: str
+    steps: Sequence[tuple[str, str]]  # title, anchor
+    shared: Sequence[markup.Row]
+    statements: Sequence[Statement]
+    note: str
+
+    @property
+    def id(self) -> str:
+        """The claim's id, which is its anchor."""
+        return self.entry.claim.id
+
+    @property
+    def refuted(self) -> list[Statement]:
+        """The refuted statements, each counterexample once."""
+        found: dict[str, Statement] = {}
+        for one in self.statements:
+            if one.outcome == "refuted":
+                found.setdefault(one.at, one)
+        return list(found.values())
+
+    @property
+    def outcomes(self) -> str:
+        """How many statements came to which outcome."""
+        counts = {
+            word: sum(one.outcome == word for one in self.statements)
+            for word in ("certified", "refuted", "unknown")
+        }
+        return ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+
+
+def told(entry: Entry) -> Told:
+    """One claim for the page."""
+    claim, correction = entry.claim, entry.correction or {}
+    made = str(correction.get("text", ""))
+    shared = shared_lines(entry.statements)
+    of_statements = correction.get("kind") in ("coefficients", "derived")
+    corrected = (
+        ""
+        if not made
+        else markup.formula(made, block=True)
+        if of_statements
+        else mathml(made, block=True)
+    )
+    return Told(
+        entry=entry,
+        place=place(claim.section, claim.place),
+        says=markup.prose(claim.says),
+        transcribed=claim.as_it_stands,
+        printed=mathml(claim.printed, block=True) if claim.printed else "",
+        wrong=[markup.ranged(line) for line in entry.wrong],
+        corrected=corrected,
+        change=markup.change(str(correction.get("change", ""))),
+        roots=list(_roots(entry, made)) if of_statements else [],
+        sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
+        steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
+        shared=_rows(shared),
+        statements=[statement(one, shared=shared) for one in entry.statements],
+        note=entry.verdict_text.partition(" (")[2].removesuffix(")"),
+    )
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A derived expression: its anchor, what it is, its entries as markup, and what it is made
+    from.
+    """
+
+    anchor: str
+    said: str
+    shown: str
+    uses: Sequence[tuple[str, str]]
+
+
+def derivations(contents: Contents) -> list[Derived]:
+    """Every derived expression once."""
+    titles = {one.function: markup.prose(one.title) for one in contents.derivations}
+    return [
+        Derived(
+            anchor(one.function),
+            titles[one.function],
+            rows(one.rows),
+            [(titles[name], anchor(name)) for name in one.uses if name in titles],
+        )
+        for one in contents.derivations
+    ]
+
+
+def anchor(function: str) -> str:
+    """Where a derivation stands in the page.
+
+    >>> anchor("controlled_step(u, t)")
+    'derived-controlled_step-u-t'
+    """
+    return "derived-" + "-".join(re.findall(r"\w+", function))
+
+
+def rows(entries: Sequence[Sequence[str]]) -> str:
+    """A derived expression, column or matrix as markup."""
+    if len(entries) == 1 and len(entries[0]) == 1:
+        return markup.formula(entries[0][0], block=True)
+
+    lines = (
+        r" \\ ".join(" & ".join(map(latex_of, row)) for row in entries)
+        if len(entries) > 1
+        else r" \\ ".join(map(latex_of, entries[0]))
+    )
+    return mathml(rf"\begin{{bmatrix}} {lines} \end{{bmatrix}}", block=True)
+
+
+def _rows(lines: Sequence[Line]) -> list[markup.Row]:
+    joined: dict[str, list[str]] = {}
+    for keyword, said in lines:
+        joined.setdefault(
+            keyword if keyword in markup.FORMULAS else f"{keyword} {said}", []
+        ).append(said)
+    return markup.rows_of([(key.partition(" ")[0], said) for key, said in joined.items()])
+
+
+def _roots(entry: Entry, made: str) -> Iterator[str]:
+    lines = {
+        line
+        for one in entry.statements
+        for line in one.text.splitlines()
+        if line.startswith("root ")
+    }
+    for line in sorted(lines):
+        if re.search(rf"\b{line.split()[1]}\b", made):
+            yield markup.rows_of(markup.lines_of(f"statement\n{line}"))[0].parts[0]
+
+
+def place(section: str, where: str) -> str:
+    """Where a claim stands, in words."""
+    shown = f"equation {where}" if where.startswith("(") else where
+    return ", ".join(part for part in (section_title(section), shown) if part)
+
+
+def section_title(section: str) -> str:
+    """The heading of a section: the paper's have numbers, ours have words."""
+    return f"Section {section}" if re.match(r"[A-Z0-9]", section) else section.capitalize()
+
+
+def sections(contents: Contents) -> list[tuple[str, list[Told]]]:
+    """The claims by section, in the paper's order, what the paper lacks behind it."""
+    found: dict[str, list[Told]] = {}
+    for entry in contents.entries:
+        found.setdefault(entry.claim.section, []).append(told(entry))
+
+    def key(section: str) -> tuple[int, list[tuple[bool, int, str]]]:
+        ours = not re.match(r"[A-Z0-9]", section)
+        parts = (
+            []
+            if ours
+            else [
+                (not part.isdecimal(), int(part) if part.isdecimal() else 0, part)
+                for part in section.split(".")
+            ]
+        )
+        return int(ours), parts
+
+    return sorted(found.items(), key=lambda item: key(item[0]))
+
+
+def errata(by_section: Sequence[tuple[str, Sequence[Told]]]) -> list[tuple[str, str, list[Told]]]:
+    """The groups of the errata with their claims."""
+    everything = [one for _, claims in by_section for one in claims]
+    groups = [
+        (group, title, [one for one in everything if one.entry.group == group])
+        for group, title in GROUPS.items()
+    ]
+    return [group for group in groups if group[2]]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A rule of the theorem's tree, or a statement that it uses, with what it gives and its
+    premises.
+    """
+
+    name: str
+    title: str
+    kind: str
+    gives: str
+    shown: Statement
+    premises: Sequence[Statement]
+    rests_on: Sequence[str]
+    uses: Sequence[str]
+
+
+def panels(rules: Sequence[Rule]) -> list[Panel]:
+    """The rules with all that proves them; what a rule gives is in the checker's own words."""
+    return [
+        Panel(
+            rule.name,
+            rule.name.partition("/")[2],
+            rule.kind,
+            inspect.getdoc(checker.ORBIT_RULES[rule.kind]) or "",
+            statement(Shown(rule.name, rule.text, rule.outcome, None, "", {}), whole=True),
+            [statement(premise, whole=True) for premise in rule.premises],
+            rule.rests_on,
+            rule.uses,
+        )
+        for rule in rules
+    ]
+
+
+def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
+    """The picture of the theorem's tree; statements that a rule uses stand in it beside the
+    rules.
+    """
+    if not rules:
+        return ""
+    nodes = [
+        Node(
+            rule.name,
+            rule.name,
+            KINDS.get(rule.kind, rule.kind),
+            f"#rule-{rule.name}",
+            rule.outcome,
+            tuple(
+                Chip(one.name.rpartition(".")[2], f"#premise-{one.name}", one.outcome)
+                for one in rule.premises
+            ),
+            (*rule.rests_on, *rule.uses),
+        )
+        for rule in rules
+    ]
+    for used in sorted({name for rule in rules for name in rule.uses}):
+        nodes.append(
+            Node(used, used, "a statement on numbers", f"#{used}", outcomes.get(used, "unknown"))
+        )
+    return picture(
+        nodes,
+        "What the theorem rests on: each rule stands above the rules that it rests on, and holds"
+        " its premises",
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# The report as one HTML page: nothing is fetched, formulas are MathML, pictures are SVG, and what
+# moves is a few lines of script.
+
+TEMPLATES = Path(__file__).parent / "templates"
+FILE = "juggleproof.html"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure as it stands in the page: SVG that bears its own title and description."""
+
+    slug: str
+    title: str
+    caption: str
+    svg: str
+
+
+def pictures(contents: Contents) -> list[Picture]:
+    """The report's figures."""
+    from juggleproof.proofs.reports.figures import saved
+    from juggleproof.scenes.figures.drawing import inline_svg
+
+    return [
+        Picture(
+            one.slug, one.title, one.caption, inline_svg(one.data, one.slug, one.title, one.alt)
+        )
+        for one in saved(contents)
+    ]
+
+
+def scene_picture(scene: Results | None) -> str:
+    """Figure 2 as it stands in the page; empty where it was not drawn."""
+    if scene is None or not scene.figure:
+        return ""
+    from juggleproof.scenes.figures.drawing import inline_svg
+
+    return inline_svg(
+        scene.figure["svg"], scene.figure["slug"], scene.figure["title"], scene.figure["alt"]
+    )
+
+
+def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
+    """The page, the same to the byte for the same contents; `scene` is what is told of the part on
+    the vibrating table.
+
+    Raises ClaimError, one line, where a formula cannot be shown.
+    """
+    jinja2, markupsafe = needed("jinja2"), needed("markupsafe")
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+        auto_reload=False,
+    )
+    environment.filters["markup"] = markupsafe.Markup
+    environment.filters["text"] = lambda text: markupsafe.Markup(escape(text, quote=False))
+    environment.filters["prose"] = lambda text: markupsafe.Markup(markup.prose(text))
+    text: str = environment.get_template("page.html.j2").render(
+        **_shown(contents, drawn, scene, markupsafe.Markup)
+    )
+    return (text.rstrip() + "\n").encode()
+
+
+def _shown(
+    contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Any
+) -> dict[str, Any]:
+    by_section = sections(contents)
+    outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
+    headline, *further = [
+        line.strip().rstrip(";") for line in contents.theorem.removeprefix("theorem: ").splitlines()
+    ] or [""]
+    return {
+        "contents": contents,
+        "sections": by_section,
+        "errata": errata(by_section),
+        "panels": panels(contents.rules),
+        "derivations": derivations(contents),
+        "tree": tree(contents.rules, outcomes),
+        "drawn": drawn,
+        "scene": scene,
+        "scene_heads": HEADS,
+        "scene_picture": raw(scene_picture(scene)),
+        "impact_law": [
+            entry.verdict for entry in contents.entries if entry.claim.section == "part"
+        ],
+        "verdicts": VERDICTS,
+        "kinds": KINDS,
+        "section_title": section_title,
+        "headline": headline[:1].upper() + headline[1:],
+        "further": list(map(markup.line, further)),
+        "notation": [(mathml(glyph(name)), name, said) for name, _, said in NOTATION if said],
+        "linked": {*outcomes, *(entry.claim.id for entry in contents.entries)},
+        "style": raw((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+        "script": raw((TEMPLATES / "page.js").read_text(encoding="utf-8")),
+    }

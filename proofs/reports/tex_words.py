@@ -1,0 +1,274 @@
+"""What the templates of the LaTeX report call: text, formulas, headings and notes as LaTeX."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.derivations import Derivation
+from juggleproof.proofs.reports.contents import Entry
+from juggleproof.proofs.reports.latex import latex_of, with_macros
+from juggleproof.proofs.reports.words import pieces
+
+SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "&": r"\&",
+    "%": r"\%",
+    "$": r"\$",
+    "#": r"\#",
+    "_": r"\_",
+    "{": r"\{",
+    "}": r"\}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": "$<$",
+    ">": "$>$",
+    "|": r"\textbar{}",
+    '"': "''",
+    "`": "'",
+}
+# What a derived expression is called in the paper, where it has a name there.
+SYMBOLS = {
+    "f1": r"\bar f_1(\bar b)",
+    "f2": r"\bar f_2(\bar b)",
+    "period": "T",
+    "e_1": "e_1",
+    "E_max": r"E_{\max}",
+    "delta_E_max": r"\Delta E_{\max}",
+    "delta_E_sup": r"\Delta E_{\sup}",
+    "total_energy": r"E(\bar b)",
+    "energy_change_1": r"\Delta_1 E(\bar b)",
+    "energy_change_2": r"\Delta_2 E(\bar b)",
+    "collision_time": r"\tau_c(\bar b)",
+    "xi_1": r"\xi_1",
+    "epsilon_1": r"\epsilon_1",
+    "launch_state": "r_0",
+    "region_margin": r"R(\bar b)",
+    "flight_matrix": "A_t",
+    "flight_offset": "a_t",
+    "flight_map": r"F^t(\bar b)",
+    "restitution_matrix": r"R_\alpha",
+    "fixed_point": "e_K",
+    "point_p": "p",
+    "energy_of_p": "E(p)",
+    "hang_time": "t_f",
+    "scaling": "(x, w)",
+}
+
+
+def plain(text: str) -> str:
+    r"""Text with what is special to LaTeX written out.
+
+    >>> plain("50% of f_1")
+    '50\\% of f\\_1'
+    """
+    return "".join(SPECIAL.get(sign, sign) for sign in text)
+
+
+def prose(text: str) -> str:
+    r"""A sentence, its formulas set.
+
+    >>> prose("The maximum of Delta_1 E on H.")
+    'The maximum of $\\Delta_1 E$ on $\\jugH$.'
+    """
+    return "".join(
+        f"${with_macros(content)}$" if kind == "math" else plain(content)
+        for kind, content in pieces(text)
+    )
+
+
+def lines(latex: str) -> list[str]:
+    r"""The lines of a print: parted at \\ outside of environments.
+
+    >>> lines(r"a = b \\ c = \begin{bmatrix} 1 \\ 2 \end{bmatrix}")
+    ['a = b', 'c = \\begin{bmatrix} 1 \\\\ 2 \\end{bmatrix}']
+    """
+    found, depth, start = list[str](), 0, 0
+    for mark in re.finditer(r"\\begin|\\end|\\\\", latex):
+        depth += {"\\begin": 1, "\\end": -1}.get(mark.group(), 0)
+        if mark.group() == r"\\" and not depth:
+            found.append(latex[start : mark.start()].strip())
+            start = mark.end()
+    return [*found, latex[start:].strip()]
+
+
+def formula(latex: str) -> str:
+    """The two arguments for a display: the formula whole, and to be broken."""
+    rows = [with_macros(row) for row in lines(latex)]
+    whole = (
+        rows[0] if len(rows) == 1 else "\\begin{gathered}" + r" \\ ".join(rows) + "\\end{gathered}"
+    )
+    return "{" + whole + "}{" + r" $\newline $ ".join(rows) + "}"
+
+
+def inline(latex: str) -> str:
+    """A print within a line; its rows one after another."""
+    return r",\quad ".join(with_macros(without_stop(row)) for row in lines(latex))
+
+
+def without_stop(row: str) -> str:
+    r"""A row without the stop or comma of the sentence that it ends.
+
+    >>> without_stop("a = b."), without_stop(r"\left\{ a \right.")
+    ('a = b', '\\left\\{ a \\right.')
+    """
+    return row if row.rstrip().endswith(r"\right.") else row.rstrip(" .,")
+
+
+def correction(entry: Entry) -> str:
+    """The corrected print: as LaTeX where a print was changed, else the corrected term after the
+    print's left side.
+    """
+    if entry.correction is None:
+        raise ValueError(f"{entry.claim.id} has no correction")
+    text = str(entry.correction["text"])
+    if entry.correction["kind"] not in ("coefficients", "derived"):
+        return text
+    left = entry.claim.printed.partition("=")[0].strip() if "=" in entry.claim.printed else ""
+    return (f"{left} = " if left and not left.startswith("<") else "") + latex_of(text)
+
+
+def change(entry: Entry) -> str:
+    """What the correction changes, the signs set as mathematics."""
+    said = str((entry.correction or {}).get("change", "")).partition(" at column")[0]
+    return re.sub(r"\\[A-Za-z]+|[<>]", lambda found: f"${found.group()}$", said)
+
+
+def number(claim: Claim) -> str:
+    """The number of a display, without brackets."""
+    found = re.fullmatch(r"\((\d+)\)(?:, .*)?", claim.place)
+    return found.group(1) if found and "," not in claim.place else ""
+
+
+def heading(claim: Claim) -> str:
+    """What the claim is referred to by: the number of its equation, or its section and place."""
+    shown = (
+        claim.place
+        if claim.place.startswith("(") and number(claim)
+        else f"{claim.section}, {claim.place}"
+        if claim.place
+        else claim.section
+    )
+    return plain(shown[:1].upper() + shown[1:])
+
+
+def entries(one: Derivation) -> str:
+    """The result of a derivation: a term, a column or a matrix."""
+    shown = [[with_macros(latex_of(entry)) for entry in row] for row in one.shown]
+    if len(shown) == 1:
+        return shown[0][0] if len(shown[0]) == 1 else "(" + r",\; ".join(shown[0]) + ")"
+    return r"\begin{bmatrix}" + r" \\ ".join(" & ".join(row) for row in shown) + r"\end{bmatrix}"
+
+
+def symbol(one: Derivation) -> str:
+    """The paper's name for what is derived, or nothing."""
+    return with_macros(SYMBOLS.get(one.function, ""))
+
+
+def key(name: str) -> str:
+    """The name of a derivation within a label."""
+    return re.sub(r"[^A-Za-z0-9]", "-", name)
+
+
+def holds(sharp: str) -> str:
+    """A sharp range as a sentence."""
+    if sharp == "nowhere":
+        return r"for no $\jugrestitution$"
+    if ": " not in sharp and "root" not in sharp:
+        return (
+            f"exactly for {prose(sharp)}"
+            if sharp != "0 < alpha < 1"
+            else r"for all $0 < \jugrestitution < 1$"
+        )
+    return prose(re.sub(r"(?<=: )nowhere", "for no alpha", sharp))
+
+
+def values(at: str) -> str:
+    """A counterexample: its values, and which root is meant."""
+    point, where, root = at.partition(" where ")
+    shown = ", ".join(
+        f"${with_macros(_value(one))}$" for one in point.split(", ") if " = " in one
+    ) or prose(point)
+    return shown + (f" where {prose(root)}" if where else "")
+
+
+def _value(text: str) -> str:
+    name, _, value = text.partition(" = ")
+    try:
+        return f"{latex_of(name)} = {latex_of(value)}"
+    except (checker.Rejected, TypeError):
+        return text
+
+
+def settled(entry: Entry) -> str:
+    """How the claim was settled, with the names of what was refuted."""
+    return plain(entry.settled_by)
+
+
+class Steps:
+    """The lines of the written proof: the statements of a claim, by label."""
+
+    def __init__(self, entry: Entry) -> None:
+        self.by_label = {one.name.partition("/")[2]: one for one in entry.statements}
+        self.used: set[str] = set()
+
+    def show(self, label: str, *parts: int) -> str:
+        """What a line shows, whole or some of its conjuncts; refuses a line that is not
+        certified.
+        """
+        one = self.by_label[label]
+        if one.outcome != "certified":
+            raise ClaimError(f"{one.name} is {one.outcome}; the written proof cannot print it")
+        self.used.add(label)
+        said = one.text.rpartition("\nshow ")[2].split(" and ")
+        return with_macros(
+            _chained(
+                [latex_of(said[part]) for part in parts]
+                if parts
+                else [latex_of(part) for part in said]
+            )
+        )
+
+    def given(self, label: str, place: int) -> str:
+        """What a line is given, by place."""
+        said = [
+            line.partition(" ")[2]
+            for line in self.by_label[label].text.splitlines()
+            if line.startswith("given ")
+        ]
+        return with_macros(latex_of(said[place]))
+
+
+def _chained(relations: Sequence[str]) -> str:
+    r"""Relations in a row, a < b and b < c as a < b < c.
+
+    >>> _chained(["0 < x", r"x \le 1", "y = 2"])
+    '0 < x \\le 1,\\quad y = 2'
+    """
+    shown = relations[0]
+    for before, one in zip(relations, relations[1:]):
+        end = re.split(r" (?:<|>|=|\\le|\\ge|\\ne) ", before)[-1]
+        shown += one.removeprefix(end) if one.startswith(end + " ") else r",\quad " + one
+    return shown
+
+
+__all__ = [
+    "Steps",
+    "change",
+    "correction",
+    "entries",
+    "formula",
+    "heading",
+    "holds",
+    "inline",
+    "key",
+    "number",
+    "plain",
+    "prose",
+    "settled",
+    "symbol",
+    "values",
+]

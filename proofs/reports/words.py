@@ -1,0 +1,577 @@
+"""Statements in words."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from fractions import Fraction
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from juggleproof.certificates import checker
+from juggleproof.proofs.reports.latex import GLYPHS, glyph, is_bracketed, latex_of
+
+# -------------------------------------------------------------------------------------------------
+# Sentences of claims and derivations, in which formulas stand as in statements, parted into text
+# and LaTeX.
+#
+# What is a formula is told by its words: names of the notation, numerals beside signs, and what
+# joins
+# them.  The rest stays text.
+
+# Names of sentences that no statement has: regions, maps, and quantities with marks that the
+# statement language lacks.
+NAMED = {
+    "B1^0": r"\mathcal{B}_1^0",
+    "B1^+": r"\mathcal{B}_1^+",
+    "B1^-": r"\mathcal{B}_1^-",
+    "B1": r"\mathcal{B}_1",
+    "B2": r"\mathcal{B}_2",
+    "Delta_1 E": r"\Delta_1 E",
+    "Delta_2 E": r"\Delta_2 E",
+    "Delta E_max": r"\Delta E_{\max}",
+    "Delta E_sup": r"\Delta E_{\sup}",
+    "Delta E": r"\Delta E",
+    "E_max": r"E_{\max}",
+    "E_sup": r"E_{\sup}",
+    "tau_c": r"\tau_c",
+    "tau_w": r"\tau_w",
+    "xi_1": r"\xi_1",
+    "epsilon_1": r"\epsilon_1",
+    "e_1": "e_1",
+    "e_2": "e_2",
+    "e_K": "e_K",
+    "b_0": r"\bar b_0",
+    "r_0": "r_0",
+    "z_k": "z_k",
+    "A_T": "A_T",
+    "A_t": "A_t",
+    "R_alpha": r"R_\alpha",
+    "u_1": "u_1",
+    "u_2": "u_2",
+    "f1": r"\bar f_1",
+    "f2": r"\bar f_2",
+    "F^t": "F^t",
+    "f^n": "f^n",
+    "C_y": "C_y",
+    "z1": "z_1",
+    "z2": "z_2",
+    "a_t": "a_t",
+    "alpha^n": r"\alpha^n",
+    "(-alpha)^n": r"(-\alpha)^n",
+    "R(b)": r"R(\bar b)",
+    "b": r"\bar b",
+    "epsilon": r"\epsilon",
+    "kappa": r"\kappa",
+    "alpha^k": r"\alpha^k",
+    "A_-xi": r"A_{-\xi}",
+    "A_-epsilon": r"A_{-\epsilon}",
+}
+REGIONS = {"H": r"\mathcal{H}", "R": r"\mathcal{R}"}
+LETTERS = {
+    "C",
+    "D",
+    "E",
+    "F",
+    "K",
+    "N",
+    "T",
+    "W",
+    "c",
+    "f",
+    "m",
+    "n",
+    "p",
+    "q",
+    "r",
+    "t",
+    "u",
+    "v",
+    "w",
+    "x",
+    "y",
+    "z",
+}
+WORD = re.compile(
+    r"""
+    \(-alpha\)\^n | Delta_[12]\ E | Delta\ E_(?:max|sup) | Delta\ E\b | B1\^[0+\-](?!\w) | R\(b\)
+  | '[a-z]+\b | A_-(?:xi|epsilon) | [A-Za-z]\w*(?:-\w+)+
+  | [A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?(?:\^[A-Za-z0-9]+)?
+  | \d+(?:/\d+)? | <=|>=|=|<|>|\+|-|\*|/|\^|\(|\)|, | \S
+""",
+    re.VERBOSE,
+)
+JOINING = {
+    "<=": r"\le",
+    ">=": r"\ge",
+    "=": "=",
+    "<": "<",
+    ">": ">",
+    "+": "+",
+    "-": "-",
+    "*": "",
+    "/": "/",
+    "^": "^",
+}
+
+
+@cache
+def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
+    r"""The sentence as ("text", words) and ("math", LaTeX), in order.
+
+    >>> text = "For 0 < alpha < 1/3 every orbit is attracted to R."
+    >>> pieces(text)  # doctest: +NORMALIZE_WHITESPACE
+    (('text', 'For '), ('math', '0 < \\alpha < \\frac{1}{3}'),
+     ('text', ' every orbit is attracted to '), ('math', '\\mathcal{R}'), ('text', '.'))
+    """
+    found: list[tuple[str, str]] = []
+    at = 0
+    for start, end in _formulas(sentence):
+        if sentence[at:start]:
+            found.append(("text", sentence[at:start]))
+        found.append(("math", _formula(sentence[start:end])))
+        at = end
+    return (*found, ("text", sentence[at:])) if sentence[at:] else tuple(found)
+
+
+def _formulas(sentence: str) -> list[tuple[int, int]]:
+    """The stretches that are formulas: the longest runs of names, numerals, signs and balanced
+    brackets that hold a name or a sign.
+    """
+    words = [(one.group(), one.start(), one.end()) for one in WORD.finditer(sentence)]
+    found, place = [], 0
+    while place < len(words):
+        if not _begins(words, place):
+            place += 1
+            continue
+        last = _run(words, place)
+        tokens = [word for word, _, _ in words[place:last]]
+        if any(_is_name(word) for word in tokens) or len(tokens) > 1:
+            found.append((words[place][1], words[last - 1][2]))
+        place = last
+    return found
+
+
+def _is_name(word: str) -> bool:
+    base, raised, exponent = word.partition("^")
+    if raised:
+        return word in NAMED or _is_name(base) and (exponent.isdigit() or exponent in LETTERS)
+    return (
+        word in NAMED
+        or word in REGIONS
+        or word in GLYPHS
+        or word in LETTERS
+        or bool(re.fullmatch(r"[a-z]\d", word))
+    )
+
+
+def _is_atom(word: str) -> bool:
+    return _is_name(word) or bool(re.fullmatch(r"\d+(/\d+)?", word))
+
+
+def _begins(words: list[tuple[str, int, int]], place: int) -> bool:
+    word = words[place][0]
+    following = words[place + 1][0] if place + 1 < len(words) else ""
+    if word in ("-", "("):
+        return (
+            _is_atom(following) and _closes(words, place)
+            if word == "("
+            else _is_atom(following) and words[place + 1][1] == words[place][2]
+        )
+    return _is_atom(word)
+
+
+def _closes(words: list[tuple[str, int, int]], place: int) -> bool:
+    """Whether what the bracket holds is a formula, and not a number of an equation or a remark."""
+    inside = list[str]()
+    for word, _, _ in words[place + 1 :]:
+        if word == ")":
+            return (any(map(_is_name, inside)) or "," in inside) and all(
+                _is_atom(one) or one in JOINING or one in ",(" for one in inside
+            )
+        inside.append(word)
+    return False
+
+
+def _run(words: list[tuple[str, int, int]], place: int) -> int:
+    """Where the formula that begins at this word ends."""
+    depth, last, expects = 0, place, True
+    while place < len(words):
+        word = words[place][0]
+        following = words[place + 1][0] if place + 1 < len(words) else ""
+        if expects and (_is_atom(word)):
+            expects, place = False, place + 1
+        elif expects and word == "-":
+            place += 1
+        elif word == "(" and (expects or words[place][1] > 0) and _closes(words, place):
+            depth, expects, place = depth + 1, True, place + 1
+        elif not expects and word == ")" and depth:
+            depth, place = depth - 1, place + 1
+        elif not expects and word in JOINING and (_is_atom(following) or following in ("(", "-")):
+            expects, place = True, place + 1
+        elif (
+            not expects
+            and word == ","
+            and depth
+            and (_is_atom(following) or following in ("(", "-"))
+        ):
+            expects, place = True, place + 1
+        elif (
+            not expects
+            and _is_atom(word)
+            and words[place - 1][2] + 1 == words[place][1]
+            and _is_factor(words[place - 1][0], True)
+            and (_is_factor(word, False))
+        ):
+            place += 1
+        else:
+            break
+        if not expects and not depth:
+            last = place
+    return max(last, 1)
+
+
+def _is_factor(word: str, first: bool) -> bool:
+    """Whether the word can stand beside another one as a factor."""
+    return (
+        word in LETTERS
+        or word in GLYPHS
+        or (word == ")" or word.isdigit() if first else word in NAMED)
+    )
+
+
+def _formula(text: str) -> str:
+    """The LaTeX of a stretch: of the statement language where it is one, else word by word."""
+    words = [found.group() for found in WORD.finditer(text)]
+    if not any(word in NAMED or word in REGIONS for word in words):
+        try:
+            return rf"({latex_of(text)})" if is_bracketed(text) else latex_of(text)
+        except (checker.Rejected, TypeError):
+            pass
+    shown = ""
+    for found in WORD.finditer(text):
+        word = found.group()
+        piece = (
+            NAMED.get(word) or REGIONS.get(word) or JOINING.get(word) if word != "/" else "/"
+        ) or (
+            _raised(word) if "^" in word[1:] else glyph(word) if _is_name(word) else _numeral(word)
+        )
+        if word == "*":
+            continue
+        spaced = (
+            word in ("<=", ">=", "=", "<", ">", "+")
+            or word == "-"
+            and shown
+            and shown[-1] not in "(,= "
+        )
+        if spaced:
+            piece = f" {piece} "
+        elif re.search(r"\\[A-Za-z]+$", shown) and piece[:1].isalnum():
+            piece = " " + piece
+        shown += piece + (" " if word == "," else "")
+    return shown.strip()
+
+
+def _raised(word: str) -> str:
+    base, _, exponent = word.partition("^")
+    return f"{NAMED.get(base) or REGIONS.get(base) or glyph(base)}^{exponent}"
+
+
+def _numeral(word: str) -> str:
+    above, slash, below = word.partition("/")
+    return rf"\frac{{{above}}}{{{below}}}" if slash and below else word
+
+
+# -------------------------------------------------------------------------------------------------
+# Sharp ranges of alpha, read from the text that tells them into intervals that can be drawn.
+
+if TYPE_CHECKING:
+    from juggleproof.scenes.figures.ours import Interval, Row
+
+WITHOUT_ALPHA = "no alpha"
+NUMBERS_SHOWN = (2, 3)  # what is put for K or n, where the range depends on one
+_READING = re.compile(r"([A-Za-z][\w-]*): (.*)", re.DOTALL)
+_END = re.compile(r"(c\d+) = (-?\d+\.\d+)\.\.\., a root of .*", re.DOTALL)
+_POINT = re.compile(r"alpha = (.+)")
+_BETWEEN = re.compile(r"(.+?) (<=?) alpha (<=?) (.+)")
+_WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
+
+
+def rows(entries: Iterable[Any]) -> list[Row]:
+    """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
+    them.
+    """
+    return [
+        (f"{entry.claim.id} ({label})" if label else entry.claim.id, entry.verdict, intervals)
+        for entry in entries
+        if entry.sharp != WITHOUT_ALPHA
+        for label, intervals in read(entry.sharp)
+    ]
+
+
+def without_alpha(entries: Iterable[Any]) -> int:
+    """The number of claims in which alpha does not occur."""
+    return sum(entry.sharp == WITHOUT_ALPHA for entry in entries)
+
+
+def read(text: str) -> list[tuple[str, list[Interval] | None]]:
+    """Each reading's intervals, with its label; one for each number put for K or n; None where the
+    range cannot be drawn.
+
+    >>> read("0 < alpha < 1/3")
+    [('', [(Fraction(0, 1), Fraction(1, 3), False, False)])]
+    >>> several = read("K/(K + 2) <= alpha < 1; as-in-11: nowhere")
+    >>> [(label, [str(one[1]) for one in intervals]) for label, intervals in several]
+    [('K = 2', ['1']), ('K = 3', ['1']), ('as-in-11', [])]
+    >>> read("sampled: not found")
+    [('sampled', None)]
+    """
+    told: list[tuple[str, str, dict[str, Fraction]]] = []
+    for piece in text.split("; "):
+        end, reading = _END.fullmatch(piece), _READING.fullmatch(piece)
+        if end and told:
+            told[-1][2][end[1]] = Fraction(end[2])
+        else:
+            told.append((reading[1], reading[2], {}) if reading else ("", piece, {}))
+    return [
+        (", ".join(part for part in (label, name) if part), intervals)
+        for label, said, ends in told
+        for name, intervals in _for_each_number(said, ends)
+    ]
+
+
+def _for_each_number(
+    said: str, ends: Mapping[str, Fraction]
+) -> list[tuple[str, list[Interval] | None]]:
+    stated = _WHOLE_NUMBER.fullmatch(said)
+    said, number = (stated[1], stated[2]) if stated else (said, "K")
+    if not re.search(rf"\b{number}\b", said):
+        return [("", _intervals(said, ends))]
+    return [
+        (f"{number} = {one}", _intervals(said, {**ends, number: Fraction(one)}))
+        for one in NUMBERS_SHOWN
+    ]
+
+
+def _intervals(said: str, values: Mapping[str, Fraction]) -> list[Interval] | None:
+    if said == "nowhere":
+        return []
+    found = []
+    for piece in said.split(" or "):
+        point, between = _POINT.fullmatch(piece), _BETWEEN.fullmatch(piece)
+        try:
+            if point:
+                number = _value(point[1], values)
+                found.append((number, number, True, True))
+            elif between:
+                found.append(
+                    (
+                        _value(between[1], values),
+                        _value(between[4], values),
+                        between[2] == "<=",
+                        between[3] == "<=",
+                    )
+                )
+            else:
+                return None
+        except (SyntaxError, LookupError, ZeroDivisionError):
+            return None
+    return found
+
+
+def _value(text: str, values: Mapping[str, Fraction]) -> Fraction:
+    """The value of an end: whole numbers, names, + - * / and parentheses, walked as a tree;
+    LookupError for anything else.
+    """
+    return _walk(ast.parse(text, mode="eval").body, values)
+
+
+def _walk(node: ast.expr, values: Mapping[str, Fraction]) -> Fraction:
+    if isinstance(node, ast.Constant) and type(node.value) is int:
+        return Fraction(node.value)
+    if isinstance(node, ast.Name):
+        return values[node.id]
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        return -_walk(node.operand, values)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub, ast.Mult, ast.Div)):
+        left, right = _walk(node.left, values), _walk(node.right, values)
+        kind = type(node.op)
+        return (
+            left + right
+            if kind is ast.Add
+            else (
+                left - right
+                if kind is ast.Sub
+                else left * right
+                if kind is ast.Mult
+                else left / right
+            )
+        )
+    raise LookupError(ast.dump(node))
+
+
+# -------------------------------------------------------------------------------------------------
+# The lines of a statement as words and formulas: what an auditor reads, set as mathematics.
+
+WORDS = {
+    "forall": "for all",
+    "integer": "whole numbers",
+    "range": "given",
+    "given": "given",
+    "have": "so that",
+    "let": "where",
+    "root": "where",
+    "exists": "there are",
+    "with": "with",
+    "show": "then",
+    "iterates": "the map",
+    "after": "after",
+    "over": "for all",
+    "domain": "given",
+    "holds": "exactly if",
+    "number": "where",
+    "state": "of the state",
+    "space": "in",
+    "piece": "the map",
+    "rank": "rank",
+    "stage": "stage",
+    "on": "on",
+    "point": "point",
+    "weights": "weights",
+    "rate": "rate",
+    "radius": "radius",
+    "size": "size",
+    "start": "start",
+}
+NAMES = {
+    "sharp",
+    "map",
+    "descent",
+    "contraction",
+    "attraction",
+    "escape",
+    "word",
+}  # lines that name statements, or pieces by number
+
+
+def lines_of(text: str) -> list[tuple[str, str, str]]:
+    r"""The lines after the first as (word, "math" or "text", content).
+
+    >>> text = "statement a/b\nforall r\ngiven r > 0\nshow r^2 > 0"
+    >>> lines_of(text)  # doctest: +NORMALIZE_WHITESPACE
+    [('for all', 'math', '\\dot\\rho_0'), ('given', 'math', '\\dot\\rho_0 > 0'),
+     ('then', 'math', '\\dot\\rho_0^2 > 0')]
+    """
+    found = []
+    for line in text.splitlines()[1:]:
+        keyword, _, said = line.partition(" ")
+        if keyword in NAMES:
+            found.append((keyword, "text", said))
+        else:
+            found.append((WORDS.get(keyword, keyword), "math", _content(keyword, said)))
+    return list(_merged(found))
+
+
+def _content(keyword: str, said: str) -> str:
+    if keyword in ("forall", "integer", "exists", "over", "state"):
+        return ",\\ ".join(map(glyph, said.split()))
+    if keyword in ("let", "root", "number"):
+        name, _, value = said.partition(" = ")
+        rooted = re.fullmatch(r"(sqrt|root)\((.*)\)", value)
+        if not rooted:
+            return f"{glyph(name)} = {latex_of(value)}"
+        if rooted.group(1) == "sqrt":
+            return rf"{glyph(name)} = \sqrt{{{latex_of(rooted.group(2))}}}"
+        polynomial, low, high = parts_of(rooted.group(2))
+        held = rf"{latex_of(low)} \le {glyph(name)} \le {latex_of(high)}"
+        return (
+            rf"{glyph(name)}\ \text{{is the root"
+            rf" of}}\ {latex_of(polynomial)}\ \text{{with}}\ {held}"
+        )
+    if keyword in ("iterates", "piece") and "->" in said:
+        source, _, image = said.partition(" -> ")
+        if keyword == "piece":
+            return rf"{latex_of(source)} \;\mapsto\; ({', '.join(map(latex_of, parts_of(image)))})"
+        return (
+            rf"({', '.join(map(latex_of, parts_of(_bare(source))))}) \mapsto"
+            rf" ({', '.join(map(latex_of, parts_of(_bare(image))))})"
+        )
+    if keyword == "after":
+        count, _, image = said.partition(" -> ")
+        return rf"{glyph(count)}:\ ({', '.join(map(latex_of, parts_of(_bare(image))))})"
+    if keyword in ("point", "weights", "start"):
+        return f"({', '.join(map(latex_of, parts_of(said)))})"
+    return r"\text{never}" if keyword == "holds" and said == "0 = 1" else latex_of(said)
+
+
+def _bare(text: str) -> str:
+    return text[1:-1].rstrip(",") if text.startswith("(") and text.endswith(")") else text
+
+
+def parts_of(text: str) -> list[str]:
+    """What commas outside of brackets part."""
+    parts, depth, start = list[str](), 0, 0
+    for place, sign in enumerate(text):
+        depth += (sign == "(") - (sign == ")")
+        if sign == "," and not depth:
+            parts.append(text[start:place].strip())
+            start = place + 1
+    return [*parts, text[start:].strip()]
+
+
+def _merged(lines: list[tuple[str, str, str]]) -> Iterator[tuple[str, str, str]]:
+    """Lines with the same word in a row as one; 0 < alpha < 1 as one formula."""
+    place = 0
+    while place < len(lines):
+        word, kind, content = lines[place]
+        held = [content]
+        while (
+            word != "then"
+            and kind == "math"
+            and place + 1 < len(lines)
+            and lines[place + 1][:2] == (word, kind)
+        ):
+            place += 1
+            held.append(lines[place][2])
+        if held[:2] == [r"\alpha > 0", r"\alpha < 1"]:
+            held[:2] = [r"0 < \alpha < 1"]
+        yield word, kind, ",\\quad ".join(held)
+        place += 1
+
+
+def formulas_of(text: str) -> Iterator[tuple[str, str]]:
+    """Every formula of a statement with its LaTeX, for comparison."""
+    for line in text.splitlines()[1:]:
+        keyword, _, said = line.partition(" ")
+        if keyword in (
+            "range",
+            "given",
+            "have",
+            "with",
+            "show",
+            "domain",
+            "holds",
+            "space",
+            "rank",
+            "stage",
+            "on",
+            "rate",
+            "radius",
+            "size",
+        ):
+            yield said, latex_of(said)
+        elif keyword in ("point", "weights", "start"):
+            yield from ((part, latex_of(part)) for part in parts_of(said))
+        elif keyword in ("let", "root", "number"):
+            value = said.partition(" = ")[2]
+            rooted = re.fullmatch(r"(?:sqrt|root)\((.*)\)", value)
+            for part in parts_of(rooted.group(1)) if rooted else [value]:
+                yield part, latex_of(part)
+        elif keyword in ("piece", "iterates", "after") and "->" in said:
+            source, _, image = said.partition(" -> ")
+            for part in [
+                *(parts_of(_bare(source)) if keyword != "after" else []),
+                *parts_of(_bare(image)),
+            ]:
+                yield part, latex_of(part)

@@ -1,0 +1,477 @@
+"""Pivot and face."""
+
+from __future__ import annotations
+
+from math import asin, cos, floor, pi, sin
+
+from juggleproof.scenes.part.body import (
+    A_X,
+    A_Y,
+    CONTACTS,
+    CORNER,
+    DONE,
+    FALLS,
+    FLIGHT,
+    FRICTION,
+    GYRATION,
+    HALF_LONG,
+    HALF_SHORT,
+    LAST_LYING,
+    LAST_UPRIGHT,
+    MODE,
+    NO_PROGRESS,
+    OMEGA,
+    PHASE_X,
+    PHASE_Y,
+    QUARTER,
+    RISES,
+    SINCE,
+    SLIDE,
+    SPLIT,
+    STEP,
+    THETA,
+    TIME,
+    TOLERANCE,
+    V_X,
+    V_Y,
+    W_X,
+    W_Y,
+    Floats,
+    G,
+    X,
+    Y,
+    compiled,
+    corner_x,
+    corner_y,
+    table_glide,
+    table_height,
+    table_lift,
+    table_place,
+    table_push,
+    table_rise,
+)
+from juggleproof.scenes.part.flight import safe_step
+from juggleproof.scenes.part.strike import first_turn, hold, stay, strike
+
+# -------------------------------------------------------------------------------------------------
+# The steps of a block that pivots on one corner, and the moment at which its phase ends: by Runge
+# and Kutta, and by a safeguarded secant.
+#
+# A phase ends where a margin falls to 0: the angle to the table of the next corner, the normal
+# force,
+# the friction left, the speed of sliding.
+
+Moved = tuple[float, float, float, float]  # X, V_X, theta, omega
+
+LASTS, LETS_GO, SLIPS, STOPS, LANDS = range(5)
+NEAR = 1e-13  # seconds: to what the end of a phase is found
+MOST_GUESSES = 200
+FLAT = 1e-14  # radians
+
+
+@compiled
+def pivoted(
+    p: Floats,
+    t: float,
+    x: float,
+    vx: float,
+    theta: float,
+    omega: float,
+    i: int,
+    slide: float,
+    h: float,
+) -> Moved:
+    """(X, V_X, theta, omega) after a step of h, of fourth order."""
+    f1, _, a1 = hold(p, t, theta, omega, i, slide)
+    theta2, omega2 = theta + h / 2 * omega, omega + h / 2 * a1
+    f2, _, a2 = hold(p, t + h / 2, theta2, omega2, i, slide)
+    theta3, omega3 = theta + h / 2 * omega2, omega + h / 2 * a2
+    f3, _, a3 = hold(p, t + h / 2, theta3, omega3, i, slide)
+    theta4, omega4 = theta + h * omega3, omega + h * a3
+    f4, _, a4 = hold(p, t + h, theta4, omega4, i, slide)
+    after = theta + h * (omega + h / 6 * (a1 + a2 + a3))
+    spin = omega + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+    if slide != 0:
+        return (
+            x + h * (vx + h / 6 * (f1 + f2 + f3)),
+            vx + h / 6 * (f1 + 2 * f2 + 2 * f3 + f4),
+            after,
+            spin,
+        )
+    c, s = cos(after), sin(after)
+    foot = (
+        x + corner_x(p, i, cos(theta), sin(theta)) - table_place(p, t)
+    )  # where the corner sticks on the table
+    return (
+        foot + table_place(p, t + h) - corner_x(p, i, c, s),
+        table_glide(p, t + h) + spin * corner_y(p, i, c, s),
+        after,
+        spin,
+    )
+
+
+@compiled
+def pace(p: Floats, theta: float, i: int, slide: float) -> float:
+    """The part of the usual step that is right here: near jamming the force at a sliding corner
+    changes as fast as 1/(B2 +- mu B3) is large.
+    """
+    if slide == 0:
+        return 1.0
+    c, s = cos(theta), sin(theta)
+    x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
+    return min(1.0, 1 + x * (x + slide * p[FRICTION] * y) / p[GYRATION])
+
+
+@compiled
+def margin(
+    p: Floats,
+    ended: int,
+    t: float,
+    vx: float,
+    theta: float,
+    omega: float,
+    i: int,
+    slide: float,
+    turn: float,
+) -> float:
+    """How far a phase is from ending in this way; `turn` is the number of quarter turns from which
+    on corner i is the lowest.
+    """
+    if ended == LANDS:
+        return min(theta - turn * QUARTER, (turn + 1) * QUARTER - theta) + FLAT
+    if ended == STOPS:
+        return slide * (vx - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
+    along, normal, _ = hold(p, t, theta, omega, i, slide)
+    return normal if ended == LETS_GO else p[FRICTION] * normal - abs(along)
+
+
+@compiled
+def ending(
+    p: Floats, t: float, vx: float, theta: float, omega: float, i: int, slide: float, turn: float
+) -> int:
+    """What no longer holds of the phase: LASTS where everything does."""
+    if margin(p, LANDS, t, vx, theta, omega, i, slide, turn) < 0:
+        return LANDS
+    if margin(p, LETS_GO, t, vx, theta, omega, i, slide, turn) <= 0:
+        return LETS_GO
+    last = SLIPS if slide == 0 else STOPS
+    return last if margin(p, last, t, vx, theta, omega, i, slide, turn) < 0 else LASTS
+
+
+@compiled
+def end_of(
+    p: Floats,
+    t: float,
+    x: float,
+    vx: float,
+    theta: float,
+    omega: float,
+    i: int,
+    slide: float,
+    turn: float,
+    h: float,
+    ended: int,
+) -> tuple[float, float, int]:
+    """Two lengths of a step, NEAR apart, between which the phase first ends, the first 0 where it
+    ends at once; and how it ends.
+
+    Of a step of h, after which it has ended.  Guesses by the Illinois method; halves instead where
+    the bracket is longer than a third as many halvings would have left it.
+    """
+    early, late, allowed, side = 0.0, h, 8 * h, 0
+    above = margin(p, ended, t, vx, theta, omega, i, slide, turn)
+    _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, late)
+    below = margin(p, ended, t + late, vx2, theta2, omega2, i, slide, turn)
+    for _ in range(MOST_GUESSES):
+        if late - early <= NEAR:
+            break
+        guess = (early + late) / 2
+        if above > 0 and below < 0 and late - early < allowed:
+            secant = late - below * (late - early) / (below - above)
+            guess = min(max(secant, early + NEAR / 2), late - NEAR / 2)
+        allowed *= 0.8
+        _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, guess)
+        found = ending(p, t + guess, vx2, theta2, omega2, i, slide, turn)
+        if found == LASTS:
+            early, above = guess, margin(p, ended, t + guess, vx2, theta2, omega2, i, slide, turn)
+            below = below / 2 if side > 0 else below
+            side = 1
+            continue
+        late, below = guess, margin(p, found, t + guess, vx2, theta2, omega2, i, slide, turn)
+        above = above / 2 if side < 0 else above
+        side = -1
+        if found != ended:
+            ended, side = found, 0
+            _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, early)
+            above = margin(p, ended, t + early, vx2, theta2, omega2, i, slide, turn)
+    return early, late, ended
+
+
+# -------------------------------------------------------------------------------------------------
+# Which way up a block is, and what is noted of it: nearer to upright or to lying, since when, and
+# how often it changed.
+#
+# The two are parted where a block, tilted on a corner, has its centre above that corner: at
+# atan(a/b)
+# from upright.
+
+
+@compiled
+def side(p: Floats, theta: float) -> int:
+    """An even number where the block is nearer to upright, an odd one where to lying; it grows by 1
+    whenever theta passes from one to the other.
+    """
+    split = p[SPLIT]
+    turns = floor((theta + split) / pi)
+    return 2 * int(turns) + (0 if theta + split - turns * pi < 2 * split else 1)
+
+
+@compiled
+def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, theta1: float) -> None:
+    """Notes the sides that a block was on from t0 to t1, turning evenly."""
+    before, after = side(p, theta0), side(p, theta1)
+    lying = after % 2 == 1
+    if before != after:
+        split = p[SPLIT]
+        step = 1 if after > before else -1
+        last = t0
+        for k in range(before, after, step):
+            edge = (
+                k if step == 1 else k - 1
+            )  # the boundary between the sides k and k + step, after side `edge`
+            angle = (edge // 2) * pi + split if edge % 2 == 0 else (edge // 2 + 1) * pi - split
+            last = min(max(t0 + (t1 - t0) * (angle - theta0) / (theta1 - theta0), t0), t1)
+            if last >= notes[SINCE]:
+                if k % 2 == 0:
+                    notes[FALLS] += 1
+                else:
+                    notes[RISES] += 1
+        notes[LAST_UPRIGHT if lying else LAST_LYING] = last
+    notes[LAST_LYING if lying else LAST_UPRIGHT] = t1
+
+
+# -------------------------------------------------------------------------------------------------
+# A block whose face lies on the table: it sticks or slides, until the table falls away, friction
+# fails, sliding stops, or the block tips.
+#
+# All in closed form but for the times at which friction fails or sliding stops; these come, like
+# the
+# end of a flight, from below.
+
+MOST_PHASES, MOST_STEPS = 100_000, 1_000_000
+SPEED_NEAR, FORCE_NEAR = 1e-12, 1e-9  # to what a stop and a slip are found, in m/s and m/s^2
+LEAST_FALL = 1e-3  # keeps steps finite where nothing changes
+LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of any of them
+
+
+@compiled
+def lift_off(p: Floats, t: float) -> float:
+    """When the table next falls faster than g, now where it does; 1e300 where it never does."""
+    if p[G] + table_lift(p, t) <= 0:
+        return t
+    if p[A_Y] * p[W_Y] * p[W_Y] <= p[G]:
+        return 1e300
+    ends = asin(p[G] / (p[A_Y] * p[W_Y] * p[W_Y]))
+    phase = p[W_Y] * t + p[PHASE_Y]
+    turns = floor((phase - ends) / (2 * pi))
+    return t + (2 * pi * (turns + 1) + ends - phase) / p[W_Y]
+
+
+@compiled
+def face_margin(p: Floats, t: float, grip: float, way: float) -> tuple[float, float]:
+    """How far friction `grip` N is from what sticking needs against a push to the side `way`, and
+    how fast that changes.
+    """
+    wy, wx = p[W_Y], p[W_X]
+    value = grip * (p[G] + table_lift(p, t)) - way * table_push(p, t)
+    rate = -grip * p[A_Y] * wy**3 * cos(wy * t + p[PHASE_Y]) + way * p[A_X] * wx**3 * cos(
+        wx * t + p[PHASE_X]
+    )
+    return value, rate
+
+
+@compiled
+def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
+    """The first time up to `end` at which sticking needs more than `grip` times the normal force;
+    `end` where there is none.
+    """
+    fall = grip * abs(p[A_Y]) * p[W_Y] ** 4 + abs(p[A_X]) * p[W_X] ** 4 + LEAST_FALL
+    first = True
+    for _ in range(MOST_STEPS):
+        step = end - t
+        for way in (-1.0, 1.0):
+            value, rate = face_margin(p, t, grip, way)
+            if value < -FORCE_NEAR and first or value <= FORCE_NEAR and rate < 0 and not first:
+                return t
+            step = min(step, safe_step(max(value + FORCE_NEAR, 0.0), rate, fall))
+        if t + step >= end:
+            return end
+        if t + step == t and not first:  # as near as times can be told apart
+            return t
+        first = False
+        t += step
+    return -1.0
+
+
+@compiled
+def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
+    """The first time up to `end` at which a face that slides at S stops; `end` where there is
+    none.
+    """
+    mu, wy, wx = p[FRICTION], p[W_Y], p[W_X]
+    fall = mu * abs(p[A_Y]) * wy**3 + abs(p[A_X]) * wx**3 + LEAST_FALL
+    start, rise, glide = t, table_rise(p, t), table_glide(p, t)
+    first = True
+    for _ in range(MOST_STEPS):
+        speed = slide * (S - table_glide(p, t) + glide) - mu * (
+            p[G] * (t - start) + table_rise(p, t) - rise
+        )
+        rate = -slide * table_push(p, t) - mu * (p[G] + table_lift(p, t))
+        if speed <= SPEED_NEAR and rate < 0 and not first:
+            return t
+        step = safe_step(max(speed + SPEED_NEAR, 0.0), rate, fall)
+        if t + step >= end:
+            return end
+        if t + step == t and not first:  # as near as times can be told apart
+            return t
+        first = False
+        t += step
+    return -1.0
+
+
+@compiled
+def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
+    """Moves a block that lies on a face on until it leaves it, or to the time `until`."""
+    t, x, vx, slide = z[TIME], z[X], z[V_X], z[SLIDE]
+    upright = int(z[CORNER]) % 2 == 0
+    half, tall = (p[HALF_SHORT], p[HALF_LONG]) if upright else (p[HALF_LONG], p[HALF_SHORT])
+    mu = p[FRICTION]
+    tips = mu * tall > half
+    grip = half / tall if tips else mu
+    began, leaves = t, lift_off(p, t)
+    end = min(until, leaves, t + LONGEST_PIECE)
+    push, tipped, code = 0.0, False, NO_PROGRESS
+    notes[CONTACTS] += 1
+    for _ in range(MOST_PHASES):
+        if slide == 0:
+            after = slip_time(p, t, end, grip)
+            if after < 0:
+                break
+            x, vx = x + table_place(p, after) - table_place(p, t), table_glide(p, after)
+            t = after
+            if t < end:
+                push = table_push(p, t)
+                tipped = tips
+                slide = 0.0 if tips else -1.0 if push > 0 else 1.0
+        elif tips:
+            push, tipped = -slide, True
+        else:
+            after = stop_time(p, t, end, slide, vx - table_glide(p, t))
+            if after < 0:
+                break
+            h, rise = after - t, table_rise(p, t)
+            x += vx * h - slide * mu * (
+                p[G] * h * h / 2 + table_height(p, after) - table_height(p, t) - rise * h
+            )
+            vx -= slide * mu * (p[G] * h + table_rise(p, after) - rise)
+            t = after
+            if t < end:
+                push = table_push(p, t)
+                vx = table_glide(p, t)
+                slide = (
+                    0.0
+                    if abs(push) <= mu * (p[G] + table_lift(p, t))
+                    else -1.0
+                    if push > 0
+                    else 1.0
+                )
+        if t >= end or tipped:
+            code = DONE
+            break
+    note_turn(p, notes, began, z[THETA], t, z[THETA])
+    z[TIME], z[X], z[V_X], z[SLIDE] = t, x, vx, slide
+    z[Y], z[V_Y] = table_height(p, t) + tall, table_rise(p, t)
+    if tipped:
+        tip(p, z, push)
+    elif t >= leaves:
+        z[MODE] = FLIGHT
+    return code
+
+
+@compiled
+def tip(p: Floats, z: Floats, push: float) -> None:
+    """Stands a block that tips on its corner: the left one where friction pushes it to the
+    right.
+    """
+    c, s = cos(z[THETA]), sin(z[THETA])
+    for i in range(4):
+        if corner_y(p, i, c, s) < 0 and corner_x(p, i, c, s) * push < 0:
+            stay(p, z, i)
+
+
+# -------------------------------------------------------------------------------------------------
+# A block that pivots on one corner, which sticks or slides: steps in (X, V_X, theta, omega), from
+# one phase to the next.
+#
+# Height and vertical speed follow from the corner's height over the table, which stays what it was,
+# at most two tolerances: to put it at 0 could add energy, and keep a block that rattles from coming
+# to rest.  What ends a phase (the table falls away, friction fails, sliding stops, the next corner
+# comes down) is looked for at the end of every step and then bracketed.
+
+# of one pivot
+LEAST_STEP = 1e-10  # seconds: how long a phase lasts that would end at once
+
+
+@compiled
+def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
+    """Moves a pivoting block on until it leaves its corner or the next one strikes, or to the time
+    `until`.
+    """
+    i, slide = int(z[CORNER]), z[SLIDE]
+    t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]
+    turn = first_turn(i, theta)
+    gap = z[Y] + corner_y(p, i, cos(theta), sin(theta)) - table_height(p, t)
+    ended, code = LASTS, NO_PROGRESS
+    notes[CONTACTS] += 1
+    for _ in range(MOST_STEPS):
+        h = min(p[STEP] * pace(p, theta, i, slide), until - t)
+        x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
+        ended = ending(p, t + h, vx2, theta2, omega2, i, slide, turn)
+        if ended != LASTS:
+            early, late, ended = end_of(p, t, x, vx, theta, omega, i, slide, turn, h, ended)
+            if ended == LANDS or ended == LETS_GO:
+                h = late
+            else:
+                h = max(early, min(h, LEAST_STEP))
+            x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
+        if ended == LANDS:
+            theta2 = (turn if theta2 < (turn + 0.5) * QUARTER else turn + 1) * QUARTER
+        note_turn(p, notes, t, theta, t + h, theta2)
+        t, x, vx, theta, omega = min(t + h, until), x2, vx2, theta2, omega2
+        if ended == STOPS:
+            vx = omega * corner_y(p, i, cos(theta), sin(theta)) + table_glide(p, t)
+            slide = 0.0
+            along, normal, _ = hold(p, t, theta, omega, i, 0.0)
+            if abs(along) > p[FRICTION] * normal:
+                ended = SLIPS
+        if ended == SLIPS:
+            along, normal, _ = hold(p, t, theta, omega, i, 0.0)
+            slide = -1.0 if along > 0 else 1.0
+            along, normal, _ = hold(p, t, theta, omega, i, slide)
+            if normal <= 0:
+                ended = LETS_GO
+        if ended == LETS_GO or ended == LANDS or t >= until:
+            code = DONE
+            break
+    if ended == LETS_GO:
+        gap = max(gap, -p[TOLERANCE] / 2)  # see `strike`
+    c, s = cos(theta), sin(theta)
+    z[TIME], z[X], z[V_X], z[THETA], z[OMEGA] = t, x, vx, theta, omega
+    z[Y], z[V_Y] = (
+        table_height(p, t) + gap - corner_y(p, i, c, s),
+        table_rise(p, t) - omega * corner_x(p, i, c, s),
+    )
+    z[SLIDE] = slide
+    if ended == LETS_GO or ended == LANDS:
+        z[MODE] = FLIGHT
+    return strike(p, z, notes) if ended == LANDS else code
