@@ -77,9 +77,7 @@ def write_page(said: str) -> bool:
     text, old = PAGE.read_text(encoding="utf-8"), stated_in_page()
     head, rest = text.split(MARKS[0])
     return (
-        write_file(
-            PAGE, f"{head}{MARKS[0]}\n{said}\n{MARKS[1]}{rest.split(MARKS[1])[1]}".encode()
-        )
+        write_file(PAGE, f"{head}{MARKS[0]}\n{said}\n{MARKS[1]}{rest.split(MARKS[1])[1]}".encode())
         if old != said
         else False
     )

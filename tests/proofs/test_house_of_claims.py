@@ -1,4 +1,4 @@
-"""The claims, the ledger, the register, the store and the README fit together."""
+"""The claims, the ledger, the register, the store and the pages fit together."""
 
 from __future__ import annotations
 
@@ -51,10 +51,10 @@ def test_bare_checker_accepts_the_store_holds() -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_readme_shows_the_register_holds() -> None:
-    text = readme.README.read_text(encoding="utf-8")
-    assert readme.with_results(text) == text, (
-        "run juggleproof certify --accept, which writes the results into README.md"
+@pytest.mark.parametrize("page", readme.PAGES)
+def test_pages_show_the_register_holds(page: str) -> None:
+    assert readme.regenerated(page) == (ROOT / page).read_text(encoding="utf-8"), (
+        "run juggleproof certify --accept, which writes what is generated"
     )
 
 
