@@ -9,15 +9,19 @@ from typing import Any
 
 from latex2mathml.converter import convert
 
-FORMULA = re.compile(r'<(span|div) class="arithmatex">(?:\\\((.*?)\\\)|\\\[(.*?)\\\])</\1>', re.S)
+DISPLAY = re.compile(r"^```math\n(.*?)\n```$", re.M | re.S)
+INLINE = re.compile(r'<span class="arithmatex">\\\((.*?)\\\)</span>', re.S)
+
+
+def on_page_markdown(markdown: str, **_: Any) -> str:
+    """The page with every display as MathML."""
+    return DISPLAY.sub(lambda found: f"<div>{_mathml(found[1], 'block')}</div>", markdown)
 
 
 def on_page_content(html: str, **_: Any) -> str:
-    """The page with every formula as MathML."""
-    return FORMULA.sub(_mathml, html)
+    """The page with every formula of its text as MathML."""
+    return INLINE.sub(lambda found: _mathml(unescape(found[1]), "inline"), html)
 
 
-def _mathml(found: re.Match[str]) -> str:
-    block = found[3] is not None
-    latex = unescape(found[3] if block else found[2]).strip()
-    return convert(latex, display="block" if block else "inline")
+def _mathml(latex: str, display: str) -> str:
+    return convert(latex.replace(":=", r"\coloneqq "), display=display)

@@ -259,8 +259,8 @@ def _accept(
     options: argparse.Namespace,
     register: Path,
 ) -> None:
-    """Writes the verdicts into the register, and the results into the README where they are those
-    of the stored certificates."""
+    """Writes the verdicts into the register, and what is generated into the pages where the
+    verdicts are those of the stored certificates."""
     from proofs.command import readme
 
     after = {one.id: one.registered() for one in results.claims}

@@ -21,6 +21,7 @@ from proofs.command.certify import FINDINGS
 from proofs.command.show import kept_claims
 from proofs.register import load_register
 from proofs.reports.latex import latex_of
+from proofs.reports.tex import words
 from proofs.verdicts import VERDICTS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -102,7 +103,7 @@ def _entry(
         title, parts = row.title or "change", row.text.splitlines()
         if row.latex:
             formula = row.text if row.latex == "print" else latex_of(row.text)
-            lines += [f"*{title}:*", "", *_display(formula), ""]
+            lines += [f"*{title}:*", "", *_display(formula)]
         elif row.code:
             lines += [f"*{title}:* " + "; ".join(map(_code, parts)), ""]
         elif len(parts) > 1:
@@ -116,10 +117,9 @@ def _prose(text: str) -> str:
     return re.sub(r"([*\\])", r"\\\1", text)
 
 
-def _display(formula: str) -> list[str]:
-    rows = " \\\\\n".join(part.strip() for part in formula.split("\\\\"))
-    inner = f"\\begin{{gathered}}\n{rows}\n\\end{{gathered}}" if "\\\\" in formula else formula
-    return ["$$", inner, "$$"]
+def _display(latex: str) -> list[str]:
+    """A display for each line of a formula."""
+    return [row for line in words.lines(latex) for row in ("```math", line, "```", "")]
 
 
 def _code(text: str) -> str:
@@ -160,8 +160,10 @@ def mark(page: str) -> str:
 
 
 def regenerated(page: str) -> str:
-    """A page with what is generated in place; raises ClaimError where its marks are missing."""
-    text, begin = (ROOT / page).read_text(encoding="utf-8"), mark(page)
+    """A page with what is generated in place; raises ClaimError, one line, where its marks are
+    missing."""
+    path, begin = ROOT / page, mark(page)
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
     if begin not in text or END not in text:
         raise ClaimError(f"{page}: the marks {begin} and {END} are missing; put them back")
     head, rest = text.split(begin, 1)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.pages import PAGES, ROOT, text_of
+from tests.docs.pages import PAGES, ROOT, code, text_of
 from tests.reports.browser import chromium, requests, resize, scheme
 
 BUILT = [f"{page.stem}.html" for page in PAGES if page.parent != ROOT]
@@ -39,9 +39,9 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 def test_every_formula_is_mathml_holds(site: Path) -> None:
     made = "".join(text_of(site / page) for page in BUILT)
-    formulas = sum(text_of(page).count("\n$$\n") for page in PAGES) // 2
-    assert formulas > 50 and made.count('display="block"') == formulas
-    assert "arithmatex" not in made and "$$" not in made
+    displays = sum(len(code(page, "math")) for page in PAGES)
+    assert displays > 50 and made.count('display="block"') == displays
+    assert "arithmatex" not in made and "language-math" not in made
 
 
 def test_nothing_is_loaded_from_elsewhere_holds(site: Path) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 from certificates import checker
 from certificates.store import DEFAULT, Store
+from certificates.terms import ClaimError
 from proofs.command import readme, show
 from proofs.ledger.ledger import check_claims, load_ledger
 from proofs.loading import paper_claims
@@ -56,6 +57,16 @@ def test_pages_show_the_register_holds(page: str) -> None:
     assert readme.regenerated(page) == (ROOT / page).read_text(encoding="utf-8"), (
         "run juggleproof certify --accept, which writes what is generated"
     )
+
+
+@pytest.mark.parametrize("text", ["", "# Results\n", f"{readme.END}\n"])
+def test_rejects_a_page_without_marks(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(readme, "ROOT", tmp_path)
+    (tmp_path / "README.md").write_text(text, encoding="utf-8")
+    with pytest.raises(ClaimError, match="README.md: the marks .* put them back"):
+        readme.regenerated("README.md")
 
 
 def test_repeated_prints_name_an_earlier_claim_holds() -> None:
