@@ -42,6 +42,7 @@ def test_every_formula_is_mathml_holds(site: Path) -> None:
     displays = sum(len(code(page, "math")) for page in PAGES)
     assert displays > 50 and made.count('display="block"') == displays
     assert "arithmatex" not in made and "language-math" not in made
+    assert "<blockquote" not in made  # a line of prose that begins with > is one
 
 
 def test_nothing_is_loaded_from_elsewhere_holds(site: Path) -> None:
