@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: certify test lint coq clean
+.PHONY: certify test lint coq docs figure clean
 
 certify: $(VENV)/installed
 	$(BIN)/juggleproof certify
@@ -21,6 +21,16 @@ coq:
 	@coqc --version | head -n 1
 	@rm -rf build/coq && mkdir -p build/coq && cp proofs/coq/*.v build/coq
 	@cd build/coq && for file in $$(grep '\.v$$' ../../proofs/coq/_CoqProject); do echo "coqc $$file"; coqc -q -Q . Juggleproof $$file || exit 1; done
+
+# The pages of docs as a site in build/site; a broken link is an error.
+docs: $(VENV)/installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock -r requirements-docs.lock
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
+
+# README's picture: the figure of the report, on white, so that it can be read on a dark page.
+figure: $(VENV)/installed
+	$(BIN)/juggleproof report --format figures -o build > /dev/null
+	sed '0,/fill: none/s//fill: #ffffff/' build/figures/fig-trap.svg > docs/img/fig-trap.svg
 
 $(VENV)/installed: pyproject.toml requirements.lock
 	$(PYTHON) -m venv $(VENV)

@@ -7,8 +7,8 @@ from __future__ import annotations
 import json
 import re
 import textwrap
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
@@ -65,15 +65,11 @@ def errata() -> int:
         print(f"{title} ({len(found)})\n")
         for claim in found:
             print("\n".join(entry_of(claim, register, findings.get(claim.id, {}), store)) + "\n")
-    restored = [
-        claim.id
-        for claim in claims
-        if claim.as_it_stands and register.get(claim.id, {}).get("verdict") == "holds"
-    ]
+    names = restored(claims, register)
     print(
         textwrap.fill(
-            f"Mangled in the transcription, and true as restored ({len(restored)}):"
-            f" {', '.join(restored) or 'none'}",
+            f"Mangled in the transcription, and true as restored ({len(names)}):"
+            f" {', '.join(names) or 'none'}",
             WIDTH,
             break_on_hyphens=False,
         )
@@ -106,17 +102,30 @@ def group_of(
     )
 
 
-def entry_of(
+class Row(NamedTuple):
+    """One row of an entry: its title, empty where it goes on with the row before, and its text.
+
+    `latex` says how the text is a formula: "print" for LaTeX, "term" for the language of
+    statements, empty for prose; `code` that the text is an exact one of the program.
+    """
+
+    title: str
+    text: str
+    latex: str = ""
+    code: bool = False
+
+
+def rows_of(
     claim: Claim,
     register: Mapping[str, Mapping[str, Any]],
     finding: Mapping[str, Any],
     store: Store,
-) -> list[str]:
-    """The lines of one entry: place and verdict, what is said, the print, what is wrong, the
+) -> list[Row]:
+    """One entry: a heading with place and verdict, then what is said, the print, what is wrong, the
     correction, exact counterexamples.
     """
     entry = register[claim.id]
-    rows = [f"{claim.id}, {_place(claim)}: {entry['verdict']}"]
+    heading = f"{claim.id}, {_place(claim)}: {entry['verdict']}"
     if claim.repeats:
         holds = register.get(claim.repeats, {}).get("verdict") == "holds"
         which = (
@@ -126,23 +135,57 @@ def entry_of(
             if entry["verdict"] == "ambiguous"
             else ", which prints it right"
         )
-        rows[0] += f"; repeats {claim.repeats}{which}"
-    rows.append(_row("said", textwrap.fill(claim.says, WIDTH, break_on_hyphens=False)))
+        heading += f"; repeats {claim.repeats}{which}"
+    rows = [Row("", heading), Row("said", claim.says)]
     if claim.as_it_stands:
-        rows.append(_row("transcribed", claim.as_it_stands))
+        rows.append(Row("transcribed", claim.as_it_stands, code=True))
     if claim.printed:
-        rows.append(_row("restored" if claim.as_it_stands else "printed", claim.printed))
+        rows.append(Row("restored" if claim.as_it_stands else "printed", claim.printed, "print"))
     title = "readings" if entry["verdict"] == "ambiguous" else "wrong"
-    rows.append(_row(title, "\n".join(what_is_wrong(entry, finding.get("sharp", {})))))
+    rows.append(Row(title, "\n".join(what_is_wrong(entry, finding.get("sharp", {})))))
     correction = finding.get("correction")
     if correction:
-        rows.append(_row("correction", correction["text"]))
-        rows.append(
-            _row("", "; ".join([correction["change"], *_roots_named(correction, claim, store)]))
-        )
+        form = "term" if correction["kind"] in ("coefficients", "derived") else "print"
+        rows.append(Row("correction", correction["text"], form))
+        change = "; ".join([correction["change"], *_roots_named(correction, claim, store)])
+        rows.append(Row("", change, code="\\" in change or "=" in change))
     elif entry["verdict"] not in ("ambiguous", "gap"):
-        rows.append(_row("correction", "none found"))
-    return [*rows, *(_row("fails at", text) for text in _counterexamples(claim, store))]
+        rows.append(Row("correction", "none found"))
+    return [
+        *rows,
+        *(Row("fails at", text, code=True) for text in _counterexamples(claim, store)),
+    ]
+
+
+def entry_of(
+    claim: Claim,
+    register: Mapping[str, Mapping[str, Any]],
+    finding: Mapping[str, Any],
+    store: Store,
+) -> list[str]:
+    """The lines of one entry, as `juggleproof errata` prints them."""
+    heading, *rows = rows_of(claim, register, finding, store)
+    return [
+        heading.text,
+        *(
+            _row(
+                row.title,
+                textwrap.fill(row.text, WIDTH, break_on_hyphens=False)
+                if row.title == "said"
+                else row.text,
+            )
+            for row in rows
+        ),
+    ]
+
+
+def restored(claims: Sequence[Claim], register: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """The claims whose print the transcription mangles, and which hold as restored."""
+    return [
+        claim.id
+        for claim in claims
+        if claim.as_it_stands and register.get(claim.id, {}).get("verdict") == "holds"
+    ]
 
 
 def _row(title: str, text: str) -> str:

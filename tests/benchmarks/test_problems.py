@@ -1,4 +1,4 @@
-"""The set of problems is what the README says of it; the whole of it is answered in CI by
+"""The set of problems is what docs/your-own.md says of it; the whole of it is answered in CI by
 `python -m juggleproof.benchmarks.problems`.
 """
 
@@ -27,8 +27,8 @@ def test_every_problem_has_a_status_a_source_and_a_comment_holds() -> None:
         ), path.name
 
 
-def test_the_readme_counts_the_set_as_it_is_holds() -> None:
-    said = problems.stated_in_readme()
+def test_the_page_counts_the_set_as_it_is_holds() -> None:
+    said = problems.stated_in_page()
     statuses = [problems_of_file(path)[0].status for path in SCRIPTS]
     assert len(SCRIPTS) >= 60 and 0.4 < statuses.count("sat") / len(statuses) < 0.6
     assert said.startswith(

@@ -309,24 +309,6 @@ def test_rules_of_a_map_of_ones_own_hold(
     assert done.returncode == code and shown in done.stdout, done.stdout + done.stderr
 
 
-def test_claims_that_the_readme_shows_hold(tmp_path: Path) -> None:
-    part = (
-        (ROOT / "README.md")
-        .read_text(encoding="utf-8")
-        .split("## A claim of your own")[1]
-        .split("\n## ")[0]
-    )
-    code = [
-        line[4:] if line.startswith("    ") else ""
-        for line in part.splitlines()
-        if line.startswith("    ") or not line
-    ]
-    path = tmp_path / "mine.py"
-    path.write_text("\n".join(code) + "\n", encoding="utf-8")
-    done = certify(path)
-    assert done.returncode == 0 and "2 claims: 2 holds" in done.stdout, done.stdout + done.stderr
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no file that is always full")
 @pytest.mark.parametrize(
     "arguments",

@@ -1,4 +1,4 @@
-"""The claims, the ledger, the register, the store and the README fit together."""
+"""The claims, the ledger, the register, the store and the pages fit together."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import VERDICTS
-from juggleproof.proofs.command import certify, show
+from juggleproof.proofs.command import show
 from juggleproof.proofs.ledger.ledger import check_claims, load_ledger
 from juggleproof.proofs.register import changes, load_register
+from juggleproof.proofs.reports import pages
 from juggleproof.proofs.run import paper_claims
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -51,11 +53,21 @@ def test_bare_checker_accepts_the_store_holds() -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_readme_shows_the_register_holds() -> None:
-    text = certify.README.read_text(encoding="utf-8")
-    assert certify.with_results(text) == text, (
-        "run juggleproof certify --accept, which writes the results into README.md"
+@pytest.mark.parametrize("page", pages.PAGES)
+def test_pages_show_the_register_holds(page: str) -> None:
+    assert pages.regenerated(page) == (ROOT / page).read_text(encoding="utf-8"), (
+        "run juggleproof certify --accept, which writes what is generated"
     )
+
+
+@pytest.mark.parametrize("text", ["", "# Results\n", f"{pages.END}\n"])
+def test_rejects_a_page_without_marks(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pages, "ROOT", tmp_path)
+    (tmp_path / "README.md").write_text(text, encoding="utf-8")
+    with pytest.raises(ClaimError, match="README.md: the marks .* put them back"):
+        pages.regenerated("README.md")
 
 
 def test_repeated_prints_name_an_earlier_claim_holds() -> None:

@@ -17,17 +17,17 @@ from juggleproof.proofs.reports import figures
 from juggleproof.proofs.reports.words import read, rows, without_alpha
 
 F = Fraction
-README = Path(__file__).resolve().parents[2] / "README.md"
-ROW = re.compile(r"\| ([\w.-]+) \| [^|]* \| (\w+)[^|]* \| [^|]* \| ([^|]*) \|")
+RESULTS = Path(__file__).resolve().parents[2] / "docs/results.md"
+ROW = re.compile(r"\| <a.*</a>([\w.-]+) \| [^|]* \| \[?(\w+)[^|]* \| [^|]* \| `?([^|`]*)`? \|")
 
 
 def results() -> list[Any]:
     """Entries as in the table of results: id, verdict and range."""
-    found = [ROW.fullmatch(line) for line in README.read_text(encoding="utf-8").splitlines()]
+    found = [ROW.fullmatch(line) for line in RESULTS.read_text(encoding="utf-8").splitlines()]
     return [
         SimpleNamespace(claim=SimpleNamespace(id=one[1]), verdict=one[2], sharp=one[3])
         for one in found
-        if one and one[1] != "claim"
+        if one
     ]
 
 

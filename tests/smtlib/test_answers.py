@@ -299,18 +299,6 @@ def test_the_command_answers_and_keeps_certificates_beside_the_script(tmp_path: 
     assert run("check", str(tmp_path / "mine.certificates")).returncode == 0
 
 
-def test_the_example_of_the_readme_runs(tmp_path: Path) -> None:
-    readme = (
-        (ROOT / "README.md")
-        .read_text(encoding="utf-8")
-        .split("## Anyone's inequalities")[1]
-        .split("`juggleproof certify mean.smt2`")[0]
-    )
-    lines = [line[4:] for line in readme.splitlines() if line.startswith("    ")]
-    done = run("certify", str(script(tmp_path, "\n".join(lines), "mean")))
-    assert done.returncode == 0 and "mean     unsat   certificate" in done.stdout
-
-
 def test_an_answer_that_the_script_states_otherwise_is_told_loudly(tmp_path: Path) -> None:
     done = run(
         "certify",

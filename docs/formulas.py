@@ -1,0 +1,28 @@
+"""A hook of mkdocs: formulas become MathML when the site is built, so that no page needs a script
+to show them.
+"""
+
+from __future__ import annotations
+
+import re
+from html import unescape
+from typing import Any
+
+from latex2mathml.converter import convert
+
+DISPLAY = re.compile(r"^```math\n(.*?)\n```$", re.M | re.S)
+INLINE = re.compile(r'<span class="arithmatex">\\\((.*?)\\\)</span>', re.S)
+
+
+def on_page_markdown(markdown: str, **_: Any) -> str:
+    """The page with every display as MathML."""
+    return DISPLAY.sub(lambda found: f"<div>{_mathml(found[1], 'block')}</div>", markdown)
+
+
+def on_page_content(html: str, **_: Any) -> str:
+    """The page with every formula of its text as MathML."""
+    return INLINE.sub(lambda found: _mathml(unescape(found[1]), "inline"), html)
+
+
+def _mathml(latex: str, display: str) -> str:
+    return convert(latex.replace(":=", r"\coloneqq "), display=display)

@@ -1,0 +1,175 @@
+"""The generated Markdown: two lines of README.md, the table of docs/results.md and the entries of
+docs/errata.md, each between two marks of its file.
+
+All of it is made from the register and the store, and depends on nothing else.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store, write_file
+from juggleproof.proofs.claims import VERDICTS, Claim
+from juggleproof.proofs.command.certify import FINDINGS
+from juggleproof.proofs.command.show import kept_claims
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports import errata
+from juggleproof.proofs.reports import tex_words as words
+from juggleproof.proofs.reports.latex import latex_of
+
+ROOT = Path(__file__).resolve().parents[2]
+END = "<!-- end of what is generated -->"
+
+
+def summary() -> str:
+    """How many claims have each verdict, and how many statements each outcome: two lines."""
+    register, store = load_register(), Store(DEFAULT)
+    verdicts = Counter(entry["verdict"] for entry in register.values())
+    outcomes = sum(_outcomes(store).values(), Counter[str]())
+    return (
+        f"{len(register)} claims: "
+        + ", ".join(f"{verdicts[word]} {word}" for word in VERDICTS)
+        + f".\n{outcomes.total()} statements: {outcomes['certificate']} certified,"
+        f" {outcomes['counterexample']} refuted, {outcomes['open']} open."
+    )
+
+
+def results() -> str:
+    """The summary, then one row a claim: claim, place, verdict, how it was settled, sharp range."""
+    register, store, findings = load_register(), Store(DEFAULT), _findings()
+    outcomes = _outcomes(store)
+    lines = [
+        *summary().splitlines(),
+        "",
+        "| claim | place | verdict | settled by | sharp range of alpha |",
+        "| --- | --- | --- | --- | --- |",
+    ]
+    for claim in kept_claims():
+        entry = register.get(claim.id)
+        if entry is None:
+            continue
+        settled = ", ".join(
+            f"{n} {word}{'s' if n > 1 and word != 'open' else ''}"
+            for word, n in sorted(outcomes.get(claim.id, {}).items())
+        )
+        verdict = entry["verdict"]
+        if errata.group_of(claim, register, findings):
+            verdict = f"[{verdict}](errata.md#{claim.id})"
+        detail = f" (`{entry['detail']}`)" if "detail" in entry else ""
+        sharp = f"`{entry['sharp']}`" if "sharp" in entry else "no alpha"
+        lines.append(
+            f'| <a id="{claim.id}"></a>{claim.id} | {claim.section} {claim.place}'
+            f" | {verdict}{detail} | {settled} | {sharp} |"
+        )
+    return "\n".join(lines)
+
+
+def printed_wrongly() -> str:
+    """Every claim that is not simply true, in the groups of `juggleproof errata`, prints and
+    corrections as LaTeX."""
+    register, store, findings = load_register(), Store(DEFAULT), _findings()
+    claims, lines = kept_claims(), list[str]()
+    for group, title in errata.GROUPS.items():
+        members = [one for one in claims if errata.group_of(one, register, findings) == group]
+        lines += [f"## {title} ({len(members)})", ""]
+        for claim in members:
+            lines += _entry(claim, register, findings.get(claim.id, {}), store)
+    restored = errata.restored(claims, register)
+    lines += [
+        f"## Mangled in the transcription, and true as restored ({len(restored)})",
+        "",
+        ", ".join(f"[{name}](results.md#{name})" for name in restored) or "None.",
+    ]
+    return "\n".join(lines)
+
+
+def _entry(
+    claim: Claim,
+    register: Mapping[str, Mapping[str, Any]],
+    finding: Mapping[str, Any],
+    store: Store,
+) -> list[str]:
+    heading, *rows = errata.rows_of(claim, register, finding, store)
+    name, rest = claim.id, heading.text.removeprefix(claim.id)
+    lines = [f'<a id="{name}"></a>**[{name}](results.md#{name})**{rest}', ""]
+    for row in rows:
+        title, parts = row.title or "change", row.text.splitlines()
+        if row.latex:
+            formula = row.text if row.latex == "print" else latex_of(row.text)
+            lines += [f"*{title}:*", "", *_display(formula)]
+        elif row.code:
+            lines += [f"*{title}:* " + "; ".join(map(_code, parts)), ""]
+        elif len(parts) > 1:
+            lines += [f"*{title}:*", "", *(f"- {_prose(part)}" for part in parts), ""]
+        else:
+            lines += [f"*{title}:* {_prose(row.text)}", ""]
+    return lines
+
+
+def _prose(text: str) -> str:
+    return re.sub(r"([*\\])", r"\\\1", text)
+
+
+def _display(latex: str) -> list[str]:
+    """A display for each line of a formula."""
+    return [row for line in words.lines(latex) for row in ("```math", line, "```", "")]
+
+
+def _code(text: str) -> str:
+    title, colon, said = text.partition("false there: ")
+    return f"{colon}`{said}`" if colon and not title else f"`{text}`"
+
+
+def _outcomes(store: Store) -> dict[str, Counter[str]]:
+    found: dict[str, Counter[str]] = {}
+    for name, text in store.texts.items():
+        certificate = store.certificate(name, text)
+        word = (
+            "certificate"
+            if "certified" in certificate
+            else "counterexample"
+            if "refuted" in certificate
+            else "open"
+        )
+        found.setdefault(name.split("/")[0], Counter())[word] += 1
+    return found
+
+
+def _findings() -> dict[str, Any]:
+    path = DEFAULT / FINDINGS
+    return dict(json.loads(path.read_text(encoding="utf-8"))) if path.exists() else {}
+
+
+PAGES: Mapping[str, Callable[[], str]] = {
+    "README.md": summary,
+    "docs/results.md": results,
+    "docs/errata.md": printed_wrongly,
+}
+
+
+def mark(page: str) -> str:
+    """The line above what is generated in a page."""
+    return f"<!-- {PAGES[page].__name__}: generated by juggleproof certify --accept -->"
+
+
+def regenerated(page: str) -> str:
+    """A page with what is generated in place; raises ClaimError, one line, where its marks are
+    missing."""
+    path, begin = ROOT / page, mark(page)
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    if begin not in text or END not in text:
+        raise ClaimError(f"{page}: the marks {begin} and {END} are missing; put them back")
+    head, rest = text.split(begin, 1)
+    return f"{head}{begin}\n{PAGES[page]()}\n{END}{rest.split(END, 1)[1]}"
+
+
+def update() -> None:
+    """Writes what is generated into every page."""
+    for page in PAGES:
+        write_file(ROOT / page, regenerated(page).encode())

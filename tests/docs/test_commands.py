@@ -1,0 +1,146 @@
+"""Every command that README.md and the pages show is run, in the form that is shown or in a smaller
+one, and what a page shows of its output is what it prints.
+"""
+
+from __future__ import annotations
+
+import doctest
+import importlib.util
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from juggleproof.certificates.store import DEFAULT
+from tests.docs.pages import PAGES, ROOT, blocks, code, name
+
+PROGRAMS = {
+    "juggleproof": [sys.executable, "-m", "proofs.command.main"],
+    "python": [sys.executable],
+    "pytest": [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"],
+}
+# What is appended to commands that begin so: the last of two equal options counts.
+SMALLER = {
+    "juggleproof simulate juggler --alpha 3/10 --random": "--random 1000",
+    "juggleproof simulate part --sweep": "--ensembles 1 --horizon 0.05",
+    "juggleproof simulate part --figure": "--horizon 0.05",
+    "juggleproof simulate part --animation": "--horizon 0.05",
+    "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
+    "juggleproof bench --question": "--widths 1e-2 --seconds 1",
+    "juggleproof bench": "--quick --seconds 1",
+    "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
+    "python -m juggleproof.benchmarks.peers": "--every 400 --seconds 1",
+    "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
+}
+# Commands that are run elsewhere: a file, and what in it runs them.
+ELSEWHERE = {
+    "make certify": (".ci/run", "make -s certify"),
+    "make test": (".ci/run", "make test"),
+    "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
+    "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
+}
+NEEDS = {
+    "simulate part": "numba",
+    "benchmarks.part": "numba",
+    "--format html": "jinja2",
+    "--format latex": "jinja2",
+    "--format pdf": "jinja2",
+    "--format figures": "matplotlib",
+}
+
+
+def shown(page: Path) -> list[str]:
+    """The commands of a page, one line each, without their comments."""
+    lines = "".join(code(page, "sh")).replace("\\\n", " ").splitlines()
+    return [shlex.join(shlex.split(line, comments=True)) for line in lines if line.strip()]
+
+
+FIRST = {one: page for page in reversed(PAGES) for one in shown(page)}  # a command is run once
+COMMANDS = [(page, one) for one, page in FIRST.items()]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """A folder for the records of these runs: what one has derived, the next need not."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("JUGGLEPROOF_CACHE", str(tmp_path_factory.mktemp("records")))
+        yield
+
+
+def run(command: str, page: Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    """The command, in a folder with the files that the page shows and a copy of the store."""
+    for block in [*blocks(ROOT / "docs/your-own.md"), *blocks(page)]:
+        if block.title:
+            (folder / block.title).write_text(block.text, encoding="utf-8")
+    first, *rest = shlex.split(command)
+    paper = rest[:1] == ["certify"] and not (len(rest) > 1 and "." in rest[1])
+    if paper:  # what is judged here must not write into the store
+        shutil.copytree(DEFAULT, folder / "store")
+        rest += ["--store", "store"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"}
+    return subprocess.run(
+        [*PROGRAMS[first], *rest],
+        capture_output=True,
+        text=True,
+        cwd=ROOT if first == "python" else folder,
+        env=environment,
+        timeout=600,
+        check=False,
+    )
+
+
+@pytest.mark.parametrize(
+    ("page", "command"), COMMANDS, ids=[f"{name(page)}: {one}" for page, one in COMMANDS]
+)
+def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path) -> None:
+    if command in ELSEWHERE:
+        file, text = ELSEWHERE[command]
+        assert text in (ROOT / file).read_text(encoding="utf-8")
+        return
+    for part, module in NEEDS.items():
+        if part in command and importlib.util.find_spec(module) is None:
+            pytest.skip(f"{module} is not installed")
+    if "--format pdf" in command and shutil.which("latexmk") is None:
+        pytest.skip("latexmk is needed")
+    stored = command.startswith("juggleproof check mine.") or " mean.certificates" in command
+    if stored:  # what the line above it has written
+        source = "mine.py" if "mine." in command else "mean.smt2"
+        assert run(f"juggleproof certify {source}", page, tmp_path).returncode == 0
+    less = next((more for begin, more in SMALLER.items() if command.startswith(begin)), "")
+    if " -o scenes/" in command:
+        (tmp_path / "scenes/part").mkdir(parents=True)
+    done = run(f"{command} {less}", page, tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+SESSIONS = [(page, one) for page in PAGES for one in code(page, "console")]
+
+
+@pytest.mark.parametrize(("page", "session"), SESSIONS, ids=[name(page) for page, _ in SESSIONS])
+def test_what_is_shown_of_an_output_is_printed(page: Path, session: str, tmp_path: Path) -> None:
+    command, _, expected = session.removeprefix("$ ").partition("\n")
+    printed = run(command, page, tmp_path).stdout
+    checker = doctest.OutputChecker()
+    assert checker.check_output(expected, printed, doctest.ELLIPSIS), printed
+
+
+def test_nothing_that_runs_elsewhere_is_kept_without_need() -> None:
+    commands = {command for _, command in COMMANDS}
+    assert set(ELSEWHERE) <= commands
+    assert all(any(one.startswith(begin) for one in commands) for begin in SMALLER)
+
+
+def test_python_that_is_shown_reads_holds() -> None:
+    claims = (ROOT / "proofs/paper").glob("*.py")
+    sources = "\n".join(path.read_text(encoding="utf-8") for path in claims)
+    for page in PAGES:
+        for text in code(page, "python"):
+            compile(text, name(page), "exec")
+            if re.match(r'@claim\(\n    "eq-', text):
+                assert text in sources, "a claim that is shown is one of the paper's, word for word"

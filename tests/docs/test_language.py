@@ -1,0 +1,84 @@
+"""The pages on statements and certificates name exactly what the checker knows."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.store import DEFAULT, Store
+from tests.docs.pages import PAGES, ROOT, code, name, text_of
+
+LANGUAGE = text_of(ROOT / "docs/statement-language.md")
+CERTIFICATES = text_of(ROOT / "docs/certificates.md")
+
+
+def section(text: str, title: str) -> str:
+    return text.split(f"\n## {title}\n")[1].split("\n## ")[0]
+
+
+def first_cells(text: str) -> list[str]:
+    """What stands in code in the first cell of every row of the tables."""
+    rows = re.findall(r"^\| (`.*?) \|", text, re.M)
+    return [cell for row in rows for cell in re.findall(r"`([^`]+)`", row)]
+
+
+def test_every_keyword_is_explained_holds() -> None:
+    keywords = {cell.split()[0] for cell in first_cells(section(LANGUAGE, "Lines"))}
+    assert keywords == set(checker.LINES)
+
+
+def test_every_kind_has_its_lines_in_order_holds() -> None:
+    kinds = section(LANGUAGE, "Kinds of statements")
+    rows = dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", kinds, re.M))
+    assert set(rows) == set(checker.ORDERS)
+    for kind, order in checker.ORDERS.items():
+        assert re.findall(r"`(\w+)`", rows[kind]) == re.findall(r"\w+", order), kind
+
+
+def test_every_rule_has_a_place_holds() -> None:
+    rules = re.findall(r"^### `(\w+)`$", section(CERTIFICATES, "Proof rules"), re.M)
+    assert rules == list(checker.RULES)
+    rules = re.findall(r"^### `(\w+)`$", section(CERTIFICATES, "Orbit rules"), re.M)
+    assert rules == list(checker.ORBIT_RULES)
+
+
+def test_every_premise_is_listed_holds() -> None:
+    rules = section(CERTIFICATES, "Orbit rules")
+    listed = {
+        rule: set(first_cells(rules.split(f"\n### `{rule}`\n")[1].split("\n### ")[0]))
+        for rule in checker.ORBIT_RULES
+    }
+    statements = checker.read_statements(checker.load(str(DEFAULT / "statements.txt")))
+    written: dict[str, set[str]] = {}
+    for statement in statements.values():
+        if statement.kind in checker.ORBIT_RULES:
+            for premise in checker.premises_of(statement, statements):
+                general = re.sub(r"-\d+-\d+$", "-i-k", premise)
+                written.setdefault(statement.kind, set()).add(re.sub(r"-\d+$", "-k", general))
+    assert set(written) == set(checker.ORBIT_RULES)
+    for rule, premises in written.items():
+        assert premises - {"possible", "inside"} == listed[rule] - {"inside"}, rule
+
+
+def test_limits_are_the_checkers_holds() -> None:
+    limits = {int(number) for number in re.findall(r"\d+", section(LANGUAGE, "Limits"))}
+    assert limits == {
+        checker.MAX_DEGREE,
+        checker.MAX_VARIABLES,
+        checker.MAX_TERMS,
+        checker.MAX_BITS,
+        checker.MAX_FILE,
+        checker.MAX_WORK,
+    }
+
+
+SHOWN = [(page, one) for page in PAGES for one in code(page, "statement")]
+
+
+@pytest.mark.parametrize(("page", "text"), SHOWN, ids=[name(page) for page, _ in SHOWN])
+def test_a_statement_that_is_shown_is_stored_holds(page: Path, text: str) -> None:
+    stored = Store(DEFAULT).texts[text.split()[1]]
+    assert stored == text.strip()
