@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 Worth = Literal["certificate", "rigorous", "unchecked", "no proof"]
 NOTES = """\
-certificate: what is printed was accepted by certificates/checker.py in this run, and that time is counted; the certificate can be read again.
+certificate: what is printed was accepted by certificates/checker in this run, and that time is counted; the certificate can be read again.
 rigorous: enclosed by arithmetic that rounds outwards (coq-interval: by Coq's kernel); to believe it again is to run it again.
 unchecked: the answer of a solver.  no proof: floating point; its error is the distance to the truth, which it does not know itself.
 The aim is judged against the certified peers and against Z3.  Certified peers: coq-interval, cvc5 where it writes its proof (nothing here reads it;

@@ -164,7 +164,7 @@ class Closing:
                     if any((m >> (checker.BITS * k)) % (1 << checker.BITS) for m in poly.terms)
                 }
                 if relation == ">" and poly.den == 1 and used <= integers:
-                    less = checker.fold(poly - checker.ONE, ">=")
+                    less = checker.fold(poly - state.context.number(1), ">=")
                     if isinstance(less, bool) or not any(
                         r == ">=" and q.terms == less[1].terms for q, r in state.facts
                     ):

@@ -123,7 +123,7 @@ def _no_root(dense: fmpq_poly, adjoined: Adjoined) -> bool:
     return (
         all(ends)
         and checker.count_roots(
-            [int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high
+            [int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high, checker.Work()
         )
         == 0
     )
@@ -131,15 +131,7 @@ def _no_root(dense: fmpq_poly, adjoined: Adjoined) -> bool:
 
 def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly:
     """A polynomial in one variable; the checker refuses any other."""
-    return (
-        fmpq_poly(
-            [
-                int(c)
-                for c in checker.univariate(context, checker.Poly(poly.terms, 1, poly.deg), name)
-            ]
-        )
-        / poly.den
-    )
+    return fmpq_poly([int(c) for c in checker.univariate(context, poly, name)]) / poly.den
 
 
 def _own_facts(state: checker.State, adjoined: Adjoined) -> tuple[int, int, int]:

@@ -29,7 +29,7 @@ from proofs.running import judge_all, lemmas
 
 FINDINGS = "findings"
 TITLE = (
-    "Every statement that the claims come to; certificates/checker.py reads this file and believes"
+    "Every statement that the claims come to; certificates/checker reads this file and believes"
     " nothing else."
 )
 

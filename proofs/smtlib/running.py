@@ -21,7 +21,7 @@ from .script import Problem, problems_of_file
 
 TITLE = (
     "What the problems of {} come to: certified says unsat, refuted says sat;"
-    " certificates/checker.py reads this file and believes nothing else."
+    " certificates/checker reads this file and believes nothing else."
 )
 
 

@@ -70,6 +70,8 @@ def test_only_known_libraries_are_imported_holds(package: str) -> None:
             for name in imported(path)
             if name not in sys.stdlib_module_names and name not in PACKAGES
         }
+        if path.match("checker/__main__.py"):
+            foreign.remove("checker")  # the folder itself, run alone
         assert foreign <= FOREIGN[package], (path, foreign)
 
 
@@ -82,5 +84,5 @@ def test_packages_are_imported_from_this_tree_holds(package: str) -> None:
 @pytest.mark.parametrize("package", PACKAGES)
 def test_files_stay_short_holds(package: str) -> None:
     for path in modules(package):
-        limit = 1150 if path.name == "checker.py" else 350
+        limit = 700 if path.parent.name == "checker" else 350
         assert len(path.read_text(encoding="utf-8").splitlines()) <= limit, path
