@@ -52,7 +52,7 @@ def main() -> None:
         (
             "checker over everything",
             0.2,
-            lambda d: [sys.executable, "-I", "-S", "certificates/checker.py"],
+            lambda d: [sys.executable, "-I", "-S", "certificates/checker"],
         ),
         (
             "the theorem, exact route, empty store",
@@ -62,7 +62,7 @@ def main() -> None:
         (
             "checker over the theorem",
             0.1,
-            lambda d: [sys.executable, "-I", "-S", "certificates/checker.py", theorem],
+            lambda d: [sys.executable, "-I", "-S", "certificates/checker", theorem],
         ),
         *(
             [("the theorem in Coq, all of it", 20.0, lambda d: ["make", "-s", "coq"])]

@@ -321,7 +321,11 @@ def _integral(branch: Branch, statement: str, index: int, node: Any) -> list[str
             f"{statement}: its certificate rounds a polynomial with a denominator, which is not"
             " written for Coq"
         )
-    formula, stronger, rest = checker.fold(poly - checker.ONE, ">="), branch.fresh(), branch.copy()
+    formula, stronger, rest = (
+        checker.fold(poly - checker.number(1, poly.work), ">="),
+        branch.fresh(),
+        branch.copy(),
+    )
     rows = [
         f"assert ({stronger} : {proposition(branch.names, formula)}).",
         (
@@ -416,7 +420,7 @@ def _nonnegative(weight: int, factors: Factors) -> str:
 def _poly(branch: Branch, text: str) -> Any:
     context = checker.Context()
     context.index = dict(branch.names)
-    context.values = {key: checker.VARIABLES[i] for key, i in branch.names.items()}
+    context.values = {key: checker.variable(i, context.work) for key, i in branch.names.items()}
     # A polynomial of a certificate divides by numbers only, except where a fact licenses more: such
     # a certificate is refused.
     try:

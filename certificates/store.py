@@ -1,5 +1,5 @@
-"""The store: the statement file and one certificate file a claim, in canonical bytes, written aside
-and renamed.
+"""The store: the statement file and the certificate file, a line for each statement, in canonical
+bytes, written aside and renamed.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 
-STATEMENTS = "statements.txt"
+STATEMENTS, CERTIFICATES = checker.STATEMENTS, checker.CERTIFICATES
 DEFAULT = Path(__file__).resolve().parent / "store"
 
 
@@ -60,6 +60,15 @@ def write_file(path: Path, content: bytes) -> bool:
     return True
 
 
+def certificate_lines(certificates: Mapping[str, Any]) -> bytes:
+    """A line ["ID/part", certificate] for each statement, sorted by name, as the checker reads it.
+
+    >>> certificate_lines({"b/main": {"unknown": ""}, "a/main": {"refuted": []}})
+    b'["a/main",{"refuted":[]}]\\n["b/main",{"unknown":""}]\\n'
+    """
+    return b"".join(canonical([name, certificates[name]]) for name in sorted(certificates))
+
+
 class Store:
     """The statements and certificates of a folder, as last written; an absent folder is an empty
     store.
@@ -68,11 +77,15 @@ class Store:
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
         self.texts: dict[str, str] = {}
-        self._certificates: dict[str, dict[str, Any]] = {}
+        self._certificates: dict[str, Any] | None = None
         path = folder / STATEMENTS
         if path.exists():
             for block in checker.load(str(path)).split("\n\n"):
-                rows = [row for row in block.splitlines() if row and not row.startswith("#")]
+                rows = [
+                    row
+                    for row in block.splitlines()
+                    if row and not row.startswith(("#", "define "))
+                ]
                 if rows and rows[0].startswith("statement "):
                     self.texts[rows[0].removeprefix("statement ")] = "\n".join(rows)
 
@@ -82,29 +95,23 @@ class Store:
         """
         if self.texts.get(name) != text:
             return None
-        claim = name.split("/")[0]
-        if claim not in self._certificates:
-            path = self.folder / f"{claim}.json"
+        if self._certificates is None:
             try:
-                self._certificates[claim] = checker.read_certificates(checker.load(str(path)))
+                lines = checker.load(str(self.folder / CERTIFICATES))
+                self._certificates, _ = checker.read_certificates(lines)
             except checker.Rejected:
-                self._certificates[claim] = {}
-        return self._certificates[claim].get(name)
+                self._certificates = {}
+        return self._certificates.get(name)
 
     def only(self, claims: Collection[str]) -> Store:
         """What the store has of some claims, read from their files: plain data."""
         part = object.__new__(Store)
-        part.folder, part.texts = (
-            self.folder,
-            {name: text for name, text in self.texts.items() if name.split("/")[0] in claims},
-        )
+        part.folder = self.folder
+        part.texts = {
+            name: text for name, text in self.texts.items() if name.split("/")[0] in claims
+        }
         part._certificates = {
-            claim: {
-                name: self.certificate(name, text)
-                for name, text in part.texts.items()
-                if name.split("/")[0] == claim
-            }
-            for claim in claims
+            name: self.certificate(name, text) for name, text in part.texts.items()
         }
         return part
 
@@ -112,14 +119,7 @@ class Store:
 def write_store(
     folder: Path, statements: str, certificates: Mapping[str, Mapping[str, Any]]
 ) -> int:
-    """Writes the statement file and the certificates of every claim, removes those of claims that
-    are gone; returns the files changed.
-    """
-    changed = int(write_file(folder / STATEMENTS, statements.encode()))
-    for claim, entries in certificates.items():
-        changed += write_file(folder / f"{claim}.json", canonical(entries))
-    for path in sorted(folder.glob("*.json")):
-        if path.stem not in certificates:
-            path.unlink()
-            changed += 1
-    return changed
+    """Writes the statement file and the certificates of every claim; returns the files changed."""
+    lines = {name: one for entries in certificates.values() for name, one in entries.items()}
+    changed = write_file(folder / STATEMENTS, statements.encode())
+    return changed + write_file(folder / CERTIFICATES, certificate_lines(lines))

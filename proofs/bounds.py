@@ -16,11 +16,17 @@ from typing import Any
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, Term, real
 from juggleproof.certificates.search.enclosing import Found, Problem, search_enclosure
-from juggleproof.certificates.store import STATEMENTS, canonical, write_file
+from juggleproof.certificates.store import (
+    CERTIFICATES,
+    STATEMENTS,
+    canonical,
+    certificate_lines,
+    write_file,
+)
 
 BUDGET = 20000  # boxes
 MOST_PRODUCTS, MOST_DEGREE, MOST_VALUE = 10**6, 60, 10**100
-LOWER, ATTAINED, OWN = "bound/lower", "bound/attained", "bound.json"
+LOWER, ATTAINED = "bound/lower", "bound/attained"
 Box = Mapping[str, Sequence[Any]]
 Ends = dict[str, tuple[Fraction, Fraction]]
 Number = int | Fraction
@@ -49,7 +55,7 @@ class Enclosure:
     @property
     def certificate_bytes(self) -> int:
         """The bytes of the certificate file."""
-        return len(canonical(self.certificates))
+        return len(certificate_lines(self.certificates))
 
     def write(self, folder: Path) -> None:
         """Writes statements and certificates as `juggleproof check` reads them; raises ClaimError
@@ -57,7 +63,7 @@ class Enclosure:
         """
         refuse_other_files(folder)
         write_file(folder / STATEMENTS, self.statements.encode())
-        write_file(folder / OWN, canonical(self.certificates))
+        write_file(folder / CERTIFICATES, certificate_lines(self.certificates))
 
 
 def refuse_other_files(folder: Path) -> None:
@@ -66,15 +72,13 @@ def refuse_other_files(folder: Path) -> None:
     """
     if folder.exists() and not folder.is_dir():
         raise ClaimError(f"{folder} is no folder; name one that is new or empty")
-    others = (
-        sorted(path.name for path in folder.glob("*.json") if path.name != OWN)
-        if folder.exists()
-        else []
-    )
+    others = []
     statements = folder / STATEMENTS
-    if statements.exists() and not statements.read_text(
-        encoding="utf-8", errors="replace"
-    ).startswith(f"statement {LOWER}\n"):
+    if not statements.exists():
+        others += [CERTIFICATES] if (folder / CERTIFICATES).exists() else []
+    elif not statements.read_text(encoding="utf-8", errors="replace").startswith(
+        f"statement {LOWER}\n"
+    ):
         others.append(STATEMENTS)
     if others:
         raise ClaimError(
@@ -245,8 +249,7 @@ def _ends(box: Box) -> Ends:
 
 def _terms(text: str, names: list[str]) -> Terms:
     """The polynomial as the checker reads it, {exponents: coefficient}."""
-    context = checker.Context()
-    checker.work_left[0] = checker.MAX_WORK // 4
+    context = checker.Context(work=checker.Work(checker.MAX_WORK // 4))
     try:
         for name in names:
             context.declare(name)

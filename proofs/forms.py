@@ -427,7 +427,9 @@ def refuse_what_says_nothing(
     )
     story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
     try:
-        impossible_for_all = search_closing(story.state(), known, Budget(budget)) is not None
+        impossible_for_all = (
+            search_closing(checker.state_of(story), known, Budget(budget)) is not None
+        )
     except Exhausted:
         impossible_for_all = False
     if impossible_for_all:

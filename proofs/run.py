@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import hashlib
 import importlib.util
-import os
 import signal
 import sys
 import threading
@@ -22,7 +21,7 @@ from typing import Any, TypeVar
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import AnyStatement, ClaimError, SharpRange, Statement
-from juggleproof.certificates.store import STATEMENTS, Store
+from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, Store
 from juggleproof.proofs import kept
 from juggleproof.proofs.claims import (
     Body,
@@ -144,10 +143,8 @@ def _key(folder: Path) -> str:
         return ""
     said = hashlib.sha256(sys.version.encode())
     for path in [
-        Path(str(checker.__file__)),
-        *sorted(
-            path for path in folder.iterdir() if path.name == STATEMENTS or path.suffix == ".json"
-        ),
+        *sorted(Path(str(checker.__file__)).parent.glob("*.py")),
+        *(path for path in (folder / STATEMENTS, folder / CERTIFICATES) if path.exists()),
     ]:
         content = path.read_bytes()
         said.update(f"\n{path.name} {len(content)}\n".encode())
@@ -157,11 +154,14 @@ def _key(folder: Path) -> str:
 
 def shares(folder: Path, count: int) -> list[Set[str]]:
     """The claims of a folder in `count` shares of about the same size on disk."""
-    sizes = {
-        entry.name.removesuffix(".json"): entry.stat().st_size
-        for entry in os.scandir(folder)
-        if entry.name.endswith(".json")
-    }
+    sizes: dict[str, int] = {}
+    try:
+        lines = (folder / CERTIFICATES).read_bytes().split(b"\n")
+    except OSError:
+        lines = []
+    for line in (one for one in lines if one.startswith(b'["')):
+        claim = line[2:].split(b"/", 1)[0].decode("ascii", "replace")  # what follows `["`
+        sizes[claim] = sizes.get(claim, 0) + len(line)
     found: list[set[str]] = [set() for _ in range(count)]
     weights = [0] * count
     for claim in sorted(sizes, key=lambda claim: (-sizes[claim], claim)):
@@ -175,11 +175,11 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Results, dict[str, str],
     """What `check_folder` says where outcomes outside the share are assumed to be what their
     certificates claim; with what was found, and assumed.
     """
-    check_one, found, assumed = checker.check_one, dict[str, str](), dict[str, str]()
+    found, assumed = dict[str, str](), dict[str, str]()
 
-    def check_own(statement: Any, certificate: Any, known: Any, earlier: Any) -> tuple[str, str]:
+    def check_own(statement: Any, certificate: Any, known: Any, earlier: Any) -> tuple[str, Any]:
         if statement.name.split("/")[0] in share:
-            outcome, reason = check_one(statement, certificate, known, earlier)
+            outcome, reason = checker.check_one(statement, certificate, known, earlier)
             found[statement.name] = outcome
             return outcome, reason
         claimed = [
@@ -188,18 +188,14 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Results, dict[str, str],
             if isinstance(certificate, dict) and word in certificate
         ]
         assumed[statement.name] = claimed[0] if claimed else "rejected"
-        return assumed[statement.name], ""
+        return assumed[statement.name], None
 
-    checker.check_one = check_own
+    return _read(folder, check_own), found, assumed
+
+
+def _read(folder: Path, check: Any = checker.check_one) -> Results:
     try:
-        return _read(folder), found, assumed
-    finally:
-        checker.check_one = check_one
-
-
-def _read(folder: Path) -> Results:
-    try:
-        results: Results = checker.check_folder(str(folder))
+        results: Results = checker.check_folder(str(folder), check)
         return results
     except checker.Rejected:
         return []

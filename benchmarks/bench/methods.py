@@ -21,7 +21,7 @@ from juggleproof.certificates.search.small_boxes import search_tree
 
 Worth = Literal["certificate", "rigorous", "unchecked", "no proof"]
 NOTES = """\
-certificate: what is printed was accepted by certificates/checker.py in this run, and that time \
+certificate: what is printed was accepted by certificates/checker in this run, and that time \
 is counted; the certificate can be read again.
 rigorous: enclosed by arithmetic that rounds outwards (coq-interval: by Coq's kernel); to \
 believe it again is to run it again.

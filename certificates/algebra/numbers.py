@@ -306,5 +306,7 @@ def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
     if all(b >= 0 for b in coefficients):
         return True
     return (
-        low < high and checker.count_roots([int(c) for c in poly.numer().coeffs()], low, high) == 0
+        low < high
+        and checker.count_roots([int(c) for c in poly.numer().coeffs()], low, high, checker.Work())
+        == 0
     )

@@ -190,13 +190,23 @@ def search_proof(
     steps = []
     for count, negation in story.obligations:
         node = search_closing(
-            story.state(count).assume(negation), known, budget, effort, None, confirm=False
+            checker.state_of(story, count).assume(negation),
+            known,
+            budget,
+            effort,
+            None,
+            confirm=False,
         )
         if (
             node is None and hints is not None
         ):  # as a rule a side condition needs no lemma, and cases of one only delay it
             node = search_closing(
-                story.state(count).assume(negation), known, budget, effort, hints, confirm=False
+                checker.state_of(story, count).assume(negation),
+                known,
+                budget,
+                effort,
+                hints,
+                confirm=False,
             )
         if node is None:
             return None
@@ -205,12 +215,24 @@ def search_proof(
         points = import_module("juggleproof.certificates.search.points")
         base = {name: story.context.values[name] for name in story.universal}
         last = points.search_found(
-            statement, story.state(), "witness", base, known, budget, sharp=sharp, effort=effort
+            statement,
+            checker.state_of(story),
+            "witness",
+            base,
+            known,
+            budget,
+            sharp=sharp,
+            effort=effort,
         )
         proof = ["witness", steps, last]
     else:
         last = search_closing(
-            story.state().assume(story.goal(False)), known, budget, effort, hints, confirm=False
+            checker.state_of(story).assume(story.goal(False)),
+            known,
+            budget,
+            effort,
+            hints,
+            confirm=False,
         )
         proof = ["proof", steps, last]
     return (

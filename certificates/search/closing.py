@@ -177,7 +177,7 @@ class Closing:
                     if any((m >> (checker.BITS * k)) % (1 << checker.BITS) for m in poly.terms)
                 }
                 if relation == ">" and poly.den == 1 and used <= integers:
-                    less = checker.fold(poly - checker.ONE, ">=")
+                    less = checker.fold(poly - state.context.number(1), ">=")
                     if isinstance(less, bool) or not any(
                         r == ">=" and q.terms == less[1].terms for q, r in state.facts
                     ):
@@ -507,7 +507,7 @@ def _no_root(dense: fmpq_poly, adjoined: Adjoined) -> bool:
     return (
         all(ends)
         and checker.count_roots(
-            [int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high
+            [int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high, checker.Work()
         )
         == 0
     )
@@ -515,15 +515,7 @@ def _no_root(dense: fmpq_poly, adjoined: Adjoined) -> bool:
 
 def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly:
     """A polynomial in one variable; the checker refuses any other."""
-    return (
-        fmpq_poly(
-            [
-                int(c)
-                for c in checker.univariate(context, checker.Poly(poly.terms, 1, poly.deg), name)
-            ]
-        )
-        / poly.den
-    )
+    return fmpq_poly([int(c) for c in checker.univariate(context, poly, name)]) / poly.den
 
 
 def _own_facts(state: checker.State, adjoined: Adjoined) -> tuple[int, int, int]:

@@ -497,7 +497,7 @@ def adjoined_entry(
     effort: int,
 ) -> Node | None:
     """The adjoined entry with its nodes; the state then has the new variable."""
-    context, zero, tree = state.context, checker.ZERO, checker.parse(text)
+    context, zero, tree = state.context, state.context.number(0), checker.parse(text)
     ends = [context.value(checker.parse(end)) for end in (low, high)]
     first, second = (
         checker.Context(context, {**context.values, name: end}).value(tree) for end in ends

@@ -94,11 +94,11 @@ def search_tree(terms: Terms, box: Box, most: int) -> str | None:
         sum(e[k] << checker.BITS * k for k in used): -c.numerator * (unit // c.denominator)
         for e, c in terms.items()
     }
-    checker.work_left[0] = checker.MAX_WORK
     try:
         boxes = [
             checker.bernstein(
-                checker.Poly(packed, 1, 0), [(checker.BITS * k, *box[k]) for k in used]
+                checker.Poly(packed, 1, 0, checker.Work()),
+                [(checker.BITS * k, *box[k]) for k in used],
             )
         ]
     except checker.Rejected:

@@ -346,7 +346,6 @@ def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[
     A sharp range asks one question more than the statements it names ask inside it: outside, is
     there a parameter at which all of them hold?  Recurrences ask whether an identity fails.
     """
-    TRUSTED.work_left[0] = TRUSTED.MAX_WORK
     if statement.kind == "sharp":
         return _sharp_questions(statement, earlier or {})
     if statement.kind == "iterates":
@@ -467,7 +466,7 @@ def _iterate_questions(statement: Any) -> list[Question]:
         return [inner.value(tree) for tree in trees]
 
     pairs = [
-        *zip(image(powers, {k: TRUSTED.ZERO}), (plain[name] for name in arguments)),
+        *zip(image(powers, {k: context.number(0)}), (plain[name] for name in arguments)),
         *zip(
             image(images, dict(zip(arguments, image(powers, {})))),
             image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}),

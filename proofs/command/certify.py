@@ -42,7 +42,7 @@ from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files, 
 
 FINDINGS = "findings"
 TITLE = (
-    "Every statement that the claims come to; certificates/checker.py reads this file and believes"
+    "Every statement that the claims come to; certificates/checker reads this file and believes"
     " nothing else."
 )
 

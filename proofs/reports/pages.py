@@ -72,7 +72,8 @@ def results() -> str:
 
 def printed_wrongly() -> str:
     """Every claim that is not simply true, in the groups of `juggleproof errata`, prints and
-    corrections as LaTeX."""
+    corrections as LaTeX.
+    """
     register, store, findings = load_register(), Store(DEFAULT), _findings()
     claims, lines = kept_claims(), list[str]()
     for group, title in errata.GROUPS.items():
@@ -160,7 +161,8 @@ def mark(page: str) -> str:
 
 def regenerated(page: str) -> str:
     """A page with what is generated in place; raises ClaimError, one line, where its marks are
-    missing."""
+    missing.
+    """
     path, begin = ROOT / page, mark(page)
     text = path.read_text(encoding="utf-8") if path.exists() else ""
     if begin not in text or END not in text:

@@ -269,7 +269,7 @@ def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
 
 TITLE = (
     "What the problems of {} come to: certified says unsat, refuted says sat;"
-    " certificates/checker.py reads this file and believes nothing else."
+    " certificates/checker reads this file and believes nothing else."
 )
 
 

@@ -52,7 +52,9 @@ def imported(path: Path) -> set[str]:
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            assert not node.level, f"{path}: a relative import"
+            if node.level:  # only the checker, which runs under two names, and in its own folder
+                assert path.parent.name == "checker" and node.level == 1, path
+                continue
             found |= {f"{node.module}.{alias.name}" for alias in node.names}
     return {name if name.split(".")[0] == NAME else name.split(".")[0] for name in found}
 
@@ -74,7 +76,7 @@ def test_imports_run_one_way_holds(package: str) -> None:
 def test_only_known_libraries_are_imported_holds(package: str) -> None:
     for path in modules(package):
         foreign = {name for name in imported(path) if not name.startswith(NAME + ".")}
-        assert foreign - sys.stdlib_module_names <= FOREIGN[package], path
+        assert foreign - {"checker"} - sys.stdlib_module_names <= FOREIGN[package], path
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -86,5 +88,5 @@ def test_packages_are_imported_from_this_tree_holds(package: str) -> None:
 @pytest.mark.parametrize("package", PACKAGES)
 def test_files_stay_short_holds(package: str) -> None:
     for path in modules(package):
-        limit = 1750 if path.name == "checker.py" else 800  # a ratchet: 600 is the aim
+        limit = 700 if path.parent.name == "checker" else 800  # a ratchet: 600 is the aim
         assert len(path.read_text(encoding="utf-8").splitlines()) <= limit, path

@@ -140,10 +140,10 @@ def test_files_are_read_by_check(tmp_path: Path, capsys: pytest.CaptureFixture[s
 
 
 def test_files_of_others_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "mine.json").write_text("{}", encoding="utf-8")
+    (tmp_path / "certificates.jsonl").write_text("", encoding="utf-8")
     assert bound("x", "--box", "x=0..1", "--width", "0", "-o", str(tmp_path)) == 2
-    assert "holds mine.json" in capsys.readouterr().err
-    assert [path.name for path in tmp_path.iterdir()] == ["mine.json"]
+    assert "holds certificates.jsonl" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["certificates.jsonl"]
 
 
 def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:

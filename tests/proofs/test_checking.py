@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT, canonical
+from juggleproof.certificates.store import CERTIFICATES, DEFAULT, Store, certificate_lines
 from juggleproof.proofs.run import Reading, shares
 
 CLOSE = ["close"]
@@ -27,12 +26,7 @@ def folder_of(place: Path, statements: dict[str, str], certificates: dict[str, o
         "\n\n".join(f"statement {name}\n{text}" for name, text in statements.items()) + "\n",
         encoding="utf-8",
     )
-    for claim in {name.split("/")[0] for name in certificates}:
-        (place / f"{claim}.json").write_bytes(
-            canonical(
-                {name: one for name, one in certificates.items() if name.split("/")[0] == claim}
-            )
-        )
+    (place / CERTIFICATES).write_bytes(certificate_lines(certificates))
     return place
 
 
@@ -52,8 +46,9 @@ def some(tmp_path: Path) -> Path:
     ]
     (tmp_path / "some").mkdir()
     (tmp_path / "some" / "statements.txt").write_text("\n\n".join(texts) + "\n", encoding="utf-8")
-    for path in DEFAULT.glob("s2.2.1*.json"):
-        shutil.copy(path, tmp_path / "some")
+    lines = (DEFAULT / CERTIFICATES).read_bytes().splitlines(keepends=True)
+    own = [line for line in lines if line.startswith(b'["s2.2.1')]
+    (tmp_path / "some" / CERTIFICATES).write_bytes(b"".join(own))
     return tmp_path / "some"
 
 
@@ -67,7 +62,7 @@ def test_shares_and_the_whole_agree_holds(some: Path) -> None:
 def test_every_claim_is_in_one_share_holds(some: Path) -> None:
     found = shares(some, 3)
     assert sorted(claim for share in found for claim in share) == sorted(
-        path.stem for path in some.glob("*.json")
+        {name.split("/")[0] for name in Store(some).texts}
     )
 
 
@@ -83,12 +78,12 @@ def test_rejects_a_lemma_that_another_share_only_assumes(tmp_path: Path) -> None
 
 
 def test_rejects_what_is_spoilt_as_the_whole_does(some: Path) -> None:
-    names = sorted(path.name for path in some.glob("*.json"))
-    (some / names[0]).write_bytes(b"{")
-    (some / names[1]).unlink()
-    (some / names[2]).write_bytes(canonical({}))
-    (some / "left-over.json").write_bytes(canonical({"left-over/main": {"unknown": ""}}))
-    (some / names[3]).write_bytes((some / names[4]).read_bytes())
+    lines = (some / CERTIFICATES).read_bytes().splitlines(keepends=True)
+    lines[0] = b"{\n"
+    lines[3] = lines[4]
+    lines[6], lines[7] = lines[7], lines[6]
+    left_over = certificate_lines({"s2.2.1/left-over": {"unknown": ""}})
+    (some / CERTIFICATES).write_bytes(b"".join([*lines[:1], *lines[2:], left_over]) + b"[")
     whole = checker.check_folder(str(some))
     assert sum(outcome == "rejected" for _, outcome, _ in whole) > 4
     for jobs in (1, 2, 3):

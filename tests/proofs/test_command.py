@@ -57,7 +57,7 @@ def test_true_claim_is_certified_holds(tmp_path: Path) -> None:
             sys.executable,
             "-I",
             "-S",
-            str(ROOT / "certificates/checker.py"),
+            str(ROOT / "certificates/checker"),
             str(tmp_path / "mine.certificates"),
         ],
         capture_output=True,
@@ -71,7 +71,9 @@ def test_false_claim_is_refuted_with_an_exact_state_holds(tmp_path: Path) -> Non
     path = claim_file(tmp_path, "always(x**2 > x, given=[x > 0])")
     done = certify(path)
     assert done.returncode == 1 and "1 false" in done.stdout
-    assert '"refuted"' in (tmp_path / "mine.certificates" / "mine.json").read_text(encoding="utf-8")
+    assert '"refuted"' in (tmp_path / "mine.certificates" / "certificates.jsonl").read_text(
+        encoding="utf-8"
+    )
 
 
 BAD = {
@@ -175,7 +177,7 @@ def test_number_of_processes_changes_no_byte_holds(tmp_path: Path) -> None:
 def test_rejects_tampered_certificate(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
     certify(path)
-    stored = tmp_path / "mine.certificates" / "mine.json"
+    stored = tmp_path / "mine.certificates" / "certificates.jsonl"
     good = stored.read_bytes()
     for bad in (
         good.replace(b'"2"', b'"3"'),
@@ -342,5 +344,5 @@ def test_a_closed_standard_output_changes_nothing_holds(tmp_path: Path) -> None:
         command, shell=True, stderr=subprocess.PIPE, text=True, cwd=ROOT, timeout=240, check=False
     )
     assert (done.returncode, done.stderr) == (0, "") and (
-        tmp_path / "bound" / "bound.json"
+        tmp_path / "bound" / "certificates.jsonl"
     ).exists()

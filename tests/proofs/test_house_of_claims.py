@@ -44,7 +44,7 @@ def test_every_stored_statement_is_settled_by_the_checker_holds() -> None:
 
 def test_bare_checker_accepts_the_store_holds() -> None:
     done = subprocess.run(
-        [sys.executable, "-I", "-S", "certificates/checker.py"],
+        [sys.executable, "-I", "-S", "certificates/checker"],
         cwd=ROOT,
         capture_output=True,
         text=True,

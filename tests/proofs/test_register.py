@@ -290,7 +290,7 @@ def test_rejected_certificate_of_another_claim_is_in_every_output_holds(
 ) -> None:
     claims = file_with(tmp_path, ("squares", "open"))
     run(["certify", "--jobs", "1", str(claims)])
-    stored = tmp_path / "mine.certificates" / "squares.json"
+    stored = tmp_path / "mine.certificates" / "certificates.jsonl"
     stored.write_bytes(stored.read_bytes().replace(b'"psatz"', b'"magic"'))
     assert run(["certify", "--jobs", "1", str(claims), "--only", "open", *outputs(tmp_path)]) == 1
     assert "rejected by the checker: squares/main" in capsys.readouterr().out

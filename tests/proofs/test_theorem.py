@@ -59,8 +59,9 @@ def results(texts: dict[str, str], certificates: dict[str, Json]) -> dict[str, t
     known: dict[str, Any] = {}
     found: dict[str, tuple[str, str]] = {}
     for name, statement in checker.read_statements("\n\n".join(texts.values())).items():
-        found[name] = checker.check_one(statement, certificates.get(name, {}), known, {})
-        if found[name][0] == "certified":
+        outcome, reason = checker.check_one(statement, certificates.get(name, {}), known, {})
+        found[name] = outcome, str(reason or "")
+        if outcome == "certified":
             known[name] = statement
     return found
 

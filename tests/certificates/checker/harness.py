@@ -1,6 +1,4 @@
-"""Cases for the checker: a statement, a certificate, and the outcome, or how the reason of the
-rejection begins.
-"""
+"""Cases for the checker: a statement, a certificate, and the outcome, or why it is rejected."""
 
 from __future__ import annotations
 
@@ -9,8 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.checker import Kind, Rejected
 
 Json = Any
+# a kind; with how the offender begins; with the place
+Expected = str | Kind | tuple[Kind, str] | tuple[Kind, str, str]
 OPEN = ["psatz", [], []]  # a node that closes nothing: whatever reaches it is rejected
 CLOSE = ["close"]
 
@@ -24,7 +25,7 @@ class Case:
     defect: str
     text: str
     certificate: Json
-    expected: str = "certified"
+    expected: Expected = "certified"
     earlier: dict[str, Json] = field(default_factory=dict)
 
 
@@ -60,13 +61,26 @@ def refuted(
     return {"refuted": [name, list(adjoined), at, premises, goals]}
 
 
-def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, str]]:
+def refused(reason: Rejected | None, expected: Expected) -> bool:
+    """Whether the reason is the one expected: its kind, how its offender begins, and its place."""
+    kind, offender, place = (*(expected if isinstance(expected, tuple) else (expected,)), "", "")[
+        :3
+    ]
+    return (
+        reason is not None
+        and reason.kind is kind
+        and reason.offender.startswith(offender)
+        and (not place or reason.place == place)
+    )
+
+
+def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, Rejected | None]]:
     """{name: (outcome, reason)} for every statement of a text, each checked after those before
     it.
     """
     known: dict[str, Any] = {}
     earlier: dict[str, Any] = {}
-    found: dict[str, tuple[str, str]] = {}
+    found: dict[str, tuple[str, Rejected | None]] = {}
     for name, statement in checker.read_statements(text).items():
         certificate = json.loads(json.dumps(certificates[name]), object_pairs_hook=checker.unique)
         found[name] = checker.check_one(statement, certificate, known, earlier)
@@ -76,14 +90,14 @@ def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, st
     return found
 
 
-def judge(case: Case) -> tuple[str, str]:
+def judge(case: Case) -> tuple[str, Rejected | None]:
     """(outcome, reason) of the last statement of a case; none of those before it may be
     rejected.
     """
     try:
         found = verdict(case.text, case.earlier | {_last(case.text): case.certificate})
     except checker.Rejected as reason:
-        return "unreadable", str(reason)
+        return "unreadable", reason
     *before, last = found.values()
     if any(outcome == "rejected" for outcome, _ in before):
         raise ValueError(f"{case.defect}: an earlier statement is rejected: {before}")

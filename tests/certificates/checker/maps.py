@@ -111,10 +111,12 @@ def searched(text: str) -> dict[str, Json]:
     return found
 
 
-def checked(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, str]]:
+def checked(
+    text: str, certificates: dict[str, Json]
+) -> dict[str, tuple[str, checker.Rejected | None]]:
     """{name: (outcome, reason)} by the checker alone."""
     known: dict[str, checker.Statement] = {}
-    results: dict[str, tuple[str, str]] = {}
+    results: dict[str, tuple[str, checker.Rejected | None]] = {}
     for name, statement in read(text).items():
         results[name] = checker.check_one(statement, certificates.get(name, {}), known, {})
         if results[name][0] == "certified":

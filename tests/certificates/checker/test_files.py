@@ -4,20 +4,35 @@ wrong, whatever the files hold.
 
 from __future__ import annotations
 
-import os
+import json
+import py_compile
+import shutil
 import subprocess
 import sys
+from importlib.util import cache_from_source
 from pathlib import Path
 
 import pytest
 
-CHECKER = Path(__file__).resolve().parents[3] / "certificates" / "checker.py"
+from juggleproof.certificates import checker
+from juggleproof.certificates.checker import Kind
+from tests.certificates.checker.harness import Expected, refused
+
+CHECKER = Path(__file__).resolve().parents[3] / "certificates" / "checker"
 TRUE = "statement a/b\nforall x\nshow x^2 + 1 > 0\n"
-GOOD = (
-    '{"a/b": {"certified": ["proof", [], ["psatz", [[1, [[0, 1]], "1"], [1, [], "x"], [1, [],'
-    ' "1"]], []]], "point": ["a/b", [], {"x": "0"}, ["close"]]}}'
+PROOF = (
+    '{"certified": ["proof", [], ["psatz", [[1, [[0, 1]], "1"], [1, [], "x"], [1, [], "1"]], []]],'
+    ' "point": ["a/b", [], {"x": "0"}, ["close"]]}'
 )
-UNKNOWN = '{"a/b": {"unknown": "no search"}}'
+UNKNOWN = '{"unknown": "no search"}'
+
+
+def line(name: str, certificate: str) -> str:
+    """A line of certificates; the certificate is any text."""
+    return f'["{name}", {certificate}]\n'
+
+
+GOOD = line("a/b", PROOF)
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
@@ -30,13 +45,12 @@ def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
 
 
 def check(
-    folder: Path, statements: str | bytes, **files: str | bytes
+    folder: Path, statements: str | bytes, certificates: str | bytes | None = None
 ) -> subprocess.CompletedProcess[str]:
-    for name, content in {
-        "statements.txt": statements,
-        **{f"{name}.json": content for name, content in files.items()},
-    }.items():
-        (folder / name).write_bytes(content.encode() if isinstance(content, str) else content)
+    contents = {"statements.txt": statements, "certificates.jsonl": certificates}
+    for name, content in contents.items():
+        if content is not None:
+            (folder / name).write_bytes(content.encode() if isinstance(content, str) else content)
     return run(folder)
 
 
@@ -44,7 +58,7 @@ def test_exit_0_where_nothing_is_rejected(tmp_path: Path) -> None:
     done = check(
         tmp_path,
         "# a title\n\n" + TRUE + "\n" + TRUE.replace("a/b", "a/c"),
-        a=GOOD[:-1] + ', "a/c": {"unknown": ""}}',
+        GOOD + line("a/c", UNKNOWN),
     )
     assert (done.returncode, done.stdout, done.stderr) == (
         0,
@@ -54,7 +68,7 @@ def test_exit_0_where_nothing_is_rejected(tmp_path: Path) -> None:
 
 
 def test_exit_1_where_a_certificate_is_rejected(tmp_path: Path) -> None:
-    done = check(tmp_path, TRUE, a=GOOD.replace('"x"]', '"x + 1"]'))
+    done = check(tmp_path, TRUE, GOOD.replace('"x"]', '"x + 1"]'))
     assert (done.returncode, done.stderr) == (1, "")
     assert done.stdout.splitlines() == [
         "rejected  a/b: the certificate's sum is not zero: 2*x + 1",
@@ -69,6 +83,47 @@ def test_exit_2_where_the_folder_cannot_be_used(tmp_path: Path) -> None:
         assert one_line(done.stderr).startswith("checker: ")
 
 
+def test_both_ways_of_running_are_the_same_files(tmp_path: Path) -> None:
+    check(tmp_path, TRUE, GOOD)
+    assert checker.check_folder(str(tmp_path)) == [("a/b", "certified", "")]
+    assert Path(str(checker.__file__)).resolve().parent == CHECKER
+
+
+def test_compiled_code_beside_the_text_is_not_run(tmp_path: Path) -> None:
+    copy = tmp_path / "checker"
+    shutil.copytree(CHECKER, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "all").mkdir()
+    check(tmp_path / "all", TRUE, GOOD)
+    forged = tmp_path / "forged.py"
+    forged.write_text("print('forged')\n")
+    source = copy / "rules.py"
+    place = Path(cache_from_source(str(source)))
+    place.parent.mkdir()
+    py_compile.compile(
+        str(forged), str(place), invalidation_mode=py_compile.PycInvalidationMode.UNCHECKED_HASH
+    )
+    program = [sys.executable, "-I", "-S", str(copy), str(tmp_path / "all")]
+    done = subprocess.run(program, capture_output=True, text=True, timeout=60)
+    assert done.stdout == "1 statements: 1 certified, 0 refuted, 0 unknown, 0 rejected\n"
+    # of __main__ alone, Python itself keeps and runs compiled code
+    assert {path.name.split(".")[0] for path in place.parent.iterdir()} <= {"rules", "__main__"}
+
+
+def test_a_module_beside_the_folder_is_not_run(tmp_path: Path) -> None:
+    shutil.copytree(CHECKER, tmp_path / "checker")
+    for name in ("json", "re", "fractions", "sys", "heapq"):
+        (tmp_path / f"{name}.py").write_text("print('forged')\n")
+    (tmp_path / "all").mkdir()
+    check(tmp_path / "all", TRUE, GOOD)
+    (tmp_path / "other" / "checker").mkdir(parents=True)
+    (tmp_path / "other" / "checker" / "__init__.py").write_text("print('forged')\n")
+    for flags in (["-I", "-S"], []):
+        program = [sys.executable, *flags, str(tmp_path / "checker"), str(tmp_path / "all")]
+        environment = {"PYTHONPATH": str(tmp_path / "other")}
+        done = subprocess.run(program, capture_output=True, text=True, env=environment, timeout=60)
+        assert done.stdout == "1 statements: 1 certified, 0 refuted, 0 unknown, 0 rejected\n"
+
+
 def one_line(text: str) -> str:
     assert text.endswith("\n")
     assert text.count("\n") == 1
@@ -78,32 +133,72 @@ def one_line(text: str) -> str:
 
 
 DEEP = "[" * 100_000
-CERTIFICATES: dict[str, tuple[str | bytes, str]] = {
-    "nothing": ("", "not a certificate file"),
-    "half a file": (GOOD[:-1], "not a certificate file"),
-    "two files": (GOOD + GOOD, "not a certificate file"),
-    "a list": ("[]", "not a certificate file"),
-    "a number": ("1", "not a certificate file"),
-    "a byte order mark": (b"\xef\xbb\xbf" + GOOD.encode(), "a file"),
-    "bytes that are no text": (b"\xff\xfe\x00", "a file"),
-    "a null character": ('{"a/b": "\0"}', "a file"),
-    "deep nesting": (DEEP, "not a certificate file"),
-    "deep nesting of objects": ('{"a":' * 100_000, "not a certificate file"),
-    "a key twice": (GOOD[:-1] + ", " + GOOD[1:], "a key stands twice"),
+NO_LINE = Kind.CERTIFICATE_LINE
+LINES: dict[str, tuple[str, Expected]] = {
+    "nothing": ("", NO_LINE),
+    "half a line": (GOOD[:-5], NO_LINE),
+    "two certificates": (GOOD[:-1] + GOOD[:-1], NO_LINE),
+    "an object": (PROOF, NO_LINE),
+    "a number": ("1", NO_LINE),
+    "one entry": ('["a/b"]', NO_LINE),
+    "three entries": (GOOD[:-2] + ", 1]", NO_LINE),
+    "a name that is no text": (line("a/b", PROOF)[:-1].replace('"a/b"', "1", 1), NO_LINE),
+    "deep nesting": (DEEP, NO_LINE),
+    "deep nesting of objects": ('{"a":' * 100_000, NO_LINE),
+    "a key twice": (
+        GOOD[:-3] + ', "point": []}]',
+        (Kind.KEY_TWICE, "['certified', 'point', 'point']"),
+    ),
     "a key twice deep inside": (
-        GOOD.replace('"x": "0"', '"x": "0", "x": "0"'),
-        "a key stands twice: ['x', 'x']",
+        GOOD[:-1].replace('"x": "0"', '"x": "0", "x": "0"'),
+        (Kind.KEY_TWICE, "['x', 'x']"),
     ),
-    "a float": (GOOD.replace("[[1,", "[[1.0,", 1), "not an exact integer: 1.0"),
-    "an exponent": (GOOD.replace("[[1,", "[[1e0,", 1), "not an exact integer: 1e0"),
-    "NaN": (GOOD.replace("[[1,", "[[NaN,", 1), "not an exact integer: NaN"),
-    "Infinity": (GOOD.replace("[[1,", "[[-Infinity,", 1), "not an exact integer: -Infinity"),
-    "a number of 10000 digits": (
-        GOOD.replace("[[1,", "[[1" + "0" * 10_000 + ",", 1),
-        "not a certificate file",
-    ),
-    "a comment": ("// " + GOOD, "not a certificate file"),
+    "a float": (GOOD[:-1].replace("[[1,", "[[1.0,", 1), (Kind.INEXACT, "1.0")),
+    "an exponent": (GOOD[:-1].replace("[[1,", "[[1e0,", 1), (Kind.INEXACT, "1e0")),
+    "NaN": (GOOD[:-1].replace("[[1,", "[[NaN,", 1), (Kind.INEXACT, "NaN")),
+    "Infinity": (GOOD[:-1].replace("[[1,", "[[-Infinity,", 1), (Kind.INEXACT, "-Infinity")),
+    "a number of 10000 digits": (GOOD[:-1].replace("[[1,", "[[1" + "0" * 10_000 + ",", 1), NO_LINE),
+    "a comment": ("// " + GOOD[:-1], NO_LINE),
 }
+
+
+@pytest.mark.parametrize("defect", LINES)
+def test_rejects_a_line_that_is_no_certificate(defect: str) -> None:
+    text, expected = LINES[defect]
+    certificates, ((count, reason),) = checker.read_certificates(text + "\n" + GOOD)
+    assert (list(certificates), count) == (["a/b"], 1)
+    assert refused(reason, expected), reason
+
+
+def test_says_which_line_is_no_certificate(tmp_path: Path) -> None:
+    done = check(tmp_path, TRUE, "".join(f"{text}\n" for text, _ in LINES.values()))
+    assert (done.returncode, done.stderr) == (1, "")
+    first, *rows, last = done.stdout.splitlines(keepends=True)
+    assert first == "rejected  a/b: no certificate\n"
+    for count, (row, (_, expected)) in enumerate(zip(rows, LINES.values(), strict=True), 1):
+        kind = expected[0] if isinstance(expected, tuple) else expected
+        start = f"rejected  certificates.jsonl, line {count}: "
+        assert one_line(row).startswith(f"{start}{kind.value}")  # type: ignore[union-attr]
+    assert last.endswith(f" 0 certified, 0 refuted, 0 unknown, {len(LINES) + 1} rejected\n")
+
+
+WHOLE: dict[str, tuple[str | bytes, str]] = {
+    "a byte order mark": (b"\xef\xbb\xbf" + GOOD.encode(), Kind.CHARACTERS.value),
+    "bytes that are no text": (b"\xff\xfe\x00", Kind.CHARACTERS.value),
+    "a null character": (line("a/b", '"\0"'), Kind.CHARACTERS.value),
+    "a carriage return": (GOOD.replace("\n", "\r\n"), Kind.CHARACTERS.value),
+}
+
+
+@pytest.mark.parametrize("defect", WHOLE)
+def test_rejects_a_file_of_other_characters(tmp_path: Path, defect: str) -> None:
+    content, reason = WHOLE[defect]
+    done = check(tmp_path, TRUE, content)
+    assert (done.returncode, done.stderr) == (1, "")
+    first, second, last = done.stdout.splitlines(keepends=True)
+    assert first == "rejected  a/b: no certificate\n"
+    assert one_line(second).startswith(f"rejected  certificates.jsonl: {reason}")
+    assert last == "2 statements: 0 certified, 0 refuted, 0 unknown, 2 rejected\n"
 
 
 def closing(node: str) -> str:
@@ -116,10 +211,10 @@ def sign(term: str) -> str:
 
 
 ENTRIES: dict[str, tuple[str, str]] = {
-    "null": ("null", "no certificate"),
+    "null": ("null", "a certificate with missing or left over keys: []"),
     "a text": ('"certified"', "a certificate with missing or left over keys: []"),
     "a list": ('["unknown"]', "a certificate with missing or left over keys: []"),
-    "nothing": ("{}", "no certificate"),
+    "nothing": ("{}", "a certificate with missing or left over keys: []"),
     "a line break in a term": (sign("x\\n1 statements: 1 certified"), "unreadable text: "),
     "half a character": (sign("\\ud800"), "unreadable text: "),
     "an escape sequence": (sign("\\u001b[2J"), "unreadable text: "),
@@ -131,23 +226,13 @@ ENTRIES: dict[str, tuple[str, str]] = {
 }
 
 
-def test_rejects_a_file_that_is_no_certificate_file(tmp_path: Path) -> None:
-    files = {f"e{k}": content for k, (content, _) in enumerate(CERTIFICATES.values())}
-    done = check(tmp_path, "\n".join(TRUE.replace("a/b", name + "/b") for name in files), **files)
-    assert (done.returncode, done.stderr) == (1, "")
-    rows = done.stdout.splitlines(keepends=True)
-    for name, (_, reason) in zip(files, CERTIFICATES.values()):
-        assert one_line(
-            next(row for row in rows if row.startswith(f"rejected  {name}: "))
-        ).startswith(f"rejected  {name}: {reason}")
-        assert f"rejected  {name}/b: no certificate\n" in rows
-    assert rows[-1].endswith(f" 0 certified, 0 refuted, 0 unknown, {2 * len(files)} rejected\n")
-
-
 def test_rejects_an_entry_that_is_no_certificate(tmp_path: Path) -> None:
-    names = {f"e{k}/b": entry for k, entry in enumerate(ENTRIES.values())}
-    files = {name.split("/")[0]: f'{{"{name}": {entry}}}' for name, (entry, _) in names.items()}
-    done = check(tmp_path, "\n".join(TRUE.replace("a/b", name) for name in names), **files)
+    names = {f"e{k:02}/b": entry for k, entry in enumerate(ENTRIES.values())}
+    done = check(
+        tmp_path,
+        "\n".join(TRUE.replace("a/b", name) for name in names),
+        "".join(line(name, entry) for name, (entry, _) in names.items()),
+    )
     assert (done.returncode, done.stderr) == (1, "")
     *rows, last = done.stdout.splitlines(keepends=True)
     assert [
@@ -162,32 +247,49 @@ def test_rejects_an_entry_that_is_no_certificate(tmp_path: Path) -> None:
 
 
 def test_rejects_what_is_left_over(tmp_path: Path) -> None:
-    done = check(
-        tmp_path,
-        TRUE,
-        a=GOOD[:-1] + ', "a/c": 1, "a/d\\n1 statements: 1 certified": 2, "\\ud800": 3}',
-        z=UNKNOWN,
-    )
+    left = ("a/c", "a/d\\n1 statements: 1 certified", "\\ud800")
+    done = check(tmp_path, TRUE, GOOD + "".join(line(name, UNKNOWN) for name in left))
     assert (done.returncode, done.stderr) == (1, "")
     rows = done.stdout.splitlines()
     assert [
-        row.startswith("rejected  ") and row.endswith(": a certificate without a statement")
-        for row in rows
-    ] == [True] * 4 + [False]
-    assert rows[-1] == "5 statements: 1 certified, 0 refuted, 0 unknown, 4 rejected"
+        row.startswith("rejected  ") and row.endswith(f": {Kind.LEFT_OVER.value}") for row in rows
+    ] == [True] * 3 + [False]
+    assert rows[-1] == "4 statements: 1 certified, 0 refuted, 0 unknown, 3 rejected"
 
 
 def test_rejects_a_missing_certificate(tmp_path: Path) -> None:
     done = check(tmp_path, TRUE)
     assert done.returncode == 1
-    assert done.stdout.splitlines()[0].startswith("rejected  a: a file cannot be read")
-    done = check(tmp_path, TRUE, a="{}")
+    first, second, _ = done.stdout.splitlines()
+    assert first == f"rejected  a/b: {Kind.NO_CERTIFICATE.value}"
+    assert second.startswith(f"rejected  certificates.jsonl: {Kind.FILE.value}")
+    done = check(tmp_path, TRUE, "")
     assert (done.returncode, done.stdout.splitlines()[0]) == (1, "rejected  a/b: no certificate")
+
+
+def test_rejects_a_line_that_stands_twice() -> None:
+    for second in (PROOF, UNKNOWN):
+        certificates, ((count, reason),) = checker.read_certificates(GOOD + line("a/b", second))
+        assert (count, certificates["a/b"]) == (2, json.loads(PROOF))
+        assert refused(reason, (Kind.CERTIFICATE_TWICE, "a/b"))
+
+
+def test_rejects_a_line_out_of_order() -> None:
+    text = line("b/a", UNKNOWN) + line("a/b", UNKNOWN) + line("b/c", UNKNOWN)
+    certificates, ((count, reason),) = checker.read_certificates(text)
+    assert (count, list(certificates)) == (2, ["b/a", "b/c"])
+    assert refused(reason, (Kind.CERTIFICATE_ORDER, "a/b"))
+
+
+def test_rejects_a_last_line_that_is_cut() -> None:
+    _, ((count, reason),) = checker.read_certificates(GOOD + GOOD[:-1])
+    assert count == 2
+    assert refused(reason, NO_LINE)
 
 
 def test_rejects_an_empty_set_of_statements(tmp_path: Path) -> None:
     for nothing in ("", "\n\n", "# only a title\n"):
-        done = check(tmp_path, nothing)
+        done = check(tmp_path, nothing, "")
         assert (done.returncode, done.stdout) == (
             1,
             "0 statements: 0 certified, 0 refuted, 0 unknown, 0 rejected\n",
@@ -199,6 +301,7 @@ STATEMENTS: dict[str, str | bytes] = {
     "a mark that turns the text around": "statement a/b\nforall x\n# \u202egiven\nshow x > 0\n",
     "a form feed": "statement a/b\nforall x\n# \x0cgiven x > 0\nshow x > 0\n",
     "a blank that is none": "statement a/b\nforall x\u00a0y\nshow x > y\n",
+    "a line end of another system": "statement a/b\nforall x\n# \rgiven x > 0\nshow x > 0\n",
     "a separator": "statement a/b\nforall x\x1cy\nshow x > y\n",
     "bytes that are no text": b"statement a/b\nshow 1 < 2 \xff\n",
     "a byte order mark": b"\xef\xbb\xbfstatement a/b\nshow 1 < 2\n",
@@ -220,23 +323,29 @@ STATEMENTS: dict[str, str | bytes] = {
 
 @pytest.mark.parametrize("name", STATEMENTS)
 def test_exit_2_where_statements_cannot_be_read(tmp_path: Path, name: str) -> None:
-    done = check(tmp_path, STATEMENTS[name], a=UNKNOWN)
+    done = check(tmp_path, STATEMENTS[name], line("a/b", UNKNOWN))
     assert (done.returncode, done.stdout) == (2, "")
     assert one_line(done.stderr).startswith("checker: ")
 
 
 def test_a_file_without_end_is_rejected(tmp_path: Path) -> None:
-    (tmp_path / "a.json").symlink_to("/dev/zero")
+    (tmp_path / "certificates.jsonl").symlink_to("/dev/zero")
     (tmp_path / "statements.txt").write_text(TRUE)
     done = run(tmp_path)
     assert (done.returncode, done.stderr) == (1, "")
-    assert done.stdout.startswith("rejected  a: a file")
+    assert "\nrejected  certificates.jsonl: a file is too large" in done.stdout
 
 
-def test_names_of_files_cannot_fake_a_line(tmp_path: Path) -> None:
-    (tmp_path / "x\n1 statements: 1 certified.json").write_text("{}")
-    (tmp_path / os.fsdecode(b"\xff.json")).write_text("{}")
-    done = check(tmp_path, TRUE, a=GOOD)
+def test_a_reason_is_one_printable_line() -> None:
+    for text in ("x\ny", "x\ry", "x\u2028y", "\ud800", "\x1b[2J", "x" * 1000):
+        with pytest.raises(checker.Rejected) as info:
+            checker.rational(text)
+        assert refused(info.value, (Kind.RATIONAL, text))
+        assert str(info.value).isprintable() and len(str(info.value)) < 400
+
+
+def test_a_name_cannot_fake_a_line(tmp_path: Path) -> None:
+    done = check(tmp_path, TRUE, GOOD + line("x\\n1 statements: 1 certified", UNKNOWN))
     assert (done.returncode, done.stderr) == (1, "")
-    assert len(done.stdout.splitlines()) == 3
+    assert len(done.stdout.splitlines()) == 2
     assert done.stdout.isascii()

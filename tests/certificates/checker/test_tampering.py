@@ -20,6 +20,7 @@ from tests.certificates.checker.rules import TABLES
 CASES = {
     rule: [case for case in module.ACCEPTED if case.expected != "unknown"]
     for rule, module in TABLES.items()
+    if rule != "definitions"  # the second reading has none: see test_definitions
 }
 SEEN: dict[str, object] = {}
 

@@ -103,10 +103,9 @@ FALSE = {
 @pytest.mark.parametrize("name", TRUE)
 def test_squares_close_what_is_true_holds(name: str) -> None:
     story = checker.Unfolding(statement(TRUE[name]), checker.Context())
-    state = story.state().assume(story.goal(False))
+    state = checker.state_of(story).assume(story.goal(False))
     node = search_closing(state, {}, Budget(2_000_000), SQUARED)
     assert node is not None
-    checker.work_left[0] = checker.MAX_WORK
     checker.close(state, node, {})
 
 
@@ -115,7 +114,9 @@ def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
     story = checker.Unfolding(statement(FALSE[name]), checker.Context())
     try:
         assert (
-            search_closing(story.state().assume(story.goal(False)), {}, Budget(200_000), SQUARED)
+            search_closing(
+                checker.state_of(story).assume(story.goal(False)), {}, Budget(200_000), SQUARED
+            )
             is None
         )
     except Exhausted:
@@ -124,7 +125,7 @@ def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
 
 def test_rejects_squares_whose_sum_is_changed() -> None:
     story = checker.Unfolding(statement(TRUE["motzkin"]), checker.Context())
-    state = story.state().assume(story.goal(False))
+    state = checker.state_of(story).assume(story.goal(False))
     node = search_closing(state, {}, Budget(2_000_000), SQUARED)
     assert node is not None
     for k, (c, factors, root) in enumerate(node[1]):
@@ -133,7 +134,6 @@ def test_rejects_squares_whose_sum_is_changed() -> None:
             [c, factors, f"{root} + 1"],
             [f"-{c}", factors, root],
         ):
-            checker.work_left[0] = checker.MAX_WORK
             with pytest.raises(checker.Rejected):
                 checker.close(
                     state, ["psatz", [*node[1][:k], changed, *node[1][k + 1 :]], node[2]], {}
@@ -158,7 +158,6 @@ def test_points_with_irrational_values_are_found_holds(name: str) -> None:
         one, checker.State(checker.Context()), "counterexample", {}, {}, Budget(2_000_000), effort=1
     )
     assert found is not None and found[1]
-    checker.work_left[0] = checker.MAX_WORK
     checker.find(checker.State(checker.Context()), found, {}, "counterexample", {one.name: one}, {})
 
 

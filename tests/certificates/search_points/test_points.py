@@ -146,7 +146,7 @@ def test_the_counterexample_is_the_one_a_reader_would_take():
 def test_a_witness_in_numbers():
     statement = read("statement t/two\nexists y\nshow y^2 = 2 and y > 0")
     story = checker.Unfolding(statement, checker.Context())
-    found = search_found(statement, story.state(), "witness", {}, {}, budget())
+    found = search_found(statement, checker.state_of(story), "witness", {}, {}, budget())
     certificate = {
         "certified": ["witness", [], found],
         "point": [statement.name, [], {}, ["close"]],

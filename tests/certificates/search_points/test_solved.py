@@ -38,7 +38,7 @@ def test_display_is_the_condition(case):
     for k, numerator in product(range(3, 8), range(1, 40)):
         values = {"K": Fraction(k), "alpha": Fraction(numerator, 40)}
         there = checker.Context(
-            None, {name: checker.number(value) for name, value in values.items()}
+            None, {name: checker.number(value, checker.Work()) for name, value in values.items()}
         )
         means = [
             there.formula(checker.parse(part.replace("K", f"({k})")))

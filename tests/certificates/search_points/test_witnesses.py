@@ -63,8 +63,10 @@ show beta + v*t = r*t""",
 def witness(statement: checker.Statement) -> list:
     story = checker.Unfolding(statement, checker.Context())
     base = {name: story.context.values[name] for name in story.universal}
-    found = search_found(statement, story.state(), "witness", base, {}, budget(), effort=1)
-    checker.find(story.state(), found, {}, "witness", {statement.name: statement}, base)
+    found = search_found(
+        statement, checker.state_of(story), "witness", base, {}, budget(), effort=1
+    )
+    checker.find(checker.state_of(story), found, {}, "witness", {statement.name: statement}, base)
     return found
 
 
@@ -88,7 +90,10 @@ def test_no_witness_for_what_does_not_exist():
     statement = read("statement w/none\nforall a\nexists y\nshow y^2 = a - 1 and a > 2")
     story = checker.Unfolding(statement, checker.Context())
     base = {"a": story.context.values["a"]}
-    assert search_found(statement, story.state(), "witness", base, {}, budget(), effort=1) is None
+    assert (
+        search_found(statement, checker.state_of(story), "witness", base, {}, budget(), effort=1)
+        is None
+    )
 
 
 def leaves(found: list) -> list[dict[str, str]]:

@@ -5,6 +5,7 @@ from tests.certificates.checker.rules import (
     cases_and_signs,
     close,
     counterexample,
+    definitions,
     division,
     have_and_root,
     integral,
@@ -30,9 +31,11 @@ MODULES = (
     witness,
     point,
     counterexample,
+    definitions,
     division,
     sharp,
     iterates,
     text,
+    definitions,
 )
 TABLES = {module.__name__.rsplit(".", 1)[1]: module for module in MODULES}

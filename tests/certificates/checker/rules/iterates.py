@@ -1,5 +1,6 @@
 """Iterates: P(0) is the identity and map(P(K)) = P(K + 1), for all K, as identities."""
 
+from juggleproof.certificates.checker import Kind
 from tests.certificates.checker.harness import CLOSE, Case, Json, lines
 
 DONE: Json = {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}
@@ -38,12 +39,12 @@ ACCEPTED = [
 ]
 
 START, STEP = (
-    f"premise {name} of rule/case: nothing false is assumed" for name in ("start", "step")
+    (Kind.NOTHING_FALSE, "", f"premise {name} of rule/case") for name in ("start", "step")
 )
-UNDECLARED = "an undeclared name in a map"
-NAMES = "a map names its variables first, an image for each, and one integer apart"
-WORD = "premise start of rule/case: a name is declared twice, or is none"
-ORDER = "the lines of a statement are missing or out of order"
+UNDECLARED = Kind.ITERATES_NAME
+NAMES = Kind.ITERATES_SHAPE
+WORD = (Kind.NAME, "", "premise start of rule/case")
+ORDER = Kind.ORDER
 REJECTED = [
     case("a wrong step", *SHIFT[:3], "after K -> (x - K*w - K*(K + 1), w + 2*K)", expected=STEP),
     case(
@@ -72,7 +73,7 @@ REJECTED = [
         "integer K",
         "iterates x -> x + K",
         "after K -> x + K*(K - 1)/2",
-        expected="a map that is iterated cannot depend on the number of iterations",
+        expected=Kind.ITERATES_COUNT,
     ),
     case(
         "a map that depends on it through an abbreviation",
@@ -81,7 +82,7 @@ REJECTED = [
         "let s = K",
         "iterates x -> x + s",
         "after K -> x + K*(K - 1)/2",
-        expected="a map that is iterated cannot depend on the number of iterations",
+        expected=Kind.ITERATES_COUNT,
     ),
     case(
         "no variable", "forall K", "integer K", "iterates () -> ()", "after K -> ()", expected=NAMES
@@ -156,7 +157,7 @@ REJECTED = [
         "integer K n",
         "iterates x -> x",
         "after (K, n) -> x",
-        expected="malformed certificate (ValueError)",
+        expected=(Kind.MALFORMED, "ValueError"),
     ),
     case(
         "a variable twice",
@@ -164,7 +165,7 @@ REJECTED = [
         "integer K",
         "iterates (x, x) -> (x, x)",
         "after K -> (x, x)",
-        expected="premise start of rule/case: a variable is declared twice",
+        expected=(Kind.VARIABLE_TWICE, "", "premise start of rule/case"),
     ),
     case(
         "an abbreviation named like a variable",
@@ -173,7 +174,7 @@ REJECTED = [
         "let x = 0",
         "iterates x -> x",
         "after K -> x",
-        expected="a map that is iterated cannot depend",
+        expected=Kind.ITERATES_COUNT,
     ),
     case(
         "a quotient",
@@ -181,7 +182,7 @@ REJECTED = [
         "integer K",
         "iterates x -> x/x",
         "after K -> x",
-        expected="premise step of rule/case: division by what may vanish",
+        expected=(Kind.DIVISION, "", "premise step of rule/case"),
     ),
     case(
         "a relation for an image",
@@ -189,7 +190,7 @@ REJECTED = [
         "integer K",
         "iterates x -> x > 0",
         "after K -> x",
-        expected="premise step of rule/case: not a term",
+        expected=(Kind.TERM, "", "premise step of rule/case"),
     ),
     case(
         "a name of the premises for an image",
@@ -232,7 +233,7 @@ REJECTED = [
         "integer K",
         "iterates x -> (*x,)",
         "after K -> x",
-        expected="statements, line 5: unreadable text",
+        expected=(Kind.TEXT, "", "statements, line 5"),
     ),
     case(
         "an arrow too many",
@@ -240,7 +241,7 @@ REJECTED = [
         "integer K",
         "iterates x -> x -> x",
         "after K -> x",
-        expected="statements, line 4",
+        expected=(Kind.LINE_SHAPE, "", "statements, line 4"),
     ),
     case(
         "no arrow",
@@ -248,24 +249,24 @@ REJECTED = [
         "integer K",
         "iterates x",
         "after K -> x",
-        expected="statements, line 4",
+        expected=(Kind.LINE_SHAPE, "", "statements, line 4"),
     ),
     case(
         "a proof left over",
         *SHIFT,
-        expected="the premises of a rule are missing or left over",
+        expected=Kind.PREMISES,
         certificate=MORE,
     ),
     case(
         "a point",
         *SHIFT,
-        expected="a certificate with missing or left over keys",
+        expected=Kind.KEYS,
         certificate={**DONE, "point": []},
     ),
     case(
         "a refutation",
         *SHIFT,
-        expected="a certificate with missing or left over keys",
+        expected=Kind.KEYS,
         certificate={"refuted": []},
     ),
     case("a given line", *SHIFT, "given x > 0", expected=ORDER),

@@ -2,11 +2,12 @@
 refused.
 """
 
+from juggleproof.certificates.checker import Kind
 from tests.certificates.checker.harness import CLOSE, Case, lines, proof
 
 AT = {"x": "0"}
 TRUE = "show 0 = 0"
-ORDER = "the lines of a statement are missing or out of order"
+ORDER = Kind.ORDER
 
 
 def shown(formula: str) -> Case:
@@ -142,42 +143,42 @@ LINES = [
     ("two forall lines", ["forall x", "forall y", TRUE], ORDER),
     ("lines of two kinds", ["forall x", "sharp rule/case", TRUE], ORDER),
     ("no line", [], ORDER),
-    ("an unknown line", ["assume 0 = 1", TRUE], "statements, line 2: an unknown kind of line"),
-    ("a keyword in capitals", ["Given 0 = 1", TRUE], "statements, line 2: an unknown kind of line"),
-    ("a keyword and a tab", ["given\t0 = 1", TRUE], "statements, line 2: an unknown kind of line"),
+    ("an unknown line", ["assume 0 = 1", TRUE], (Kind.LINE, "", "statements, line 2")),
+    ("a keyword in capitals", ["Given 0 = 1", TRUE], (Kind.LINE, "", "statements, line 2")),
+    ("a keyword and a tab", ["given\t0 = 1", TRUE], (Kind.LINE, "", "statements, line 2")),
     (
         "a comment behind a line",
         ["forall x", "given x > 0 # not really", TRUE],
-        "statements, line 3: unreadable text",
+        (Kind.TEXT, "", "statements, line 3"),
     ),
-    ("a root of no call", ["root s = 4", TRUE], "statements, line 2: expected sqrt(term)"),
+    ("a root of no call", ["root s = 4", TRUE], (Kind.CALL, "sqrt(term)", "statements, line 2")),
     (
         "a root of a polynomial, which is no square root",
         ["root r = root(9/4, 0, 1)", TRUE],
-        "statements, line 2: expected sqrt(term)",
+        (Kind.CALL, "sqrt(term)", "statements, line 2"),
     ),
     (
         "a root with keywords",
         ["root s = sqrt(4, ^x)", TRUE],
-        "statements, line 2: expected sqrt(term)",
+        (Kind.CALL, "sqrt(term)", "statements, line 2"),
     ),
-    ("an abbreviation without value", ["let a", TRUE], "statements, line 2: unreadable text"),
-    ("an abbreviation with two values", ["let a = 1 = 2", TRUE], "not a term"),
-    ("an abbreviation by :=", ["let a := 1", TRUE], "statements, line 2: unreadable text"),
-    ("a name that begins with _", ["forall _x", TRUE], "a name is declared twice, or is none: _x"),
-    ("a name that is a number", ["forall 1", TRUE], "a name is declared twice, or is none: 1"),
-    ("a name with a comma", ["forall x, y", TRUE], "a name is declared twice, or is none: x,"),
-    ("a name of another script", ["forall \u03b1", TRUE], "a name is declared twice, or is none"),
-    ("a variable twice", ["forall x x", TRUE], "a variable is declared twice: x"),
+    ("an abbreviation without value", ["let a", TRUE], (Kind.TEXT, "", "statements, line 2")),
+    ("an abbreviation with two values", ["let a = 1 = 2", TRUE], Kind.TERM),
+    ("an abbreviation by :=", ["let a := 1", TRUE], (Kind.TEXT, "", "statements, line 2")),
+    ("a name that begins with _", ["forall _x", TRUE], (Kind.NAME, "_x")),
+    ("a name that is a number", ["forall 1", TRUE], (Kind.NAME, "1")),
+    ("a name with a comma", ["forall x, y", TRUE], (Kind.NAME, "x,")),
+    ("a name of another script", ["forall \u03b1", TRUE], Kind.NAME),
+    ("a variable twice", ["forall x x", TRUE], (Kind.VARIABLE_TWICE, "x")),
     (
         "an integer that is no variable",
         ["integer n", TRUE],
-        "an integer, or a value, for what is not a variable",
+        Kind.NO_VARIABLE,
     ),
     (
         "more variables than the limit",
         ["forall " + " ".join(f"x{i}" for i in range(61)), TRUE],
-        "too many variables: x60",
+        (Kind.VARIABLES, "x60"),
     ),
 ]
 NAMES = [
@@ -194,11 +195,11 @@ NAMES = [
 
 REJECTED = [
     *(
-        Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), "not a term")
+        Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), Kind.TERM)
         for text in NOT_TERMS
     ),
     *(
-        Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), "not a formula")
+        Case(text, lines("forall x", "show " + text), proof(CLOSE, at=AT), Kind.FORMULA)
         for text in NOT_FORMULAS
     ),
     *(
@@ -206,7 +207,7 @@ REJECTED = [
             ascii(text),
             lines("forall x", "show " + text),
             proof(CLOSE, at=AT),
-            "statements, line 3: unreadable text",
+            (Kind.TEXT, "", "statements, line 3"),
         )
         for text in UNREADABLE
     ),
@@ -216,7 +217,7 @@ REJECTED = [
             f"the name {name!a}",
             lines(TRUE, name=name),
             proof(CLOSE),
-            "statements, line 1: a statement's name is not ID/part",
+            (Kind.STATEMENT_NAME, "", "statements, line 1"),
         )
         for name in NAMES
     ),
@@ -224,12 +225,12 @@ REJECTED = [
         "a name twice",
         lines(TRUE) + lines(TRUE),
         proof(CLOSE),
-        "statements, line 3: a statement's name is not ID/part, or stands twice",
+        (Kind.STATEMENT_NAME, "", "statements, line 3"),
     ),
     Case(
         "a line before the first statement",
         "given 0 = 1\n" + lines(TRUE),
         proof(CLOSE),
-        "statements, line 1: an unknown kind of line, or one before",
+        (Kind.LINE, "", "statements, line 1"),
     ),
 ]

@@ -2,6 +2,7 @@
 statement.
 """
 
+from juggleproof.certificates.checker import Kind
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, Json, lines, proof, witness
 
 INVERSE = lines("forall a b", "given a*b = 1", "show a != 0", name="rule/inverse")
@@ -116,76 +117,76 @@ REJECTED = [
     inverse(
         "a statement that is not earlier",
         use("rule/case", {"x": "x", "y": "y"}, {}, ZERO),
-        "no earlier certified statement of this name",
+        Kind.LEMMA,
     ),
     inverse(
         "a statement that does not exist",
         use("rule/none", {}, {}, ZERO),
-        "no earlier certified statement of this name",
+        Kind.LEMMA,
     ),
     inverse(
         "premises that are not met",
         use("rule/inverse", {"a": "x", "b": "y"}, {}, ZERO),
-        "nothing has this number: 2",
+        (Kind.INDEX, "2"),
     ),
     inverse(
         "premises that are left open",
         use("rule/inverse", {"a": "x", "b": "y"}, {}, ["cases", 0, [OPEN, ZERO]]),
-        "no term",
+        Kind.STRICT,
     ),
     inverse(
         "a variable left out",
         use("rule/inverse", {"a": "x"}, {}, ZERO),
-        "every variable needs one value, an integer one an integer",
+        Kind.VALUES,
     ),
     inverse(
         "a variable too many",
         use("rule/inverse", {"a": "x", "b": "y", "c": "x"}, {}, ZERO),
-        "an integer, or a value, for what is not",
+        Kind.NO_VARIABLE,
     ),
     inverse(
         "a universal variable given as fresh",
         use("rule/inverse", {"a": "x"}, {"b": "z"}, ZERO),
-        "only what exists is named afresh",
+        Kind.FRESH,
     ),
     inverse(
         "a variable given twice",
         use("rule/inverse", {"a": "x", "b": "y"}, {"b": "z"}, ZERO),
-        "every variable needs one value, an integer one an integer",
+        Kind.VALUES,
     ),
     inverse(
         "a term that divides by what may vanish",
         use("rule/inverse", {"a": "x", "b": "1/x"}, {}, ZERO),
-        "division by what may vanish",
+        Kind.DIVISION,
     ),
     inverse(
         "a licence that only the line to be shown would give",
         use(
             "rule/inverse", {"a": "x", "b": "1/x"}, {}, ["psatz", [[1, [[1, 2]], "1"]], [[0, "-x"]]]
         ),
-        "division by what may vanish",
+        Kind.DIVISION,
         lines("forall x y", "show x != 0"),
     ),
     gap(
         "a real for an integer",
         use("rule/gap", {"n": "n"}, {}, BETWEEN),
-        "every variable needs one value, an integer one an integer",
+        Kind.VALUES,
         integral=False,
     ),
     gap(
         "a half for an integer",
         use("rule/gap", {"n": "1/2"}, {}, BETWEEN),
-        "every variable needs one value, an integer one an integer",
+        Kind.VALUES,
     ),
     gap(
         "half an integer for an integer",
         use("rule/gap", {"n": "n*(n + 1)/2"}, {}, BETWEEN),
-        "every variable needs one value, an integer one an integer",
+        Kind.VALUES,
     ),
     gap(
         "digits and a line break for an integer",
         use("rule/gap", {"n": "1\n"}, {}, BETWEEN),
-        "unreadable text",
+        Kind.TEXT,
     ),
     case(
         "a statement of another kind",
@@ -193,7 +194,7 @@ REJECTED = [
         "rule/shift",
         NOTHING_BELOW,
         use("rule/shift", {"x": "x", "K": "1"}, {}, CLOSE),
-        "no earlier certified statement of this name: rule/shift",
+        (Kind.LEMMA, "rule/shift"),
         x="0",
     ),
     case(
@@ -202,7 +203,7 @@ REJECTED = [
         "rule/below",
         NOTHING_BELOW,
         use("rule/below", {"a": "x"}, {"b": "x"}, CLOSE),
-        "a name is declared twice",
+        Kind.NAME,
         x="0",
     ),
     case(
@@ -211,7 +212,7 @@ REJECTED = [
         "rule/below",
         NOTHING_BELOW,
         use("rule/below", {"a": "x"}, {"b": "1"}, CLOSE),
-        "a name is declared twice, or is none",
+        Kind.NAME,
         x="0",
     ),
     case(
@@ -220,7 +221,7 @@ REJECTED = [
         "rule/below",
         NOTHING_BELOW,
         use("rule/below", {"a": "x", "b": "x"}, {}, CLOSE),
-        "only what exists is named afresh",
+        Kind.FRESH,
         x="0",
     ),
     case(
@@ -229,7 +230,7 @@ REJECTED = [
         "rule/below",
         NOTHING_BELOW,
         use("rule/below", {"a": "z"}, {"b": "z"}, CLOSE),
-        "an undeclared name: z",
+        (Kind.UNDECLARED, "z"),
         x="0",
     ),
 ]

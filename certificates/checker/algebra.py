@@ -1,0 +1,436 @@
+"""Exact arithmetic: polynomials, Sturm's theorem, Bernstein coefficients, and the limits on them.
+
+This file knows of no statement and no proof.  Numbers are integers and fractions of integers; there
+is no float.  It begins with what all files share: why something is rejected (`Kind`, `Rejected`,
+`require`), and the meter of one check (`Work`).
+"""
+
+from enum import Enum
+from fractions import Fraction
+from functools import reduce
+from math import comb, gcd, lcm, prod
+
+MAX_DEGREE = 4000
+MAX_VARIABLES = 60
+MAX_TERMS = 10**5
+MAX_BITS = 40000
+MAX_WORK = 2 * 10**7
+BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
+MASK = (1 << BITS) - 1
+
+
+# ------------------------------------------------------------ what is rejected, and why
+
+
+class Kind(Enum):
+    """Why something is rejected: one kind for each guard, and what the guard says."""
+
+    # arithmetic
+    WORK = "too much work"
+    SIZE = "a polynomial is too large"
+    EXPONENT = "an exponent is too large"
+    END_ROOT = "a polynomial vanishes at an end of the interval"
+    MONOTONE = "not monotone along an axis"
+    # text
+    TEXT = "unreadable text"
+    LINE = "an unknown kind of line, or one before the first statement"
+    LINE_SHAPE = "a line of the wrong shape"
+    CALL = "expected another call"
+    ORDER = "the lines of a statement are missing or out of order"
+    STATEMENT_NAME = "a statement's name is not ID/part, or stands twice"
+    NAME = "a name is declared twice, or is none"
+    UNDECLARED = "an undeclared name"
+    VARIABLES = "too many variables"
+    VARIABLE_TWICE = "a variable is declared twice"
+    NO_VARIABLE = "an integer, or a value, for what is not a variable"
+    TERM = "not a term"
+    FORMULA = "not a formula"
+    POLYNOMIAL = "expected a polynomial"
+    ONE_VARIABLE = "expected a polynomial in one variable alone"
+    RATIONAL = "expected an exact rational"
+    DIVISION = "division by what may vanish; no strict line before it makes this nonzero"
+    ZERO_DIVISION = "division by zero"
+    # definitions
+    DEFINITION = "not a definition"
+    REDEFINED = "a definition with a name that is taken"
+    SHADOWS = "a variable or parameter with the name of a definition"
+    LOOSE = "a definition names what is neither its own nor defined before it"
+    UNUSED = "a definition does not use what it names"
+    ARGUMENTS = "a definition is used with the wrong number of arguments"
+    OVER = "a definition is used where what it is over is not declared"
+    # proof rules
+    RULE = "an unknown rule"
+    INDEX = "nothing has this number"
+    NOTHING_FALSE = "nothing false is assumed"
+    COEFFICIENT = "a coefficient is not positive"
+    FACTOR = "a factor of unknown sign"
+    EQUATION = "not an equation"
+    SUM = "the certificate's sum is not zero"
+    STRICT = "no term of the certificate is strictly positive"
+    CASES = "a disjunction needs one node for each alternative"
+    BOUND = "not a bound of the right sense"
+    INTERVAL = "the fact does not fail on the whole interval"
+    BOX_FACT = "a box tree is a text about a fact p > 0 or p >= 0"
+    BOX_SIGN = "a Bernstein coefficient of a leaf has the wrong sign"
+    BOX_LONG = "a box tree is too long"
+    BOX_SHORT = "a box tree is too short"
+    INTEGRAL = "not a strict fact with integer coefficients in integers"
+    LEMMA = "no earlier certified statement of this name"
+    FRESH = "only what exists is named afresh"
+    VALUES = "every variable needs one value, an integer one an integer"
+    # statement rules
+    WAY = "a statement with exists needs a witness, any other a proof"
+    WITNESS = "a witness of the wrong shape, or for another statement"
+    SHARP = "a sharp range proves each of its earlier statements"
+    SHARP_INTEGERS = "a parameter is an integer in one statement of a sharp range, not in another"
+    SAMPLE = "the sample is not in the domain of a sharp range"
+    ONE_ROOT = "not one root, with a change of sign, between the ends of a number"
+    # rules for orbits
+    ITERATES_SHAPE = "a map names its variables first, an image for each, and one integer apart"
+    ITERATES_COUNT = "a map that is iterated cannot depend on the number of iterations"
+    ITERATES_NAME = "an undeclared name in a map"
+    PIECE = "a piece gives one term in parameters and state for each state variable"
+    STATE_TERMS = "one term in the parameters for each state variable is expected"
+    EARLIER = "no earlier certified statement of this kind and name"
+    OTHER_MAP = "two statements about different maps are joined"
+    WORD = "a periodic orbit has at least one step"
+    PREMISES = "the premises of a rule are missing or left over"
+    # certificates and files
+    KEYS = "a certificate with missing or left over keys"
+    MALFORMED = "malformed certificate"
+    NO_CERTIFICATE = "no certificate"
+    LEFT_OVER = "a certificate without a statement"
+    KEY_TWICE = "a key stands twice"
+    INEXACT = "not an exact integer"
+    CERTIFICATE_LINE = "not a line of certificates"
+    CERTIFICATE_ORDER = "a line of certificates is out of order"
+    CERTIFICATE_TWICE = "a line of certificates for a statement that has one"
+    FILE = "a file cannot be read"
+    CHARACTERS = "a file is too large, or holds other characters than printable ASCII"
+
+
+class Rejected(Exception):
+    """A certificate does not prove its statement, or a statement says nothing.
+
+    kind: which guard refused; offender: what it refused, as text, or a function that writes it;
+    place: where, for a part of something else.  The message is one line of at most 300 characters
+    for the offender.
+    """
+
+    def __init__(self, kind, offender="", place=""):
+        self.kind = kind
+        self.offender = str(offender() if callable(offender) else offender)
+        self.place = place
+        shown = f": {self.offender}"[:300] if self.offender else ""
+        if not shown.isprintable():  # a certificate's text cannot write a line of its own
+            shown = ascii(shown)[1:-1]
+        super().__init__((f"{place}: " if place else "") + kind.value + shown)
+
+    def within(self, place):
+        """The same, for a part of something that has a name."""
+        return Rejected(self.kind, self.offender, f"{place}: {self.place}" if self.place else place)
+
+    def __reduce__(self):
+        return Rejected, (self.kind, self.offender, self.place)
+
+
+def require(holds, kind, offender=""):
+    """A check on which soundness rests: unlike `assert`, it cannot be switched off.  An offender
+    that is long to write is a function.
+    """
+    if not holds:
+        raise Rejected(kind, offender)
+
+
+class Work:
+    """The elementary products that one check may still spend.
+
+    Each polynomial holds the meter of its check, so that nothing has to be passed on or put back:
+    two checks at once, or one inside another, cannot spend what is the other's.
+    """
+
+    __slots__ = ("left",)
+
+    def __init__(self, limit=MAX_WORK):
+        self.left = limit
+
+    def spend(self, amount):
+        """Counts work before it is done, so that a hostile file ends as a rejection, no hang."""
+        self.left -= amount
+        if self.left < 0:
+            raise Rejected(Kind.WORK)
+
+
+# ------------------------------------ polynomials: {packed exponents: integer} over one denominator
+
+
+class Poly:
+    """terms / den / product of `under`: a polynomial with rational coefficients, over polynomials
+    that are known to be nonzero.
+
+    terms: {packed exponents: integer other than 0}; deg: a bound on their degree; work: the meter
+    of the check; under: {licence: exponent}, where a licence is (polynomial other than 0, whether
+    it is > 0).  Only a term that divides has an `under`: facts and cofactors are polynomials.
+    """
+
+    __slots__ = ("terms", "den", "deg", "work", "under")
+
+    def __init__(self, terms, den, deg, work, under=None):
+        # a degree beyond the limit would carry into the exponent of the next variable
+        if deg > MAX_DEGREE or den.bit_length() > MAX_BITS:
+            raise Rejected(Kind.SIZE, f"degree {deg}")
+        self.terms = terms
+        self.den = den
+        self.deg = deg
+        self.work = work
+        self.under = under or {}
+
+    def over(self, under):
+        """The same terms, over other polynomials."""
+        return Poly(self.terms, self.den, self.deg, self.work, under)
+
+    def numerator(self, under):
+        """The numerator over a denominator that is a multiple of the present one."""
+        missing = (
+            poly ** (e - self.under.get((poly, sign), 0)) for (poly, sign), e in under.items()
+        )
+        return prod(missing, start=self.over({}))
+
+    def plus(self, other, factor=1):
+        """self + factor * other, for a rational factor other than 0."""
+        if self.under or other.under:
+            under = merged(max, self.under, other.under)
+            return self.numerator(under).plus(other.numerator(under), factor).over(under)
+        second = other.den * factor.denominator
+        den = lcm(self.den, second)
+        self.work.spend(len(self.terms))
+        if den == self.den:
+            terms = dict(self.terms)
+        else:
+            terms = add_multiple({}, den // self.den, self.terms, self.work)
+        add_multiple(terms, den // second * factor.numerator, other.terms, self.work)
+        return Poly(terms, den, max(self.deg, other.deg), self.work)
+
+    __add__ = plus
+
+    def __sub__(self, other):
+        return self.plus(other, -1)
+
+    def __neg__(self):
+        negative = {m: -c for m, c in self.terms.items()}
+        return Poly(negative, self.den, self.deg, self.work, self.under)
+
+    def __mul__(self, other):
+        few, many = self.terms, other.terms
+        if len(many) < len(few):
+            few, many = many, few
+        terms = {}
+        for m, c in few.items():
+            add_multiple(terms, c, many, self.work, m)
+        under = merged(sum, self.under, other.under) if self.under or other.under else None
+        return Poly(terms, self.den * other.den, self.deg + other.deg, self.work, under)
+
+    def __pow__(self, exponent):
+        # asked for before the first product: x^(10^9) must not begin
+        require(exponent * max(self.deg, 1) <= MAX_DEGREE, Kind.EXPONENT, exponent)
+        if exponent == 0:
+            return number(1, self.work)
+        if len(self.terms) == 1 and not self.under:
+            ((m, c),) = self.terms.items()
+            if c == self.den == 1:  # a product of variables: so nearly every power
+                return Poly({m * exponent: 1}, 1, self.deg * exponent, self.work)
+        return prod([self] * (exponent - 1), start=self)
+
+    def constant(self):
+        """The value of a constant; None for anything else."""
+        if self.under or not self.terms.keys() <= {0}:
+            return None
+        return Fraction(self.terms.get(0, 0), self.den)
+
+    def primitive(self):
+        """(c, p) with terms = c * p, where p has coprime integer coefficients, that of the largest
+        monomial positive.
+        """
+        content = gcd(*self.terms.values())
+        if self.terms[max(self.terms)] < 0:
+            content = -content
+        terms = {m: c // content for m, c in self.terms.items()}
+        return content, Poly(terms, 1, self.deg, self.work)
+
+    def places(self):
+        """The numbers of the variables that occur."""
+        together = 0
+        for m in self.terms:
+            together |= m
+        return {i for i in range(MAX_VARIABLES) if together >> (BITS * i) & MASK}
+
+
+def add_multiple(terms, factor, others, work, shift=0):
+    """terms += factor * x^shift * others, for an integer factor other than 0; the work on
+    polynomials is counted and limited here.
+
+    No factor * c is longer than `bits`, so that coefficients are looked at only where one may be
+    too long.
+    """
+    bits = 0
+    if not -2 < factor < 2:
+        bits = factor.bit_length() + max(map(int.bit_length, others.values()), default=0)
+    work.spend(1 + len(others) * (1 + (factor.bit_length() * bits >> 16)))
+    if terms:
+        for m, c in others.items():
+            total = terms.get(m + shift, 0) + factor * c
+            if total:
+                terms[m + shift] = total
+            else:
+                del terms[m + shift]
+    else:
+        terms.update({m + shift: factor * c for m, c in others.items()})
+    # work alone does not bound memory: so neither the terms nor a coefficient grow without limit
+    if len(terms) > MAX_TERMS:
+        raise Rejected(Kind.SIZE, f"{len(terms)} terms")
+    if bits > MAX_BITS and any(c.bit_length() > MAX_BITS for c in terms.values()):
+        raise Rejected(Kind.SIZE, f"{len(terms)} terms")
+    return terms
+
+
+def merged(rule, one, other):
+    """Exponents of licences, brought together by a rule: max or sum."""
+    return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
+
+
+def number(value, work):
+    """A rational number as a polynomial."""
+    return Poly({0: value.numerator} if value else {}, value.denominator, 0, work)
+
+
+def variable(place, work):
+    """The variable of this number as a polynomial."""
+    return Poly({1 << (BITS * place): 1}, 1, 1, work)
+
+
+# ------------------------------ polynomials in one variable: lists of integers from the constant up
+
+
+def sign_at(p, at, work):
+    """The sign of p at a rational number."""
+    value, scale = 0, 1
+    length = sum(map(int.bit_length, at.as_integer_ratio()))
+    for c in reversed(p):
+        grown = value.bit_length() + scale.bit_length()
+        work.spend(1 + (grown * (length + c.bit_length()) >> 16))
+        value = value * at.numerator + c * scale
+        scale = scale * at.denominator
+    return (value > 0) - (value < 0)
+
+
+def remainder(p, q, work):
+    """A positive multiple of the remainder of p by q, without common factors."""
+    rest = list(p)
+    size = abs(q[-1])  # never q[-1] itself: a negative multiple would turn the signs of the chain
+    while len(rest) >= len(q):
+        factor = rest[-1] if q[-1] > 0 else -rest[-1]
+        shift = len(rest) - len(q)
+        work.spend(len(rest) * (1 + (factor.bit_length() * size.bit_length() >> 16)))
+        rest = [c * size for c in rest]
+        for k, c in enumerate(q):
+            rest[shift + k] -= factor * c
+        while rest and rest[-1] == 0:
+            rest.pop()
+        content = gcd(*rest)
+        rest = [c // content for c in rest]
+    return rest
+
+
+def count_roots(p, low, high, work):
+    """The number of distinct real roots between two numbers where p is not 0, by Sturm's
+    theorem.
+    """
+    chain = [p, [k * c for k, c in enumerate(p)][1:]]
+    while chain[-1]:
+        chain.append([-c for c in remainder(chain[-2], chain[-1], work)])
+    chain.pop()
+    below = [sign_at(q, low, work) for q in chain]
+    above = [sign_at(q, high, work) for q in chain]
+    # Sturm's theorem says nothing of a root that is an end
+    require(below[0] and above[0], Kind.END_ROOT)
+    return sign_changes(below) - sign_changes(above)
+
+
+def sign_changes(signs):
+    """How often the sign changes in a sequence, zeros left out."""
+    signs = [sign for sign in signs if sign]
+    return sum(a != b for a, b in zip(signs, signs[1:]))
+
+
+# ------------------------------------------------------------ Bernstein coefficients on a box
+
+
+def times(p, factor):
+    """p times first + last T, where (first, last) is the factor."""
+    first, last = factor
+    return [first * x + last * y for x, y in zip([*p, 0], [0, *p])]
+
+
+def bernstein(poly, axes):
+    """(sizes, coefficients): the Bernstein coefficients of poly on a box, up to one positive
+    factor, the first axis varying slowest.
+
+    An axis is (shift, low, high).  x = (a + b T) / (d + d T), where a/d = low and b/d = high, takes
+    [low, high] to T >= 0; in degree n, the coefficient of T^j in (d + d T)^n poly is d^n C(n, j)
+    times the j-th Bernstein coefficient.
+    """
+    sizes = []
+    parts = {m: [c] for m, c in poly.terms.items()}
+    bits = max(map(int.bit_length, poly.terms.values()))
+    # parts: by what is left of a monomial, the coefficients along the axes that are done
+    for shift, low, high in reversed(axes):
+        n = max((m >> shift) & MASK for m in poly.terms)
+        d = lcm(low.denominator, high.denominator)
+        a = int(low * d)
+        b = int(high * d)
+        whole = lcm(*(comb(n, j) for j in range(n + 1)))
+        count = sum(map(len, parts.values()))
+        sizes.insert(0, n + 1)
+        # the longest coefficient at most, as (n + 1) * whole <= 8^n
+        bits += n * (3 + max(map(int.bit_length, (a, b, d))))
+        # both before the products: a degree of 4000 on three axes must not begin
+        poly.work.spend((8 * (n + 1) ** 3 + (n + 1) * count) * (1 + (bits * bits >> 16)))
+        fits = bits <= MAX_BITS and (n + 1) * count <= MAX_TERMS
+        require(fits, Kind.SIZE, f"{bits} bits")
+        columns = []
+        for e in range(n + 1):
+            power = reduce(times, [(a, b)] * e + [(d, d)] * (n - e), [1])
+            columns.append([whole // comb(n, j) * x for j, x in enumerate(power)])
+        done, parts = parts, {}
+        for m, c in done.items():
+            e = (m >> shift) & MASK
+            rest = m - (e << shift)
+            image = [factor * x for factor in columns[e] for x in c]
+            if rest in parts:
+                image = [x + y for x, y in zip(parts[rest], image)]
+            parts[rest] = image
+    return (sizes, *parts.values())
+
+
+def halved(c, size):
+    """The Bernstein coefficients on the lower and the upper half of the first axis, along which
+    they come in blocks of this size, by de Casteljau's triangle, up to one positive factor.
+    """
+    levels = [c]  # with sums for means: so level k is 2^k times too large
+    while len(levels[-1]) > size:
+        levels.append([x + y for x, y in zip(levels[-1], levels[-1][size:])])
+    last = len(levels) - 1
+    lower = [x << (last - k) for k, level in enumerate(levels) for x in level[:size]]
+    upper = [x << k for k, level in enumerate(reversed(levels)) for x in level[-size:]]
+    return lower, upper
+
+
+def axis_first(sizes, c, place):
+    """The same coefficients with the axis at `place` varying slowest."""
+    step = prod(sizes[place + 1 :])
+    jump = sizes[place] * step
+    moved = []
+    for j in range(0, jump, step):
+        for k in range(j, len(c), jump):
+            moved += c[k : k + step]
+    return moved

@@ -1,0 +1,76 @@
+"""The store writes one line for each statement, and nothing where nothing changed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.search.certificate import search_certificate
+from juggleproof.certificates.store import CERTIFICATES, DEFAULT, STATEMENTS, Store, write_store
+from juggleproof.certificates.work import Budget
+
+TEXT = "# a title\n\nstatement b/main\nforall x\nshow x = x\n\nstatement a/main\nshow 1 < 2\n"
+CERTIFIED = {
+    "b": {
+        "b/main": {
+            "certified": ["proof", [], ["close"]],
+            "point": ["b/main", [], {"x": "0"}, ["close"]],
+        }
+    },
+    "a": {"a/main": {"unknown": "not tried"}},
+}
+
+
+def test_a_store_has_a_line_for_each_statement_sorted_by_name(tmp_path: Path) -> None:
+    assert write_store(tmp_path, TEXT, CERTIFIED) == 2
+    first, second = (tmp_path / CERTIFICATES).read_text(encoding="ascii").splitlines()
+    assert first == '["a/main",{"unknown":"not tried"}]'
+    assert second.startswith('["b/main",{"certified":["proof",[],["close"]],"point":')
+    assert [name for name, *_ in checker.check_folder(str(tmp_path))] == ["b/main", "a/main"]
+    store = Store(tmp_path)
+    assert store.certificate("b/main", store.texts["b/main"]) == CERTIFIED["b"]["b/main"]
+    assert store.certificate("b/main", store.texts["b/main"] + " ") is None
+
+
+def test_a_store_that_did_not_change_is_not_written(tmp_path: Path) -> None:
+    write_store(tmp_path, TEXT, CERTIFIED)
+    before = {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+    assert set(before) == {STATEMENTS, CERTIFICATES}
+    assert write_store(tmp_path, TEXT, dict(reversed(CERTIFIED.items()))) == 0
+    assert {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == before
+    assert write_store(tmp_path, TEXT, CERTIFIED | {"a": {"a/main": {"unknown": ""}}}) == 1
+
+
+def test_the_committed_store_is_as_it_would_be_written() -> None:
+    store = Store(DEFAULT)
+    lines = (DEFAULT / CERTIFICATES).read_text(encoding="ascii").splitlines()
+    assert len(lines) == len(store.texts) and lines == sorted(lines)
+
+
+def test_definitions_are_not_the_text_of_a_statement(tmp_path: Path) -> None:
+    text = TEXT.replace("statement b", "define half := 1/2\nstatement b")
+    write_store(tmp_path, text, CERTIFIED)
+    assert Store(tmp_path).texts["b/main"] == "statement b/main\nforall x\nshow x = x"
+    assert checker.check_folder(str(tmp_path))[0] == ("b/main", "certified", "")
+
+
+DEFINED = """
+define E(beta, v) over g := g*beta + v^2/2
+define f1(beta, v) over alpha r g := (2*alpha*r*(r - v)/g - alpha*beta, alpha*v + (1 - alpha)*r)
+define b over beta v := (beta, v)
+
+"""
+
+
+def test_a_stored_statement_may_be_said_by_definitions() -> None:
+    store = Store(DEFAULT)
+    text = store.texts["eq-37/bound"]
+    *rows, shown = text.splitlines()
+    short = "\n".join([*rows, "show E(f1(b)) - E(b) <= dE_max"])
+    assert shown.startswith("show alpha^2*r^2/2")
+    (statement,) = checker.read_statements(DEFINED + short).values()
+    assert statement.text() == short
+    certificate = search_certificate(statement, {}, Budget(3_000_000))
+    assert checker.check_one(statement, certificate, {}, {}) == ("certified", None)
+    (wrong,) = checker.read_statements(DEFINED.replace("v^2/2", "v^2") + short).values()
+    assert checker.check_one(wrong, certificate, {}, {})[0] == "rejected"
