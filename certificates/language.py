@@ -157,19 +157,19 @@ def real(name: str) -> Term:
     return Term("var", name)
 
 
-_LEVEL = {"+": 1, "-": 1, "*": 2, "/": 2, "neg": 2, "^": 4, "var": 5, "num": 5}
+_LEVEL = {"+": 1, "-": 1, "*": 2, "/": 2, "neg": 2, "^": 4, "var": 5, "num": 5, "call": 5}
 
 
 def _write(expr: Term, level: int) -> str:
     own = _LEVEL[expr.op]
-    if expr.op == "var":
+    if expr.op in ("var", "call"):  # a call is its text: it occurs only where it is written
         return str(expr.args[0])
     if expr.op == "num":
         value: Fraction = expr.args[0]
         own = 5 if value.denominator == 1 and value >= 0 else 2 if level <= 2 and value >= 0 else 1
         text = str(value)
-    elif expr.op == "neg":
-        own, text = 1, "-" + _write(expr.args[0], 2)
+    elif _is_negative(expr):
+        own, text = 1, "-" + _write(_opposite(expr), 2)
     elif expr.op == "^":
         text = f"{_write(expr.args[0], 5)}^{expr.args[1]}"
     else:
@@ -177,6 +177,21 @@ def _write(expr: Term, level: int) -> str:
         left = _write(expr.args[0], own)
         text = f"{left}{gap}{expr.op}{gap}{_write(expr.args[1], own + 1)}"
     return f"({text})" if own < level else text
+
+
+def _is_negative(expr: Term) -> bool:
+    """Whether a sign comes first: that of a factor is written, and read, as that of the product."""
+    while expr.op in ("*", "/"):
+        expr = expr.args[0]
+    return expr.op == "neg"
+
+
+def _opposite(expr: Term) -> Term:
+    """A term without the sign that comes first."""
+    if expr.op == "neg":
+        inner: Term = expr.args[0]
+        return inner
+    return Term(expr.op, _opposite(expr.args[0]), expr.args[1])
 
 
 class Formula:
@@ -231,6 +246,8 @@ _FORMULA_LEVEL = {"or": 3, "and": 4, "not": 5}
 
 
 def _write_formula(formula: Formula, level: int) -> str:
+    if formula.op == "call":
+        return str(formula.args[0])
     if formula.op in RELATIONS:
         return f"{formula.args[0]} {formula.op} {formula.args[1]}"
     if formula.op in ("true", "false"):

@@ -7,11 +7,12 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.definitions import Definition, Reader, defining_lines, short_line
 from juggleproof.certificates.language import ClaimError
 
 STATEMENTS, CERTIFICATES = checker.STATEMENTS, checker.CERTIFICATES
@@ -69,6 +70,41 @@ def certificate_lines(certificates: Mapping[str, Any]) -> bytes:
     return b"".join(canonical([name, certificates[name]]) for name in sorted(certificates))
 
 
+IGNORED = ("#", "define ")  # lines of a block that are no part of its statement
+
+
+class WrittenOut(Mapping[str, str]):
+    r"""The statements of a statement file by name, each with its definitions written out when it is
+    asked for.
+
+    >>> file = "define d(x) := x - 1\n\n# of d\nstatement a/b\nforall x\nshow d(x) < x"
+    >>> WrittenOut(file)["a/b"]
+    'statement a/b\nforall x\nshow x - 1 < x'
+    """
+
+    def __init__(self, text: str) -> None:
+        head = next((one for one in text.split("\n\n") if "\ndefine " in "\n" + one), "")
+        self.definitions = head.splitlines()  # with their comments
+        self.shortened: dict[str, list[str]] = {}  # the lines of each statement as they stand
+        self._reader = Reader(line for line in text.splitlines() if line.startswith("define "))
+        for block in text.split("\n\n"):
+            rows = [row for row in block.splitlines() if row and not row.startswith(IGNORED)]
+            if rows and rows[0].startswith("statement "):
+                self.shortened[rows[0].removeprefix("statement ")] = rows
+        self._texts: dict[str, str] = {}
+
+    def __getitem__(self, name: str) -> str:
+        if name not in self._texts:
+            self._texts[name] = "\n".join(map(self._reader.long_line, self.shortened[name]))
+        return self._texts[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.shortened)
+
+    def __len__(self) -> int:
+        return len(self.shortened)
+
+
 class Store:
     """The statements and certificates of a folder, as last written; an absent folder is an empty
     store.
@@ -76,18 +112,11 @@ class Store:
 
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
-        self.texts: dict[str, str] = {}
+        self.texts: Mapping[str, str] = {}
         self._certificates: dict[str, Any] | None = None
         path = folder / STATEMENTS
         if path.exists():
-            for block in checker.load(str(path)).split("\n\n"):
-                rows = [
-                    row
-                    for row in block.splitlines()
-                    if row and not row.startswith(("#", "define "))
-                ]
-                if rows and rows[0].startswith("statement "):
-                    self.texts[rows[0].removeprefix("statement ")] = "\n".join(rows)
+            self.texts = WrittenOut(checker.load(str(path)))
 
     def certificate(self, name: str, text: str) -> Any:
         """The stored certificate of a statement, if the stored statement has this very text; else
@@ -107,13 +136,52 @@ class Store:
         """What the store has of some claims, read from their files: plain data."""
         part = object.__new__(Store)
         part.folder = self.folder
-        part.texts = {
-            name: text for name, text in self.texts.items() if name.split("/")[0] in claims
-        }
+        part.texts = {name: self.texts[name] for name in self.texts if name.split("/")[0] in claims}
         part._certificates = {
             name: self.certificate(name, text) for name, text in part.texts.items()
         }
         return part
+
+
+def statement_file(
+    title: str,
+    chapters: Iterable[tuple[str, Sequence[str]]],
+    definitions: Sequence[Definition],
+    held: Mapping[str, str],
+) -> str:
+    r"""The text of a statement file: the title and what stands above the statements of each claim
+    as comments, the definitions, and the statements, shortened by them.
+
+    Statements that are as they are `held` by a file with the same definitions are taken from it.
+
+    >>> print(statement_file("All.", [("One.", ["statement a/b\nshow 0 < 1"])], [], {}))
+    # All.
+    <BLANKLINE>
+    # One.
+    <BLANKLINE>
+    statement a/b
+    show 0 < 1
+    <BLANKLINE>
+    """
+    lines = defining_lines(definitions)
+    known = held if isinstance(held, WrittenOut) and held.definitions == lines else None
+    blocks = [comment(title), *(["\n".join(lines)] if lines else [])]
+    for heading, texts in chapters:
+        if texts and heading:
+            blocks.append(comment(heading))
+        for text in texts:
+            first, *rows = text.split("\n")
+            name = first.removeprefix("statement ")
+            if known is not None and known.get(name) == text:
+                blocks.append("\n".join(known.shortened[name]))
+            else:
+                blocks.append("\n".join([first, *(short_line(row, definitions) for row in rows)]))
+    return "\n\n".join(blocks) + "\n"
+
+
+def comment(text: str) -> str:
+    """The lines of a text, each a comment of the statement file."""
+    return "\n".join(f"# {line}".rstrip() for line in text.splitlines())
 
 
 def write_store(

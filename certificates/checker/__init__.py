@@ -21,7 +21,7 @@ below it are here until the search has its own.
 """
 
 from .algebra import Kind, Rejected, Work
-from .language import Statement, parse, read_statements
+from .language import Definitions, Statement, parse, read_statements
 from .settling import (
     CERTIFICATES,
     STATEMENTS,
@@ -36,6 +36,7 @@ from .settling import (
 
 __all__ = [
     "CERTIFICATES",
+    "Definitions",
     "Kind",
     "Rejected",
     "STATEMENTS",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import textwrap
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from dataclasses import dataclass, replace
@@ -13,11 +14,20 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import DEFAULT, Store, canonical, write_file, write_store
+from juggleproof.certificates.store import (
+    DEFAULT,
+    Store,
+    canonical,
+    statement_file,
+    write_file,
+    write_store,
+)
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command import outputs
 from juggleproof.proofs.judging import DEFAULT_BUDGET, Judgement, Options
+from juggleproof.proofs.paper.definitions import definitions
 from juggleproof.proofs.register import PATH, load_register, registered, write_register
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Results, results_of_run
@@ -41,6 +51,8 @@ from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files, 
 # store, compare with the register.
 
 FINDINGS = "findings"
+PAPER = "juggleproof.proofs.paper."  # of the modules of its claims
+WIDTH = 96  # of a comment in the statement file
 TITLE = (
     "Every statement that the claims come to; certificates/checker reads this file and believes"
     " nothing else."
@@ -234,6 +246,19 @@ def _with_progress(
         return judge_all(claims, judged, jobs, step, executor)
 
 
+def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:
+    """The definitions of the statement file: those of the paper, where its claims are in it."""
+    return definitions() if any(one.source.startswith(PAPER) for one in claims) else ()
+
+
+def heading(claim: Claim) -> str:
+    """What stands above the statements of a claim: its id and place, its print, its sentence."""
+    place = " ".join(part for part in (claim.section, claim.place) if part)
+    lines = [f"{claim.id}: {place}" if place else claim.id]
+    lines += [f"    {line.strip()}" for line in claim.printed.splitlines()]
+    return "\n".join([*lines, *textwrap.wrap(claim.says, WIDTH)])
+
+
 def _write(
     folder: Path,
     store: Store,
@@ -245,27 +270,28 @@ def _write(
     stored of them.  Returns the files changed.
     """
     fresh = {judgement.id: judgement for judgement in judgements}
-    texts: list[str] = []
+    chapters: list[tuple[str, Sequence[str]]] = []
     certificates: dict[str, Mapping[str, Any]] = {}
     findings = _findings(folder)
     for claim in everything:
         if claim.id in fresh:
             judgement = fresh[claim.id]
-            texts += [text for _, text in judgement.statements]
+            chapters.append((heading(claim), [text for _, text in judgement.statements]))
             if judgement.statements:
                 certificates[claim.id] = judgement.certificates
             findings[claim.id] = judgement.finding()
         else:
             held = {
-                name: text for name, text in store.texts.items() if name.split("/")[0] == claim.id
+                name: store.texts[name] for name in store.texts if name.split("/")[0] == claim.id
             }
-            texts += held.values()
+            chapters.append((heading(claim), list(held.values())))
             if held:
                 certificates[claim.id] = {
                     name: store.certificate(name, text) for name, text in held.items()
                 }
     findings = {claim.id: findings[claim.id] for claim in everything if claim.id in findings}
-    changed = write_store(folder, "\n\n".join([f"# {TITLE}", *texts]) + "\n", certificates)
+    text = statement_file(TITLE, chapters, _definitions(everything), store.texts)
+    changed = write_store(folder, text, certificates)
     return changed + write_file(folder / FINDINGS, canonical(findings))
 
 

@@ -415,7 +415,7 @@ def greatest_energy_change(printed: Printed) -> list[Statement]:
     """The maximum of Delta_1 E on H."""
     return is_maximum(
         dE_max,
-        change,
+        term(energy(f1(b))) - energy(b),
         {"beta": beta, "v": v},
         at=place("largest_energy_change"),
         on=H(b),

@@ -5,9 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.store import CERTIFICATES, DEFAULT, STATEMENTS, Store, write_store
-from juggleproof.certificates.work import Budget
 
 TEXT = "# a title\n\nstatement b/main\nforall x\nshow x = x\n\nstatement a/main\nshow 1 < 2\n"
 CERTIFIED = {
@@ -52,25 +50,3 @@ def test_definitions_are_not_the_text_of_a_statement(tmp_path: Path) -> None:
     write_store(tmp_path, text, CERTIFIED)
     assert Store(tmp_path).texts["b/main"] == "statement b/main\nforall x\nshow x = x"
     assert checker.check_folder(str(tmp_path))[0] == ("b/main", "certified", "")
-
-
-DEFINED = """
-define E(beta, v) over g := g*beta + v^2/2
-define f1(beta, v) over alpha r g := (2*alpha*r*(r - v)/g - alpha*beta, alpha*v + (1 - alpha)*r)
-define b over beta v := (beta, v)
-
-"""
-
-
-def test_a_stored_statement_may_be_said_by_definitions() -> None:
-    store = Store(DEFAULT)
-    text = store.texts["eq-37/bound"]
-    *rows, shown = text.splitlines()
-    short = "\n".join([*rows, "show E(f1(b)) - E(b) <= dE_max"])
-    assert shown.startswith("show alpha^2*r^2/2")
-    (statement,) = checker.read_statements(DEFINED + short).values()
-    assert statement.text() == short
-    certificate = search_certificate(statement, {}, Budget(3_000_000))
-    assert checker.check_one(statement, certificate, {}, {}) == ("certified", None)
-    (wrong,) = checker.read_statements(DEFINED.replace("v^2/2", "v^2") + short).values()
-    assert checker.check_one(wrong, certificate, {}, {})[0] == "rejected"
