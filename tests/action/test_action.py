@@ -19,7 +19,7 @@ import yaml
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.claims import VERDICTS
 from tests.action.runner import ACTION, ROOT, SCRIPTS, Runner
-from tests.reports.runs import FALSE, HOLDS, file_with
+from tests.proofs.reports.runs import FALSE, HOLDS, file_with
 
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 PINNED = r"[\w.\-]+/[\w.\-/]+@(v\d+|[0-9a-f]{40})"

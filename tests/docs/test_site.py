@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from tests.docs.pages import PAGES, ROOT, code, text_of
-from tests.reports.browser import chromium, requests, resize, scheme
+from tests.proofs.reports.browser import chromium, requests, resize, scheme
 
 BUILT = [f"{page.stem}.html" for page in PAGES if page.parent != ROOT]
 
