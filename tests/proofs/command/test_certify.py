@@ -16,8 +16,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 HEAD = (
-    "from fractions import Fraction\nfrom proofs import always, claim, equal, reals\nx, y ="
-    " reals('x y')\n"
+    "from fractions import Fraction\n"
+    "from juggleproof.proofs import always, claim, equal, reals\n"
+    "x, y = reals('x y')\n"
 )
 
 

@@ -14,7 +14,7 @@ from juggleproof.proofs.command import report
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports import contents as extras
 from juggleproof.proofs.reports import page
-from tests.proofs.reports.made import contents
+from tests.proofs.reports.runs import contents
 
 
 def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:

@@ -16,29 +16,27 @@ from functools import cache
 from multiprocessing import get_context
 
 from tests.proofs.paper.hypothesis_table import (
+    LICENSES,
+    NEEDED,
+    NOT_NEEDED,
     REASONS,
     TABLE,
+    UNDECIDED,
+    Hypothesis,
     Row,
     Table,
     certified,
     checked,
     digest,
     given_reasons,
-    is_meant,
-    read_table,
-    with_reasons,
-    write_table,
-)
-from tests.proofs.paper.search_needs import (
-    LICENSES,
-    NEEDED,
-    NOT_NEEDED,
-    UNDECIDED,
-    Hypothesis,
     hypotheses,
+    is_meant,
     is_not_needed,
     is_refuted,
+    read_table,
     search_need,
+    with_reasons,
+    write_table,
 )
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"

@@ -21,8 +21,7 @@ from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.certificates.votes.z3 import vote
 from juggleproof.certificates.work import Budget, Exhausted
-from tests.proofs.paper.independent import Independent
-from tests.proofs.paper.independent_outcomes import iterates_contradiction
+from tests.proofs.paper.independent import Independent, iterates_contradiction
 from tests.proofs.paper.statement_mutants import mutants
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"

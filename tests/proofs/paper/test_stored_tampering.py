@@ -22,7 +22,7 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import DEFAULT, Store
-from tests.proofs.paper.independent_outcomes import contradiction
+from tests.proofs.paper.independent import contradiction
 from tests.proofs.paper.statement_mutants import changes
 
 ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"

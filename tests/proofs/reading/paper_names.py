@@ -1,13 +1,38 @@
-"""The names of the paper in physical units, as an author of claims would give them meaning."""
+"""The displays of the paper, and the names in them."""
 
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates.language import Formula, Term, equal, reals, term
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.values import Matrix, Region, Scalar, StateFunction, Vector
+
+# -------------------------------------------------------------------------------------------------
+# The table of displays in displays.txt: as printed, and as transcribed beside the restored print.
+
+
+def _blocks() -> list[tuple[str, str]]:
+    text = Path(__file__).with_name("displays.txt").read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    blocks = "\n".join(lines).split("== ")[1:]
+    return [(where, body.strip()) for where, _, body in (block.partition("\n") for block in blocks)]
+
+
+AS_PRINTED = [(where, body) for where, body in _blocks() if "~~" not in body]
+RESTORED = [
+    (where, garbled.strip(), print_.strip())
+    for where, body in _blocks()
+    if "~~" in body
+    for garbled, _, print_ in [body.partition("~~")]
+]
+ALL = AS_PRINTED + [(where, print_) for where, _, print_ in RESTORED]
+
+
+# -------------------------------------------------------------------------------------------------
+# The names of the paper in physical units, as an author of claims would give them meaning.
 
 ALPHA, BETA, V, R, G, TIME, K, EPS, S, LAMBDA = reals("alpha beta v r g t K eps s mu")
 BETA0, V0 = reals("beta0 v0")

@@ -16,8 +16,7 @@ from juggleproof.proofs.reading.edits import ALTERNATIVES, mutations, one_mark_c
 from juggleproof.proofs.reading.lexer import PrintError
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.parser import parse
-from tests.proofs.reading.displays import ALL
-from tests.proofs.reading.paper_names import KINETIC, PAPER, WIDE, value_at
+from tests.proofs.reading.paper_names import ALL, KINETIC, PAPER, WIDE, value_at
 
 DROPPED = "_ is dropped with what it carries"
 SAME_CHANGE = r"\Delta E and \Delta_1 E have one meaning in these environments"

@@ -23,8 +23,7 @@ from juggleproof.proofs.reading.values import (
     StateFunction,
     Vector,
 )
-from tests.proofs.reading.displays import ALL
-from tests.proofs.reading.paper_names import BETA, KINETIC, PAPER, POINTS, WIDE, V, value_at
+from tests.proofs.reading.paper_names import ALL, BETA, KINETIC, PAPER, POINTS, WIDE, V, value_at
 
 Q = Fraction
 POINT = {

@@ -32,7 +32,7 @@ from juggleproof.proofs.reading.tree import (
     SetBuilder,
     Tree,
 )
-from tests.proofs.reading.displays import ALL, RESTORED
+from tests.proofs.reading.paper_names import ALL, RESTORED
 
 B, F, X = Name("b"), Name("f"), Name("x")
 E = Name("E")

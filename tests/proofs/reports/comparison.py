@@ -1,10 +1,4 @@
-r"""What LaTeX says against the statement text that it was made from, at random rational points.
-
-Formulas must have the same relations in the same places, with the same signs, and the sides of each
-relation must have equal values: truth alone would hardly ever tell an equation from another, nor a
-<= b from a < b.  `not` is driven down to the relations first, and chains and nested `and`, `or` are
-taken apart, so that x \ge w may stand for `not x < w`.
-"""
+"""The statements that reports print, and what LaTeX says against them."""
 
 from __future__ import annotations
 
@@ -12,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from hashlib import sha256
+from pathlib import Path
 from random import Random
 
 from tests.proofs.reports.latex_reader import read
@@ -30,6 +25,38 @@ from tests.proofs.reports.nodes import (
     value,
 )
 from tests.proofs.reports.statement_text import evaluate_statement_text, read_statement_text
+
+# -------------------------------------------------------------------------------------------------
+# The terms and formulas that the stored statements hold, each once: what reports print.
+
+STATEMENTS = Path(__file__).resolve().parents[3] / "certificates" / "store" / "statements.txt"
+SAYING = (
+    "range given have with show domain holds space rank stage on rate radius size point weights"
+    " start".split()
+)
+
+
+def texts() -> list[str]:
+    found: dict[str, None] = {}
+    for line in STATEMENTS.read_text(encoding="utf-8").splitlines():
+        keyword, _, rest = line.strip().partition(" ")
+        if keyword == "let":
+            found[rest.split(" = ")[1]] = None
+        elif keyword in SAYING:
+            found[rest] = None
+    return list(found)
+
+
+TEXTS = texts()
+
+
+# -------------------------------------------------------------------------------------------------
+# What LaTeX says against the statement text that it was made from, at random rational points.
+#
+# Formulas must have the same relations in the same places, with the same signs, and the sides of
+# each relation must have equal values: truth alone would hardly ever tell an equation from another,
+# nor a <= b from a < b.  `not` is driven down to the relations first, and chains and nested `and`,
+# `or` are taken apart, so that x \ge w may stand for `not x < w`.
 
 OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "=": "!=", "!=": "="}
 INTEGERS = ("K", "J", "n", "m", "k", "j")

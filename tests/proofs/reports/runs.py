@@ -1,12 +1,11 @@
-"""Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up
-ones.
-"""
+"""Runs and contents of reports, each made once for all tests."""
 
 from __future__ import annotations
 
 import shutil
 import tempfile
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,12 @@ from juggleproof.proofs.command.certify import Run, run
 from juggleproof.proofs.command.main import build_parser
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.page import Picture, build, pictures
 from juggleproof.proofs.reports.results import Results, results_of_run
+
+# -------------------------------------------------------------------------------------------------
+# Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up
+# ones.
 
 HEAD = (
     "from juggleproof.proofs import MapRule, always, claim, exists_some, reals\n"
@@ -61,7 +65,7 @@ def paper_run() -> Run:
 
 
 @cache
-def gathered() -> Contents:
+def contents() -> Contents:
     return gather()
 
 
@@ -78,3 +82,39 @@ def _results(done: Run, register: Mapping[str, Mapping[str, Any]] | None, **more
         rejected=more.pop("rejected", done.rejected),
         **more,
     )
+
+
+# -------------------------------------------------------------------------------------------------
+# The contents of a report, gathered once for all tests, and the page that is made of them.
+
+
+@cache
+def drawn() -> tuple[Picture, ...]:
+    return tuple(pictures(contents()))
+
+
+@cache
+def page() -> bytes:
+    return build(contents(), drawn())
+
+
+@cache
+def some_contents() -> Contents:
+    """One claim in six, all that the tree of the theorem and the tests name, and all of two
+    verdicts and two sections: a page that loads soon.
+    """
+    kept = [
+        entry
+        for k, entry in enumerate(contents().entries)
+        if k % 6 == 0
+        or entry.claim.id.startswith("theorem")
+        or entry.claim.id == "eq-37"
+        or entry.verdict in ("gap", "false")
+        or entry.claim.section in ("4.3.1", "A.2")
+    ]
+    return replace(contents(), entries=tuple(kept))
+
+
+@cache
+def page_of_some() -> bytes:
+    return build(some_contents())

@@ -16,7 +16,7 @@ from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.ci import badge, markdown
 from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json
 from juggleproof.proofs.reports.results import Results, results_of
-from tests.proofs.reports.runs import FALSE, OPEN, gathered, own, paper
+from tests.proofs.reports.runs import FALSE, OPEN, contents, own, paper
 
 DESCRIBED = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))
 ERRATUM = "eq-2"
@@ -76,7 +76,7 @@ def test_sharp_ranges_are_told_by_reading_holds() -> None:
 
 
 def test_report_and_run_write_the_same_document_holds() -> None:
-    assert as_json(gathered()) == as_json(paper())
+    assert as_json(contents()) == as_json(paper())
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_report_writes_what_a_run_would_holds(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(report, "gather", gathered)
+    monkeypatch.setattr(report, "gather", contents)
     assert report.report(wanted, tmp_path / "new") == 0
     assert [path.name for path in (tmp_path / "new").iterdir()] == [name] and (
         tmp_path / "new" / name

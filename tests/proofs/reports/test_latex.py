@@ -4,20 +4,13 @@ printer, and has the same values.
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.proofs.reports.contents import Contents, gather
 from juggleproof.proofs.reports.latex import latex_of, narrow, with_macros, without_macros
 from juggleproof.proofs.reports.words import formulas_of
 from tests.proofs.reports.comparison import differences
-
-
-@cache
-def contents() -> Contents:
-    return gather()
+from tests.proofs.reports.runs import contents
 
 
 def texts() -> list[str]:

@@ -15,7 +15,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.reports.latex import latex_of
 from juggleproof.proofs.reports.markup import FORMULAS, lines_of
 from juggleproof.proofs.reports.mathml import mathml
-from tests.proofs.reports.made import contents
+from tests.proofs.reports.runs import contents
 
 CHILDREN = {"mfrac": 2, "msup": 2, "msub": 2, "msubsup": 3, "mover": 2, "munder": 2, "msqrt": 1}
 LEAVES = {"mi", "mo", "mn", "mtext"}

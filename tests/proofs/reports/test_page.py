@@ -15,8 +15,8 @@ import pytest
 
 from juggleproof.proofs.reports.contents import Contents
 from juggleproof.proofs.reports.page import build
-from tests.proofs.reports.html_reader import Element, NotNested, read_html
-from tests.proofs.reports.made import contents, drawn, page
+from tests.proofs.reports.browser import Element, NotNested, read_html
+from tests.proofs.reports.runs import contents, drawn, page
 
 ROOT = Path(__file__).resolve().parents[3]
 

@@ -14,9 +14,8 @@ from typing import Any
 
 import pytest
 
-from tests.proofs.reports.browser import chromium, contrast, requests, resize, scheme
-from tests.proofs.reports.html_reader import read_html
-from tests.proofs.reports.made import page, page_of_some, some_contents
+from tests.proofs.reports.browser import chromium, contrast, read_html, requests, resize, scheme
+from tests.proofs.reports.runs import page, page_of_some, some_contents
 
 RULE = "rule-theorem-in-units/contracts"
 PREMISE = "premise-theorem-in-units/contracts.closer-1"

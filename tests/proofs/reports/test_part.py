@@ -16,8 +16,8 @@ from juggleproof.proofs import kept as records
 from juggleproof.proofs.reports import part
 from juggleproof.proofs.reports.page import build
 from juggleproof.proofs.reports.part import HEADS, Results, kept_results
-from tests.proofs.reports.html_reader import Element, read_html
-from tests.proofs.reports.made import contents
+from tests.proofs.reports.browser import Element, read_html
+from tests.proofs.reports.runs import contents
 
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8'

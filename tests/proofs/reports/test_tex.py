@@ -14,18 +14,14 @@ import pytest
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports import tex_words
-from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.contents import gather
 from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
+from tests.proofs.reports.runs import contents
 
 latex = pytest.mark.skipif(
     not (shutil.which("latexmk") and shutil.which("pdflatex")),
     reason="latexmk or pdflatex is absent",
 )
-
-
-@cache
-def contents() -> Contents:
-    return gather()
 
 
 @cache

@@ -1,16 +1,16 @@
-"""The scene iterates the very map that the proofs are about: its compiled text is the derived
-expression, and the checker's pieces say the same.
-"""
+"""What the scene takes from the derivations and the theorem: the map, and the trap."""
 
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Symbol, sympify
 
 from juggleproof.certificates.language import term
+from juggleproof.proofs.command.main import run
 from juggleproof.proofs.theorem.definition import FIXED, PIECES, TRAP, holds_at, value_of
 from juggleproof.proofs.theorem.orbits import SHEARED, from_the_fixed_point
 from juggleproof.scenes.juggler.exact import flight, flight_length, impact, later, strikes
@@ -27,6 +27,10 @@ from juggleproof.symbolic import (
     unscaling,
 )
 from juggleproof.symbolic.algebra import r
+
+# -------------------------------------------------------------------------------------------------
+# The scene iterates the very map that the proofs are about: its compiled text is the derived
+# expression, and the checker's pieces say the same.
 
 alphas = st.fractions(Fraction(1, 100), Fraction(99, 100), max_denominator=100)
 heights = st.fractions(0, 30, max_denominator=60)
@@ -121,3 +125,36 @@ def test_whole_flight_is_the_single_periods_holds(x: Fraction, w: Fraction, more
     assert strikes(*flight(x + more, w, high)) and (
         high == 0 or not strikes(*flight(x + more, w, high - 1))
     )
+
+
+# -------------------------------------------------------------------------------------------------
+# The trap of the scene, which holds for every alpha, is certified by the checker: it is mapped into
+# itself and every state of it strikes.
+
+CLAIM = '''from juggleproof.proofs import always, claim, reals
+
+a, x, w = reals("a x w")
+
+
+@claim("trap")
+def the_trap_is_invariant():
+    """The image of the trap under f1 lies in the trap."""
+    above, after = a * (w - x), 2 - a * w
+    trap = [a > 0, a < 1, x >= 0, x < w, a * w < 1, {third}]
+    kept = (a * after < 1) & (a * (2 - a * after) < 1)
+    return always((above >= 0) & (above < after) & kept, given=trap)
+'''
+
+
+def certified(third: str, folder: Path) -> int:
+    path = folder / "trap.py"
+    path.write_text(CLAIM.format(third=third), encoding="utf-8")
+    return run(["certify", str(path), "--routes", "exact", "--jobs", "1"])
+
+
+def test_trap_is_invariant_holds(tmp_path: Path) -> None:
+    assert certified("a * (2 - a * w) < 1", tmp_path) == 0
+
+
+def test_trap_is_invariant_fails_without_its_third_condition(tmp_path: Path) -> None:
+    assert certified("w > 0", tmp_path) == 1

@@ -1,6 +1,4 @@
-"""The compiled impact law is the derived one: exactly, in all five modes, where the corner does not
-slide at first, and where friction jams it.
-"""
+"""The impact law: as derived, and with its guarantees."""
 
 from __future__ import annotations
 
@@ -10,14 +8,21 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
+import numpy as np
 import pytest
 import sympy
 
 import juggleproof.symbolic as s
-from juggleproof.scenes.part import strike
+from juggleproof.scenes.part import body, fresh_notes, moving, scene, strike, table_one
+from juggleproof.scenes.part import strike as striking
 from juggleproof.scenes.part.body import plain
+from juggleproof.scenes.part.strike import impulse
 
-mode_of, first_slide, impulse = (
+# -------------------------------------------------------------------------------------------------
+# The compiled impact law is the derived one: exactly, in all five modes, where the corner does not
+# slide at first, and where friction jams it.
+
+mode_of, first_slide, plain_impulse = (
     plain(strike.mode_of),
     plain(strike.first_slide),
     plain(strike.impulse),
@@ -85,7 +90,7 @@ def test_impulse_is_the_derived_one_holds() -> None:
         if mode == strike.JAMMING:
             continue
         seen[MODES[mode] + (" from no sliding" if S0 == 0 else "")] += 1
-        assert list(impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)) == as_function(
+        assert list(plain_impulse(mode, S0, C0, B1, B2, B3, e, mu, sigma)) == as_function(
             "contact_impulse", MODES[mode]
         )(S0, C0, B1, B2, B3, e, mu, sigma)
     assert sum(seen.values()) >= 500 and all(seen[name] >= 20 for name in MODES.values()), seen
@@ -145,7 +150,7 @@ def test_corner_that_does_not_slide_at_first_slides_where_friction_fails_holds()
             given = (Fraction(0), Fraction(-1), Fraction(2), Fraction(2), B3, Fraction(1, 2), mu)
             sigma = first_slide(*(given[k] for k in (0, 2, 4, 6)))
             mode = mode_of(*given, sigma)
-            P_x, P_y = impulse(mode, *given, sigma)
+            P_x, P_y = plain_impulse(mode, *given, sigma)
             S = given[2] * P_x - B3 * P_y
             assert S == 0 if sticks is not False else S * B3 < 0, (B3, mu, S)
 
@@ -159,6 +164,79 @@ def test_mirror_image_of_an_impact_is_one_holds(sign: int) -> None:
         assert modes[0] == modes[1]
         if modes[0] != strike.JAMMING:
             (x, y), (left, up) = (
-                impulse(modes[0], *given, way) for given, way in zip((here, there), ways)
+                plain_impulse(modes[0], *given, way) for given, way in zip((here, there), ways)
             )
             assert (x, y) == (-left, up)
+
+
+# -------------------------------------------------------------------------------------------------
+# What the impact law guarantees holds at every one of a million impacts; and each count can fail: a
+# wrong law is noticed.
+
+SCENES: tuple[dict[str, Any], ...] = (
+    {"e": 0.7, "mu": 0.08},
+    {"e": 1.0, "mu": 1.3},
+    {"e": 0.9, "mu": 0.5},
+    {"e": 0.4, "mu": 0.2},
+    {"e": 0.0, "mu": 0.08},
+    {"e": 0.7, "mu": 0.08, "a": 0.005, "b": 0.01},
+    {"e": 0.8, "mu": 1.0, "a": 0.01, "b": 0.01},
+    {"e": 0.7, "mu": 0.0, "tolerance": 1e-9},
+    {"e": 0.95, "mu": 0.8, "a": 0.002, "b": 0.02},
+)
+
+
+def test_million_impacts_break_no_guarantee_holds() -> None:
+    impacts = 0.0
+    for given in SCENES:
+        block = scene(**given)
+        done = table_one(block, ensembles=1, horizon=3.0).run
+        impacts += done.notes[:, body.IMPACTS].sum()
+        assert (
+            done.violations() == dict.fromkeys(done.violations(), 0) and len(done.violations()) == 4
+        )
+        assert done.notes[:, body.LEAST_GAP].min() >= -block.tolerance
+    assert impacts >= 1e6
+
+
+def struck(law: Any, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """The notes of one impact by another law."""
+    block = scene(e=0.5, mu=0.3, A_y=0.0)
+    z, notes = moving(block, 0, 0.1, 0.3, 0.5, -0.5, 3.0)[0], fresh_notes(1)[0]
+    p, c, s = block.parameters(), np.cos(0.3), np.sin(0.3)
+    monkeypatch.setattr(striking, "impulse", law)
+    assert (
+        plain(striking.strike_at)(
+            p, z, body.corner_x(p, 0, c, s), body.corner_y(p, 0, c, s), 0.0, 0.0, notes
+        )
+        == body.DONE
+    )
+    return notes
+
+
+@pytest.mark.parametrize(
+    "wrong, counted",
+    [
+        (lambda x, y: (x, y), set()),
+        (lambda x, y: (x, -y), {body.PULLS, body.CONES, body.CLOSINGS, body.GAINS}),
+        (lambda x, y: (-4 * x, y), {body.CONES, body.GAINS}),
+        (lambda x, y: (x, 0.5 * y), {body.CLOSINGS}),
+        (lambda x, y: (3 * x, 3 * y), {body.GAINS}),
+        (lambda x, y: (0.0, 0.1 * y), {body.CLOSINGS}),
+    ],
+)
+def test_wrong_impulse_is_counted_holds(
+    wrong: Any, counted: set[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    notes = struck(lambda *given: wrong(*plain(impulse)(*given)), monkeypatch)
+    assert {
+        k for k in (body.PULLS, body.CONES, body.GAINS, body.CLOSINGS) if notes[k]
+    } == counted and notes[body.IMPACTS] == 1
+
+
+def test_violations_of_a_run_are_those_of_its_notes_holds() -> None:
+    done = table_one(scene(e=0.7, mu=0.08), ensembles=1, horizon=0.01).run
+    for column in (body.PULLS, body.CONES, body.GAINS, body.CLOSINGS):
+        done.notes[5, column] += 2
+        assert sum(done.violations().values()) == 2
+        done.notes[5, column] -= 2
