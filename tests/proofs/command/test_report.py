@@ -16,6 +16,8 @@ from juggleproof.proofs.reports import contents as extras
 from juggleproof.proofs.reports import page
 from tests.proofs.reports.runs import contents
 
+pytestmark = pytest.mark.usefixtures("kept_records")
+
 
 def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     assert run(["report", *arguments]) == 2
