@@ -8,6 +8,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
+from importlib import metadata
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -29,6 +30,17 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}; `{self.prog} --help` tells what it takes\n")
 
 
+class _Version(argparse.Action):
+    """Prints name and version, as installed."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        try:
+            print("juggleproof", metadata.version("juggleproof"))
+        except metadata.PackageNotFoundError:
+            parser.error("not installed, so that no version is known")
+        parser.exit()
+
+
 def _count(text: str) -> int:
     if not (text.isascii() and text.isdecimal() and len(text) <= 4000 and int(text)):
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number from 1 on")
@@ -44,6 +56,7 @@ def build_parser() -> argparse.ArgumentParser:
             " prints."
         ),
     )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     certify = commands.add_parser(

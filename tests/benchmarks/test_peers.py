@@ -14,7 +14,7 @@ import pytest
 from juggleproof.benchmarks import peers
 from juggleproof.benchmarks.peers import Clock
 from juggleproof.certificates.votes.questions import read_statement
-from tests.certificates.routes.corpus import STATEMENTS
+from tests.certificates.votes.corpus import STATEMENTS
 
 SECONDS = 60.0  # far more than any of them takes, also on a busy machine
 TRUE = ("square", "f1-in-H", "e1-in-B1", "collision-time", "B1-plus-not-empty", "sup-negative")

@@ -1,6 +1,4 @@
-"""The site: built without a warning, with formulas as MathML; it loads nothing from elsewhere and
-fits a phone.
-"""
+"""The site, and the picture of README.md."""
 
 from __future__ import annotations
 
@@ -14,8 +12,13 @@ from pathlib import Path
 
 import pytest
 
+from juggleproof.proofs.reports.figures import what_the_trap_shows
 from tests.docs.pages import PAGES, ROOT, code, text_of
-from tests.reports.browser import chromium, requests, resize, scheme
+from tests.proofs.reports.browser import chromium, requests, resize, scheme
+
+# -------------------------------------------------------------------------------------------------
+# The site: built without a warning, with formulas as MathML; it loads nothing from elsewhere and
+# fits a phone.
 
 BUILT = [f"{page.stem}.html" for page in PAGES if page.parent != ROOT]
 
@@ -70,3 +73,19 @@ def test_pages_fit_a_phone_and_follow_the_readers_colours_holds(site: Path) -> N
                     assert int(image.get_property("naturalWidth")) > 0, page
         asked = requests(driver)
         assert asked and not [one for one in asked if one.startswith("http")]
+
+
+# -------------------------------------------------------------------------------------------------
+# The picture of README.md is the one that the program draws, on white.
+
+
+def test_the_trap_is_what_the_program_draws_holds() -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    from juggleproof.scenes.figures import TABLE, drawing
+
+    slug = "fig-trap"
+    entry = next(one for one in TABLE if one.slug == slug)
+    drawn = drawing.svg(entry.draw(*what_the_trap_shows()), slug).decode()
+    on_white = drawn.replace("fill: none", "fill: #ffffff", 1)
+    committed = (ROOT / f"docs/img/{slug}.svg").read_text(encoding="utf-8")
+    assert committed == on_white, "run `make figure`"

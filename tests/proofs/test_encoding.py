@@ -4,9 +4,7 @@ derived.
 
 from __future__ import annotations
 
-import sys
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 import sympy
@@ -17,10 +15,7 @@ from juggleproof import symbolic
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.encoding import from_sympy
 from juggleproof.proofs.paper.names import encoded
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reading"))
-
-from paper_names import value_at
+from tests.proofs.reading.paper_names import value_at
 
 NAMES = sympy.symbols("x y alpha")
 RATIONALS = st.fractions(min_value=-5, max_value=5, max_denominator=7)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof.proofs.register import load_register
-from tests.reports.runs import FALSE, HOLDS, OPEN, file_with
+from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, file_with
 
 ROOT = Path(__file__).resolve().parents[2]
 Result = pytest.RunResult

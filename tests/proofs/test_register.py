@@ -19,7 +19,7 @@ from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.command import certify
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.register import PATH, Change, load_register
-from tests.reports.runs import FALSE, HOLDS, file_with
+from tests.proofs.reports.runs import FALSE, HOLDS, file_with
 
 Certify = Callable[..., int]
 

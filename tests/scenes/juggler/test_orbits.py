@@ -1,4 +1,4 @@
-"""Four arithmetics, one orbit: exact, in balls, with digits, and in bounded floats."""
+"""Orbits in four arithmetics, and what is between their samples."""
 
 from __future__ import annotations
 
@@ -12,15 +12,19 @@ from flint import arb
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler import boundary, grid, listed, orbit, physical, point, random, scene
 from juggleproof.scenes.juggler.bounded import RADIUS, radius_of
 from juggleproof.scenes.juggler.exact import flight, told
 from juggleproof.scenes.juggler.given import formulas, region
-from juggleproof.scenes.juggler.orbits import Row
+from juggleproof.scenes.juggler.orbits import Row, heights
 from juggleproof.scenes.juggler.tables import in_units
 
+# -------------------------------------------------------------------------------------------------
+# Four arithmetics, one orbit: exact, in balls, with digits, and in bounded floats.
+
 alphas = st.fractions(Fraction(1, 50), Fraction(49, 50), max_denominator=50)
-heights = st.fractions(0, 40, max_denominator=40)
+positions = st.fractions(0, 40, max_denominator=40)
 speeds = st.fractions(-12, 12, max_denominator=40)
 steps = st.integers(0, 40)
 
@@ -41,7 +45,7 @@ def bound_holds(fast: Row, exact: Row) -> bool:
 
 
 @settings(max_examples=60, deadline=None)
-@given(alpha=alphas, x=heights, w=speeds, count=steps, impacts=st.booleans())
+@given(alpha=alphas, x=positions, w=speeds, count=steps, impacts=st.booleans())
 def test_all_arithmetics_agree_with_exact_numbers_holds(
     alpha: Fraction, x: Fraction, w: Fraction, count: int, impacts: bool
 ) -> None:
@@ -75,7 +79,7 @@ def test_all_arithmetics_agree_with_exact_numbers_holds(
 
 
 @settings(max_examples=40, deadline=None)
-@given(alpha=alphas, x=heights, w=speeds, count=st.integers(0, 12))
+@given(alpha=alphas, x=positions, w=speeds, count=st.integers(0, 12))
 def test_whole_flights_and_leaps_equal_single_steps_holds(
     alpha: Fraction, x: Fraction, w: Fraction, count: int
 ) -> None:
@@ -240,3 +244,48 @@ def test_no_steps_leave_the_start_holds(kind: str) -> None:
         0,
         "reached",
     ) and math.isfinite(float(row.x))
+
+
+# -------------------------------------------------------------------------------------------------
+# Between samples the ball meets the table only where it is struck, and samples are the map's.
+
+restitutions = st.fractions(Fraction(1, 20), Fraction(19, 20), max_denominator=20)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    alpha=restitutions,
+    x=st.fractions(0, 9, max_denominator=9),
+    w=st.fractions(-4, 4, max_denominator=9),
+    r=st.fractions(Fraction(1, 3), 4, max_denominator=3),
+    g=st.fractions(Fraction(1, 3), 10, max_denominator=3),
+)
+def test_samples_are_the_map_and_the_ball_stays_above_the_table_holds(
+    alpha: Fraction, x: Fraction, w: Fraction, r: Fraction, g: Fraction
+) -> None:
+    setting, length = scene(alpha, point(x, w), r, g), 2 * r / g
+    found = heights(setting, [length * Fraction(k, 7) for k in range(5 * 7 + 1)])
+    kept = orbit(setting, "exact", 5, keep=True)
+    for row in kept.history(0):
+        here = found[7 * row.periods]
+        assert (here.ball, here.table) == (in_units(kept, row, "physical").x, 0)
+    assert all(one.ball >= one.table >= 0 for one in found)
+
+
+def test_ball_and_table_meet_at_an_impact_holds() -> None:
+    # x = 1/2, w = 2 at r = 1, g = 2 (so that T = 1): the table strikes at x/w = 1/4.
+    one = heights(scene("1/3", point("1/2", 2), 1, 2), ["1/4"])[0]
+    assert one.ball == one.table == Fraction(3, 16)
+
+
+def test_rejects_times_before_the_start() -> None:
+    setting = scene("1/3", point(0, 3))
+    for wrong, reason in (
+        (-1, "before the start"),
+        (float("nan"), "no finite number"),
+        ("x", "no finite number"),
+    ):
+        with pytest.raises(SceneError, match=reason):
+            heights(setting, [wrong])
+    with pytest.raises(SceneError, match="impacts"):
+        heights(setting, [10**9])

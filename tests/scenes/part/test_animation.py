@@ -21,8 +21,7 @@ from juggleproof.scenes.part import body, scene
 from juggleproof.scenes.part.animation import ANGLE, LENGTH, RATE, animation, digest, varied
 from juggleproof.scenes.part.ensemble import frames
 from juggleproof.scenes.part.picture import ANGLES, as_in_figure_two, lying
-from tests.reports.browser import chromium, requests, resize
-from tests.reports.html_reader import Element, read_html
+from tests.proofs.reports.browser import Element, chromium, read_html, requests, resize
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
 

@@ -18,7 +18,7 @@ from juggleproof.scenes.part import body, run, scene, standing
 from juggleproof.scenes.part import picture as p
 from juggleproof.scenes.part.picture import ANGLES, lying, pitch, place, rows
 from juggleproof.scenes.part.rest import side
-from tests.scenes.test_palette import DEFICIENCIES, apart, filled, lab, seen
+from tests.scenes.figures.test_drawing import DEFICIENCIES, apart, filled, lab, seen
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
 PathPatch = pytest.importorskip(

@@ -1,0 +1,48 @@
+"""The tests stand where what they test stands, and reach each other by name."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TESTS = ROOT / "tests"
+PACKAGES = ("symbolic", "certificates", "scenes", "proofs", "benchmarks")
+# What is no package: the house itself, the pages, the action; and the tables of rules, a folder of
+# cases for each rule of the checker, which is tested as one.
+OTHERS = {"house", "docs", "action", "certificates/checker", "certificates/checker/rules"}
+
+
+def sources() -> Iterator[tuple[Path, ast.Module]]:
+    for path in sorted(TESTS.rglob("*.py")):
+        yield path, ast.parse(path.read_text(encoding="utf-8"))
+
+
+def test_tests_mirror_the_packages_holds() -> None:
+    folders = {path.parent.relative_to(TESTS).as_posix() for path in TESTS.rglob("*.py")} - {"."}
+    assert {folder.split("/")[0] for folder in folders - OTHERS} == set(PACKAGES)
+    for folder in folders - OTHERS:
+        assert (ROOT / folder).is_dir(), f"tests/{folder} tests no folder of the packages"
+
+
+def test_no_test_touches_sys_path_holds() -> None:
+    for path, tree in sources():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Attribute):
+                assert ast.unparse(node) != "sys.path", f"{path}:{node.lineno}"
+            elif isinstance(node, ast.ImportFrom) and node.module == "sys":
+                assert "path" not in {alias.name for alias in node.names}, f"{path}:{node.lineno}"
+
+
+def test_tests_import_each_other_by_their_names_holds() -> None:
+    for path, tree in sources():
+        for node in ast.walk(tree):
+            if not isinstance(node, ast.ImportFrom):
+                continue
+            assert not node.level, f"{path}: a relative import"
+            if str(node.module).split(".")[0] == "tests":
+                place = ROOT / str(node.module).replace(".", "/")
+                assert place.with_suffix(".py").is_file() or place.is_dir(), (
+                    f"{path}: {node.module}"
+                )

@@ -1,0 +1,349 @@
+"""What a user can get wrong is answered by one clear line that names file, claim and mend; nothing
+is left half-written.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+HEAD = (
+    "from fractions import Fraction\n"
+    "from juggleproof.proofs import always, claim, equal, reals\n"
+    "x, y = reals('x y')\n"
+)
+
+
+def run(*arguments: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
+    return subprocess.run(
+        [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        env=environment,
+        timeout=240,
+        check=False,
+    )
+
+
+def claim_file(folder: Path, body: str, name: str = "mine", more: str = "") -> Path:
+    path = folder / "mine.py"
+    path.write_text(
+        f"{HEAD}{more}\n@claim({name!r})\ndef one():\n    '''It says so.'''\n    return {body}\n",
+        encoding="utf-8",
+    )
+    return path
+
+
+def certify(path: Path, *more: str) -> subprocess.CompletedProcess[str]:
+    return run("certify", str(path), "--routes", "exact", "--jobs", "1", *more)
+
+
+def test_true_claim_is_certified_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
+    done = certify(path)
+    assert done.returncode == 0, done.stderr
+    assert "1 holds" in done.stdout
+    bare = subprocess.run(
+        [
+            sys.executable,
+            "-I",
+            "-S",
+            str(ROOT / "certificates/checker"),
+            str(tmp_path / "mine.certificates"),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert bare.returncode == 0 and "1 certified" in bare.stdout
+
+
+def test_false_claim_is_refuted_with_an_exact_state_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x**2 > x, given=[x > 0])")
+    done = certify(path)
+    assert done.returncode == 1 and "1 false" in done.stdout
+    assert '"refuted"' in (tmp_path / "mine.certificates" / "certificates.jsonl").read_text(
+        encoding="utf-8"
+    )
+
+
+BAD = {
+    "float": ("always(x < 0.5)", "0.5 is not exact"),
+    "division": ("always(y / x < 3, given=[y < 1])", "division by what may vanish"),
+    "contradiction": ("always(x > 3, given=[x > 1, x < 0])", "hypotheses contradict"),
+    "no statement": ("x", "return always"),
+    "truth value": ("always(1 < x < 2)", "no truth value"),
+    "not exact": ("always(x < float('nan'))", "not exact"),
+}
+
+
+@pytest.mark.parametrize("defect", sorted(BAD))
+def test_rejects_claim_with(defect: str, tmp_path: Path) -> None:
+    body, reason = BAD[defect]
+    done = certify(claim_file(tmp_path, body))
+    assert done.returncode == 2, (done.stdout, done.stderr)
+    assert reason in done.stderr and "mine.py:" in done.stderr and "mine" in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1 and "Traceback" not in done.stderr
+    assert not (tmp_path / "mine.certificates").exists()
+
+
+def test_rejects_undeclared_symbol(tmp_path: Path) -> None:
+    body = "Statement('', ('x',), (), x < y)"
+    done = certify(claim_file(tmp_path, body, more="from juggleproof.proofs import Statement\n"))
+    assert done.returncode == 2 and "undeclared symbol y" in done.stderr
+
+
+def test_rejects_duplicate_name(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x < x + 1)")
+    path.write_text(
+        path.read_text(encoding="utf-8")
+        + "\n@claim('mine')\ndef two():\n    '''Again.'''\n    return always(x < x + 2)\n",
+        encoding="utf-8",
+    )
+    done = certify(path)
+    assert done.returncode == 2 and "two claims" in done.stderr
+
+
+def test_rejects_file_that_does_not_parse(tmp_path: Path) -> None:
+    path = tmp_path / "mine.py"
+    path.write_text("def (:\n", encoding="utf-8")
+    done = certify(path)
+    assert done.returncode == 2 and "mine.py:1: does not parse" in done.stderr
+
+
+def test_rejects_absent_file(tmp_path: Path) -> None:
+    done = certify(tmp_path / "absent.py")
+    assert done.returncode == 2 and "no such file" in done.stderr
+
+
+def test_rejects_unknown_claim_and_route(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x < x + 1)")
+    assert "no such claim" in certify(path, "--only", "other").stderr
+    done = run("certify", str(path), "--routes", "magic")
+    assert done.returncode == 2 and "choose from" in done.stderr
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser can write everywhere")
+def test_rejects_folder_that_cannot_be_written(tmp_path: Path) -> None:
+    folder = tmp_path / "closed"
+    folder.mkdir(mode=0o500)
+    done = certify(claim_file(tmp_path, "always(x < x + 1)"), "--store", str(folder / "store"))
+    assert done.returncode == 2 and "cannot be written" in done.stderr
+
+
+def test_rejects_store_that_is_a_file(tmp_path: Path) -> None:
+    (tmp_path / "store").write_text("", encoding="utf-8")
+    done = certify(claim_file(tmp_path, "always(x < x + 1)"), "--store", str(tmp_path / "store"))
+    assert done.returncode == 2 and len(done.stderr.strip().splitlines()) == 1, done.stderr
+
+
+def test_second_run_changes_no_byte_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
+    certify(path)
+    folder = tmp_path / "mine.certificates"
+    before = {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()}
+    certify(path)
+    assert {
+        file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()
+    } == before
+
+
+def test_number_of_processes_changes_no_byte_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
+    text = path.read_text(encoding="utf-8")
+    path.write_text(
+        text
+        + "\n@claim('two')\ndef two():\n    '''Squares.'''\n    return always(x**2 + 1 >= 2 * x)\n",
+        encoding="utf-8",
+    )
+    outputs = []
+    for jobs in ("1", "2"):
+        store = tmp_path / jobs
+        done = run("certify", str(path), "--routes", "exact", "--jobs", jobs, "--store", str(store))
+        assert done.returncode == 0, done.stderr
+        outputs.append(({file.name: file.read_bytes() for file in store.iterdir()}, done.stdout))
+    assert outputs[0] == outputs[1]
+
+
+def test_rejects_tampered_certificate(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
+    certify(path)
+    stored = tmp_path / "mine.certificates" / "certificates.jsonl"
+    good = stored.read_bytes()
+    for bad in (
+        good.replace(b'"2"', b'"3"'),
+        good[:-20],
+        good.replace(b'"psatz"', b'"magic"'),
+        b"[1.5]",
+        b"{" * 5000,
+    ):
+        stored.write_bytes(bad)
+        done = run("check", str(stored.parent))
+        assert (
+            done.returncode == 1
+            and "rejected" in done.stdout
+            and "mine" in done.stdout
+            and not done.stderr
+        )
+
+
+def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
+    certify(path)
+    folder = tmp_path / "mine.certificates"
+    before = {file.name: file.read_bytes() for file in folder.iterdir()}
+    slow = (
+        "\nimport time\n@claim('slow')\ndef slow():\n    '''Slow.'''\n    time.sleep(60)\n   "
+        " return always(x < x + 1)\n"
+    )
+    path.write_text(path.read_text(encoding="utf-8") + slow, encoding="utf-8")
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    process = subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "juggleproof.proofs.command.main",
+            "certify",
+            str(path),
+            "--jobs",
+            "2",
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        start_new_session=True,
+    )
+    time.sleep(4)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=30)
+    assert process.returncode == 130 and "interrupted" in error and "Traceback" not in error
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ("1 // 0", "mine raises ZeroDivisionError"),
+        ("MapRule(over='a')", "mine raises TypeError"),
+        ("exists_some([x], equal(x * x, 2))", "is no list of names"),
+        ("exists_some('x', equal(x * x, 2))", "is no list of names"),
+        ("always(x == y)", "equal(a, b)"),
+    ],
+)
+def test_rejects_claim_whose_function_fails(body: str, told: str, tmp_path: Path) -> None:
+    done = certify(
+        claim_file(tmp_path, body, more="from juggleproof.proofs import MapRule, exists_some")
+    )
+    assert (
+        done.returncode == 2
+        and told in done.stderr
+        and "mine.py:" in done.stderr
+        and len(done.stderr.splitlines()) == 1
+    ), done.stderr
+
+
+def test_rejects_file_that_ends_the_program(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * x >= 0)", more="raise SystemExit(0)")
+    done = certify(path)
+    assert done.returncode == 2 and "SystemExit" in done.stderr and "mine.py:4" in done.stderr, (
+        done.stderr
+    )
+
+
+def test_rejects_wrong_arguments_in_one_line(tmp_path: Path) -> None:
+    wrong = (
+        ["certify", "--jobs", "-1"],
+        ["certify", "--budget", "0"],
+        ["export", "lean", "eq-6"],
+        ["explain"],
+        [],
+        ["certify", str(tmp_path)],
+    )
+    for arguments in wrong:
+        done = run(*arguments)
+        assert done.returncode == 2 and not done.stdout and len(done.stderr.splitlines()) == 1, (
+            arguments,
+            done.stderr,
+        )
+
+
+RULES = '''from juggleproof.proofs import MapRule, claim
+
+
+@claim("mine")
+def every_orbit_tends_to_zero():
+    """x -> {parameter} x on [0, 1]: 0 is stable, and every orbit tends to it."""
+    domain = "{domain}"
+    return [MapRule("map", (("over", "{parameter}"), ("domain", domain), ("state", "x"),
+                            ("space", "0 <= x and x <= 1"),
+                            ("piece", "0 <= x -> {parameter}*x"))),
+            MapRule("near", (("map", "mine/map"), ("domain", domain), ("on", "0 <= x"),
+                             ("point", "0"), ("weights", "1"),
+                             ("rate", "{rate}"), ("radius", "1"), ("size", "1")))]
+'''
+
+
+@pytest.mark.parametrize(
+    ("parameter", "domain", "rate", "code", "shown"),
+    [
+        ("alpha", "0 < alpha and 2*alpha < 1", "alpha", 0, "at least 0 < alpha < 1/2"),
+        ("alpha", "0 < alpha and alpha^2 < 1/4", "1/2", 0, "at least 0 < alpha and alpha^2 < 1/4"),
+        ("a", "0 < a and a < 1", "a", 0, "no alpha"),
+        ("a", "0 < a and a < 1", "a/2", 1, "unknown"),
+    ],
+)
+def test_rules_of_a_map_of_ones_own_hold(
+    parameter: str, domain: str, rate: str, code: int, shown: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.py"
+    path.write_text(RULES.format(parameter=parameter, domain=domain, rate=rate), encoding="utf-8")
+    done = certify(path)
+    assert done.returncode == code and shown in done.stdout, done.stdout + done.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no file that is always full")
+@pytest.mark.parametrize(
+    "arguments",
+    [("bound", "x", "--box", "x=0..1", "--width", "0"), ("simulate", "juggler", "--word", "2")],
+)
+def test_rejects_standard_output_that_is_full(arguments: tuple[str, ...]) -> None:
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=ROOT,
+            timeout=240,
+            check=False,
+        )
+    assert (
+        done.returncode == 2
+        and "standard output cannot be written" in done.stderr
+        and len(done.stderr.splitlines()) == 1
+    ), done.stderr
+
+
+def test_a_closed_standard_output_changes_nothing_holds(tmp_path: Path) -> None:
+    command = (
+        f"{shlex.quote(sys.executable)} -m juggleproof.proofs.command.main"
+        " bound x --box x=0..1 --width 0 -o"
+        f" {shlex.quote(str(tmp_path / 'bound'))} >&-"
+    )
+    done = subprocess.run(
+        command, shell=True, stderr=subprocess.PIPE, text=True, cwd=ROOT, timeout=240, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "") and (
+        tmp_path / "bound" / "certificates.jsonl"
+    ).exists()

@@ -1,0 +1,82 @@
+"""`juggleproof report --format html` writes the page, or says in one line why it cannot, and leaves
+nothing half-written.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command import report
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.reports import contents as extras
+from juggleproof.proofs.reports import page
+from tests.proofs.reports.runs import contents
+
+pytestmark = pytest.mark.usefixtures("kept_records")
+
+
+def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    assert run(["report", *arguments]) == 2
+    shown = capsys.readouterr()
+    assert shown.out == "" and shown.err.startswith("juggleproof: ") and shown.err.count("\n") == 1
+    return shown.err
+
+
+def test_page_is_written_and_its_path_printed_holds(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(report, "gather", contents)
+    assert run(["report", "--format", "html", "-o", str(tmp_path / "new" / "folder")]) == 0
+    path = tmp_path / "new" / "folder" / "juggleproof.html"
+    assert capsys.readouterr().out == f"{path}\n"
+    assert [one.name for one in path.parent.iterdir()] == [
+        path.name
+    ] and path.read_bytes().startswith(b"<!DOCTYPE html>")
+
+
+def test_rejects_a_folder_that_cannot_be_made(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("as it was", encoding="utf-8")
+    assert "not a folder" in told(
+        capsys, "--format", "html", "-o", str(tmp_path / "file" / "below")
+    )
+    assert (tmp_path / "file").read_text(encoding="utf-8") == "as it was"
+
+
+def test_missing_library_is_told_and_nothing_written_holds(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def absent(name: str) -> Any:
+        raise ImportError(name)
+
+    monkeypatch.setattr(report, "gather", contents)
+    monkeypatch.setattr(page, "pictures", lambda contents: ())
+    monkeypatch.setattr(extras, "import_module", absent)
+    assert "jinja2 is needed for this report" in told(
+        capsys, "--format", "html", "-o", str(tmp_path / "there")
+    )
+    assert not (tmp_path / "there").exists()
+
+
+def test_figures_are_left_out_where_matplotlib_is_absent_holds(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(report, "gather", contents)
+    monkeypatch.setattr(report.importlib.util, "find_spec", lambda name: None)
+    assert run(["report", "--format", "html", "-o", str(tmp_path)]) == 0
+    assert "figures are left out" in capsys.readouterr().err
+    assert "<figure" not in (tmp_path / "juggleproof.html").read_text(encoding="utf-8")
+
+
+def test_rejects_a_formula_that_cannot_be_shown() -> None:
+    from dataclasses import replace
+
+    first = contents().entries[0]
+    broken = replace(first, claim=replace(first.claim, printed=r"\unheard{x}"))
+    with pytest.raises(ClaimError, match="cannot be shown as MathML"):
+        page.build(replace(contents(), entries=(broken,), rules=()))

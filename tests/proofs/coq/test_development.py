@@ -1,0 +1,175 @@
+"""The Coq development: compiled whole, on the axioms of the reals only, pinned to the table that it
+is written from.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from juggleproof.proofs.theorem import coq
+from juggleproof.proofs.theorem.coq import Attraction, Piece, current, statements
+from tests.proofs.coq.development import SOURCES, compiled, order
+
+# What Coq's standard Reals rest on; nothing else may be assumed.
+REALS = {
+    "ClassicalDedekindReals.sig_forall_dec",
+    "ClassicalDedekindReals.sig_not_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+}
+# One change in so many; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
+SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 3
+
+
+def test_every_source_is_compiled_holds() -> None:
+    assert sorted(order()) == sorted(path.name for path in SOURCES.glob("*.v"))
+
+
+def test_the_sources_admit_nothing_holds() -> None:
+    for path in SOURCES.glob("*.v"):
+        text = re.sub(r"\(\*.*?\*\)", "", path.read_text(), flags=re.DOTALL)
+        assert not re.search(
+            r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|give_up|Unset|bypass_check|Obligations?)\b",
+            text,
+        ), path
+        assert (
+            len(path.read_text().splitlines()) < 300
+            and max(map(len, path.read_text().splitlines())) <= 200
+        ), path
+
+
+def test_the_statements_are_those_of_the_table_holds() -> None:
+    assert (SOURCES / "Statements.v").read_bytes() == current().encode()
+
+
+def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: Path) -> None:
+    names = re.findall(
+        r"^(?:Theorem|Lemma) (\w+)", (SOURCES / "Statements.v").read_text(), flags=re.MULTILINE
+    )
+    rules = [
+        "Rules.descent",
+        "Rules.contraction",
+        "Rules.weighted_stability",
+        "Rules.stability",
+        "Rules.approach",
+        "Rules.convergence",
+        "Rules.periodic_orbit_stays_away",
+        "Lists.lists_contraction",
+        "Lists.lists_stability",
+        "Lists.lists_approach",
+        "Lists.lists_convergence",
+        "RulesInFull.attraction",
+    ]
+    asked = [f"Statements.{name}" for name in names] + rules
+    assert len(names) > 40
+    everything = ", ".join(f"@{name}" for name in asked)
+    text = (
+        "From Juggleproof Require Rules Lists RulesInFull Statements.\nDefinition everything :="
+        f" ({everything}).\nPrint Assumptions everything.\n"
+    )
+    result = compiled(development, "Asked.v", text)
+    assert result.returncode == 0 and result.stdout.startswith("Axioms:\n"), result.stderr
+    assert (
+        set(
+            re.findall(
+                r"^([\w.]+)\s*:", result.stdout.removeprefix("Axioms:\n"), flags=re.MULTILINE
+            )
+        )
+        == REALS
+    )
+
+
+def changed(**changes: object) -> Callable[[Attraction], Attraction]:
+    return lambda theorem: replace(theorem, **changes)  # type: ignore[arg-type]
+
+
+def stages(k: int, text: str) -> Callable[[Attraction], Attraction]:
+    return lambda theorem: replace(
+        theorem,
+        stages=tuple(
+            (name, text if i == k else was) for i, (name, was) in enumerate(theorem.stages)
+        ),
+    )
+
+
+def contraction(**changes: object) -> Callable[[Attraction], Attraction]:
+    return lambda theorem: replace(theorem, contraction=replace(theorem.contraction, **changes))  # type: ignore[arg-type]
+
+
+TABLES: dict[str, Callable[[Attraction], Attraction]] = {
+    "range": changed(given="0 < alpha and alpha < 1/2"),
+    "space": changed(space="0 < x"),
+    "first-image": lambda t: replace(
+        t, pieces=(Piece("x < w", ("alpha*w - x", "2 - alpha*w")), t.pieces[1])
+    ),
+    "second-image": lambda t: replace(t, pieces=(t.pieces[0], Piece("w <= x", ("x - w", "w + 1")))),
+    "region": lambda t: replace(
+        t, pieces=(Piece("w < x", t.pieces[0].images), Piece("x <= w", t.pieces[1].images))
+    ),
+    "second-region": lambda t: replace(t, pieces=(t.pieces[0], Piece("w < x", t.pieces[1].images))),
+    "point": lambda t: replace(t, point=(("e_x", "2*alpha/(alpha + 1)"), t.point[1])),
+    "root": changed(root=("u", "4*x + (w + 1)^2")),
+    "rank": changed(rank="2*u - (1 - w)/2"),
+    "first-stage": stages(0, "x < w and w < 7"),
+    "second-stage": stages(1, "0 < w and x + w <= 3"),
+    "trap": stages(2, "0 <= x and x < w and alpha*w < 2"),
+    "a-stage-less": lambda t: replace(t, stages=t.stages[1:]),
+    "weights": contraction(weights=("1", "2")),
+    "rate": contraction(rate="alpha"),
+    "radius": contraction(radius="1"),
+    "size": changed(size="1/2"),
+}
+
+
+@pytest.mark.parametrize("name", list(TABLES)[::SHARE])
+def test_rejects_a_changed_table(name: str, development: Path) -> None:
+    theorem = TABLES[name](coq.ball())
+    text = statements(
+        theorem,
+        coq.NEIGHBOURHOOD,
+        coq.other_orbit(),
+        coq.physical(),
+        coq.boundary_speed(),
+    )
+    assert text != current()
+    result = compiled(development, "Mutant.v", text)
+    assert result.returncode != 0 and "Error" in result.stderr
+
+
+TEXTS = {
+    "stronger-bound": ("<= rate alpha ^ k.", "<= rate alpha ^ (k + 1)."),
+    "earlier": ("rank s + 3 <= INR n", "rank s + 2 <= INR n"),
+    "wider-threshold": ("<-> alpha < 1 / 3.", "<-> alpha < 1 / 2."),
+    "wider-range": (
+        "Theorem global : forall alpha, 0 < alpha /\\ alpha < 1 / 3",
+        "Theorem global : forall alpha, 0 < alpha /\\ alpha <= 1 / 3",
+    ),
+    "iterate": ("| S k => f (iterate f k s)", "| S k => iterate f k s"),
+    "attracting": ("exists N, forall n, (N <= n)%nat ->", "exists N, forall n, (n <= N)%nat ->"),
+    "stable": ("dist s e < delta -> forall n,", "dist s e < delta -> exists n,"),
+    "dist": ("Rmax (Rabs (fst s - fst e))", "Rmin (Rabs (fst s - fst e))"),
+    "period": ("(2 * n) (e_2 alpha)", "(3 * n) (e_2 alpha)"),
+    "other-orbit": ("((6 * alpha - 2) /", "((6 * alpha - 1) /"),
+    "physical-map": (
+        "(beta * g + 2 * r * v - 2 * r ^ 2) / g, v - 2 * r",
+        "(beta * g + 2 * r * v - 2 * r ^ 2) / g, v - r",
+    ),
+    "physical-range": (
+        "Theorem physical_global : forall r g, 0 < r -> 0 < g ->",
+        "Theorem physical_global : forall r g, 0 <= r -> 0 < g ->",
+    ),
+    "greatest-energy": ("r ^ 2 * (alpha + 1) ^ 2 / (2 *", "r ^ 2 * (alpha + 1) ^ 2 / (3 *"),
+}
+
+
+@pytest.mark.parametrize("name", list(TEXTS)[::SHARE])
+def test_rejects_a_changed_statement(name: str, development: Path) -> None:
+    old, new = TEXTS[name]
+    assert old in current()
+    result = compiled(development, "Mutant.v", current().replace(old, new))
+    assert result.returncode != 0 and "Error" in result.stderr

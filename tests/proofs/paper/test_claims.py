@@ -1,0 +1,103 @@
+"""The claims, the ledger, the register, the store and the pages fit together."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.claims import VERDICTS
+from juggleproof.proofs.command import show
+from juggleproof.proofs.ledger.ledger import check_claims, load_ledger
+from juggleproof.proofs.register import changes, load_register
+from juggleproof.proofs.reports import pages
+from juggleproof.proofs.run import paper_claims
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def test_ledger_names_the_claims_there_are_holds() -> None:
+    check_claims(load_ledger(), {claim.id for claim in paper_claims()})
+
+
+def test_register_has_every_claim_holds() -> None:
+    register = load_register()
+    assert set(register) == {claim.id for claim in paper_claims()}
+    assert {entry["verdict"] for entry in register.values()} <= set(VERDICTS)
+
+
+def test_unknown_claims_await_a_theorem_holds() -> None:
+    for claim, entry in load_register().items():
+        assert entry["verdict"] != "unknown" or entry.get("detail", "").startswith("awaits "), claim
+
+
+def test_every_stored_statement_is_settled_by_the_checker_holds() -> None:
+    outcomes = {name: outcome for name, outcome, _ in checker.check_folder(str(DEFAULT))}
+    assert outcomes and "rejected" not in outcomes.values()
+    assert set(outcomes) == set(Store(DEFAULT).texts)
+
+
+def test_bare_checker_accepts_the_store_holds() -> None:
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "certificates/checker"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("page", pages.PAGES)
+def test_pages_show_the_register_holds(page: str) -> None:
+    assert pages.regenerated(page) == (ROOT / page).read_text(encoding="utf-8"), (
+        "run juggleproof certify --accept, which writes what is generated"
+    )
+
+
+@pytest.mark.parametrize("text", ["", "# Results\n", f"{pages.END}\n"])
+def test_rejects_a_page_without_marks(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pages, "ROOT", tmp_path)
+    (tmp_path / "README.md").write_text(text, encoding="utf-8")
+    with pytest.raises(ClaimError, match="README.md: the marks .* put them back"):
+        pages.regenerated("README.md")
+
+
+def test_repeated_prints_name_an_earlier_claim_holds() -> None:
+    seen: set[str] = set()
+    for claim in paper_claims():
+        assert not claim.repeats or claim.repeats in seen, (
+            f"{claim.id} repeats {claim.repeats}, which is no earlier claim"
+        )
+        seen.add(claim.id)
+
+
+def test_change_of_verdict_shows_before_and_after_holds() -> None:
+    before, after = (
+        {"a": {"verdict": "holds"}, "b": {"verdict": "gap"}},
+        {"a": {"verdict": "false"}},
+    )
+    assert changes(before, after, partial=True) == ["a: verdict was holds, is false"]
+    assert len(changes(before, after, partial=False)) == 2
+
+
+def test_no_sentence_of_a_claim_names_a_verdict_holds() -> None:
+    for claim in paper_claims():
+        assert claim.says.endswith((".", "?", ")")), claim.id
+
+
+def test_every_kind_of_claim_is_explained_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    for claim in [
+        *paper_claims()[::20],
+        *(c for c in paper_claims() if c.id in ("eq-10", "eq-37", "sA.3.2-sup3")),
+    ]:
+        assert show.explain(claim.id) == 0
+        told = capsys.readouterr().out
+        assert claim.id in told and "verdict" in told and "Term(" not in told, claim.id

@@ -1,0 +1,118 @@
+"""Every token of every print of the paper's claims matters."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError, Statement
+from juggleproof.proofs.claims import Claim, assertions, named_statements
+from juggleproof.proofs.reading.edits import mutations
+from juggleproof.proofs.reading.meaning import read
+from juggleproof.proofs.run import paper_claims
+
+# -------------------------------------------------------------------------------------------------
+# The judged content of a claim: its statements as formulas over polynomials, apart from how they
+# are written.
+
+
+def content(claim: Claim, latex: str) -> list[Any]:
+    """What would be judged if the claim's print were this LaTeX; equal lists mean the same
+    statements.
+
+    Raises ClaimError where the print is refused and checker.Rejected where the statement is.
+    """
+    body = claim.body(read(latex))
+    found: list[Any] = [type(body).__name__, getattr(body, "rescue", "")]
+    for prefix, assertion in assertions(body):
+        for part in named_statements(claim.id, prefix, assertion):
+            statement = checker.read_statements(part.text())[part.name]
+            if isinstance(part, Statement):
+                story = checker.Unfolding(statement, checker.Context())
+                goals = normal(list(story.goals))
+                said = (
+                    str(part.show) if goals in (("True",), ("False",)) else ""
+                )  # an identity folds to a constant, its relation with it
+                found.append(
+                    (part.name, normal(list(story.premises)), goals, relations(said), part.exists)
+                )
+            else:
+                found.append(part.text())
+    return found
+
+
+def relations(text: str) -> list[str]:
+    """The relation signs of a formula's text, in order."""
+    return re.findall(r"<=|>=|!=|[<>=]", text)
+
+
+def normal(formula: Any) -> Any:
+    """A formula with each polynomial as its sorted integer coefficients, up to a positive factor
+    (any factor for equations).
+    """
+    if isinstance(formula, bool):
+        return formula
+    if isinstance(formula, list):
+        return tuple(sorted(map(repr, map(normal, formula))))
+    if formula[0] == "atom":
+        content_, primitive = formula[1].primitive()
+        sign = 1 if content_ > 0 or formula[2] in ("=", "!=") else -1
+        return formula[2], tuple(sorted((m, sign * c) for m, c in primitive.terms.items()))
+    return formula[0], tuple(sorted(map(repr, map(normal, formula[1]))))
+
+
+# -------------------------------------------------------------------------------------------------
+# Every token of every print matters: a change is refused, changes what is judged, or is reviewed as
+# meaning the same.
+
+REVIEWED = Path(__file__).with_name("changes_that_mean_the_same.tsv")
+
+
+@cache
+def claims() -> dict[str, Claim]:
+    return {claim.id: claim for claim in paper_claims() if claim.printed}
+
+
+def reviewed() -> set[tuple[str, str]]:
+    rows = [
+        line.split("\t")
+        for line in REVIEWED.read_text(encoding="utf-8").splitlines()
+        if line and not line.startswith("#")
+    ]
+    assert all(len(row) == 3 and row[2] for row in rows), (
+        "each reviewed change has claim, changed print and reason"
+    )
+    return {(row[0], row[1]) for row in rows}
+
+
+def unnoticed(claim: Claim) -> list[tuple[str, str]]:
+    """The changes of a print that are neither refused nor change what is judged."""
+    same = []
+    original = content(claim, claim.printed)
+    for change, latex in mutations(claim.printed):
+        try:
+            if content(claim, latex) == original:
+                same.append((change, latex))
+        except (ClaimError, checker.Rejected) as refusal:
+            assert str(refusal), (claim.id, change)
+    return same
+
+
+@pytest.mark.parametrize("claim_id", sorted(claims()))
+def test_every_token_of_the_print_matters_holds(claim_id: str) -> None:
+    known = reviewed()
+    left = [
+        (change, latex)
+        for change, latex in unnoticed(claims()[claim_id])
+        if (claim_id, latex) not in known
+    ]
+    assert not left, f"{claim_id}: {len(left)} changes go unnoticed, the first: {left[0]}"
+
+
+def test_reviewed_changes_are_all_needed_holds() -> None:
+    assert all(claim in claims() for claim, _ in reviewed())

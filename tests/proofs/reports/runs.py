@@ -1,0 +1,120 @@
+"""Runs and contents of reports, each made once for all tests."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.command.certify import Run, run
+from juggleproof.proofs.command.main import build_parser
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.page import Picture, build, pictures
+from juggleproof.proofs.reports.results import Results, results_of_run
+
+# -------------------------------------------------------------------------------------------------
+# Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up
+# ones.
+
+HEAD = (
+    "from juggleproof.proofs import MapRule, always, claim, exists_some, reals\n"
+    "x, y = reals('x y')\n"
+)
+CLAIMS = {
+    "squares": "always(x * y <= (x**2 + y**2) / 2)",
+    "above": "always(x**2 > x, given=[x > 0])",
+    "negative-square": "exists_some(['y'], y * y < 0)",
+    # a map that leaves its space: rules are never refuted
+    "open": (
+        "MapRule('main', (('over', 'a'), ('domain', '0 < a'), ('state', 'x'), ('space', 'x <= 1'),"
+        " ('piece', 'x <= 1 -> x + a')))"
+    ),
+}
+HOLDS, FALSE, OPEN = ("squares",), ("squares", "above", "negative-square"), ("squares", "open")
+
+
+def file_with(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Path:
+    path = folder / "mine.py"
+    parts = [
+        f"@claim({name!r})\ndef one_{number}():\n    {says!r}\n    return {CLAIMS[name]}\n"
+        for number, name in enumerate(names)
+    ]
+    path.write_text(HEAD + "\n\n".join(parts), encoding="utf-8")
+    return path
+
+
+def options(*arguments: str) -> Any:
+    return build_parser().parse_args(["certify", "--jobs", "1", *arguments])
+
+
+def own(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Results:
+    return _results(run(options(str(file_with(folder, names, says)))), None)
+
+
+@cache
+def paper_run() -> Run:
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(DEFAULT, Path(folder) / "store")
+        return run(options("--store", str(Path(folder) / "store")))
+
+
+@cache
+def contents() -> Contents:
+    return gather()
+
+
+def paper(register: Mapping[str, Mapping[str, Any]] | None = None, **more: Any) -> Results:
+    return _results(paper_run(), load_register() if register is None else register, **more)
+
+
+def _results(done: Run, register: Mapping[str, Mapping[str, Any]] | None, **more: Any) -> Results:
+    return results_of_run(
+        done.claims,
+        done.judgements,
+        register,
+        theorem=done.theorem,
+        rejected=more.pop("rejected", done.rejected),
+        **more,
+    )
+
+
+# -------------------------------------------------------------------------------------------------
+# The contents of a report, gathered once for all tests, and the page that is made of them.
+
+
+@cache
+def drawn() -> tuple[Picture, ...]:
+    return tuple(pictures(contents()))
+
+
+@cache
+def page() -> bytes:
+    return build(contents(), drawn())
+
+
+@cache
+def some_contents() -> Contents:
+    """One claim in six, all that the tree of the theorem and the tests name, and all of two
+    verdicts and two sections: a page that loads soon.
+    """
+    kept = [
+        entry
+        for k, entry in enumerate(contents().entries)
+        if k % 6 == 0
+        or entry.claim.id.startswith("theorem")
+        or entry.claim.id == "eq-37"
+        or entry.verdict in ("gap", "false")
+        or entry.claim.section in ("4.3.1", "A.2")
+    ]
+    return replace(contents(), entries=tuple(kept))
+
+
+@cache
+def page_of_some() -> bytes:
+    return build(some_contents())

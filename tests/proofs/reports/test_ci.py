@@ -1,0 +1,370 @@
+"""JUnit, Markdown and the badge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from markdown_it import MarkdownIt
+
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.ci import (
+    BAD,
+    GOOD,
+    LIMIT,
+    NAME,
+    as_junit,
+    badge,
+    code,
+    escaped,
+    markdown,
+)
+from juggleproof.proofs.reports.results import Results
+from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, contents, own, paper
+
+# -------------------------------------------------------------------------------------------------
+# The JUnit report counts rightly, has the usual attributes only, and skips nothing.
+
+# What the schema that Jenkins publishes, and others follow, allows of what is used here.
+ATTRIBUTES = {
+    "testsuites": {"name", "time", "tests", "failures", "disabled", "errors"},
+    "testsuite": {
+        "name",
+        "tests",
+        "failures",
+        "errors",
+        "time",
+        "disabled",
+        "skipped",
+        "timestamp",
+        "hostname",
+        "id",
+        "package",
+    },
+    "testcase": {"name", "classname", "assertions", "time", "status"},
+    "failure": {"type", "message"},
+    "error": {"type", "message"},
+    "system-out": set(),
+}
+INSIDE = {
+    "testsuites": {"testsuite"},
+    "testsuite": {"testcase"},
+    "testcase": {"failure", "error", "system-out"},
+}
+
+
+def read(results: Results) -> ElementTree.Element:
+    content = as_junit(results)
+    assert content == as_junit(results) and content.startswith(b"<?xml")
+    root = ElementTree.fromstring(content)
+    assert root.tag == "testsuites"
+    for node in root.iter():
+        assert set(node.attrib) <= ATTRIBUTES[node.tag], node.tag
+        assert {child.tag for child in node} <= INSIDE.get(node.tag, set()), node.tag
+    suite = root[0]
+    cases = list(suite)
+    for counted in (root, suite):
+        assert int(counted.attrib["tests"]) == len(cases)
+        assert int(counted.attrib["failures"]) == sum(
+            case.find("failure") is not None for case in cases
+        )
+        assert int(counted.attrib["errors"]) == sum(
+            case.find("error") is not None for case in cases
+        )
+    assert suite.attrib["skipped"] == "0" and root.find(".//skipped") is None
+    assert all(
+        case.get("name")
+        and case.get("classname")
+        and len(case.findall("failure") + case.findall("error")) <= 1
+        for case in cases
+    )
+    return suite
+
+
+def found(suite: ElementTree.Element, kind: str) -> dict[str, str]:
+    return {
+        str(case.get("name")): str(node.get("message"))
+        for case in suite
+        for node in case.findall(kind)
+    }
+
+
+def test_paper_as_registered_has_no_failure_holds() -> None:
+    suite = read(paper())
+    assert (
+        len(suite) == len(load_register())
+        and not found(suite, "failure")
+        and not found(suite, "error")
+    )
+
+
+def test_report_and_run_write_the_same_holds() -> None:
+    assert as_junit(contents()) == as_junit(paper())
+
+
+def test_change_is_a_failure_with_before_and_after_holds() -> None:
+    register = load_register()
+    register["gone"], register["eq-2"] = {"verdict": "gap"}, {"verdict": "holds"}
+    del register["eq-1"]
+    suite = read(paper(register))
+    failures = found(suite, "failure")
+    assert set(failures) == {"gone", "eq-1", "eq-2"} and not found(suite, "error")
+    assert (
+        "verdict was holds, is misprint" in failures["eq-2"]
+        and "eq-2/main fails at " in failures["eq-2"]
+    )
+    assert (
+        "verdict was gap, is absent" in failures["gone"]
+        and "verdict was absent, is holds" in failures["eq-1"]
+    )
+    assert not found(read(paper(register, accepted=True)), "failure")
+
+
+def test_unknown_is_an_error_holds(tmp_path: Path) -> None:
+    suite = read(own(tmp_path, OPEN))
+    assert found(suite, "error") == {"open": "unknown: neither proved nor refuted"} and not found(
+        suite, "failure"
+    )
+
+
+def test_false_claim_of_ones_own_is_a_failure_holds(tmp_path: Path) -> None:
+    suite = read(own(tmp_path, FALSE))
+    assert set(found(suite, "failure")) == {"above", "negative-square"} and not found(
+        suite, "error"
+    )
+    assert found(suite, "failure")["above"] == "false; above/main fails at x = 1"
+
+
+def test_true_claims_of_ones_own_pass_holds(tmp_path: Path) -> None:
+    suite = read(own(tmp_path, HOLDS))
+    assert len(suite) == 1 and not found(suite, "failure") and not found(suite, "error")
+
+
+def test_rejected_statement_is_an_error_holds() -> None:
+    stated = paper().claims[0].statements[0].name
+    errors = found(
+        read(paper(rejected=[(stated, "the sum is not 0"), ("elsewhere/main", "no such kind")])),
+        "error",
+    )
+    assert set(errors) == {stated.split("/")[0], "elsewhere/main"}
+    assert (
+        f"the checker rejects {stated}: the sum is not 0" in errors[stated.split("/")[0]]
+        and "no such kind" in errors["elsewhere/main"]
+    )
+
+
+def test_docstring_that_xml_cannot_hold_is_written_all_the_same_holds(tmp_path: Path) -> None:
+    assert len(read(own(tmp_path, ("squares",), says="a\x01b\ud800c ]]> <&"))) == 1
+
+
+# -------------------------------------------------------------------------------------------------
+# The summary shows every text as it stands, says the most important first, and keeps to its limit.
+
+NASTY = (
+    "a|b",
+    "<script>alert(1)</script>",
+    "`code` ``two``",
+    "*bold* _it_ ~~no~~",
+    "[link](http://x.org) ![i](y)",
+    "# no heading",
+    "a\nb\n\n- c",
+    "&amp; &lt;",
+    r"\frac{1}{2} \| \\",
+    "$x$ $$y$$",
+    "</details>",
+    "<!-- hidden",
+    "--- | ---",
+    "1. one",
+    "@someone",
+    "|",
+    "`",
+    "\\",
+    "a`|`b",
+)
+
+
+class _Read(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.cells: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        self.tags.append(tag)
+        if tag in ("td", "th", "p"):
+            self.cells.append("")
+
+    def handle_data(self, data: str) -> None:
+        if self.cells:
+            self.cells[-1] += data
+
+
+def rendered(text: str) -> _Read:
+    reader = _Read()
+    reader.feed(MarkdownIt("commonmark").enable(["table", "strikethrough"]).render(text))
+    reader.cells = [cell.strip() for cell in reader.cells]
+    return reader
+
+
+@pytest.mark.parametrize("text", NASTY)
+def test_text_in_a_cell_is_shown_as_it_stands_holds(text: str) -> None:
+    read = rendered(f"| a | b |\n| --- | --- |\n| {escaped(text)} | end |\n")
+    assert read.cells == ["a", "b", " ".join(text.split()), "end"]
+    assert set(read.tags) == {"table", "thead", "tbody", "tr", "th", "td"}
+
+
+@pytest.mark.parametrize("text", NASTY)
+def test_code_is_shown_as_it_stands_holds(text: str) -> None:
+    read = rendered(f"so: {code(text)} end")
+    assert read.cells == [f"so: {' '.join(text.split())} end"] and read.tags == ["p", "code"]
+
+
+def test_dollars_and_ats_are_no_marks_of_github_holds() -> None:
+    assert "$" not in escaped("$x$") and "@" not in escaped("@someone")
+
+
+def headings(text: str) -> list[str]:
+    return [line for line in text.splitlines() if line.startswith("#")]
+
+
+def test_summary_of_the_paper_says_that_nothing_changed_holds() -> None:
+    results = paper()
+    text = markdown(results)
+    assert (
+        headings(text)[0] == "# The theorem is proved"
+        and "\n## Changes of verdicts since the register\n\nNo change.\n" in text
+    )
+    assert f"{len(load_register())} claims: " in text and "Unknown" not in text
+    assert text == markdown(results) == markdown(contents())
+    read = rendered(text)
+    assert read.tags.count("tr") == len(results.claims) + 1 and all(
+        any(one.id == cell for cell in read.cells) for one in results.claims
+    )
+    for one in results.claims:
+        assert not one.group or f"- **{escaped(one.id)}**" in text
+
+
+def test_changes_are_shown_before_and_after_holds() -> None:
+    register = load_register()
+    register["gone"], register["eq-2"] = (
+        {"verdict": "gap"},
+        {**register["eq-2"], "verdict": "holds"},
+    )
+    del register["eq-1"]
+    text = markdown(paper(register))
+    assert "## Changes of verdicts since the register (3)" in text and "No change" not in text
+    assert "| eq-2 | verdict | holds | misprint |" in text
+    assert (
+        "| gone | verdict | gap | no longer in the sources |" in text
+        and "| eq-1 | verdict | not registered | holds |" in text
+    )
+    assert "accepted into the register" in markdown(paper(register, accepted=True))
+
+
+def test_lost_theorem_is_told_first_holds() -> None:
+    lost = replace(
+        paper(), theorem="theorem: NOT proved; a/b is not certified, and t/exactly rests on it"
+    )
+    assert headings(markdown(lost))[
+        0
+    ] == "# The theorem is NOT proved" and "a/b is not certified" in markdown(lost)
+    assert headings(markdown(replace(lost, theorem="")))[0] == "# The theorem is NOT proved"
+
+
+def test_unknown_and_rejected_come_first_holds(tmp_path: Path) -> None:
+    text = markdown(own(tmp_path, OPEN))
+    assert headings(text) == ["# 1 of 2 claims holds", "## Unknown (1): neither proved nor refuted"]
+    stated = paper().claims[0].statements[0].name
+    found = headings(markdown(paper(rejected=[(stated, "the sum | is not 0")])))
+    assert [one.split(" (")[0] for one in found[:4]] == [
+        "# The theorem is proved",
+        "## Unknown",
+        "## Rejected by the checker",
+        "## Changes of verdicts since the register",
+    ]
+
+
+def test_false_claim_of_ones_own_is_told_with_its_counterexample_holds(tmp_path: Path) -> None:
+    text = markdown(own(tmp_path, FALSE))
+    assert (
+        "- **above**: false; It says so.; fails at `x = 1`" in text
+        and "register" not in text
+        and "paper" not in text
+    )
+
+
+def test_summary_keeps_to_the_limit_and_tells_what_is_left_out_holds() -> None:
+    one = paper().claims[0]
+    many = Results(
+        tuple(
+            replace(one, id=f"claim-{number}", says="é" * 5000, detail="x" * 5000)
+            for number in range(2000)
+        ),
+        own=True,
+    )
+    text = markdown(many)
+    assert len(text.encode()) <= LIMIT and text.count("<details>") == text.count("</details>")
+    assert "lines are left out" in text and "(5010 characters)" in text
+    assert "left out" not in markdown(paper())
+
+
+# -------------------------------------------------------------------------------------------------
+# The badge says what the verdicts say, in red where something is wrong, and loads nothing.
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def read_badge(results: Results) -> tuple[str, bool]:
+    """What the badge says, and whether it is green."""
+    content = badge(results)
+    assert content == badge(results)
+    root = ElementTree.fromstring(content)
+    title = root.find(f"{SVG}title")
+    assert title is not None and root.get("role") == "img" and root.get("aria-label") == title.text
+    assert {node.tag for node in root.iter()} == {
+        SVG + name for name in ("svg", "title", "rect", "path", "g", "text")
+    }
+    assert not any(
+        "href" in name or "url(" in value or "http" in value
+        for node in root.iter()
+        for name, value in node.attrib.items()
+    )
+    shown = [str(node.text) for node in root.iter(f"{SVG}text")]
+    assert ": ".join(shown) == title.text
+    fills = {node.get("fill") for node in root.iter(f"{SVG}path")}
+    assert fills in ({GOOD}, {BAD})
+    return shown[1], fills == {GOOD}
+
+
+def test_badge_of_the_paper_is_green_holds() -> None:
+    assert read_badge(paper()) == (
+        f"theorem proved, {len(load_register())} claims, 0 unknown",
+        True,
+    )
+    assert badge(contents()) == badge(paper())
+
+
+def test_badge_is_red_where_something_is_wrong_holds(tmp_path: Path) -> None:
+    register = {**load_register(), "eq-2": {"verdict": "holds"}}
+    stated = paper().claims[0].statements[0].name
+    for results, told in (
+        (paper(register), "1 changed"),
+        (replace(paper(), theorem=""), "theorem NOT proved"),
+        (paper(rejected=[(stated, "no")]), "1 unknown"),
+        (own(tmp_path, OPEN), "1 of 2 holds, 1 unknown"),
+    ):
+        said, is_green = read_badge(results)
+        assert told in said and not is_green
+    assert read_badge(own(tmp_path, HOLDS)) == ("1 of 1 holds, 0 unknown", True)
+
+
+@pytest.mark.parametrize("colour", [GOOD, BAD, NAME])
+def test_white_on_the_badge_is_legible_holds(colour: str) -> None:
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    red, green, blue = (
+        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts
+    )
+    assert 1.05 / (0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.05) >= 4.5

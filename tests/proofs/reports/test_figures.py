@@ -1,0 +1,201 @@
+"""Ranges as the results tell them are read whole; figures get what they show from the claims and
+from the theorem's definition.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from juggleproof.certificates.language import ClaimError, equal, reals
+from juggleproof.proofs.reports import figures
+from juggleproof.proofs.reports.words import read, rows, without_alpha
+
+F = Fraction
+RESULTS = Path(__file__).resolve().parents[3] / "docs/results.md"
+ROW = re.compile(r"\| <a.*</a>([\w.-]+) \| [^|]* \| \[?(\w+)[^|]* \| [^|]* \| `?([^|`]*)`? \|")
+
+
+def results() -> list[Any]:
+    """Entries as in the table of results: id, verdict and range."""
+    found = [ROW.fullmatch(line) for line in RESULTS.read_text(encoding="utf-8").splitlines()]
+    return [
+        SimpleNamespace(claim=SimpleNamespace(id=one[1]), verdict=one[2], sharp=one[3])
+        for one in found
+        if one
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("0 < alpha < 1/3", [("", [(F(0), F(1, 3), False, False)])]),
+        ("nowhere", [("", [])]),
+        ("1/3 <= alpha < 1", [("", [(F(1, 3), F(1), True, False)])]),
+        ("alpha = 1/3", [("", [(F(1, 3), F(1, 3), True, True)])]),
+        (
+            "0 < alpha <= 1/2 or alpha = 3/4",
+            [("", [(F(0), F(1, 2), False, True), (F(3, 4), F(3, 4), True, True)])],
+        ),
+        (
+            "rest-of-H: 0 < alpha < 1; as-in-11: nowhere",
+            [("rest-of-H", [(F(0), F(1), False, False)]), ("as-in-11", [])],
+        ),
+        (
+            "(K - 1)/(K + 1) <= alpha < K/(K + 2)",
+            [
+                ("K = 2", [(F(1, 3), F(1, 2), True, False)]),
+                ("K = 3", [(F(1, 2), F(3, 5), True, False)]),
+            ],
+        ),
+        (
+            "ceiling: alpha = (n - 1)/(n + 1) for a whole number n",
+            [
+                ("ceiling, n = 2", [(F(1, 3), F(1, 3), True, True)]),
+                ("ceiling, n = 3", [(F(1, 2), F(1, 2), True, True)]),
+            ],
+        ),
+        (
+            (
+                "a: 0 < alpha < c1; c1 = 0.25..., a root of 4*alpha - 1; b: 0 < alpha <= c1; c1 ="
+                " 0.5..., a root of 2*alpha - 1"
+            ),
+            [("a", [(F(0), F(1, 4), False, False)]), ("b", [(F(0), F(1, 2), False, True)])],
+        ),
+        ("floor: nowhere; sampled: not found", [("floor", []), ("sampled", None)]),
+    ],
+)
+def test_range_is_read_holds(text: str, expected: list[Any]) -> None:
+    assert read(text) == expected
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "alpha^2*eps > 1",
+        "0 < alpha < c1",
+        "0 < alpha < 1 where K = 2",
+        "0 < alpha < __import__('os')",
+        "alpha = 1/0",
+        "0 < alpha < 2**3",
+        "0 < alpha < 0.5",
+        "alpha = 1/3 and more",
+        "0 < alpha < )",
+    ],
+)
+def test_rejects_what_it_does_not_read(text: str) -> None:
+    assert [intervals for _, intervals in read(text)] == [None] * len(read(text))
+
+
+def test_every_range_of_the_results_is_read_holds() -> None:
+    entries = results()
+    told = rows(entries)
+    assert len(entries) > 250 and without_alpha(entries) > 50
+    assert {name for name, _, intervals in told if intervals is None} == {
+        name for name, _, intervals in told if name == "eq-26 (sampled)"
+    }
+    assert {name.split(" ")[0] for name, _, _ in told} | {
+        one.claim.id for one in entries if one.sharp == "no alpha"
+    } == {one.claim.id for one in entries}
+    assert ("theorem", "holds", [(F(0), F(1, 3), False, False)]) in told
+    assert all(
+        0 <= low <= high <= 1 for _, _, intervals in told for low, high, _, _ in intervals or []
+    )
+
+
+def test_trap_and_rank_are_those_of_the_theorem_holds() -> None:
+    from sympy import symbols
+
+    from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
+
+    alpha, u, w, x = symbols("alpha u w x")
+    rank, (root, square), margins = figures.what_the_trap_shows()
+    assert str(TO_THE_POINT.rank) == "2*u + (1 - w)/2" and rank.equals(2 * u + (1 - w) / 2)
+    assert root == u and square.equals(4 * x + (w - 1) ** 2)
+    assert str(TRAP) == "0 <= x and x < w and alpha*w < 1" and margins == [
+        (x, False),
+        (w - x, True),
+        (1 - alpha * w, True),
+    ]
+
+
+def test_rejects_a_margin_of_an_equation() -> None:
+    x, w = reals("x w")
+    with pytest.raises(ClaimError, match="no inequality"):
+        figures.margin(equal(x, w))
+    assert [figures.margin(one)[1] for one in (x < w, x <= w, x > w, x >= w)] == [
+        True,
+        False,
+        True,
+        False,
+    ]
+
+
+def test_term_becomes_the_same_expression_holds() -> None:
+    from sympy import Rational
+
+    x, w = reals("x w")
+    expression = figures.to_sympy(-((x - 3 * w) ** 2) / (w + F(1, 2)))
+    assert expression.subs({"x": 1, "w": 2}) == -25 / Rational(5, 2)
+
+
+def test_saved_figures_are_all_there_and_kept_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    contents: Any = SimpleNamespace(entries=results())
+    monkeypatch.setenv("JUGGLEPROOF_CACHE", str(tmp_path))
+    first = figures.saved(contents)
+    assert [one.slug for one in first] == [one.slug for one in figures.TABLE] and all(
+        one.data.startswith(b"<?xml") for one in first
+    )
+    assert (
+        sum(len(one.data) for one in first) < 500_000
+        and max(len(one.data) for one in first if one.slug != "fig-ranges") < 60_000
+    )
+    monkeypatch.setattr(figures, "figures", lambda contents: pytest.fail("drawn again"))
+    assert figures.saved(contents) == first
+
+
+def test_kept_figures_are_drawn_again_where_damaged_or_a_verdict_changed_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    monkeypatch.setenv("JUGGLEPROOF_CACHE", str(tmp_path))
+    drawn: list[Any] = []
+    monkeypatch.setattr(
+        figures,
+        "figures",
+        lambda contents: (
+            drawn.append(contents) or [(one.slug, "", "", "", None) for one in figures.TABLE]
+        ),
+    )
+    monkeypatch.setattr(figures, "_file", lambda figure, slug, form: slug.encode())
+    contents: Any = SimpleNamespace(entries=results())
+    assert figures.saved(contents) == figures.saved(contents) and len(drawn) == 1
+    (kept,) = tmp_path.glob("figures-svg-*.json")
+    kept.write_bytes(kept.read_bytes()[:-40])
+    figures.saved(contents)
+    assert len(drawn) == 2
+    contents.entries[0].sharp = "0 < alpha < 1/2"
+    figures.saved(contents)
+    figures.saved(contents, "pdf")
+    assert len(drawn) == 4
+
+
+def test_rejects_an_unknown_form() -> None:
+    with pytest.raises(ClaimError, match="'gif' is no form of figures"):
+        figures.saved(SimpleNamespace(entries=()), "gif")  # type: ignore[arg-type]
+
+
+def test_figures_fail_without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ClaimError, match="matplotlib is needed"):
+        figures.figures(SimpleNamespace(entries=()))  # type: ignore[arg-type]
