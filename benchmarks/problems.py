@@ -17,7 +17,8 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from juggleproof.benchmarks.peers import CVC5, Clock, has_cvc5, z3_command
+from juggleproof.benchmarks.peers import CVC5, has_cvc5, z3_command
+from juggleproof.benchmarks.processes import Clock
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.command.certify import draw, summary

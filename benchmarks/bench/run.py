@@ -29,7 +29,7 @@ from juggleproof.benchmarks.bench.methods import (
     Method,
 )
 from juggleproof.benchmarks.bench.questions import ALPHAS, questions
-from juggleproof.benchmarks.peers import end_with_children
+from juggleproof.benchmarks.processes import end_with_children
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 

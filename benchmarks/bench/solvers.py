@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.benchmarks.bench.answers import Answer, GaveUp, Problem, horner
-from juggleproof.benchmarks.peers import Clock
+from juggleproof.benchmarks.processes import Clock
 
 # -------------------------------------------------------------------------------------------------
 # The excess of a problem as a goal for Coq's tactic interval (Debian package libcoq-interval).
