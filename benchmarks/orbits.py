@@ -1,5 +1,7 @@
 """Orbits of the juggler: seconds by states and steps for each arithmetic, error against the exact
-orbit, memory.  Run: python benchmarks/orbits.py
+orbit, memory.
+
+    python -m juggleproof.benchmarks.orbits
 
 Slopes are of log seconds against log size, by least squares: 1 is linear, 0 is no growth.
 """
@@ -25,7 +27,7 @@ MEMORY = (10**6, 20)
 
 
 def seconds(setting: Any, *how: Any, **more: Any) -> tuple[float, Any]:
-    """The least of three runs of `orbit`, and what it gives."""
+    """The least seconds of three runs of `orbit`, and its result."""
     best, found = math.inf, None
     for _ in range(3):
         began = time.perf_counter()
@@ -42,7 +44,7 @@ def slope(sizes: Sequence[float], times: Sequence[float]) -> float:
 
 
 def error(kind: str, row: Any, exact: Any) -> str:
-    """How far the told state is from the exact one, beside the bound that is told of it."""
+    """The distance of a state from the exact one, and the bound that the run gives of it."""
     if row.end != "reached" or exact.end != "reached":
         return str(row.end or exact.end)
     values: tuple[Any, ...] = (row.x, row.w)
