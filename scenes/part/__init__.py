@@ -11,25 +11,12 @@ only when a name is first used.
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from juggleproof.symbolic.lazy import lazy_names
 
-_NAMES = {
-    "juggleproof.scenes.errors": ("SceneError"),
-    "juggleproof.scenes.part.setting": ("Scene scene standing moving"),
-    "juggleproof.scenes.part.ensemble": ("Run run fresh_notes"),
-    "juggleproof.scenes.part.onsets": ("Row Table table_one Point chosen misfit recorded sweep"),
+NAMES = {
+    "..errors": "SceneError",
+    ".setting": "Scene scene standing moving",
+    ".ensemble": "Run run fresh_notes",
+    ".onsets": "Row Table table_one Point chosen misfit recorded sweep",
 }
-_PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
-
-__all__ = sorted(_PLACE)
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _PLACE:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_PLACE[name]), name)
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *_PLACE})
+__all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)
