@@ -19,7 +19,7 @@ from typing import Any
 
 from juggleproof.scenes.juggler import orbit, point, random, scene
 from juggleproof.scenes.juggler.bounded import bytes_needed
-from juggleproof.scenes.juggler.exact import told
+from juggleproof.scenes.juggler.exact import as_fraction
 
 ALPHAS = ("3/10", "9/10")  # in the trap after a few impacts; out of it for long
 STEPS, STATES, RANDOM_STEPS = (100, 1000, 10000), (1000, 10000, 100000), 100
@@ -49,7 +49,7 @@ def error(kind: str, row: Any, exact: Any) -> str:
         return str(row.end or exact.end)
     values: tuple[Any, ...] = (row.x, row.w)
     if kind == "enclosed":
-        values = tuple(told(value.mid().fmpq()) for value in values)
+        values = tuple(as_fraction(value.mid().fmpq()) for value in values)
     elif kind == "mp":
         values = tuple(Fraction(str(value)) for value in values)
     off = max(abs(Fraction(value) - true) for value, true in zip(values, (exact.x, exact.w)))

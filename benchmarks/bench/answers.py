@@ -15,8 +15,8 @@ from typing import Any
 from juggleproof.certificates.search.small_boxes import Exponents, Terms, simple_points, value_at
 
 # -------------------------------------------------------------------------------------------------
-# Questions as plain data, which a process of its own can read without SymPy: the least upper
-# bound of a fraction of polynomials on a box.
+# Questions as plain data, which a process of its own can read without SymPy: the least upper bound
+# of a fraction of polynomials on a box.
 
 
 @dataclass(frozen=True)

@@ -31,8 +31,8 @@ def by_method(found: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
 
 
 def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
-    """The same measurement of work of this size, the answer being told as its distance from the
-    truth, which is then 0.
+    """The same measurement of work of this size, the answer being its distance from the truth,
+    which is then 0.
     """
     answer = one.answer
     if isinstance(answer, Answer):

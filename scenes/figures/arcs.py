@@ -1,4 +1,6 @@
-"""Derived expressions as numbers, and the arcs of parabolas that figures draw."""
+"""Derived expressions as numbers at the setting of the figures, and the arcs of parabolas that they
+draw.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How curves and regions are drawn."""
+"""The look of the figures, saved to the same bytes from run to run; and a plane to draw on."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ INK = "#222222"  # text, axes and whatever is no region; a page may put its own 
 
 @dataclass(frozen=True)
 class Look:
-    """How a region or its boundary is told: by colour (of Okabe and Ito), by hatch and by dashes,
-    so that none of them is needed alone.
+    """How a region or its boundary is distinguished: by colour (of Okabe and Ito), by hatch and by
+    dashes, so that none of them is needed alone.
     """
 
     colour: str
@@ -108,7 +108,7 @@ def svg(figure: Figure, slug: str) -> bytes:
 
 
 def _with_own_ids(text: str, slug: str) -> str:
-    """The same file in fewer bytes, ids told apart from those of other figures; glyphs, which it
+    """The same file in fewer bytes, ids distinct from those of other figures; glyphs, which it
     uses most, have the shortest ids.
     """
     text = text.replace("xlink:href=", "href=").replace(
@@ -171,8 +171,7 @@ def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
 # A plane with two axes in a figure: curves, areas, dots, arrows and words put on it.
 #
 # Lighter than matplotlib's Axes, whose ticks and layout cost more than all that is drawn here.
-# Curves
-# keep their own coordinates.
+# Curves keep their own coordinates.
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -285,23 +284,29 @@ class Plane:
             )
         )
 
-    def text(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
+    def text(self, at: Point, label: str, shift: Point = (0, 0), **more: Any) -> None:
         """Writes at a point of the plane, shifted by points of print, about its middle unless
         aligned otherwise.
         """
-        self.words(self.place(*at), said, shift, **more)
+        self.words(self.place(*at), label, shift, **more)
 
-    def words(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
+    def words(self, at: Point, label: str, shift: Point = (0, 0), **more: Any) -> None:
         """Writes at a place of the figure in points of print."""
         from matplotlib.text import Text
 
-        if not said:
+        if not label:
             return
         style = {"ha": "center", "va": "center", "transform": self.points, "zorder": 6, **more}
-        self.figure.add_artist(Text(at[0] + shift[0], at[1] + shift[1], said, **style))
+        self.figure.add_artist(Text(at[0] + shift[0], at[1] + shift[1], label, **style))
 
     def along(
-        self, arc: Arc, parameter: float, said: str, above: bool = True, gap: float = 3, **more: Any
+        self,
+        arc: Arc,
+        parameter: float,
+        label: str,
+        above: bool = True,
+        gap: float = 3,
+        **more: Any,
     ) -> None:
         """Writes along a curve, so many points above or below its point with the parameter."""
         x, y = self.place(*arc.at(parameter))
@@ -311,7 +316,7 @@ class Plane:
         side = gap if above else -gap
         self.words(
             (x, y),
-            said,
+            label,
             (-side * sin(angle), side * cos(angle)),
             rotation=degrees(angle),
             rotation_mode="anchor",
@@ -384,15 +389,20 @@ class Plane:
             if up
             else [[(left, bottom), (right, bottom)]]
         )
-        for value, said in across.items():
+        for value, number in across.items():
             x = self.place(value, 0)[0]
             lines.append([(x, bottom), (x, bottom - TICK)])
-            self.words((x, bottom), said, (0, -TICK - 3), va="top", fontsize=NUMBERS)
-        for value, said in up.items():
+            self.words((x, bottom), number, (0, -TICK - 3), va="top", fontsize=NUMBERS)
+        for value, number in up.items():
             y = self.place(0, value)[1]
             lines.append([(left, y), (left - TICK, y)])
             self.words(
-                (left, y), said, (-TICK - 3, 0), ha="right", va="center_baseline", fontsize=NUMBERS
+                (left, y),
+                number,
+                (-TICK - 3, 0),
+                ha="right",
+                va="center_baseline",
+                fontsize=NUMBERS,
             )
         self._patch(
             polylines(lines),

@@ -5,6 +5,17 @@ motion between samples.
 
     orbit(scene("3/10", point(1000, -41)), "exact", until_trap=True).row(0)
 
+In reading order:
+
+    given     the derived formulas as arithmetic, and numbers as they are given
+    starts    scenes, and the states from which orbits start
+    track     one orbit in any arithmetic: flights, impacts, the trap
+    exact     orbits in exact rationals and in mpmath numbers
+    bounded   orbits in Arb balls, and in float64 with proved bounds
+    orbits    the orbits of a scene, and the motion between samples
+    periodic  periodic orbits
+    tables    tables, pictures and hard cases
+
 Importing this package loads what it needs only when a name is first used.
 """
 

@@ -1,4 +1,4 @@
-"""Exact and mp numbers."""
+"""Orbits in exact rationals, not in lowest terms where that is faster, and in mpmath numbers."""
 
 from __future__ import annotations
 
@@ -16,13 +16,11 @@ from juggleproof.scenes.juggler.given import formulas
 from juggleproof.scenes.juggler.track import Sample, Stop, Track
 
 # -------------------------------------------------------------------------------------------------
-# Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of
-# alpha.
+# Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of alpha.
 #
 # An impact multiplies by alpha, so that on an orbit only k grows: sums and products of such numbers
 # need no greatest common divisor, which would take most of the time where the numbers have
-# thousands
-# of digits.  What has piled up of q above and below is taken out now and then.
+# thousands of digits.  What has piled up of q above and below is taken out now and then.
 
 RECENT = 16  # powers that are kept
 
@@ -141,11 +139,9 @@ def shortened(value: Ratio) -> Ratio:
 # Orbits in exact rationals.
 #
 # Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction, and
-# from
-# a few hundred on `Ratio`s, which are faster still; results are told as Fraction.  They grow by the
-# length of alpha with every impact, also in the trap, where the closed form is exact too.  They
-# stay
-# within a stated length, or the orbit ends there.
+# from a few hundred on `Ratio`s, which are faster still; results are given as Fraction.  They grow
+# by the length of alpha with every impact, also in the trap, where the closed form is exact too.
+# They stay within a stated length, or the orbit ends there.
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
 FEW_BITS, MANY_BITS = (
@@ -160,10 +156,10 @@ def lifted(value: Fraction) -> Any:
     return fmpq(value.numerator, value.denominator)
 
 
-def told(value: Any) -> Fraction:
+def as_fraction(value: Any) -> Fraction:
     """A rational of an exact orbit, or of python-flint, as a Fraction.
 
-    >>> told(lifted(Fraction(-2, 3)))
+    >>> as_fraction(lifted(Fraction(-2, 3)))
     Fraction(-2, 3)
     """
     value = lowest(value)

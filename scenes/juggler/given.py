@@ -1,4 +1,6 @@
-"""Given numbers, the derived formulas."""
+"""The map and its flights as arithmetic, compiled from the derived expressions; and numbers as they
+are given, taken exactly or refused.
+"""
 
 from __future__ import annotations
 

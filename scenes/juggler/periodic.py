@@ -1,4 +1,6 @@
-"""Periodic orbits."""
+"""Periodic orbits by the lengths of their flights: their states, and for which alpha they exist and
+attract.
+"""
 
 from __future__ import annotations
 
@@ -95,7 +97,7 @@ def roots_between(polynomials: Sequence[Any]) -> list[Root]:
     found = []
     for (low, high), owners in isolating([one.as_expr() for one in factors], strict=True):
         factor, ends = factors[next(iter(owners))], [low, high]
-        if factor.degree() == 1:  # a rational root, told as it is
+        if factor.degree() == 1:  # a rational root, as it is
             ends = [-factor.nth(0) / factor.nth(1)] * 2
         found.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
     return [
@@ -176,21 +178,15 @@ def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Rang
 # A word (K_1, .., K_m) means: an impact, then K_1 - 1 periods without one, an impact, and so on, m
 # impacts in K_1 + .. + K_m periods, and the state is back. From impact to impact the map is affine
 # with the matrix -alpha A^K, A unipotent; so the word's matrix is (-alpha)^m A^(K_1 + .. + K_m),
-# with
-# the eigenvalue (-alpha)^m twice, and for every alpha < 1 exactly one state comes back.  It is an
-# orbit of f where it is one of the word: each x >= 0, each impact at x < w, each period between at
-# x
-# >= w.  Along a flight w - x is a convex parabola of time: first and last period suffice. Inside
-# (no
-# state on x = w) f is that affine map near the orbit, whose spectral radius is alpha^m < 1: the
-# orbit
-# attracts a neighbourhood.
+# with the eigenvalue (-alpha)^m twice, and for every alpha < 1 exactly one state comes back.  It is
+# an orbit of f where it is one of the word: each x >= 0, each impact at x < w, each period between
+# at x >= w.  Along a flight w - x is a convex parabola of time: first and last period suffice.
+# Inside (no state on x = w) f is that affine map near the orbit, whose spectral radius is alpha^m <
+# 1: the orbit attracts a neighbourhood.
 #
 # Words that exist have no flight longer than (1 + alpha)/(1 - alpha): the flight K' after a flight
-# K
-# has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one that
-# is
-# not longer.  So for one alpha and one number of impacts the search is complete.
+# K has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one
+# that is not longer.  So for one alpha and one number of impacts the search is complete.
 
 Word = tuple[int, ...]
 Place = tuple[Fraction, Fraction]

@@ -5,6 +5,19 @@ with its corners, turns, and comes to rest.
 
     table_one(scene(e=0.7, mu=0.08))
 
+In reading order:
+
+    body       the compiler, and block and table as numbers
+    setting    a scene: what the paper gives and what is inferred
+    flight     free flight and the first contact
+    strike     impacts, and the forces that hold a block on the table
+    rest       lasting contact: on a face, or on a corner
+    motion     the orbit of one block
+    ensemble   many blocks
+    onsets     table I and sweeps
+    picture    figure 2
+    animation  the same in motion, as one HTML file
+
 Kernels are compiled by numba, the optional extra `part`; importing this package loads what it needs
 only when a name is first used.
 """

@@ -1,4 +1,4 @@
-"""Many blocks."""
+"""Many blocks at once: runs on any executor, frames for pictures, and blocks on a still table."""
 
 from __future__ import annotations
 
@@ -210,14 +210,12 @@ def watched(job: FrameJob) -> Array:
 
 
 # -------------------------------------------------------------------------------------------------
-# Blocks on a still table: on which face each comes to rest, and at which starting angle the two
-# are parted.
+# Blocks on a still table: on which face each comes to rest, and at which starting angle the two are
+# parted.
 #
 # Both are decided by geometry: a block that starts at rest on a corner falls to the side on which
-# its
-# centre is, and that is parted at atan(a/b). The paper says that 0 to 26 degrees go to 0 and 27 to
-# 90
-# degrees to 90; so the sides that it shows are as 1 to 2.
+# its centre is, and that is parted at atan(a/b). The paper says that 0 to 26 degrees go to 0 and 27
+# to 90 degrees to 90; so the sides that it shows are as 1 to 2.
 
 DEGREES = tuple(range(91))
 LAST_UPRIGHT, FIRST_LYING = 26, 27  # of the paper, in degrees

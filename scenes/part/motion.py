@@ -1,4 +1,4 @@
-"""The orbit of one block."""
+"""The orbit of one block: flights, impacts and contact in turn; and its places at given times."""
 
 from __future__ import annotations
 
