@@ -65,12 +65,8 @@ def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree
     (statement,) = checker.read_statements(problem.of_box(low, high)).values()
     excess, size = problem.excess(high), len(problem.names)
     bounds = [[2 * k, 2 * k + 1] for k in range(size) if any(e[k] for e in excess)]
-    node = [
-        "boxes",
-        2 * size + (1 if any(map(any, problem.under)) else 0) + 1,
-        bounds,
-        tree,
-    ]  # a denominator that is constant is no fact
+    # a denominator that is constant is no fact
+    node = ["boxes", 2 * size + (1 if any(map(any, problem.under)) else 0) + 1, bounds, tree]
     witness = [
         statement.name,
         [],

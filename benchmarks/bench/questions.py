@@ -191,11 +191,12 @@ def outside_region() -> tuple[Any, Any]:
     - 1 + 2 q, from x = w (q = 0) to x = 0 (q = 1).
     """
     U = sympy.Symbol("U")
+    # where x = 0, U is the speed
     edge = (
         (-symbolic.region_corner()[1] / r)
         .subs(sympy.sqrt(2 * alpha + 2), s)
         .subs(alpha, s**2 / 2 - 1)
-    )  # where x = 0, U is the speed
+    )
     speed = U - 1 + 2 * q
     height = root_of(symbolic.normal_energy() - U**2 / 2, x).subs(w, speed)
     return tuple(lowest_terms(one.subs(U, edge / p)) for one in (height, speed))

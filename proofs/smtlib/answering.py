@@ -237,9 +237,8 @@ def _searched(name: str, text: str, budget: int) -> dict[str, Any]:
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise
-        return {
-            "unknown": "its numbers grow too long for the search"
-        }  # beyond floats, or beyond what Python writes
+        # beyond floats, or beyond what Python writes
+        return {"unknown": "its numbers grow too long for the search"}
 
 
 def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:

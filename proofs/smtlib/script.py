@@ -21,6 +21,7 @@ from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Word
 from juggleproof.proofs.smtlib.terms import RESERVED, SORTS, Function, Reader, Value, brief, plain
 
 LOGICS = ("QF_NRA", "QF_LRA")
+# they ask for what is shown, and change nothing
 IDLE = frozenset(
     {
         "echo",
@@ -34,18 +35,15 @@ IDLE = frozenset(
         "get-unsat-core",
         "get-unsat-assumptions",
     }
-)  # they ask for what is shown, and change nothing
+)
 STATUSES = ("sat", "unsat", "unknown")
 
 
 # -------------------------------------------------------------------------------------------------
 # Names of a script in our language.
 
-OURS = OUR_RESERVED | {
-    "alpha",
-    "r",
-    "g",
-}  # the search gives these favoured values, as the paper's parameter and units have them
+# the search gives these favoured values, as the paper's parameter and units have them
+OURS = OUR_RESERVED | {"alpha", "r", "g"}
 
 
 def our_name(symbol: str, taken: Collection[str]) -> str:

@@ -354,9 +354,8 @@ class Reader:
     def _let(self, node: Node, scope: Scope) -> Value:
         self._arity(node, "let", len(node.items) - 1, 2, 2)
         bound = self.pairs(node.items[1], "let")
-        values = {
-            name: self.value(value, scope) for name, value in bound
-        }  # all at once: none of them sees another
+        # all at once: none of them sees another
+        values = {name: self.value(value, scope) for name, value in bound}
         return self.value(node.items[2], {**scope, **values})
 
     def pairs(self, node: Expression, what: str) -> list[tuple[str, Expression]]:

@@ -14,12 +14,16 @@ from typing import TYPE_CHECKING, Any, ParamSpec
 
 from juggleproof.scenes.figures.arcs import Arc, Point
 
-# -------------------------------------------------------------------------------------------------
-# How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
-# from run to run.
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from matplotlib.path import Path
+    from matplotlib.transforms import Transform
+
+# -------------------------------------------------------------------------------------------------
+# The look of figures.
+#
+# How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
+# from run to run.
 
 P = ParamSpec("P")
 INK = "#222222"  # text, axes and whatever is no region; a page may put its own text colour for it
@@ -46,9 +50,8 @@ LOSS = Look("#56B4E9", "///", (3, 1), tint=0.4, hatched=0.6)
 KEPT = Look("#D55E00", "", (4, 1.5, 1, 1.5))
 BAND = Look("#CC79A7", "|||", (2, 2), tint=0.4)
 PALETTE = {"B1": B1, "B2": B2, "R": R, "B1+": GAIN, "B1-": LOSS, "B10": KEPT, "K": BAND}
-PLAIN = Look(
-    INK, "////", tint=0.1, hatched=0.18
-)  # what is no region of the paper, or all of it: the table, H
+# what is no region of the paper, or all of it: the table, H
+PLAIN = Look(INK, "////", tint=0.1, hatched=0.18)
 TRAP = Look(INK, "|||", (3, 2), tint=0.16, hatched=0.15)
 
 STYLE = {
@@ -168,15 +171,12 @@ def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
+# The plane.
+#
 # A plane with two axes in a figure: curves, areas, dots, arrows and words put on it.
 #
 # Lighter than matplotlib's Axes, whose ticks and layout cost more than all that is drawn here.
 # Curves keep their own coordinates.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-    from matplotlib.path import Path
-    from matplotlib.transforms import Transform
 
 Sides = tuple[float, float]
 Box = tuple[float, float, float, float]  # left, bottom, width and height, in parts of the figure's

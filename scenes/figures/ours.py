@@ -17,24 +17,26 @@ from juggleproof.scenes.juggler.exact import flight, impact, strikes
 from juggleproof.symbolic import normal_e_1, root_of
 from juggleproof.symbolic.algebra import n, w, x
 
-# -------------------------------------------------------------------------------------------------
-# The trap, the levels of the rank and orbits that fall into the trap, in the normal form (x, w).
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# -------------------------------------------------------------------------------------------------
+# The trap and the rank.
+#
+# The trap, the levels of the rank and orbits that fall into the trap, in the normal form (x, w).
+
 HEIGHT, CLOSING = r"$x = \bar\beta\,/\,(\dot\rho_0 T)$", r"$w = 1 - \dot{\bar\beta}\,/\,\dot\rho_0$"
 ACROSS, UP = (-0.75, 8.2), (-4.3, 7.3)
+# where the orbits start
 STARTS = tuple(
     (Fraction(a), Fraction(b))
     for a, b in ((3, -3), (5, 0), (2, 6), (Fraction(1, 2), Fraction(-5, 2)))
-)  # of the orbits
+)
 LEVELS = range(1, 13)
 Point = tuple[Fraction, Fraction]
 Side = tuple[Point, Point, bool]  # its ends, and whether it is left out of the region
-Margin = tuple[
-    Any, bool
-]  # an expression in x and w that is positive inside, and whether it is so on the boundary too
+# an expression in x and w that is positive inside, and whether it is so on the boundary too
+Margin = tuple[Any, bool]
 
 
 def normal_step(height: Fraction, closing: Fraction) -> Point:
@@ -187,29 +189,20 @@ def draw_trap(plane: Plane, trap: Sequence[Margin]) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
+# The ranges of the claims.
+#
 # For each claim the restitutions on which it holds; claims with the same range share a bar.
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-Interval = tuple[
-    Fraction, Fraction, bool, bool
-]  # low, high, and whether each belongs to it; a single number is low = high
-Row = tuple[
-    str, str, "Sequence[Interval] | None"
-]  # claim (and reading), verdict, range; None where it cannot be drawn
+# low, high, and whether each belongs to it; a single number is low = high
+Interval = tuple[Fraction, Fraction, bool, bool]
+# claim (and reading), verdict, range; None where it cannot be drawn
+Row = tuple[str, str, "Sequence[Interval] | None"]
 Group = tuple[tuple[Interval, ...], list[Row]]
 
-WIDTH, LINE, GAP = (
-    5.6,
-    8.6,
-    4.0,
-)  # the figure's width in inches; a line of text, and what lies between rows, in points
-NAMES, LEFT, RIGHT = (
-    0.01,
-    0.445,
-    0.755,
-)  # where names start, and bars start and end, in parts of the width
+# the figure's width in inches; a line of text, and what lies between rows, in points
+WIDTH, LINE, GAP = 5.6, 8.6, 4.0
+# where names start, and bars start and end, in parts of the width
+NAMES, LEFT, RIGHT = 0.01, 0.445, 0.755
 MOST_NAMED = 11  # claims are named up to so many, then counted
 SMALL, HEAD = 7.0, 16.0  # the size of letters, and the room for the heads of the columns, in points
 APART = 0.016  # how far a bar stays from an end that does not belong to it

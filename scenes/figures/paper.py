@@ -52,17 +52,17 @@ from juggleproof.symbolic import (
 )
 from juggleproof.symbolic.algebra import t, z2
 
-# -------------------------------------------------------------------------------------------------
-# Figure 3: the boundary of R and its images under f, cut where f jumps.
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# -------------------------------------------------------------------------------------------------
+# Figure 3.
+#
+# The boundary of R and its images under f, cut where f jumps.
+
 STEPS = 6  # images shown, the boundary itself being the first
-WHOLE, CLOSE = (
-    ((0.0, 1.75), (-2.4, 2.4)),
-    ((0.0, 0.9), (-1.0, 0.2)),
-)  # the axes of the upper and of the lower row
+# the axes of the upper and of the lower row
+WHOLE, CLOSE = ((0.0, 1.75), (-2.4, 2.4)), ((0.0, 0.9), (-1.0, 0.2))
 
 
 @cache
@@ -145,11 +145,10 @@ def draw_image(plane: states.StatePlane, step: int) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figures 5 and 6: the half plane H of the states, and what the table does to them: B1 (it strikes
-# within the period) and B2 (it does not).
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Figures 5 and 6.
+#
+# The half plane H of the states, and what the table does to them: B1 (it strikes within the period)
+# and B2 (it does not).
 
 REGION_ACROSS, REGION_UP = (-0.35, 2.3), (-2.2, 2.2)
 REACH = 6.0  # beyond the right edge of the axes, in units of height
@@ -192,11 +191,9 @@ def strikes_and_flights() -> Figure:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figures 7, 8 and 11: energy levels, which flights keep to; the impacts that keep, gain and lose
-# energy.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Figures 7, 8 and 11.
+#
+# Energy levels, which flights keep to; the impacts that keep, gain and lose energy.
 
 LEVELS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)  # in units of the square of the launch speed
 ENERGY_UP = (-2.6, 2.6)
@@ -295,17 +292,14 @@ def gains_and_losses() -> Figure:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figures 9 and 10: the table alone, and the ball with the table, against time.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Figures 9 and 10.
+#
+# The table alone, and the ball with the table, against time.
 
 TIME = r"$t\,/\,T$"
 HEIGHT, VELOCITY = r"$\rho\,/\,(\dot\rho_0 T)$", r"$\dot\rho\,/\,\dot\rho_0$"  # of the table
-START = (
-    Fraction(9, 5),
-    Fraction(3, 5),
-)  # height and velocity as the ball starts, the table being at its lowest
+# height and velocity as the ball starts, the table being at its lowest
+START = (Fraction(9, 5), Fraction(3, 5))
 
 
 def against_time(height: Any, shift: Any, stop: Any, **values: Any) -> Arc:
@@ -427,18 +421,15 @@ def oscillator() -> Figure:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figures 12, 13 and 14: the region R, the point p that must lie outside it, and the band around e_1
-# in it.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Figures 12, 13 and 14.
+#
+# The region R, the point p that must lie outside it, and the band around e_1 in it.
 
 BOX = (0.135, 0.15, 0.84, 0.82)
 ACROSS, UP = (0.0, 1.9), (-2.6, 2.6)
 BEYOND = (-4.0, 4.0)  # beyond the lower and upper edges of the axes
-EPSILON = Fraction(
-    1, 32
-)  # of the band, in units of the square of the launch speed: a band of half width 1/4
+# of the band, in units of the square of the launch speed: a band of half width 1/4
+EPSILON = Fraction(1, 32)
 
 
 @styled

@@ -20,6 +20,8 @@ from juggleproof.scenes.juggler.starts import Goal, Scene
 from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 
 # -------------------------------------------------------------------------------------------------
+# Numbers in float64 with bounds.
+#
 # Arrays of float64 with a proved bound on their distance to the exact numbers (running error
 # analysis).
 #
@@ -148,6 +150,8 @@ def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
 
 
 # -------------------------------------------------------------------------------------------------
+# Orbits in balls.
+#
 # Orbits in balls that are proved to hold the exact state, at a precision that is raised until every
 # branch is decided.
 #
@@ -276,6 +280,8 @@ def _exactly(track: Track) -> Sample:
 
 
 # -------------------------------------------------------------------------------------------------
+# Orbits in float64 with bounds.
+#
 # Millions of orbits at once in float64, each with a proved bound on its error; what the bound
 # cannot decide is listed, not guessed.
 #
@@ -430,9 +436,8 @@ class _Chunk:
             return
         x, w, left = self.x.at(who), self.w.at(who), self.left[who]
         power = powers(-self.alpha, left)
-        number = Bounded(
-            left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52)
-        )  # whole floats are exact below 2^53
+        # whole floats are exact below 2^53
+        number = Bounded(left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52))
         x, w = formulas().later(x, w, *self.fixed, number, power)
         self.x.put(who, x)
         self.w.put(who, w)

@@ -16,6 +16,8 @@ from juggleproof.scenes.juggler.given import formulas
 from juggleproof.scenes.juggler.track import Sample, Stop, Track
 
 # -------------------------------------------------------------------------------------------------
+# Rationals not in lowest terms.
+#
 # Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of alpha.
 #
 # An impact multiplies by alpha, so that on an orbit only k grows: sums and products of such numbers
@@ -144,10 +146,8 @@ def shortened(value: Ratio) -> Ratio:
 # They stay within a stated length, or the orbit ends there.
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
-FEW_BITS, MANY_BITS = (
-    2**10,
-    2**16,
-)  # from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
+# from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
+FEW_BITS, MANY_BITS = 2**10, 2**16
 PLACES = 64  # binary, of what only guesses are made from
 
 
@@ -170,9 +170,8 @@ def _of_coprime() -> Callable[[int, int], Fraction]:
     """Fraction without its greatest common divisor, which takes seconds for a million digits and is
     1 here: fmpq is in lowest terms.
     """
-    quick: Callable[[int, int], Fraction] | None = getattr(
-        Fraction, "_from_coprime_ints", None
-    )  # from Python 3.12 on
+    # from Python 3.12 on
+    quick: Callable[[int, int], Fraction] | None = getattr(Fraction, "_from_coprime_ints", None)
     if quick is not None:
         return quick
     whole: Any = Fraction
@@ -297,9 +296,8 @@ def flight_length(x: Fraction, w: Fraction) -> int:
     if strikes(x, w):
         return 0
     b, square = formulas().end_of_flight(x, w)
-    length = max(
-        (isqrt(square // 1) - b) // 2 + 1, 1
-    )  # not above the length, and at most one below
+    # not above the length, and at most one below
+    length = max((isqrt(square // 1) - b) // 2 + 1, 1)
     while not strikes(*flight(x, w, length)):
         length += 1
     if length > 1 and strikes(*flight(x, w, length - 1)):
@@ -322,7 +320,9 @@ def later(alpha: Fraction, x: Fraction, w: Fraction, periods: int) -> tuple[Frac
 
 
 # -------------------------------------------------------------------------------------------------
-# Orbits in mpmath numbers of so many digits: fast to ask for any precision, and nothing is proved.
+# Orbits in mpmath numbers.
+#
+# Numbers of so many digits: fast at any precision, and nothing is proved.
 #
 # Branches are decided by the rounded state.  The length of a flight is that of the rounded state
 # exactly, by whole square roots.

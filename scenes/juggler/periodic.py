@@ -21,6 +21,8 @@ from juggleproof.symbolic import normal_f1, normal_flight_power, normal_margin, 
 from juggleproof.symbolic.algebra import K, alpha, w, x
 
 # -------------------------------------------------------------------------------------------------
+# Conditions on alpha.
+#
 # For which alpha in (0, 1) polynomial conditions hold, exactly: isolated real roots, and signs
 # between and at them.
 
@@ -172,6 +174,8 @@ def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Rang
 
 
 # -------------------------------------------------------------------------------------------------
+# Periodic orbits.
+#
 # Periodic orbits by the lengths of their flights: where they are, for which alpha they exist, and
 # whether they attract.
 #
@@ -270,11 +274,8 @@ def _back_again(at: Fraction, word: Word) -> Place:
 
     zero, one = Fraction(0), Fraction(1)
     (c, d), (a, _), (b, e) = (image(place) for place in ((zero, zero), (one, zero), (zero, one)))
-    a, b, e = (
-        a - c,
-        b - c,
-        e - d,
-    )  # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
+    # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
+    a, b, e = a - c, b - c, e - d
     speed = d / (1 - e)
     return (b * speed + c) / (1 - a), speed
 

@@ -26,8 +26,10 @@ from juggleproof.scenes.juggler.given import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# Starting states by number: listed, on a grid, on the boundary of R, random, in arrays; each an
-# exact rational state, in floats on demand.
+# Starting states by number.
+#
+# Listed, on a grid, on the boundary of R, random, in arrays; each an exact rational state, in
+# floats on demand.
 #
 # All in normal form: x the height in units of r T, w the closing speed in units of r; x >= 0.
 # Whatever the number of states, only those asked for are made.
@@ -431,9 +433,8 @@ def boundary(alpha: Number, count: int) -> OnBoundary:
     counted(count, "the number of states", 2, 10**6)
     level = region()(at)
     fine = 10**6
-    reach = Fraction(
-        isqrt(int(2 * level * fine**2)), fine
-    )  # at most the root of 2 E, so that x >= 0
+    # at most the root of 2 E, so that x >= 0
+    reach = Fraction(isqrt(int(2 * level * fine**2)), fine)
     added = formulas().energy(Fraction(1), Fraction(1)) - formulas().energy(
         Fraction(0), Fraction(1)
     )

@@ -22,7 +22,12 @@ from juggleproof.scenes.juggler.given import brief, formulas, nearest
 from juggleproof.scenes.juggler.orbits import Orbits, Row, heights, orbit
 from juggleproof.scenes.juggler.starts import Scene, point, scene
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 # -------------------------------------------------------------------------------------------------
+# Tables.
+#
 # Orbits as tables: rows of text in either system of units, CSV, and arrays of floats with bounds.
 
 UNITS = ("normal", "physical")
@@ -232,11 +237,10 @@ def as_npz(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:
 
 
 # -------------------------------------------------------------------------------------------------
+# Pictures.
+#
 # Pictures of orbits: ball and table against time, or the states of many orbits in the plane of x
 # and w.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MOST_PERIODS, A_PERIOD, MOST_DOTS = 40, 32, 5000
 
@@ -326,6 +330,8 @@ def in_the_plane(orbits: Orbits) -> Figure:
 
 
 # -------------------------------------------------------------------------------------------------
+# Hard cases.
+#
 # The cases at which floats go wrong or might, each followed in plain float64, exactly, in bounded
 # float64 and in balls.
 

@@ -80,6 +80,8 @@ def plain(function: Kernel) -> Kernel:
 
 
 # -------------------------------------------------------------------------------------------------
+# The block and the table.
+#
 # The block and the table as numbers for the kernels: what their parameters, states and counts are
 # called, and where corners and table are.
 #

@@ -16,7 +16,9 @@ from juggleproof.scenes.part import body
 from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
-# Many blocks at once: chunks of them on any executor of `concurrent.futures`; the results do not
+# Runs.
+#
+# Many blocks at once, chunks of them on any executor of `concurrent.futures`; the results do not
 # depend on which.
 
 CHUNK = 91
@@ -137,6 +139,8 @@ def each(
 
 
 # -------------------------------------------------------------------------------------------------
+# Frames.
+#
 # Many blocks at given times, for pictures: all of one orbit each, which is not stopped at them.
 
 MOST_STATES = 5_000_000
@@ -210,6 +214,8 @@ def watched(job: FrameJob) -> Array:
 
 
 # -------------------------------------------------------------------------------------------------
+# A still table.
+#
 # Blocks on a still table: on which face each comes to rest, and at which starting angle the two are
 # parted.
 #

@@ -24,6 +24,8 @@ from juggleproof.scenes.part.ensemble import Job, Run, each, fresh_notes, joined
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
+# Table I.
+#
 # Table I of the paper: from when on all 91 blocks lie, for six vibrations along the table; with one
 # (e, mu) for all, over jittered ensembles.
 #
@@ -142,6 +144,8 @@ def judged(row: tuple[float, float, float | None], notes: list[Array], horizon: 
 
 
 # -------------------------------------------------------------------------------------------------
+# Sweeps.
+#
 # Table I over a grid of restitution and friction, which the paper does not give; and the choice of
 # one pair for all rows, by a stated rule.
 
@@ -281,15 +285,14 @@ def recorded() -> tuple[Point, ...]:
 
 
 # -------------------------------------------------------------------------------------------------
+# Assumptions.
+#
 # What the paper gives of its simulation, what is inferred and what is chosen here; and where the
 # results differ.
 
 Standing = Literal["given", "inferred", "chosen"]
-FACES = {
-    "2x4": (0.01, 0.02),
-    "1x2": (0.005, 0.01),
-    "1x4": (0.005, 0.02),
-}  # half sides in metres of the block's face in the plane
+# half sides in metres of the block's face in the plane
+FACES = {"2x4": (0.01, 0.02), "1x2": (0.005, 0.01), "1x4": (0.005, 0.02)}
 AMPLITUDES = {"peak": 1.0, "peak-to-peak": 0.5}
 
 
@@ -384,6 +387,8 @@ def discrepancies(rows: tuple[Row, ...]) -> list[str]:
 
 
 # -------------------------------------------------------------------------------------------------
+# Files.
+#
 # Table I and sweeps as files: CSV with a line an ensemble, and NumPy arrays; the same to the byte
 # from run to run.
 

@@ -28,7 +28,12 @@ from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import frames
 from juggleproof.scenes.part.setting import Array, Scene
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 # -------------------------------------------------------------------------------------------------
+# Layout.
+#
 # How 91 blocks are laid out in a picture: rows of ten from front to back, as in figure 2; and which
 # of them are nearer to lying.
 #
@@ -81,11 +86,9 @@ def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figure 2: where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by
-# side.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Figure 2.
+#
+# Where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by side.
 
 SLUG = "fig-2"
 TITLE = "Figure 2. Ninety-one blocks on the vibrating table"

@@ -56,8 +56,10 @@ from juggleproof.scenes.part.flight import safe_step
 from juggleproof.scenes.part.strike import first_turn, hold, stay, strike
 
 # -------------------------------------------------------------------------------------------------
-# Which way up a block is, and what is noted of it: nearer to upright or to lying, since when, and
-# how often it changed.
+# Which way up.
+#
+# Which way up a block is, as it is noted: nearer to upright or to lying, since when, and how often
+# it changed.
 #
 # The two are parted where a block, tilted on a corner, has its centre above that corner: at
 # atan(a/b) from upright.
@@ -83,9 +85,8 @@ def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, the
         step = 1 if after > before else -1
         last = t0
         for k in range(before, after, step):
-            edge = (
-                k if step == 1 else k - 1
-            )  # the boundary between the sides k and k + step, after side `edge`
+            # the boundary between the sides k and k + step, after side `edge`
+            edge = k if step == 1 else k - 1
             angle = (edge // 2) * pi + split if edge % 2 == 0 else (edge // 2 + 1) * pi - split
             last = min(max(t0 + (t1 - t0) * (angle - theta0) / (theta1 - theta0), t0), t1)
             if last >= notes[SINCE]:
@@ -98,6 +99,8 @@ def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, the
 
 
 # -------------------------------------------------------------------------------------------------
+# On a face.
+#
 # A block whose face lies on the table: it sticks or slides, until the table falls away, friction
 # fails, sliding stops, or the block tips.
 #
@@ -256,6 +259,8 @@ def tip(p: Floats, z: Floats, push: float) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
+# Steps of a pivot.
+#
 # The steps of a block that pivots on one corner, and the moment at which its phase ends: by Runge
 # and Kutta, and by a safeguarded secant.
 #
@@ -300,9 +305,8 @@ def pivoted(
             spin,
         )
     c, s = cos(after), sin(after)
-    foot = (
-        x + corner_x(p, i, cos(theta), sin(theta)) - table_place(p, t)
-    )  # where the corner sticks on the table
+    # where the corner sticks on the table
+    foot = x + corner_x(p, i, cos(theta), sin(theta)) - table_place(p, t)
     return (
         foot + table_place(p, t + h) - corner_x(p, i, c, s),
         table_glide(p, t + h) + spin * corner_y(p, i, c, s),
@@ -409,6 +413,8 @@ def end_of(
 
 
 # -------------------------------------------------------------------------------------------------
+# On one corner.
+#
 # A block that pivots on one corner, which sticks or slides: steps in (X, V_X, theta, omega), from
 # one phase to the next.
 #

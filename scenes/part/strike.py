@@ -47,7 +47,9 @@ from juggleproof.scenes.part.body import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# The impact of one corner: Wang and Mason's five contact modes with Poisson's restitution, as
+# One corner.
+#
+# Wang and Mason's five contact modes with Poisson's restitution, as
 # `juggleproof.symbolic.corner_impact` derives them.
 #
 # The formulas stand here once more so that they can be compiled; a test compares them, exactly,
@@ -124,6 +126,8 @@ def impulse(
 
 
 # -------------------------------------------------------------------------------------------------
+# Holding forces.
+#
 # What holds a block that stays on the table: the force at one corner, which sticks or slides, and
 # when it lets go.
 #
@@ -167,8 +171,9 @@ def first_turn(i: int, theta: float) -> float:
 
 
 # -------------------------------------------------------------------------------------------------
-# What happens where corners meet the table: impacts, one after another, until no corner that
-# touches approaches; then how the block goes on.
+# Corners that meet the table.
+#
+# Impacts, one after another, until no corner that touches approaches; then how the block goes on.
 #
 # The corner that approaches fastest is struck first.  Where two approach alike, as when a face
 # lands flat, one impulse acts midway between them, so that the mirror image of an orbit is an
@@ -179,10 +184,8 @@ def first_turn(i: int, theta: float) -> float:
 
 MOST_IMPACTS = 10_000  # at one time
 STILL = 1e-12  # metres a second: closing speeds below are rounding
-SLACK, ROUNDING = (
-    1e-12,
-    1e-14,
-)  # relative rounding that the guarantees are counted with, and that of a difference of speeds
+# relative rounding that the guarantees are counted with, and that of a difference of speeds
+SLACK, ROUNDING = 1e-12, 1e-14
 
 
 @compiled
@@ -258,9 +261,8 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
             if resting >= 0:
                 stay(p, z, resting)
                 if z[MODE] == FLIGHT:
-                    z[Y] += max(
-                        -p[TOLERANCE] / 2 - lowest, 0.0
-                    )  # a corner without speed, any deeper, would end the next flight at once
+                    # a corner without speed, any deeper, would end the next flight at once
+                    z[Y] += max(-p[TOLERANCE] / 2 - lowest, 0.0)
             return DONE
         x, y = corner_x(p, first, c, s), corner_y(p, first, c, s)
         if second >= 0:
@@ -297,9 +299,8 @@ def stay(p: Floats, z: Floats, i: int) -> None:
     else the block flies.
     """
     turn = first_turn(i, z[THETA])
-    z[THETA] = min(
-        max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER
-    )  # two corners touch, and this one is not quite the lowest
+    # two corners touch, and this one is not quite the lowest
+    z[THETA] = min(max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER)
     t, theta, omega = z[TIME], z[THETA], z[OMEGA]
     slide = slide_of(z[V_X] - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
     along, normal, _ = hold(p, t, theta, omega, i, slide)

@@ -202,12 +202,8 @@ class Undecided(Stopped):
 # The part in flight: its centre on a parabola, turning evenly; the gaps between its four corners
 # and the table.
 
-CORNERS = (
-    (1, 1),
-    (-1, 1),
-    (-1, -1),
-    (1, -1),
-)  # corner i is R(theta) (a, b) with these signs: counterclockwise, 2 and 3 below when upright
+# corner i is R(theta) (a, b) with these signs: counterclockwise, 2 and 3 below when upright
+CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
 def places(model: Model, theta: Any) -> list[tuple[Any, Any]]:
@@ -305,9 +301,8 @@ def dropped(
 # Compression ends where the corner no longer approaches, at the normal impulse n; the impact ends
 # at (1 + e) n (Poisson).  Numbers of any kind: exact rationals, or mpmath's.
 
-Motion = tuple[
-    Any, Any, Any
-]  # velocity of the centre of mass relative to the table, and angular velocity
+# velocity of the centre of mass relative to the table, and angular velocity
+Motion = tuple[Any, Any, Any]
 Vector = tuple[Any, Any]
 AT_REST = (0, 0, 0)
 
@@ -388,9 +383,8 @@ def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
         if not up_rate > 0:
             raise SceneError(f"friction jams the corner at {place}: mu = {mu} is too large")
         step = -normal / up_rate if end is None else end - up
-        until_stop = (
-            -tangential / along_rate if stopped is None and way * along_rate < 0 else None
-        )  # it stops once
+        # it stops once
+        until_stop = -tangential / along_rate if stopped is None and way * along_rate < 0 else None
         stops = until_stop is not None and (
             until_stop <= step if end is None else until_stop < step
         )
