@@ -1,3 +1,14 @@
 """Comparisons of proof engines, and speed against error; may import everything, and nothing imports
 it but `juggleproof bench`.
+
+    bench      the paper's bounds and orbits by every method: `juggleproof bench`
+    peers      the stored statements by our search and by Z3, cvc5, QEPCAD B and Coq's nra
+    processes  programs in processes of their own, ended in time
+    problems   our set of SMT-LIB problems, twelve scripts
+    bounds     minima of the literature, enclosed and checked
+    orbits     the juggler's four arithmetics
+    part       the part on the vibrating table
+    speed      whole commands: seconds and memory
+
+Each but `bench` and `processes` is run as `python -m juggleproof.benchmarks.NAME`.
 """

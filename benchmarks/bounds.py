@@ -1,18 +1,18 @@
 """Minima of the literature, enclosed and checked: seconds, boxes, bytes.
 
-Run: OPENBLAS_NUM_THREADS=1 python benchmarks/bounds.py [--width 1e-9]
+    OPENBLAS_NUM_THREADS=1 python -m juggleproof.benchmarks.bounds [--width 1e-9]
 
 Caprasse, Lotka-Volterra, Butcher, magnetism, heart dipole, Schwefel: Munoz and Narkawicz,
 Formalization of Bernstein polynomials and applications to global optimization, J. Automated
 Reasoning 51 (2013), after Verschelde's list of polynomial systems; Rosenbrock, Powell, Colville
 (Wood): More, Garbow and Hillstrom, Testing unconstrained optimization software, ACM TOMS 7 (1981).
-`published` is the value usually told; the run fails where it is not the one that is certified.
+Each problem is a polynomial, a box, and the published value of its minimum; the run fails where
+that is not the one that is certified.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
 import statistics
 import subprocess
 import sys
@@ -21,17 +21,14 @@ from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+from rich.console import Console
+from rich.table import Table
+
+from juggleproof.certificates import checker
+from juggleproof.proofs.bounds import Enclosure, enclose_minimum
+from juggleproof.proofs.command.bound import box, number
+
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-
-from rich.console import Console  # noqa: E402
-from rich.table import Table  # noqa: E402
-
-from juggleproof.certificates import checker  # noqa: E402
-from juggleproof.proofs.bounds import Enclosure, enclose_minimum  # noqa: E402
-from juggleproof.proofs.command.bound import box, number  # noqa: E402
-
 HEART = (
     (
         "-x1*x6^3 + 3*x1*x6*x7^2 - x3*x7^3 + 3*x3*x7*x6^2 - x2*x5^3 + 3*x2*x5*x8^2 - x4*x8^3 +"

@@ -1,5 +1,7 @@
 """Orbits of the juggler: seconds by states and steps for each arithmetic, error against the exact
-orbit, memory.  Run: python benchmarks/orbits.py
+orbit, memory.
+
+    python -m juggleproof.benchmarks.orbits
 
 Slopes are of log seconds against log size, by least squares: 1 is linear, 0 is no growth.
 """
@@ -17,7 +19,7 @@ from typing import Any
 
 from juggleproof.scenes.juggler import orbit, point, random, scene
 from juggleproof.scenes.juggler.bounded import bytes_needed
-from juggleproof.scenes.juggler.exact import told
+from juggleproof.scenes.juggler.exact import as_fraction
 
 ALPHAS = ("3/10", "9/10")  # in the trap after a few impacts; out of it for long
 STEPS, STATES, RANDOM_STEPS = (100, 1000, 10000), (1000, 10000, 100000), 100
@@ -25,7 +27,7 @@ MEMORY = (10**6, 20)
 
 
 def seconds(setting: Any, *how: Any, **more: Any) -> tuple[float, Any]:
-    """The least of three runs of `orbit`, and what it gives."""
+    """The least seconds of three runs of `orbit`, and its result."""
     best, found = math.inf, None
     for _ in range(3):
         began = time.perf_counter()
@@ -42,12 +44,12 @@ def slope(sizes: Sequence[float], times: Sequence[float]) -> float:
 
 
 def error(kind: str, row: Any, exact: Any) -> str:
-    """How far the told state is from the exact one, beside the bound that is told of it."""
+    """The distance of a state from the exact one, and the bound that the run gives of it."""
     if row.end != "reached" or exact.end != "reached":
         return str(row.end or exact.end)
     values: tuple[Any, ...] = (row.x, row.w)
     if kind == "enclosed":
-        values = tuple(told(value.mid().fmpq()) for value in values)
+        values = tuple(as_fraction(value.mid().fmpq()) for value in values)
     elif kind == "mp":
         values = tuple(Fraction(str(value)) for value in values)
     off = max(abs(Fraction(value) - true) for value, true in zip(values, (exact.x, exact.w)))

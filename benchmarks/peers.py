@@ -1,4 +1,11 @@
-"""Peers on the same statements."""
+"""The same statements by our search with its check, and by peers: Z3 alone, cvc5, QEPCAD B and
+Coq's nra; absent ones are named.
+
+    python -m juggleproof.benchmarks.peers [--every 20] [--seconds 10]
+
+A peer's answer is no certificate; ours is checked, and that time is counted.  Exit 1 where two
+answers contradict each other, or one of them the stored certificate.
+"""
 
 from __future__ import annotations
 
@@ -8,16 +15,16 @@ import re
 import shutil
 import signal
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Literal
 
+from juggleproof.benchmarks.processes import Clock
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.store import DEFAULT, Store
@@ -32,68 +39,68 @@ from juggleproof.certificates.votes.questions import (
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.certificates.work import Budget, Exhausted
 
-# -------------------------------------------------------------------------------------------------
-# A peer's program in a process of its own, ended with its children when the seconds of the
-# statement are over, or when its caller is.
-
 Answer = Literal["holds", "fails", "unsettled", "not expressible"]
-GRACE = 2.0  # seconds that a process has to end its own children
-
-
-class Clock:
-    """The seconds that are left for one statement, however many questions it asks."""
-
-    def __init__(self, seconds: float) -> None:
-        self.end = time.monotonic() + seconds
-
-    def output_of(self, command: list[str], text: str) -> str | None:
-        """What the program writes when it reads the text; None where it is not done in time."""
-        process = subprocess.Popen(
-            command,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-        )
-        try:
-            return process.communicate(text, timeout=max(0.0, self.end - time.monotonic()))[0]
-        except subprocess.TimeoutExpired:
-            return None
-        finally:
-            kill_with_children(process)
-
-
-def kill_with_children(process: subprocess.Popen[Any]) -> None:
-    """Kills a process that leads a session, and those that it started in that session; nothing
-    where it has ended.
-    """
-    if process.poll() is None:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.communicate()
-
-
-def end_with_children(process: subprocess.Popen[Any]) -> None:
-    """Asks a process to end, which gives it time to end what it started; kills it where it does
-    not.
-    """
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(GRACE)
-        except subprocess.TimeoutExpired:
-            kill_with_children(process)
-    for stream in (process.stdin, process.stdout, process.stderr):
-        if stream is not None:
-            stream.close()
-
 
 # -------------------------------------------------------------------------------------------------
-# Coq's nra on the questions of a statement: what is assumed, and the denial of what is shown, lead
-# to False.
+# Formulas in the notation of Coq and of QEPCAD B.
+
+
+@dataclass(frozen=True)
+class Notation:
+    """How a program writes truth values, brackets, products, powers, and a polynomial's relation to
+    0.
+    """
+
+    true: str
+    false: str
+    brackets: str
+    times: str
+    power: Callable[[str, int], str]
+    relations: Mapping[str, str]
+
+    def formula(self, formula: Formula, short: Mapping[str, str]) -> str:
+        """The formula, its variables by their short names."""
+        if isinstance(formula, bool):
+            return self.true if formula else self.false
+        if isinstance(formula, Atom):
+            return self.relations[formula.relation].format(self.polynomial(formula.poly, short))
+        parts = [self.formula(part, short) for part in formula.parts]
+        inner = (" /\\ " if formula.op == "and" else " \\/ ").join(parts)
+        return self.brackets[0] + inner + self.brackets[1]
+
+    def polynomial(self, poly: Polynomial, short: Mapping[str, str]) -> str:
+        """The polynomial times its denominator, which changes no relation to 0."""
+        text = ""
+        for exponents, c in poly.terms:
+            powers = [self.power(short[n], e) for n, e in zip(poly.names, exponents) if e]
+            size = [] if abs(c) == 1 and powers else [str(abs(c))]
+            factors = self.times.join([*size, *powers])
+            sign = (" - " if c < 0 else " + ") if text else ("- " if c < 0 else "")
+            text += sign + factors
+        return text or "0"
+
+
+COQ = Notation(
+    "True",
+    "False",
+    "()",
+    "*",
+    lambda name, exponent: "*".join([name] * exponent),
+    {">": "{0} > 0", ">=": "{0} >= 0", "=": "{0} = 0", "!=": "({0} < 0 \\/ {0} > 0)"},
+)
+QEPCAD = Notation(
+    "0 = 0",
+    "0 = 1",
+    "[]",
+    " ",
+    lambda name, exponent: name if exponent == 1 else f"{name}^{exponent}",
+    {">": "{0} > 0", ">=": "{0} >= 0", "=": "{0} = 0", "!=": "{0} /= 0"},
+)
+
+# -------------------------------------------------------------------------------------------------
+# Coq's nra on the questions of a statement: the givens and the denial of the goal lead to False.
 #
-# Real numbers only, and nothing that is said to exist: such a question is not expressible for nra,
-# which has no quantifiers.  It refutes nothing.
+# Real numbers only, and no quantifiers, which nra does not have.  It refutes nothing.
 
 HEAD = """From Coq Require Import Reals Psatz.
 Open Scope R_scope.
@@ -116,12 +123,13 @@ def coq_nra(statement: Any, seconds: float) -> Answer:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "goal.v"
         path.write_text(HEAD + "".join(text for text in goals if text), encoding="utf-8")
-        said = Clock(seconds).output_of(["coqc", "-q", str(path)], "")
-        return "holds" if said is not None and path.with_suffix(".vo").exists() else "unsettled"
+        output = Clock(seconds).output_of(["coqc", "-q", str(path)], "")
+        return "holds" if output is not None and path.with_suffix(".vo").exists() else "unsettled"
 
 
 def goal(question: Question) -> str | None:
-    """The question as a goal; p <> 0 is p < 0 or p > 0, since nra does not read it.
+    """The question as a goal; p <> 0 is p < 0 or p > 0, since nra does not read it; None where it
+    has integers or quantifiers.
 
     >>> from juggleproof.certificates.votes.questions import read_statement
     >>> text = "statement a/b\\nforall x\\ngiven x != 0\\nshow x^2/2 > 0"
@@ -134,59 +142,22 @@ def goal(question: Question) -> str | None:
         return None
     short = {name: f"v{i}" for i, name in enumerate(question.occurring())}
     lines = [
-        write(formula, short)
+        COQ.formula(formula, short)
         for formula in (*question.assumed, *(denial.formula for denial in question.denials))
     ]
     over = f"forall {' '.join(short.values())} : R, " if short else ""
     return f"Goal {over}{' -> '.join([*lines, 'False'])}.\nProof. intros; split_up; nra. Qed.\n"
 
 
-def write(formula: Formula, short: dict[str, str]) -> str:
-    """The formula in Coq's signs."""
-    if isinstance(formula, bool):
-        return "True" if formula else "False"
-    if isinstance(formula, Atom):
-        text = polynomial(formula.poly, short)
-        return (
-            f"({text} < 0 \\/ {text} > 0)"
-            if formula.relation == "!="
-            else f"{text} {formula.relation} 0"
-        )
-    return (
-        "("
-        + (" /\\ " if formula.op == "and" else " \\/ ").join(
-            write(part, short) for part in formula.parts
-        )
-        + ")"
-    )
-
-
-def polynomial(poly: Polynomial, short: dict[str, str]) -> str:
-    """The polynomial times its denominator, which changes no relation to 0."""
-    text = ""
-    for exponents, c in poly.terms:
-        powers = [short[n] for n, e in zip(poly.names, exponents) for _ in range(e)]
-        factors = "*".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
-        text += (" - " if c < 0 else " + ") + factors if text else ("- " if c < 0 else "") + factors
-    return text or "0"
-
-
 # -------------------------------------------------------------------------------------------------
 # QEPCAD B on the questions of a statement, each a prenex formula: there is a point, such that for
-# all bound values, all of it is so.
+# all values of the bound variables, the givens and the denial of the goal hold.
 #
 # The answer FALSE to every question means that the statement holds.  Source of the format: QEPCAD B
 # 1.74, `qepcad -h` and its help file.
 
-CELLS = (
-    2_000_000,
-    100_000_000,
-    # of memory for lists; setting up the second takes 1 s, so it is tried only where the first is
-    # too
-    # small
-)
+CELLS = (2_000_000, 100_000_000)  # of memory for lists; setting up the second takes 1 s
 TOO_FEW = "Too few cells"
-RELATIONS = {">": ">", ">=": ">=", "=": "=", "!=": "/="}
 
 
 def has_qepcad() -> bool:
@@ -202,11 +173,11 @@ def qepcad(statement: Any, seconds: float) -> Answer:
         if text is None:
             return "not expressible"
         for cells in CELLS:
-            said = clock.output_of(["qepcad", "-noecho", f"+N{cells}"], text) or ""
-            if TOO_FEW not in said:
+            output = clock.output_of(["qepcad", "-noecho", f"+N{cells}"], text) or ""
+            if TOO_FEW not in output:
                 break
-        found = re.search(r"An equivalent quantifier-free formula:\s+(TRUE|FALSE)\s", said)
-        answers.append(found[1] if found else "")
+        match = re.search(r"An equivalent quantifier-free formula:\s+(TRUE|FALSE)\s", output)
+        answers.append(match[1] if match else "")
     if any(answer == "TRUE" and question.refutes for answer, question in zip(answers, asked)):
         return "fails"
     return "holds" if answers == ["FALSE"] * len(asked) else "unsettled"
@@ -237,7 +208,7 @@ def prenex(question: Question) -> str | None:
     quantifiers = "".join(
         f"({'A' if name in question.bound else 'E'} {v})" for name, v in short.items()
     )
-    formula = write_qepcad(
+    formula = QEPCAD.formula(
         join("and", [*question.assumed, *(denial.formula for denial in question.denials)]), short
     )
     return (
@@ -246,38 +217,8 @@ def prenex(question: Question) -> str | None:
     )
 
 
-def write_qepcad(formula: Formula, short: dict[str, str]) -> str:
-    """The formula in QEPCAD's signs."""
-    if isinstance(formula, bool):
-        return "0 = 0" if formula else "0 = 1"
-    if isinstance(formula, Atom):
-        return f"{qepcad_polynomial(formula.poly, short)} {RELATIONS[formula.relation]} 0"
-    return (
-        "["
-        + (" /\\ " if formula.op == "and" else " \\/ ").join(
-            write_qepcad(part, short) for part in formula.parts
-        )
-        + "]"
-    )
-
-
-def qepcad_polynomial(poly: Polynomial, short: dict[str, str]) -> str:
-    """The polynomial times its denominator, which changes no relation to 0; a product is written by
-    a space.
-    """
-    text = ""
-    for exponents, c in poly.terms:
-        powers = [
-            short[n] if e == 1 else f"{short[n]}^{e}" for n, e in zip(poly.names, exponents) if e
-        ]
-        factors = " ".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
-        text += (" - " if c < 0 else " + ") + factors if text else ("- " if c < 0 else "") + factors
-    return text or "0"
-
-
 # -------------------------------------------------------------------------------------------------
-# Z3 alone and cvc5, each in a process of its own, on the SMT-LIB script that
-# `juggleproof export smt2` writes.
+# Z3 alone and cvc5 on the SMT-LIB script that `juggleproof export smt2` writes.
 
 CVC5 = """import cvc5, sys
 for check in sys.stdin.read().split('(reset)')[1:]:
@@ -310,33 +251,22 @@ def cvc5(statement: Any, seconds: float) -> Answer:
 
 
 def _answer(command: list[str], statement: Any, seconds: float) -> Answer:
-    said = Clock(seconds).output_of(command, script(statement)) or ""
-    answers, asked = (
-        [line for line in said.split() if line in ("sat", "unsat", "unknown")],
-        questions(statement),
-    )
+    output = Clock(seconds).output_of(command, script(statement)) or ""
+    answers = [line for line in output.split() if line in ("sat", "unsat", "unknown")]
+    asked = questions(statement)
     if any(answer == "sat" and question.refutes for answer, question in zip(answers, asked)):
         return "fails"
     return "holds" if answers == ["unsat"] * len(asked) else "unsettled"
 
 
 # -------------------------------------------------------------------------------------------------
-# The same statements by our search with its check, and by peers: Z3 alone, cvc5, QEPCAD B and
-# Coq's nra; absent ones are named.
-#
-# Run: python benchmarks/peers.py [--every 20] [--seconds 10].  A peer's answer is no certificate;
-# ours is checked, and that time is counted. Exit 1 where two answers contradict each other, or one
-# of
-# them what the stored certificate says.
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
+# Ours, and the comparison.
 
 TRIVIAL = "statement peers/start\nforall x\ngiven x > 0\nshow x + 1 > 0"
-SAID: dict[str, Answer] = {"certified": "holds", "refuted": "fails"}
+WORDS: dict[str, Answer] = {"certified": "holds", "refuted": "fails"}
 NOTES = """\
 settled: of the statements that the method can express (no integers for QEPCAD B; neither \
-integers nor what is said to exist for nra).
+integers nor quantifiers for nra).
 median, total: seconds of those, the limit where nothing was settled in time; start: seconds \
 for x > 0 => x + 1 > 0.  Every peer is a
 process of its own; our search and check run in this one.  nra proves, but refutes nothing."""
@@ -344,20 +274,20 @@ process of its own; our search and check run in this one.  nra proves, but refut
 
 @dataclass
 class Method:
-    """A way to settle a statement, and what it said: answer and seconds by name."""
+    """A way to settle statements, and its answers with their seconds, by the statement's name."""
 
     title: str
     settle: Callable[[Any, float], Answer]
     present: bool = True
     package: str = ""
-    said: dict[str, tuple[Answer, float]] = field(default_factory=dict)
+    answers: dict[str, tuple[Answer, float]] = field(default_factory=dict)
 
     def run(self, name: str, statement: Any, seconds: float) -> None:
         """Asks about one statement; an answer that comes too late does not count."""
         began = time.perf_counter()
         answer = self.settle(statement, seconds)
         took = time.perf_counter() - began
-        self.said[name] = (
+        self.answers[name] = (
             "unsettled" if took > seconds and answer != "not expressible" else answer,
             took,
         )
@@ -365,7 +295,7 @@ class Method:
     def row(self, start: float) -> str:
         """The method's line in the table."""
         asked = [
-            (answer, took) for answer, took in self.said.values() if answer != "not expressible"
+            (answer, took) for answer, took in self.answers.values() if answer != "not expressible"
         ]
         settled, seconds = (
             [answer for answer, _ in asked if answer != "unsettled"],
@@ -373,13 +303,13 @@ class Method:
         )
         return (
             f"{self.title:26} {len(settled):4}/{len(asked):<4} {settled.count('holds'):6}"
-            f" {settled.count('fails'):6} {len(self.said) - len(asked):15}"
+            f" {settled.count('fails'):6} {len(self.answers) - len(asked):15}"
             f" {statistics.median(seconds):9.3f} {sum(seconds):9.2f} {start:8.3f}"
         )
 
 
 def ours(statement: Any, seconds: float) -> Answer:
-    """Our search, and the checker's word on what it found; nothing else is believed."""
+    """The checker's verdict on the certificate that our search finds; nothing else is believed."""
 
     def late(*_: object) -> None:
         raise TimeoutError
@@ -394,7 +324,7 @@ def ours(statement: Any, seconds: float) -> Answer:
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, held)
-    return SAID.get(outcome, "unsettled")
+    return WORDS.get(outcome, "unsettled")
 
 
 def methods() -> list[Method]:
@@ -412,15 +342,15 @@ def contradictions(name: str, stored: Any, asked: Sequence[Method]) -> list[str]
     """One line where the stored certificate and the methods do not all say the same of a
     statement.
     """
-    said: dict[str, Answer] = {method.title: method.said[name][0] for method in asked}
+    words: dict[str, Answer] = {method.title: method.answers[name][0] for method in asked}
     if isinstance(stored, dict):
-        said["the stored certificate"] = next(
-            (word for key, word in SAID.items() if key in stored), "unsettled"
+        words["the stored certificate"] = next(
+            (word for key, word in WORDS.items() if key in stored), "unsettled"
         )
-    if {"holds", "fails"} <= set(said.values()):
+    if {"holds", "fails"} <= set(words.values()):
         return [
             f"CONTRADICTION about {name}: "
-            + "; ".join(f"{title}: {word}" for title, word in said.items())
+            + "; ".join(f"{title}: {word}" for title, word in words.items())
         ]
     return []
 
@@ -459,7 +389,7 @@ def main() -> int:
         wrong += contradictions(name, store.certificate(name, store.texts[name]), present)
     print(NOTES)
     for method in present:
-        left = [name for name, (answer, _) in method.said.items() if answer == "unsettled"]
+        left = [name for name, (answer, _) in method.answers.items() if answer == "unsettled"]
         print(f"unsettled by {method.title}: {', '.join(left) or 'none'}")
     print(
         "absent: "

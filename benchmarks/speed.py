@@ -1,5 +1,6 @@
-"""Whole commands, each in a process of its own: seconds and peak memory against the aims.  Run:
-python benchmarks/speed.py [--runs 3]
+"""Whole commands, each in a process of its own: seconds and peak memory against the aims.
+
+python -m juggleproof.benchmarks.speed [--runs 3]
 """
 
 from __future__ import annotations
@@ -73,14 +74,14 @@ def main() -> None:
     ]
     print(f"{'command':36} {'aim':>6} {'median':>8} {'least':>8} {'most':>8} {'MB':>6}")
     for title, aim, command in rows:
-        found = []
+        measured = []
         for _ in range(runs):
             with tempfile.TemporaryDirectory() as folder:
-                found.append(measure(command(folder)))
-        seconds = [one for one, _ in found]
+                measured.append(measure(command(folder)))
+        seconds = [one for one, _ in measured]
         print(
             f"{title:36} {aim:6.2f} {statistics.median(seconds):8.2f} {min(seconds):8.2f}"
-            f" {max(seconds):8.2f} {max(m for _, m in found):6.0f}"
+            f" {max(seconds):8.2f} {max(m for _, m in measured):6.0f}"
         )
 
 

@@ -2,8 +2,17 @@
 first principles.
 
 Newton's equation, momentum balance, restitution and the launch of the table are put in; everything
-else is worked out on demand, and kept. Importing this package loads nothing: a name loads the
-module that derives it when first used.
+else is worked out on demand, and kept.  In reading order:
+
+    algebra        symbols, states, linear systems, signs for all 0 < alpha < 1
+    mechanics      flight, impact, the table, when ball and table meet
+    maps           the return maps f1 and f2, their powers and fixed points
+    energy         energy and its change; the normal form, in which only alpha is left
+    bounds         E_max, Delta E_max, Delta E_sup; the region R and the times to enter it
+    corner_impact  a corner that strikes a table with friction
+    lazy           names that load their file when first used
+
+Importing this package loads nothing: a name loads the file that derives it when first used.
 
 >>> from juggleproof.symbolic import f1, total_energy
 >>> f1().T
@@ -14,23 +23,22 @@ beta*g + v**2/2
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from juggleproof.symbolic.lazy import lazy_names
 
-_NAMES = {
-    "algebra": (
+NAMES = {
+    ".algebra": (
         "alpha beta v rho u r g t tau K n x w z1 z2 E0 DerivationError State affine_parts "
         "apply eigenvalues_of integral_from_zero lowest_terms root_of solution_of state "
         "unipotent_power reduced sign_for_lossy_impacts simplest_roots"
     ),
-    "mechanics": (
+    ".mechanics": (
         "acceleration flight_map flight_matrix flight_offset fly hang_time collide impact_map "
         "mass_ratio restitution_matrix speeds_after_impact table_after_impact landing_state "
         "launch_state period state_after_ground table_at ball_speed_at_collision "
         "boundary_height boundary_speed collision_margin collision_time gap "
         "relative_state_at_collision table_speed_at_collision time_after_collision"
     ),
-    "maps": (
+    ".maps": (
         "ball_after_collision controlled_step f1 f1_parts f2 f2_parts flight_power "
         "folded_impact impact_power_matrix return_eigenvalues return_jacobian return_map "
         "time_shift xi_1 collision_time_at_fixed_point e_1 epsilon_1 equilibrium_speed "
@@ -38,7 +46,7 @@ _NAMES = {
         "subharmonic_ball_speed subharmonic_bound subharmonic_table_speed "
         "table_speed_at_fixed_point"
     ),
-    "energy": (
+    ".energy": (
         "energy_at energy_change_1 energy_change_2 energy_change_at_impact energy_gradient "
         "energy_in_flight relative_kinetic_energy relative_kinetic_energy_change total_energy "
         "zero_change_height zero_change_speed normal_collision_time normal_e_1 normal_e_2 "
@@ -46,14 +54,14 @@ _NAMES = {
         "normal_margin normal_flight_power normal_impact_fixed_point scaled scaled_state "
         "scaling unscaling"
     ),
-    "bounds": (
+    ".bounds": (
         "Candidate candidates falls_without_bound greatest E_max Extremum delta_E_max "
         "delta_E_sup largest_energy_change largest_kept_energy least_energy_loss "
         "physical_state region_energy energy_of_p impacts_to_enter_region lagrange_multiplier "
         "point_p region_corner region_gradient region_margin "
         "stationary_speed_on_region_boundary time_to_enter_region worst_flight_time"
     ),
-    "corner_impact": (
+    ".corner_impact": (
         "B1 B2 B3 C0 J P_x P_y S0 c_x c_y contact_coefficients corner_velocity "
         "kinetic_energy_gained motion_after_impulse omega velocity_after_impulse "
         "work_of_impulse x_c y_c MODES closing_rate compressing_impulse contact_impulse e "
@@ -62,14 +70,4 @@ _NAMES = {
         "tangential_impulse velocity_after_contact"
     ),
 }
-_PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _PLACE:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_PLACE[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *_PLACE})
+__all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

@@ -1,4 +1,8 @@
-"""Symbols, exact algebra, signs for 0 < alpha < 1."""
+"""The symbols of the paper; exact algebra of states and of maps in (beta, v); exact signs of
+functions of alpha for all 0 < alpha < 1.
+
+A step that does not have the shape that it relies on raises DerivationError.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +28,7 @@ from sympy import (
 from sympy.polys.fields import FracField
 
 # -------------------------------------------------------------------------------------------------
-# The symbols of the paper, without assumptions: what a step needs of them is stated where it is
-# needed.
+# Symbols, without assumptions: what a step needs of them is stated where it is needed.
 
 alpha = Symbol("alpha")  # coefficient of restitution
 beta = Symbol("beta")  # height of the ball when the table is at its lowest
@@ -46,12 +49,10 @@ E0 = Symbol("E0")  # energy of the state that an orbit starts from
 
 
 # -------------------------------------------------------------------------------------------------
-# Exact algebra that every derivation uses: states, maps in (beta, v), linear systems, unipotent
-# powers.
+# Exact algebra: states, maps in (beta, v), linear systems, unipotent powers.
 
-State: TypeAlias = (
-    ImmutableMatrix  # a column (height, speed); a map is a State whose entries contain beta and v
-)
+# a column (height, speed); a map is a State whose entries contain beta and v
+State: TypeAlias = ImmutableMatrix
 
 
 class DerivationError(ArithmeticError):
@@ -67,8 +68,7 @@ def lowest_terms(expression: Expr) -> Expr:
     """A rational expression as one fraction with coprime, expanded numerator and denominator (equal
     ones look equal).
 
-    The same as SymPy's `cancel`, without its care for what is not rational: such expressions are
-    refused.
+    The same as SymPy's `cancel`, for rational expressions only: others raise DerivationError.
 
     >>> from juggleproof.symbolic.algebra import alpha
     >>> lowest_terms((alpha**2 - 1) / (alpha + 1) ** 2)
@@ -128,7 +128,8 @@ def solution_of(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[
 
 
 def root_of(expression: Expr, unknown: Symbol) -> Expr:
-    """The only zero of a fraction whose numerator is linear in the unknown.
+    """The only zero of a fraction whose numerator is linear in the unknown; DerivationError where
+    it is not.
 
     >>> from juggleproof.symbolic.algebra import alpha, K
     >>> root_of((1 + alpha) / (1 - alpha) - K, alpha)
@@ -161,7 +162,8 @@ def affine_parts(mapping: State) -> tuple[State, State]:
 def unipotent_power(matrix: State, exponent: Expr) -> State:
     """M^k for a symbolic k where (M - 1)^3 = 0: the binomial series of (1 + (M - 1))^k, which ends.
 
-    Checked by induction on the result: P(0) = 1 and P(k) M = P(k + 1).
+    Checked by induction on the result: P(0) = 1 and P(k) M = P(k + 1); DerivationError where it
+    fails.
 
     >>> from sympy import ImmutableMatrix, Symbol
     >>> unipotent_power(ImmutableMatrix([[1, 5], [0, 1]]), Symbol("k"))
@@ -185,7 +187,7 @@ def unipotent_power(matrix: State, exponent: Expr) -> State:
 
 def eigenvalues_of(matrix: State) -> tuple[Expr, ...]:
     """The eigenvalues with their multiplicity, where the characteristic polynomial splits into
-    rational factors.
+    rational factors; DerivationError where it does not.
 
     >>> from sympy import ImmutableMatrix
     >>> eigenvalues_of(ImmutableMatrix([[2, 7], [0, 3]]))
@@ -193,15 +195,14 @@ def eigenvalues_of(matrix: State) -> tuple[Expr, ...]:
     """
     unknown = Symbol("lambda")
     characteristic = matrix.charpoly(unknown).as_expr()
-    found: list[Expr] = []
+    eigenvalues: list[Expr] = []
     for part, multiplicity in factor_list(characteristic, unknown)[1]:
-        found += [root_of(part, unknown)] * multiplicity
-    return tuple(sorted(found, key=str))
+        eigenvalues += [root_of(part, unknown)] * multiplicity
+    return tuple(sorted(eigenvalues, key=str))
 
 
 # -------------------------------------------------------------------------------------------------
-# Exact signs of algebraic functions of alpha on the open interval 0 < alpha < 1, by Sturm's
-# count.
+# Exact signs of algebraic functions of alpha for all 0 < alpha < 1, by Sturm's count.
 
 _HALF = Rational(1, 2)
 _ROOT = Symbol("root")
@@ -243,7 +244,7 @@ def reduced(expression: Expr) -> Expr:
 
 
 def _name_root(expression: Expr) -> tuple[Expr, Expr]:
-    """The expression as a fraction in alpha and the symbol of its only root, and what stands below
+    """The expression as a fraction in alpha and the symbol of its only root, and the radicand of
     that root.
     """
     if S(expression).free_symbols - {alpha}:
@@ -288,7 +289,8 @@ def simplest_roots(polynomial: Poly) -> tuple[Expr, ...]:
     """The zeros of a polynomial of degree at most 2 over Q(alpha); none where they are complex for
     0 < alpha < 1.
 
-    Squares are taken out of the root.
+    Squares are taken out of the root.  DerivationError for degrees above 2, and where a coefficient
+    or the discriminant has no constant sign.
 
     >>> from juggleproof.symbolic.algebra import w
     >>> simplest_roots(Poly((1 - alpha) ** 2 * w**2 - 2 * (1 + alpha), w))

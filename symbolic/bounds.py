@@ -1,4 +1,6 @@
-"""E_max, Delta E_max, R, corner, p, times (4.1, A)."""
+"""Bounds of the energy, E_max, Delta E_max and Delta E_sup, and the region R with its corner, the
+point p and the times to enter it, for all 0 < alpha < 1 (sections 4.1 to 4.3, appendix A).
+"""
 
 from __future__ import annotations
 
@@ -38,8 +40,7 @@ from juggleproof.symbolic.maps import e_1
 from juggleproof.symbolic.mechanics import boundary_height, collision_margin, hang_time, period
 
 # -------------------------------------------------------------------------------------------------
-# Maximum of a function of (x, w) on a set, exactly for all 0 < alpha < 1, by comparing all
-# candidates.
+# The maximum of a function of (x, w) on a set, by comparing all candidates.
 #
 # Candidates are the points where the function is stationary inside, along each boundary curve
 # (Lagrange), and the corners where two curves meet. Every function and constraint here is linear in
@@ -146,8 +147,7 @@ def _at(expression: Expr, height: Expr, speed: Expr) -> Expr:
 
 
 # -------------------------------------------------------------------------------------------------
-# The energy bounds E_max, Delta E_max and Delta E_sup, for all 0 < alpha < 1 (section 4.1,
-# appendix A).
+# Bounds of the energy (section 4.1, appendix A).
 
 
 class Extremum(NamedTuple):
@@ -290,8 +290,7 @@ def delta_E_sup() -> Expr:
 
 
 # -------------------------------------------------------------------------------------------------
-# The region R, its corner, the point p, and how long an orbit takes to enter R (sections 4.1 to
-# 4.3, appendix A).
+# The region R, its corner, the point p, and the times to enter R (sections 4.1 to 4.3).
 
 
 @cache

@@ -1,4 +1,10 @@
-"""Impact of a corner with friction (2.1)."""
+"""The impact of a rigid body's corner on a table, with Coulomb friction and Poisson's restitution
+(the scene of section 2.1, figure 2).
+
+All of it is per unit of mass, which drops out.  The corner stands (x_c, y_c) from the centre of
+mass; J, the moment of inertia about that centre, is the square of the radius of gyration.  S and C
+are the tangential and the normal velocity of the corner relative to the table.
+"""
 
 from __future__ import annotations
 
@@ -16,13 +22,7 @@ from juggleproof.symbolic.algebra import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# A corner of a rigid body and the table that it strikes: what an impulse at the corner does (scene
-# of section 2.1, figure 2).
-#
-# All of it per unit of mass, which drops out.  The corner stands (x_c, y_c) from the centre of
-# mass;
-# J, the moment of inertia about that centre, is the square of the radius of gyration.  S and C are
-# the tangential and the normal velocity of the corner relative to the table.
+# What an impulse at the corner does.
 
 x_c = Symbol("x_c")  # the corner's place along the table, from the centre of mass
 y_c = Symbol("y_c")  # the corner's place upwards, from the centre of mass
@@ -121,15 +121,13 @@ def kinetic_energy_gained() -> Expr:
 
 
 # -------------------------------------------------------------------------------------------------
-# The impact of a corner with Coulomb friction and Poisson's restitution, by a walk through impulse
-# space (Routh; Wang and Mason 1992).
+# The impact, by a walk through impulse space (Routh; Wang and Mason 1992).
 #
 # The walk begins on the line of sliding, where friction is mu times the normal impulse and opposes
 # the sliding.  Where the corner stops (S = 0) it goes on along the line of sticking or, where
 # friction cannot hold it, along the line of sliding back.  Compression is greatest where C = 0, at
 # the normal impulse n; the walk ends at (1 + e) n.  Five modes: no stop at all, or one in
-# compression
-# or in restitution, then sticking or sliding back.
+# compression or in restitution, then sticking or sliding back.
 #
 # All is derived for a corner that slides to the right, S0 >= 0.  The mirror image of an impact is
 # one: sigma = 1 or -1 is the direction of sliding.

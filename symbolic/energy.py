@@ -1,4 +1,6 @@
-"""Energy and its change (3.4, A.2); the normal form."""
+"""Energy and its change at an impact (section 3.4, appendices A.2 and B.5), and the normal form, in
+which heights and speeds are in units of the table and only alpha is left.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +48,7 @@ from juggleproof.symbolic.mechanics import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# Energy and its change at an impact (section 3.4, appendices A.2 and B.5).
+# Energy and its change at an impact.
 
 
 @cache

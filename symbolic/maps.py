@@ -1,4 +1,6 @@
-"""F1, f2, fixed points (3.2 to 3.5)."""
+"""The return maps f1 (a period with an impact) and f2 (without), their powers, and their fixed
+points (sections 3.2 to 3.5).
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,7 @@ from juggleproof.symbolic.mechanics import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# The return maps: one table period with an impact (f1) and without (f2) (sections 3.2 and 3.3).
+# Return maps over one period of the table (sections 3.2 and 3.3).
 
 
 def controlled_step(table_speed: Expr, flight_time: Expr) -> State:
@@ -207,7 +209,7 @@ def return_eigenvalues() -> tuple[Expr, ...]:
 
 
 # -------------------------------------------------------------------------------------------------
-# Fixed points of the return maps and when they exist (sections 3.3 and 3.5).
+# Fixed points, and when they exist (sections 3.3 and 3.5).
 
 
 @cache

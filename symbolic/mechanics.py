@@ -1,4 +1,6 @@
-"""Flight, impact, table, collision (2.2, 3.1, 3.2)."""
+"""Ball and table: free flight, the impact of a light body on a heavy one, the bouncing table, and
+when ball and table meet (sections 2.2, 3.1 and 3.2, appendix B).
+"""
 
 from __future__ import annotations
 
@@ -94,8 +96,7 @@ def hang_time() -> Expr:
 
 
 # -------------------------------------------------------------------------------------------------
-# Impact of a light body on a heavy one: momentum balance and restitution, solved (section
-# 2.2.2).
+# Impact of a light body on a heavy one: momentum balance and restitution (section 2.2.2).
 
 mass_ratio = Symbol("m")  # mass of the ball over mass of the table
 

@@ -1,4 +1,6 @@
-"""What a method answers, and what was measured of it."""
+"""What a method is asked, a supremum on a box; what it answers; and a point where the supremum is
+nearly attained.
+"""
 
 from __future__ import annotations
 
@@ -13,101 +15,8 @@ from typing import Any
 from juggleproof.certificates.search.small_boxes import Exponents, Terms, simple_points, value_at
 
 # -------------------------------------------------------------------------------------------------
-# What a method answers, and what was measured of it.
-
-
-class GaveUp(Exception):
-    """The method ends without the width that was asked for; the message says why."""
-
-
-@dataclass(frozen=True)
-class Answer:
-    """low <= supremum <= high as the method says; without `high` it is a value and no bound.
-    `note` tells what else there is to say.
-    """
-
-    low: Fraction
-    high: Fraction | None = None
-    note: str = ""
-
-    def as_json(self) -> dict[str, Any]:
-        """For another process."""
-        return {
-            "low": str(self.low),
-            "high": None if self.high is None else str(self.high),
-            "note": self.note,
-        }
-
-    def error(self, truth: Fraction) -> Fraction:
-        """The width of the enclosure; the distance to the truth where there is none."""
-        return abs(truth - self.low) if self.high is None else self.high - self.low
-
-    def wrong(self, truth: Fraction) -> bool:
-        """Whether an enclosure does not hold the truth."""
-        return self.high is not None and not self.low <= truth <= self.high
-
-
-@dataclass(frozen=True)
-class Strayed:
-    """How far a state is from the exact one, and what the method says of that: a bound, or None
-    where it says nothing.
-    """
-
-    distance: Fraction
-    bound: Fraction | None
-    note: str = ""
-    beyond: bool = False  # whether the state is farther off than the bound says
-
-    def as_json(self) -> dict[str, Any]:
-        """For another process."""
-        bound = None if self.bound is None else str(self.bound)
-        return {
-            "distance": str(self.distance),
-            "bound": bound,
-            "note": self.note,
-            "beyond": self.beyond,
-        }
-
-    def error(self, truth: Fraction) -> Fraction:
-        """The bound where there is one."""
-        return self.distance if self.bound is None else self.bound
-
-    def wrong(self, truth: Fraction) -> bool:
-        """Whether the state is farther off than the bound says."""
-        return self.beyond
-
-
-def read_answer(data: dict[str, Any]) -> Answer | Strayed:
-    """What `as_json` wrote."""
-
-    def number(key: str) -> Fraction | None:
-        return None if data[key] is None else Fraction(data[key])
-
-    if "distance" in data:
-        return Strayed(Fraction(data["distance"]), number("bound"), data["note"], data["beyond"])
-    return Answer(Fraction(data["low"]), number("high"), data["note"])
-
-
-@dataclass(frozen=True)
-class Measured:
-    """One method on one piece of work: its answer with its seconds, or why there is none."""
-
-    method: str
-    size: Fraction
-    cold: float | None = None
-    warm: float | None = None
-    answer: Answer | Strayed | None = None
-    reason: str = ""
-
-    @property
-    def seconds(self) -> float | None:
-        """Warm, or cold where there was no time for more."""
-        return self.cold if self.warm is None else self.warm
-
-
-# -------------------------------------------------------------------------------------------------
-# A question as plain data, which a process of its own can read without SymPy: the least upper
-# bound of a fraction of polynomials on a box.
+# Questions as plain data, which a process of its own can read without SymPy: the least upper bound
+# of a fraction of polynomials on a box.
 
 
 @dataclass(frozen=True)
@@ -232,22 +141,119 @@ def horner(terms: Terms, names: Sequence[str], write: Callable[[Fraction], str])
 
 
 # -------------------------------------------------------------------------------------------------
-# A rational point where the fraction of a problem is nearly greatest: floating point finds it, its
-# value is computed exactly.
+# Answers, and what was measured of them.
+
+
+class GaveUp(Exception):
+    """The method ends without the width that was asked for; the message says why."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """low <= supremum <= high by the method; without `high` it is a value and no bound.  `note` is
+    printed beside it.
+    """
+
+    low: Fraction
+    high: Fraction | None = None
+    note: str = ""
+
+    def as_json(self) -> dict[str, Any]:
+        """For another process."""
+        return {
+            "low": str(self.low),
+            "high": None if self.high is None else str(self.high),
+            "note": self.note,
+        }
+
+    def error(self, truth: Fraction) -> Fraction:
+        """The width of the enclosure; the distance to the truth where there is none."""
+        return abs(truth - self.low) if self.high is None else self.high - self.low
+
+    def wrong(self, truth: Fraction) -> bool:
+        """Whether an enclosure does not hold the truth."""
+        return self.high is not None and not self.low <= truth <= self.high
+
+
+@dataclass(frozen=True)
+class Strayed:
+    """The distance of a state from the exact one, and the bound that the method gives of it, None
+    where it gives none.
+    """
+
+    distance: Fraction
+    bound: Fraction | None
+    note: str = ""
+    beyond: bool = False  # whether the distance exceeds the bound
+
+    def as_json(self) -> dict[str, Any]:
+        """For another process."""
+        bound = None if self.bound is None else str(self.bound)
+        return {
+            "distance": str(self.distance),
+            "bound": bound,
+            "note": self.note,
+            "beyond": self.beyond,
+        }
+
+    def error(self, truth: Fraction) -> Fraction:
+        """The bound where there is one."""
+        return self.distance if self.bound is None else self.bound
+
+    def wrong(self, truth: Fraction) -> bool:
+        """Whether the distance exceeds the bound."""
+        return self.beyond
+
+
+def read_answer(data: dict[str, Any]) -> Answer | Strayed:
+    """What `as_json` wrote."""
+
+    def number(key: str) -> Fraction | None:
+        return None if data[key] is None else Fraction(data[key])
+
+    if "distance" in data:
+        return Strayed(Fraction(data["distance"]), number("bound"), data["note"], data["beyond"])
+    return Answer(Fraction(data["low"]), number("high"), data["note"])
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One method on one piece of work: its answer with its seconds, or why there is none."""
+
+    method: str
+    size: Fraction
+    cold: float | None = None
+    warm: float | None = None
+    answer: Answer | Strayed | None = None
+    reason: str = ""
+
+    @property
+    def seconds(self) -> float | None:
+        """Warm, or cold where there was no time for more."""
+        return self.cold if self.warm is None else self.warm
+
+
+# -------------------------------------------------------------------------------------------------
+# A rational point where the fraction of a problem is nearly greatest: by floating point, its value
+# computed exactly.
 #
 # In plain floats, since the problems are small: to load NumPy takes longer than all the rest.
 
 Point = tuple[Fraction, ...]
 Floats = list[float]
+SHARE = 8  # methods ask of the point 1/SHARE of the width, and bound by the rest
 AXES = 3  # at a time: 27 places
 STEPS, AHEAD = 200, 8
 DAMPING, LEAST, MOST, FACTOR = 1e-3, 1e-18, 1e9, 8  # Levenberg's
 NOISE = 2.0**-52
-CLOSE = 1e-9  # what floating point tells apart for certain
+CLOSE = 1e-9  # values farther apart than this differ for certain
 
 
 def best_point(problem: Problem, slack: Fraction) -> tuple[Point, Fraction]:
-    """A point of the box and the value there, which no point found exceeds by more than `slack`."""
+    """A point of the box and the value there, which no point tried exceeds by more than `slack`.
+
+    Raises ArithmeticError where the fraction has no value at any of them.
+    """
     quotient = _Quotient(problem)
     value, place = quotient.greatest_near(float(slack))
     best: tuple[Point, Fraction] | None = None

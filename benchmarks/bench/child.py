@@ -14,13 +14,12 @@ import sys
 import time
 from fractions import Fraction
 
-REPEATS, LONG = (
-    3,
-    0.3,
-    # more than so many repeats only while they take less than so many seconds: answers of a
-    # millisecond
-    # vary most
-)
+from juggleproof.benchmarks.bench.answers import GaveUp
+from juggleproof.benchmarks.bench.methods import ENSEMBLE, METHODS, ORBITS
+
+# more than so many repeats only while they take less than so many seconds: answers of a millisecond
+# vary most
+REPEATS, LONG = 3, 0.3
 
 
 class Over(BaseException):
@@ -35,9 +34,6 @@ def _over(*_: object) -> None:
 
 def main() -> int:
     """Answers, times, prints."""
-    from juggleproof.benchmarks.bench.answers import GaveUp
-    from juggleproof.benchmarks.bench.methods import ENSEMBLE, METHODS, ORBITS
-
     name, size, seconds = sys.argv[1], Fraction(sys.argv[2]), float(sys.argv[3])
     work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE)[name]
     signal.signal(signal.SIGTERM, _over)
@@ -61,18 +57,16 @@ def main() -> int:
         if not took:
             print(json.dumps({"gave_up": f"{seconds:g} s"}))
             return 0
-    signal.setitimer(
-        signal.ITIMER_REAL, seconds
-    )  # as much again to compare an orbit with the exact one
+    signal.setitimer(signal.ITIMER_REAL, seconds)  # as much to compare an orbit with the exact one
     try:
-        told = (answer() if callable(answer) else answer).as_json()
+        data = (answer() if callable(answer) else answer).as_json()
     except (Over, GaveUp):
-        told = None
+        data = None
     print(
         json.dumps(
             {"gave_up": "no exact orbit to compare with"}
-            if told is None
-            else {"cold": took[0], "warm": min(took[1:], default=None), "answer": told}
+            if data is None
+            else {"cold": took[0], "warm": min(took[1:], default=None), "answer": data}
         )
     )
     return 0

@@ -1,4 +1,8 @@
-"""The methods by name: what each is worth, where its code is, and what it needs; their code is."""
+"""Our method, and the table of all methods: what each is worth, its code, and what it needs.
+
+Loading this file loads no library that a method may lack or that takes long: their code imports
+them where it runs.
+"""
 
 from __future__ import annotations
 
@@ -7,203 +11,34 @@ import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Literal
 
-from juggleproof.benchmarks.bench.answers import Answer, GaveUp, Point, Problem, best_point
+from juggleproof.benchmarks.bench import numerics, orbits, solvers
+from juggleproof.benchmarks.bench.answers import (
+    SHARE,
+    Answer,
+    GaveUp,
+    Point,
+    Problem,
+    best_point,
+)
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.small_boxes import search_tree
 
 # -------------------------------------------------------------------------------------------------
-# The methods by name: what each is worth, where its code is, and what it needs; their code is
-# loaded where it runs.
-
-Worth = Literal["certificate", "rigorous", "unchecked", "no proof"]
-NOTES = """\
-certificate: what is printed was accepted by certificates/checker in this run, and that time \
-is counted; the certificate can be read again.
-rigorous: enclosed by arithmetic that rounds outwards (coq-interval: by Coq's kernel); to \
-believe it again is to run it again.
-unchecked: the answer of a solver.  no proof: floating point; its error is the distance to the \
-truth, which it does not know itself.
-The aim is judged against the certified peers and against Z3.  Certified peers: coq-interval, \
-cvc5 where it writes its proof (nothing here reads it;
-some of its steps say trust), and QEPCAD, whose answers are taken at their word.  Boxes in Arb \
-and mpmath.iv are our own, measured beside."""
-
-
-@dataclass(frozen=True)
-class Method:
-    """A way to answer; `place` is module:function, `package` what to install where it is absent,
-    `peer` whether it is a certified peer of the aim.
-    """
-
-    name: str
-    title: str
-    worth: Worth
-    place: str
-    package: str = ""
-    present: Callable[[], bool] = lambda: True
-    peer: bool = False
-
-    def solve(self, problem: Any, size: Fraction) -> Any:
-        """The answer, at this width (or for so much work)."""
-        module, function = self.place.split(":")
-        return getattr(import_module(f"juggleproof.benchmarks.bench.{module}"), function)(
-            problem, size
-        )
-
-
-def has(module: str) -> Callable[[], bool]:
-    """Whether a Python module is there, without loading it."""
-    return lambda: find_spec(module) is not None
-
-
-def _interval() -> bool:
-    from juggleproof.benchmarks.bench.solvers import has_coq_interval
-
-    return has_coq_interval()
-
-
-def _qepcad() -> bool:
-    return shutil.which("qepcad") is not None
-
-
-Z3, CVC5, QEPCAD = (
-    "Z3 (pip install z3-solver)",
-    "cvc5 (pip install cvc5)",
-    "QEPCAD B (Debian package qepcad)",
-)
-COQ, SCIPY = "coq-interval (Debian packages coq and libcoq-interval)", "scipy (pip install scipy)"
-METHODS = {
-    one.name: one
-    for one in (
-        Method("bernstein", "exact Bernstein, ours", "certificate", "methods:bernstein"),
-        Method(
-            "arb",
-            "Arb boxes",
-            "rigorous",
-            "numerics:arb_boxes",
-            "python-flint (pip install python-flint)",
-            has("flint"),
-        ),
-        Method(
-            "mpmath",
-            "mpmath.iv boxes",
-            "rigorous",
-            "numerics:mpmath_boxes",
-            "mpmath (pip install mpmath)",
-            has("mpmath"),
-        ),
-        Method(
-            "coq",
-            "coq-interval, one question",
-            "rigorous",
-            "solvers:coq_interval_once",
-            COQ,
-            _interval,
-            peer=True,
-        ),
-        Method("z3", "Z3, bisection", "unchecked", "solvers:z3_bisection", Z3, has("z3")),
-        Method("z3-once", "Z3, one question", "unchecked", "solvers:z3_once", Z3, has("z3")),
-        Method(
-            "cvc5",
-            "cvc5, bisection",
-            "unchecked",
-            "solvers:cvc5_bisection",
-            CVC5,
-            has("cvc5"),
-        ),
-        Method(
-            "cvc5-once",
-            "cvc5, one question",
-            "unchecked",
-            "solvers:cvc5_once",
-            CVC5,
-            has("cvc5"),
-        ),
-        Method(
-            "cvc5-proof",
-            "cvc5, one question with its proof",
-            "unchecked",
-            "solvers:cvc5_proof_once",
-            CVC5,
-            has("cvc5"),
-            peer=True,
-        ),
-        Method(
-            "qepcad",
-            "QEPCAD B, bisection",
-            "unchecked",
-            "solvers:qepcad_bisection",
-            QEPCAD,
-            _qepcad,
-            peer=True,
-        ),
-        Method(
-            "qepcad-once",
-            "QEPCAD B, one question",
-            "unchecked",
-            "solvers:qepcad_once",
-            QEPCAD,
-            _qepcad,
-            peer=True,
-        ),
-        Method("sampling", "float sampling", "no proof", "numerics:sampling"),
-        Method(
-            "scipy",
-            "scipy.optimize",
-            "no proof",
-            "numerics:scipy_optimize",
-            SCIPY,
-            has("scipy"),
-        ),
-    )
-}
-ORBITS = {
-    one.name: one
-    for one in (
-        Method("exact", "exact rationals", "rigorous", "questions:exact"),
-        Method(
-            "enclosed",
-            "Arb balls",
-            "rigorous",
-            "questions:enclosed",
-            "python-flint (pip install python-flint)",
-            has("flint"),
-        ),
-        Method("fast", "float64 with a proved bound", "rigorous", "questions:fast"),
-        Method("mp", "mpmath, 50 digits", "no proof", "questions:mp"),
-        Method("floats", "float64 alone", "no proof", "questions:floats"),
-    )
-}
-ENSEMBLE = {
-    "ensemble": Method("ensemble", "float64 with proved bounds", "rigorous", "questions:ensemble")
-}
-QUICK = ("bernstein", "arb", "z3", "z3-once", "sampling")
-GROWTH = (
-    "bernstein",
-    "arb",
-    "mpmath",
-    "z3-once",
-)  # which are measured as the number of variables grows
-
-
-# -------------------------------------------------------------------------------------------------
-# Our method: a box tree of exact Bernstein coefficients, and the checker's word for it; the time
+# Our method: a box tree of exact Bernstein coefficients, and the checker's verdict on it; the time
 # of both counts.
 
-# of the width, which the value at the point may take
-FEW, MANY = (
-    8,
-    20000,
-)  # boxes: for width 0, which needs few or fails, and for the width that is asked for
+FEW, MANY = 8, 20000  # boxes: for width 0, which needs few or fails, and for the width asked for
 
 
 def bernstein(problem: Problem, width: Fraction) -> Answer:
     """Certifies that the value at a rational point is attained, and that nothing exceeds it by more
     than the width, or at all where that succeeds.
+
+    Raises GaveUp where the boxes run out, ArithmeticError where the checker rejects the
+    certificate.
     """
     point, low = best_point(problem, width / SHARE)
     wider = low + width * (SHARE - 1) / SHARE
@@ -223,9 +58,6 @@ def can_be_a_corner(problem: Problem, point: Point) -> bool:
     return all(2**FEW % place.denominator == 0 for place in places)
 
 
-SHARE = 8
-
-
 def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree: str) -> int:
     """The bytes of the certificate that the checker accepts, read back from what would be stored;
     ArithmeticError where it rejects it.
@@ -233,20 +65,173 @@ def _checked(problem: Problem, point: Point, low: Fraction, high: Fraction, tree
     (statement,) = checker.read_statements(problem.of_box(low, high)).values()
     excess, size = problem.excess(high), len(problem.names)
     bounds = [[2 * k, 2 * k + 1] for k in range(size) if any(e[k] for e in excess)]
-    node = [
-        "boxes",
-        2 * size + (1 if any(map(any, problem.under)) else 0) + 1,
-        bounds,
-        tree,
-    ]  # a denominator that is constant is no fact
-    found = [
+    # a denominator that is constant is no fact
+    node = ["boxes", 2 * size + (1 if any(map(any, problem.under)) else 0) + 1, bounds, tree]
+    witness = [
         statement.name,
         [],
         {name: str(value) for name, value in zip(problem.names, point)},
         ["close"],
     ]
-    stored = json.dumps({"certified": ["proof", [], node], "point": found})
+    stored = json.dumps({"certified": ["proof", [], node], "point": witness})
     outcome, reason = checker.check_one(statement, json.loads(stored), {}, {})
     if outcome != "certified":
         raise ArithmeticError(f"the checker says of {statement.name}: {outcome} {reason}")
     return len(stored)
+
+
+# -------------------------------------------------------------------------------------------------
+# The methods by name.
+
+Worth = Literal["certificate", "rigorous", "unchecked", "no proof"]
+NOTES = """\
+certificate: what is printed was accepted by certificates/checker in this run, and that time \
+is counted; the certificate can be read again.
+rigorous: enclosed by arithmetic that rounds outwards (coq-interval: by Coq's kernel); to \
+believe it again is to run it again.
+unchecked: the answer of a solver.  no proof: floating point; its error is the distance to the \
+truth, which it does not know itself.
+The aim is judged against the certified peers and against Z3.  Certified peers: coq-interval, \
+cvc5 where it writes its proof (nothing here reads it;
+some of its steps say trust), and QEPCAD, whose answers are taken at their word.  Boxes in Arb \
+and mpmath.iv are our own, measured beside."""
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to answer: `solve` gives the answer to a piece of work at a width (or for so much
+    work), `package` is what to install where it is absent, `peer` whether it is a certified peer of
+    the aim.
+    """
+
+    name: str
+    title: str
+    worth: Worth
+    solve: Callable[[Any, Fraction], Any]
+    package: str = ""
+    present: Callable[[], bool] = lambda: True
+    peer: bool = False
+
+
+def has(module: str) -> Callable[[], bool]:
+    """Whether a Python module is there, without loading it."""
+    return lambda: find_spec(module) is not None
+
+
+def _qepcad() -> bool:
+    return shutil.which("qepcad") is not None
+
+
+Z3, CVC5, QEPCAD = (
+    "Z3 (pip install z3-solver)",
+    "cvc5 (pip install cvc5)",
+    "QEPCAD B (Debian package qepcad)",
+)
+COQ, SCIPY = "coq-interval (Debian packages coq and libcoq-interval)", "scipy (pip install scipy)"
+METHODS = {
+    one.name: one
+    for one in (
+        Method("bernstein", "exact Bernstein, ours", "certificate", bernstein),
+        Method(
+            "arb",
+            "Arb boxes",
+            "rigorous",
+            numerics.arb_boxes,
+            "python-flint (pip install python-flint)",
+            has("flint"),
+        ),
+        Method(
+            "mpmath",
+            "mpmath.iv boxes",
+            "rigorous",
+            numerics.mpmath_boxes,
+            "mpmath (pip install mpmath)",
+            has("mpmath"),
+        ),
+        Method(
+            "coq",
+            "coq-interval, one question",
+            "rigorous",
+            solvers.coq_interval_once,
+            COQ,
+            solvers.has_coq_interval,
+            peer=True,
+        ),
+        Method("z3", "Z3, bisection", "unchecked", solvers.z3_bisection, Z3, has("z3")),
+        Method("z3-once", "Z3, one question", "unchecked", solvers.z3_once, Z3, has("z3")),
+        Method(
+            "cvc5",
+            "cvc5, bisection",
+            "unchecked",
+            solvers.cvc5_bisection,
+            CVC5,
+            has("cvc5"),
+        ),
+        Method(
+            "cvc5-once",
+            "cvc5, one question",
+            "unchecked",
+            solvers.cvc5_once,
+            CVC5,
+            has("cvc5"),
+        ),
+        Method(
+            "cvc5-proof",
+            "cvc5, one question with its proof",
+            "unchecked",
+            solvers.cvc5_proof_once,
+            CVC5,
+            has("cvc5"),
+            peer=True,
+        ),
+        Method(
+            "qepcad",
+            "QEPCAD B, bisection",
+            "unchecked",
+            solvers.qepcad_bisection,
+            QEPCAD,
+            _qepcad,
+            peer=True,
+        ),
+        Method(
+            "qepcad-once",
+            "QEPCAD B, one question",
+            "unchecked",
+            solvers.qepcad_once,
+            QEPCAD,
+            _qepcad,
+            peer=True,
+        ),
+        Method("sampling", "float sampling", "no proof", numerics.sampling),
+        Method(
+            "scipy",
+            "scipy.optimize",
+            "no proof",
+            numerics.scipy_optimize,
+            SCIPY,
+            has("scipy"),
+        ),
+    )
+}
+ORBITS = {
+    one.name: one
+    for one in (
+        Method("exact", "exact rationals", "rigorous", orbits.exact),
+        Method(
+            "enclosed",
+            "Arb balls",
+            "rigorous",
+            orbits.enclosed,
+            "python-flint (pip install python-flint)",
+            has("flint"),
+        ),
+        Method("fast", "float64 with a proved bound", "rigorous", orbits.fast),
+        Method("mp", "mpmath, 50 digits", "no proof", orbits.mp),
+        Method("floats", "float64 alone", "no proof", orbits.floats),
+    )
+}
+ENSEMBLE = {
+    "ensemble": Method("ensemble", "float64 with proved bounds", "rigorous", orbits.ensemble)
+}
+QUICK = ("bernstein", "arb", "z3", "z3-once", "sampling")
+GROWTH = ("bernstein", "arb", "mpmath", "z3-once")  # measured as the number of variables grows

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
-from juggleproof.benchmarks.bench.answers import Answer, GaveUp, Problem, best_point
-from juggleproof.certificates.search.enclosing import FloatPolynomial
+from juggleproof.benchmarks.bench.answers import SHARE, Answer, GaveUp, Problem, best_point
 from juggleproof.certificates.search.small_boxes import Terms
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 # -------------------------------------------------------------------------------------------------
 # Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps; rigorous,
@@ -22,7 +24,6 @@ from juggleproof.certificates.search.small_boxes import Terms
 # slope times side is largest.  Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis
 # (2009).
 
-SHARE = 8  # of the width, which the value at the point may take
 BITS = 128
 Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put to an end
 
@@ -192,16 +193,16 @@ def mpmath_boxes(problem: Problem, width: Fraction) -> Answer:
 
 
 # -------------------------------------------------------------------------------------------------
-# Floating point without proof: random samples, and an optimiser of SciPy; what they miss by is
-# measured, not known to them.
-
-Array = NDArray[np.float64]
+# Floating point without proof: random samples, and an optimiser of SciPy; their error is measured,
+# not known to them.
 
 MOST, AT_ONCE = 10**7, 10**5  # samples
 
 
 def sampling(problem: Problem, width: Fraction) -> Answer:
     """The greatest of 1/width samples, 10^7 at most, uniform in the box from a fixed seed."""
+    import numpy as np
+
     random, left, best = np.random.default_rng(1), min(max(int(1 / width), 100), MOST), -np.inf
     low, high = (np.array([float(pair[k]) for pair in problem.box]) for k in (0, 1))
     count = left
@@ -216,7 +217,10 @@ def sampling(problem: Problem, width: Fraction) -> Answer:
 
 def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
     """SciPy's differential evolution to this tolerance, from a fixed seed, polished."""
+    import numpy as np
     from scipy.optimize import differential_evolution
+
+    from juggleproof.certificates.search.enclosing import FloatPolynomial
 
     over, under = (
         FloatPolynomial(terms, len(problem.box)) for terms in (problem.over, problem.under)
@@ -237,7 +241,9 @@ def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
 
 
 def values(terms: Terms, points: Array) -> Array:
-    """The values of a polynomial at many points."""
+    """The values of a polynomial at many points, an array of shape (points, variables)."""
+    import numpy as np
+
     total = np.zeros(len(points))
     for exponents, c in terms.items():
         part = np.full(len(points), float(c))

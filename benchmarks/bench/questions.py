@@ -1,11 +1,17 @@
-"""The five questions about energy, from the derived expressions: what is sought, on which set,
-and.
+"""The five questions about energy, from the derived expressions: what is sought, on which set, and
+the closed form that is its truth; and a question whose variables grow by one at a time.
+
+Everything is in the normal form (x height in units of r T, w closing speed in units of r, energies
+in units of r^2), for all alpha of ALPHAS at once.  A set is met in two forms.  As the paper has it,
+by polynomial inequalities in alpha, x and w: that is what solvers are asked.  And as the image of a
+box under a rational map (`Question.how` says which; tests/benchmarks/test_bench.py proves it): that
+is what box methods take, so that constraints need no search.  The supremum over a set is the
+maximum over its closure.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -14,7 +20,7 @@ from typing import Any
 import sympy
 
 from juggleproof import symbolic
-from juggleproof.benchmarks.bench.answers import GaveUp, Problem, Strayed
+from juggleproof.benchmarks.bench.answers import Problem
 from juggleproof.certificates.language import ClaimError, Formula, Term, equal
 from juggleproof.certificates.votes.questions import questions as solver_questions
 from juggleproof.certificates.votes.questions import read_statement
@@ -31,29 +37,11 @@ from juggleproof.symbolic.algebra import (
 )
 from juggleproof.symbolic.energy import scaled
 
-# -------------------------------------------------------------------------------------------------
-# The five questions about energy, from the derived expressions: what is sought, on which set, and
-# the closed form that is its truth.
-#
-# Everything is in the normal form (x height in units of r T, w closing speed in units of r,
-# energies
-# in units of r^2), for all alpha of ALPHAS at once. A set is met in two forms.  As the paper has
-# it,
-# by polynomial inequalities in alpha, x and w: that is what solvers are asked.  And as the image of
-# a
-# box under a rational map (`Question.how` says which; tests/benchmarks/test_bench.py proves it):
-# that
-# is what box methods take, so that constraints need no search.  The supremum over a set is the
-# maximum over its closure.
-
-ALPHAS = (
-    Fraction(1, 8),
-    Fraction(7, 25),
-)  # 2 (1 + alpha) is the square of 3/2 and of 8/5, so that the corner of R is rational at both ends
+# 2 (1 + alpha) is the square of 3/2 and of 8/5, so that the corner of R is rational at both ends
+ALPHAS = (Fraction(1, 8), Fraction(7, 25))
 BOUND = "bound"
-p, q, s = sympy.symbols(
-    "p q s"
-)  # the box: p and q from 0 to 1; s = sqrt(2 (1 + alpha)) in place of alpha where that root occurs
+# the box: p and q from 0 to 1; s = sqrt(2 (1 + alpha)) in place of alpha where that root occurs
+p, q, s = sympy.symbols("p q s")
 
 
 @dataclass(frozen=True)
@@ -203,11 +191,12 @@ def outside_region() -> tuple[Any, Any]:
     - 1 + 2 q, from x = w (q = 0) to x = 0 (q = 1).
     """
     U = sympy.Symbol("U")
+    # where x = 0, U is the speed
     edge = (
         (-symbolic.region_corner()[1] / r)
         .subs(sympy.sqrt(2 * alpha + 2), s)
         .subs(alpha, s**2 / 2 - 1)
-    )  # where x = 0, U is the speed
+    )
     speed = U - 1 + 2 * q
     height = root_of(symbolic.normal_energy() - U**2 / 2, x).subs(w, speed)
     return tuple(lowest_terms(one.subs(U, edge / p)) for one in (height, speed))
@@ -234,7 +223,7 @@ def questions() -> dict[str, Question]:
     beyond = from_sympy(energy) * region[1] > region[0]
     curve, far = kept_curve(), p / (1 - p)
     gap = scaled(symbolic.energy_of_p() - symbolic.E_max() - symbolic.delta_E_max(), r**2)
-    found = [
+    every = [
         Question(
             "E-B1plus",
             "sup of E on B1+",
@@ -292,16 +281,14 @@ def questions() -> dict[str, Question]:
             cleared(gap),
         ),
     ]
-    return {one.name: one for one in found}
+    return {one.name: one for one in every}
 
 
 # -------------------------------------------------------------------------------------------------
-# Work that grows by one number at a time: variables of a bound, states of an ensemble; and the
-# slope of seconds against size.
+# The energy that so many balls gain together: a question in one variable more for each.
 
 TOP = Fraction(4)  # of the closing speeds, beyond where the energy change is greatest
 VARIABLE_WIDTH = Fraction(1, 1000)
-STATE_STEPS, SEED = 100, 1
 
 
 def balls(count: int) -> tuple[Problem, Fraction]:
@@ -326,170 +313,3 @@ def balls(count: int) -> tuple[Problem, Fraction]:
     statement = bounding(f"{count}-balls", " ".join(names), givens, str(from_sympy(total)), "1", 1)
     truth = truth_at_ends(lowest_terms(symbolic.delta_E_max() / r**2), 1) * count
     return Problem(f"{count}-balls", names, box, over, one, 1, statement, denial(statement)), truth
-
-
-@dataclass(frozen=True)
-class Ensemble:
-    """Random states for one alpha, all followed for STATE_STEPS periods."""
-
-    alpha: Fraction = Fraction(3, 10)
-
-
-def ensemble(work: Ensemble, size: Fraction) -> Strayed:
-    """So many states in float64 with their bounds; the answer is the largest bound, the note counts
-    what is undecided.
-    """
-    import numpy as np
-
-    from juggleproof.scenes.juggler import orbit, random, scene
-
-    found: Any = orbit(scene(work.alpha, random(int(size), seed=SEED)), "fast", STATE_STEPS)
-    here = found.ensemble
-    decided = here.end == 1
-    bound = float(np.maximum(here.error_x, here.error_w)[decided].max(initial=0.0))
-    return Strayed(Fraction(bound), Fraction(bound), f"{len(found.undecided)} undecided")
-
-
-def slope(sizes: Sequence[float], seconds: Sequence[float]) -> float | None:
-    """The slope of the line through log seconds against log sizes, by least squares; None where
-    there are not two sizes.
-
-    >>> round(slope([1, 10, 100], [2.0, 20.0, 200.0]), 6)
-    1.0
-    """
-    if len(set(sizes)) < 2:
-        return None
-    xs, ys = [math.log(size) for size in sizes], [math.log(one) for one in seconds]
-    middle, level = sum(xs) / len(xs), sum(ys) / len(ys)
-    return sum((a - middle) * (b - level) for a, b in zip(xs, ys)) / sum(
-        (a - middle) ** 2 for a in xs
-    )
-
-
-# -------------------------------------------------------------------------------------------------
-# The state after so many periods in each arithmetic of the scene, and in float64 alone; how far it
-# is from the exact one is computed untimed.
-
-BITS = 256  # of a distance, rounded up
-DIGITS = 50
-
-
-@dataclass(frozen=True)
-class Start:
-    """An orbit: restitution and starting state, in normal form."""
-
-    name: str
-    title: str
-    alpha: Fraction
-    x: Fraction
-    w: Fraction
-
-
-STARTS = {
-    one.name: one
-    for one in (
-        Start(
-            "orbit",
-            "the orbit of x = 1000, w = -41 for alpha = 3/10, which ends in the trap",
-            Fraction(3, 10),
-            Fraction(1000),
-            Fraction(-41),
-        ),
-        Start(
-            "orbit-edge",
-            "the orbit of x = 4/3, w = 3 for alpha = 3/7, which meets x = w exactly, where f jumps",
-            Fraction(3, 7),
-            Fraction(4, 3),
-            Fraction(3),
-        ),
-    )
-}
-Later = Callable[[], Strayed]
-
-
-def _followed(start: Start, arithmetic: str, steps: int, **more: Any) -> Any:
-    from juggleproof.scenes.juggler import orbit, point, scene
-
-    found = orbit(scene(start.alpha, point(start.x, start.w)), arithmetic, steps, **more)
-    if found.counts() != {"reached": 1}:
-        raise GaveUp(", ".join(found.counts()))
-    return found
-
-
-def _away(start: Start, steps: int, x: Any, w: Any, bound: Any, note: str = "") -> Strayed:
-    """How far (x, w), in rationals of python-flint, is from the exact state, in the sup norm."""
-    from flint import arb, ctx, fmpq
-
-    true = _followed(start, "exact", steps).tracks[0].here
-    distance = max(abs(x - true.x), abs(w - true.w))
-    kept, ctx.prec = ctx.prec, BITS
-    above = arb(distance).upper().fmpq() if distance else fmpq(0)
-    ctx.prec = kept
-    return Strayed(
-        Fraction(int(above.p), int(above.q)),
-        None if bound is None else Fraction(int(bound.p), int(bound.q)),
-        note,
-        bound is not None and distance > bound,
-    )
-
-
-def exact(start: Start, size: Fraction) -> Later:
-    """Exact rationals: what the others are measured against."""
-    found = _followed(start, "exact", int(size)).tracks[0].here
-    return lambda: Strayed(
-        Fraction(0), Fraction(0), f"{max(found.x.height_bits(), found.w.height_bits())} bits"
-    )
-
-
-def enclosed(start: Start, size: Fraction) -> Later:
-    """Arb balls; their radius is the bound."""
-    here = _followed(start, "enclosed", int(size)).tracks[0].here
-
-    def later() -> Strayed:
-        from flint import arb
-
-        x, w = (arb(value) for value in (here.x, here.w))
-        radius = max(x.rad().upper().fmpq(), w.rad().upper().fmpq())
-        return _away(start, int(size), x.mid().fmpq(), w.mid().fmpq(), radius)
-
-    return later
-
-
-def fast(start: Start, size: Fraction) -> Later:
-    """float64 with its running bound."""
-    row = _followed(start, "fast", int(size)).row(0)
-    return lambda: _away(
-        start, int(size), _of_float(row.x), _of_float(row.w), max(map(_of_float, row.error))
-    )
-
-
-def mp(start: Start, size: Fraction) -> Later:
-    """mpmath: nothing is proved."""
-    here = _followed(start, "mp", int(size), precision=DIGITS).tracks[0].here
-
-    def later() -> Strayed:
-        from flint import fmpq
-        from mpmath.libmp import to_rational
-
-        x, w = (fmpq(*map(int, to_rational(value._mpf_))) for value in (here.x, here.w))
-        return _away(start, int(size), x, w, None)
-
-    return later
-
-
-def floats(start: Start, size: Fraction) -> Later:
-    """float64 period by period, as one writes it down: every branch is what rounding makes of
-    it.
-    """
-    from juggleproof.scenes.juggler.given import formulas
-
-    map_of, alpha, x, w = formulas(), float(start.alpha), float(start.x), float(start.w)
-    for _ in range(int(size)):
-        x, w = map_of.impact(alpha, x, w) if map_of.margin(x, w) > 0 else map_of.flight(x, w, 1)
-    return lambda: _away(start, int(size), _of_float(x), _of_float(w), None)
-
-
-def _of_float(value: float) -> Any:
-    from flint import fmpq
-
-    return fmpq(*float(value).as_integer_ratio())

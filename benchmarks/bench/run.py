@@ -1,5 +1,5 @@
-"""Measures methods, each answer in a process of its own, which is ended with its children when
-its.
+"""The benchmark: each answer is measured in a process of its own; questions in turn are measured,
+judged against their closed forms, printed and drawn.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from juggleproof.benchmarks.bench import questions as growth
 from juggleproof.benchmarks.bench import table
 from juggleproof.benchmarks.bench.answers import Measured, read_answer
 from juggleproof.benchmarks.bench.methods import (
@@ -28,18 +27,18 @@ from juggleproof.benchmarks.bench.methods import (
     QUICK,
     Method,
 )
-from juggleproof.benchmarks.bench.questions import ALPHAS, questions
-from juggleproof.benchmarks.peers import end_with_children
+from juggleproof.benchmarks.bench.orbits import STARTS, STATE_STEPS, Ensemble, Start
+from juggleproof.benchmarks.bench.questions import ALPHAS, VARIABLE_WIDTH, balls, questions
+from juggleproof.benchmarks.processes import end_with_children
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 
 # -------------------------------------------------------------------------------------------------
-# Measures methods, each answer in a process of its own, which is ended with its children when its
-# seconds are over.
+# One answer, in a process of its own, which is ended with its children when its seconds are over.
 
 ROOT = Path(__file__).resolve().parents[2]
 START = 5.0  # seconds that a process may take to start and to end, on a busy machine
-Told = Callable[[str], None]
+Report = Callable[[str], None]
 
 
 def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measured:
@@ -67,7 +66,7 @@ def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measur
         start_new_session=True,
     )
     try:
-        said, errors = process.communicate(pickle.dumps(work), timeout=2 * seconds + START)
+        output, errors = process.communicate(pickle.dumps(work), timeout=2 * seconds + START)
     except subprocess.TimeoutExpired:
         return Measured(method.name, size, reason="gave up")
     finally:
@@ -77,7 +76,7 @@ def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measur
         return Measured(
             method.name, size, reason=f"failed: {lines[-1] if lines else process.returncode}"[:200]
         )
-    found = json.loads(said)
+    found = json.loads(output)
     if "gave_up" in found:
         return Measured(method.name, size, reason=f"gave up: {found['gave_up']}")
     if found["cold"] > seconds:
@@ -86,7 +85,7 @@ def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measur
 
 
 def measure_all(
-    methods: Sequence[Method], work: Any, sizes: Sequence[Fraction], seconds: float, tell: Told
+    methods: Sequence[Method], work: Any, sizes: Sequence[Fraction], seconds: float, tell: Report
 ) -> Iterator[Measured]:
     """Every method at every size, easiest first; a method that gave up is not asked for more."""
     for method in methods:
@@ -99,8 +98,7 @@ def measure_all(
 
 
 # -------------------------------------------------------------------------------------------------
-# The whole benchmark: questions in turn, each measured, judged against its closed form, printed
-# and drawn.
+# The whole benchmark.
 
 WIDTHS = tuple(Fraction(1, 10**k) for k in range(1, 13))
 STEPS = tuple(Fraction(10**k) for k in range(7))
@@ -109,7 +107,7 @@ BALLS = tuple(Fraction(k) for k in range(1, 6))
 QUICK_WIDTHS, QUICK_SIZES, QUICK_SECONDS = (Fraction(1, 10), Fraction(1, 10**6)), 2, 2.0
 SECONDS = 10.0
 ENERGY = ("E-B1plus", "E-B1zero", "DE-H", "DE-outside-R", "p-outside-R")
-NAMES = (*ENERGY, *growth.STARTS, "variables", "states")
+NAMES = (*ENERGY, *STARTS, "variables", "states")
 _WIDTH = re.compile(
     r"\d{0,4}\.?\d{1,40}(?:e-?\d{1,2})?|\d{1,10}/\d{1,40}", re.ASCII | re.IGNORECASE
 )
@@ -184,8 +182,8 @@ class Run:
             print(f"\n== {name}")
             if name in ENERGY:
                 self.energy(name)
-            elif name in growth.STARTS:
-                self.orbit(growth.STARTS[name])
+            elif name in STARTS:
+                self.orbit(STARTS[name])
             else:
                 {"variables": self.variables, "states": self.states}[name]()
         if sum(name in ENERGY for name in self.wanted.names) > 1:
@@ -211,7 +209,7 @@ class Run:
         )
         truth *= problem.sign
         results = self.measure(present, problem, self.wanted.widths)
-        self.told(name, question.title, present, self.wanted.widths, results, truth)
+        self.show(name, question.title, present, self.wanted.widths, results, truth)
         print("\n" + table.ratios(present, self.wanted.widths, results, self.wanted.seconds))
         judged = table.judged(name, present, self.wanted.widths, results, self.wanted.seconds)
         self.judged += judged
@@ -220,7 +218,7 @@ class Run:
             print("no certified peer was measured")
         print("\n" + table.slopes(present, results, "1/width", True))
 
-    def orbit(self, start: growth.Start) -> None:
+    def orbit(self, start: Start) -> None:
         """One orbit, by number of periods."""
         present, sizes = self.present(ORBITS, tuple(ORBITS)), self.some(STEPS)
         print(
@@ -228,7 +226,7 @@ class Run:
             " the distance to the exact orbit\n"
         )
         results = self.measure(present, start, sizes)
-        self.told(start.name, start.title, present, sizes, results, Fraction(0))
+        self.show(start.name, start.title, present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "periods", False))
 
     def variables(self) -> None:
@@ -237,28 +235,28 @@ class Run:
             self.present({name: METHODS[name] for name in GROWTH}, GROWTH),
             self.some(BALLS),
         )
-        problems = {size: growth.balls(int(size)) for size in sizes}
+        problems = {size: balls(int(size)) for size in sizes}
         print(
             "sup of the sum of Delta E over so many balls on the table, and alpha besides; to a"
-            f" width of {table.power(growth.VARIABLE_WIDTH)}\n"
+            f" width of {table.power(VARIABLE_WIDTH)}\n"
         )
         found = []
         for size, (problem, truth) in problems.items():
-            for one in self.measure(present, problem, [growth.VARIABLE_WIDTH]).values():
+            for one in self.measure(present, problem, [VARIABLE_WIDTH]).values():
                 found += [table.resized(each, size, truth) for each in one.values()]
         results = table.by_method(found)
-        self.told("variables", "variables", present, sizes, results, Fraction(0))
+        self.show("variables", "variables", present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "variables", False))
 
     def states(self) -> None:
         """Random states, by their number."""
         present, sizes = self.present(ENSEMBLE, tuple(ENSEMBLE)), self.some(STATES)
         print(
-            f"so many random states, each followed for {growth.STATE_STEPS} periods; error: the"
+            f"so many random states, each followed for {STATE_STEPS} periods; error: the"
             " largest bound of a state that is decided\n"
         )
-        results = self.measure(present, growth.Ensemble(), sizes)
-        self.told("states", "states", present, sizes, results, Fraction(0))
+        results = self.measure(present, Ensemble(), sizes)
+        self.show("states", "states", present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "states", False))
 
     def some(self, sizes: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
@@ -266,7 +264,7 @@ class Run:
         return sizes[:QUICK_SIZES] if self.wanted.quick else sizes
 
     def present(self, methods: dict[str, Method], quick: Sequence[str]) -> list[Method]:
-        """The methods that are there, of a quick run's only some; says which are absent."""
+        """The methods that are there, of a quick run's only some; prints which are absent."""
         absent = [method for method in methods.values() if not method.present()]
         if absent:
             print("absent: " + ", ".join(dict.fromkeys(method.package for method in absent)))
@@ -284,7 +282,7 @@ class Run:
             list(measure_all(present, work, sizes, self.wanted.seconds, self.tell))
         )
 
-    def told(
+    def show(
         self,
         name: str,
         title: str,

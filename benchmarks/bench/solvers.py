@@ -1,4 +1,6 @@
-"""The excess of a problem as a goal for Coq's tactic interval (Debian package libcoq-interval)."""
+"""Solvers that answer whether the supremum exceeds a bound: Z3, cvc5, QEPCAD B, and coq-interval,
+which proves that it does not.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +14,15 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from juggleproof.benchmarks.bench.answers import Answer, GaveUp, Problem, horner
-from juggleproof.benchmarks.peers import Clock
+from juggleproof.benchmarks.bench.answers import (
+    SHARE,
+    Answer,
+    GaveUp,
+    Problem,
+    best_point,
+    horner,
+)
+from juggleproof.benchmarks.processes import Clock
 
 # -------------------------------------------------------------------------------------------------
 # The excess of a problem as a goal for Coq's tactic interval (Debian package libcoq-interval).
@@ -76,13 +85,11 @@ def proves(text: str, seconds: float) -> bool:
 
 
 # -------------------------------------------------------------------------------------------------
-# Solvers that answer whether something exceeds a bound: by bisection, and by one question just
-# above the value at a point found for them.
+# Questions to solvers: by bisection, and one question just above the value at a point.
 #
 # An enclosure made of such answers is worth what the solver's word is worth; none leaves a proof
 # behind that is checked here.
 
-SHARE = 8
 START = Fraction(4)  # every supremum asked for lies between -4 and 4, which is asked too
 ENOUGH = 3600.0  # seconds: the process that asks is ended long before
 Exceeds = Callable[[Problem, Fraction], bool]
@@ -103,10 +110,6 @@ def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
     """One question, a little above the value at a point, which floating point finds and exact
     arithmetic evaluates.
     """
-    from juggleproof.benchmarks.bench.answers import (
-        best_point,  # NumPy, which bisection has no need of
-    )
-
     low = best_point(problem, width / SHARE)[1]
     high = low + width * (SHARE - 1) / SHARE
     if exceeds(problem, high):
@@ -141,10 +144,10 @@ def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
         f"(set-logic QF_NRA)\n{problem.asked(bound)}(check-sat)\n",
         "question",
     )
-    said = ""
+    output = ""
     while not (command := parser.nextCommand()).isNull():
-        said += str(command.invoke(solver, parser.getSymbolManager()))
-    exceeds = _decided(said.strip())
+        output += str(command.invoke(solver, parser.getSymbolManager()))
+    exceeds = _decided(output.strip())
     if proof and not exceeds and not solver.proofToString(solver.getProof()[0]):
         raise GaveUp("no proof")
     return exceeds
@@ -171,7 +174,6 @@ def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
     """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
     Its proof is checked by Coq's kernel.
     """
-
     if not proves(goal(problem, bound), ENOUGH):
         raise GaveUp("no proof")
     return False

@@ -1,9 +1,10 @@
-"""What was measured, as plain text: seconds and errors by method and size, what the aim asks for
-as.
+"""What was measured, as text and as a plot: seconds and errors by method and size, the aims as
+ratios of this run, and slopes.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -13,12 +14,7 @@ from typing import Literal
 
 from juggleproof.benchmarks.bench.answers import Answer, Measured
 from juggleproof.benchmarks.bench.methods import Method
-from juggleproof.benchmarks.bench.questions import slope
 from juggleproof.proofs.reports.tables import plain
-
-# -------------------------------------------------------------------------------------------------
-# What was measured, as plain text: seconds and errors by method and size, what the aim asks for as
-# ratios of this run, and slopes.
 
 Time = Literal["cold", "seconds"]
 AIM = 10
@@ -35,8 +31,8 @@ def by_method(found: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
 
 
 def resized(one: Measured, size: Fraction, truth: Fraction) -> Measured:
-    """The same measurement of work of this size, the answer being told as its distance from the
-    truth, which is then 0.
+    """The same measurement of work of this size, the answer being its distance from the truth,
+    which is then 0.
     """
     answer = one.answer
     if isinstance(answer, Answer):
@@ -308,8 +304,24 @@ def slopes(methods: Sequence[Method], results: Results, of: str, inverse: bool) 
     return plain(rows)
 
 
+def slope(sizes: Sequence[float], seconds: Sequence[float]) -> float | None:
+    """The slope of the line through log seconds against log sizes, by least squares; None where
+    there are not two sizes.
+
+    >>> round(slope([1, 10, 100], [2.0, 20.0, 200.0]), 6)
+    1.0
+    """
+    if len(set(sizes)) < 2:
+        return None
+    xs, ys = [math.log(size) for size in sizes], [math.log(one) for one in seconds]
+    middle, level = sum(xs) / len(xs), sum(ys) / len(ys)
+    return sum((a - middle) * (b - level) for a, b in zip(xs, ys)) / sum(
+        (a - middle) ** 2 for a in xs
+    )
+
+
 # -------------------------------------------------------------------------------------------------
-# Error against seconds, both logarithmic, as SVG; matplotlib is optional.
+# The plot: error against seconds, both logarithmic, as SVG; matplotlib is optional.
 
 ABSENT = "no plots: matplotlib is absent (pip install matplotlib)"
 LOOKS = {

@@ -356,7 +356,7 @@ def certify_problems(options: argparse.Namespace) -> int:
     for one in answered:
         if one.contradicts:
             print(
-                f"CONTRADICTS {one.problem.file}:{one.problem.line}: the script states"
+                f"CONTRADICTS {one.problem.place}: the script states"
                 f" {one.problem.status}, but it is {one.answer.word}, by what the checker accepted"
             )
         if one.rejected:

@@ -1,4 +1,8 @@
-"""Answers with certificates."""
+"""A problem as a statement, its answer, and the certificates that are kept beside its script.
+
+Unsat is answered by a certificate that the checker accepted, sat by an exact model that it
+accepted, else the answer is unknown.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +38,7 @@ from juggleproof.proofs.run import one_at_a_time, spread
 from juggleproof.proofs.smtlib.script import Problem, problems_of_file
 
 # -------------------------------------------------------------------------------------------------
-# States a problem in our language: for all reals, not all of the assertions hold.
+# Statements: for all reals, not all of the assertions hold.
 #
 # Where the script divides, what keeps a divisor from 0 has to come first: the assertions without
 # divisions are then givens, and a divisor that none of them licenses gets a `have` line, which the
@@ -83,9 +87,9 @@ def denial(problem: Problem, name: str, formulas: Sequence[Formula]) -> Statemen
 def givens(statement: Statement) -> list[Formula]:
     """What the statement assumes."""
     return [
-        said
-        for keyword, said in statement.lines
-        if keyword == "given" and isinstance(said, Formula)
+        formula
+        for keyword, formula in statement.lines
+        if keyword == "given" and isinstance(formula, Formula)
     ]
 
 
@@ -96,7 +100,7 @@ def used(problem: Problem, formulas: Sequence[Formula]) -> tuple[str, ...]:
 
 
 def divisors(thing: Term | Formula) -> Iterator[Term]:
-    """What is divided by, inner divisors first; not numbers other than 0."""
+    """The divisors in a term or formula, inner ones first; not numbers other than 0."""
     for part in thing.args:
         if isinstance(part, (Term, Formula)):
             yield from divisors(part)
@@ -106,15 +110,15 @@ def divisors(thing: Term | Formula) -> Iterator[Term]:
 
 def _licence(problem: Problem, line: int, before: Statement, below: Term) -> list[Line]:
     """The `have` line that keeps a divisor from 0, if it needs one."""
-    story = checker.Unfolding(_read(before), checker.Context())
+    unfolding = checker.Unfolding(_read(before), checker.Context())
     try:
-        story.context.reciprocal(checker.parse(str(below)))
+        unfolding.context.reciprocal(checker.parse(str(below)))
         return []
     except checker.Rejected:
         pass
     for sign in (below > 0, below < 0, different(below, 0)):
-        said = Statement(before.name, before.forall, before.lines, sign)
-        if search_proof(_read(said), {}, Budget(SIDE_BUDGET), effort=1) is not None:
+        goal = Statement(before.name, before.forall, before.lines, sign)
+        if search_proof(_read(goal), {}, Budget(SIDE_BUDGET), effort=1) is not None:
             return [("have", sign)]
     raise ClaimError(
         f"{problem.file}:{line}: division by {below}, which may vanish; assert before it that this"
@@ -128,11 +132,8 @@ def _read(statement: Statement) -> checker.Statement:
 
 
 # -------------------------------------------------------------------------------------------------
-# Answers problems: unsat by a certificate that the checker accepted, sat by an exact model that it
-# accepted, else unknown.
-#
-# A question and its answer are plain text and data, so that they pass between processes and
-# machines.
+# Answers.  A question and its answer are plain text and data, so that they pass between processes
+# and machines.
 
 BUDGET = 2_000_000
 WORDS = {"certified": "unsat", "refuted": "sat"}
@@ -173,9 +174,7 @@ class Answer:
 
     @property
     def numbers(self) -> tuple[str, ...]:
-        """The algebraic numbers that the model speaks of, each as the root of a polynomial between
-        two bounds.
-        """
+        """The algebraic numbers in the model, each a root of a polynomial between two bounds."""
         entries = self.certificate["refuted"][1] if self.word == "sat" else []
         return tuple(
             f"{low} <= {name} <= {high}, {poly} = 0" for name, poly, low, high, *_ in entries
@@ -185,14 +184,15 @@ class Answer:
 def question(
     problem: Problem, name: str, budget: int = BUDGET, store: Store | None = None
 ) -> Question:
-    """The question that a problem comes to; raises ClaimError, one line, for a division by what may
-    vanish.
+    """The question whether a problem has a solution, about a statement of that name.
+
+    Raises ClaimError, one line, for a division by what may vanish.
     """
     whole = statement_of(problem, name)
     parts = [whole, denial(problem, name, givens(whole))] if givens(whole) else [whole]
     texts = tuple(part.text() for part in parts)
     stored = {text: store.certificate(name, text) for text in texts} if store else {}
-    return Question(name, texts, budget, {text: found for text, found in stored.items() if found})
+    return Question(name, texts, budget, {text: kept for text, kept in stored.items() if kept})
 
 
 def answer(asked: Question) -> Answer:
@@ -212,12 +212,12 @@ def answer(asked: Question) -> Answer:
         word = settled(asked.name, text, certificate)
         if word == "unsat" or word == "sat" and text == asked.texts[0]:
             return Answer(asked.name, word, text, certificate)
-        told = (
+        reason = (
             certificate
             if "unknown" in certificate
             else {"unknown": "the checker rejects what was found"}
         )
-        first = first or Answer(asked.name, "unknown", text, told)
+        first = first or Answer(asked.name, "unknown", text, reason)
     return first or Answer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
 
 
@@ -237,18 +237,17 @@ def _searched(name: str, text: str, budget: int) -> dict[str, Any]:
     except (OverflowError, ValueError) as error:
         if isinstance(error, ValueError) and "integer string conversion" not in str(error):
             raise
-        return {
-            "unknown": "its numbers grow too long for the search"
-        }  # beyond floats, or beyond what Python writes
+        # beyond floats, or beyond what Python writes
+        return {"unknown": "its numbers grow too long for the search"}
 
 
 def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
     """The model in the script's own symbols, in its order; a variable that no assertion mentions is
     0.
 
-    A Bool is told by the sign of the real that stands for it, where that is a number.
+    A Bool is the sign of the real that stands for it, where that is a number.
     """
-    values, told = dict(answered.model), []
+    values, model = dict(answered.model), []
     for variable in problem.variables:
         value = values.get(variable.name, "0")
         if variable.sort == "Bool":
@@ -259,13 +258,13 @@ def in_script(answered: Answer, problem: Problem) -> list[tuple[str, str]]:
                 if Fraction(value) > 0
                 else "false"
             )
-        told.append((variable.symbol, value))
-    return told
+        model.append((variable.symbol, value))
+    return model
 
 
 # -------------------------------------------------------------------------------------------------
-# Answers all problems of some scripts, by any executor, and keeps statements and certificates
-# beside each script.
+# Scripts: all of their problems, answered by any executor, their statements and certificates kept
+# beside each.
 
 TITLE = (
     "What the problems of {} come to: certified says unsat, refuted says sat;"
@@ -286,7 +285,7 @@ class Answered:
 
     @property
     def name(self) -> str:
-        """The script, and the line of the check-sat where it has several."""
+        """The script, and the name of the problem, or its number where there are several."""
         return self.answer.name.removesuffix("/check")
 
     @property
@@ -304,13 +303,31 @@ class Answered:
         return self.answer.word != "unknown" and not self.contradicts and not self.rejected
 
 
-def id_of(path: Path) -> str:
-    """The name of a script's statements.
+def id_of(name: str) -> str:
+    """A name of a script or problem as the names of statements allow it.
 
-    >>> id_of(Path("a/Motzkin's form.smt2"))
+    >>> id_of("Motzkin's form")
     'Motzkin-s-form'
     """
-    return re.sub(r"[^A-Za-z0-9.\-]+", "-", path.stem, flags=re.ASCII).strip("-.") or "script"
+    return re.sub(r"[^A-Za-z0-9.\-]+", "-", name, flags=re.ASCII).strip("-.") or "script"
+
+
+def names_of(script: str, problems: Sequence[Problem]) -> list[str]:
+    """The names of the statements of a script's problems.
+
+    Raises ClaimError, one line, where two are the same.
+    """
+    names: list[str] = []
+    for problem in problems:
+        number = f"-{problem.number}" if len(problems) > 1 else ""
+        name = f"{script}/{id_of(problem.name)}" if problem.name else f"{script}/check{number}"
+        if name in names:
+            raise ClaimError(
+                f"{problem.place}: its statement would have the name of that of"
+                f" {problems[names.index(name)].place}; rename one"
+            )
+        names.append(name)
+    return names
 
 
 def folder_of(path: Path, store: Path | None) -> Path:
@@ -330,10 +347,11 @@ def answer_files(
     """Every problem of the scripts with its answer, in order; statements and certificates are
     written, and the checker reads them again.
 
-    Raises ClaimError, one line, for what is no script of QF_NRA.
+    Raises ClaimError, one line, for what is no script of QF_NRA, or where two problems or two
+    scripts would share a name.
     """
     read = [(path, problems_of_file(path)) for path in paths]
-    ids = [id_of(path) for path in paths]
+    ids = [id_of(path.stem) for path in paths]
     folders = [folder_of(path, store) for path in paths]
     for k, (path, _) in enumerate(read):
         same = next(
@@ -345,17 +363,10 @@ def answer_files(
                 f"{path}: its statements would have the names of those of {paths[same]}; rename one"
             )
     asked: list[Question] = []
-    for (_, problems), name, folder in zip(read, ids, folders):
+    for (_, problems), script, folder in zip(read, ids, folders):
         stored = Store(Path(os.devnull) if fresh else folder)
-        for problem in problems:
-            asked.append(
-                question(
-                    problem,
-                    f"{name}/check" + (f"-{problem.number}" if len(problems) > 1 else ""),
-                    budget,
-                    stored,
-                )
-            )
+        for problem, name in zip(problems, names_of(script, problems)):
+            asked.append(question(problem, name, budget, stored))
     answers = iter(
         spread(
             partial(one_at_a_time, answer), asked, executor, lambda _, answered: progress(answered)
@@ -380,7 +391,9 @@ def answer_files(
 
 
 def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
-    """Writes what was found to the folder; what the checker rejects there, and why."""
+    """Writes statements and certificates to the folder; what the checker rejects there, and
+    why.
+    """
     scripts = ", ".join(dict.fromkeys(ascii(one.path.name)[1:-1] for one in answered))
     blocks = [f"# {TITLE.format(scripts)}"]
     certificates: dict[str, dict[str, object]] = {}

@@ -1,22 +1,27 @@
-"""Reads a whole SMT-LIB 2 script: each `check-sat` becomes a problem, the assertions that stand at
-it.
+"""Scripts of SMT-LIB: each `check-sat` becomes a problem, the assertions that are in force at it.
+
+`push` and `pop` open and close a scope of declarations, definitions and assertions; `set-info`
+gives the next problem its `:name` and `:status`, and those that follow their `:source`.
 
 Formula: the assertions F1, .., Fn have no solution <=> for all reals: not (F1 and .. and Fn), which
-is the statement of the problem. Source: SMT-LIB 2.6, logics QF_NRA and QF_LRA.
+is the statement of the problem. Source: SMT-LIB 2.6, section 4.2, logics QF_NRA and QF_LRA.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from juggleproof.certificates.language import ClaimError, Formula, real
-from juggleproof.proofs.smtlib.reading import RESERVED, SORTS, Function, Reader, brief
-from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Value, Word, our_name, plain
+from juggleproof.certificates.language import NAME, ClaimError, Formula, real
+from juggleproof.certificates.language import RESERVED as OUR_RESERVED
+from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Word
+from juggleproof.proofs.smtlib.terms import RESERVED, SORTS, Function, Reader, Value, brief, plain
 
 LOGICS = ("QF_NRA", "QF_LRA")
+# they ask for what is shown, and change nothing
 IDLE = frozenset(
     {
         "echo",
@@ -30,8 +35,34 @@ IDLE = frozenset(
         "get-unsat-core",
         "get-unsat-assumptions",
     }
-)  # they ask for what is shown, and change nothing
+)
 STATUSES = ("sat", "unsat", "unknown")
+
+
+# -------------------------------------------------------------------------------------------------
+# Names of a script in our language.
+
+# the search gives these favoured values, as the paper's parameter and units have them
+OURS = OUR_RESERVED | {"alpha", "r", "g"}
+
+
+def our_name(symbol: str, taken: Collection[str]) -> str:
+    """A name for a variable of the script that our language allows and that no other bears.
+
+    >>> our_name("x", []), our_name("x'", ["x_1"]), our_name("lambda", []), our_name("|", [])
+    ('x', 'x_', 'lambda_', 'v')
+    """
+    base = re.sub(r"\W", "_", symbol, flags=re.ASCII).lstrip("_0123456789") or "v"
+    name = base if NAME.match(base) and base not in OURS else base + "_"
+    count = 1
+    while name in taken:
+        count += 1
+        name = f"{base}_{count}"
+    return name
+
+
+# -------------------------------------------------------------------------------------------------
+# Scripts.
 
 
 @dataclass(frozen=True)
@@ -47,10 +78,11 @@ class Variable:
 
 @dataclass(frozen=True)
 class Problem:
-    """What one `check-sat` asks: whether all of the assertions can hold at once; `status` is what
-    the script says of it.
+    """What one `check-sat`, the `number`-th of its script, asks: whether all of the assertions can
+    hold at once.
 
-    Each assertion stands with its line.
+    Each assertion stands with its line; `status`, `name` and `source` are what the script states of
+    the problem, empty where it states nothing; `commands` declare, define and assert all of it.
     """
 
     file: str
@@ -58,16 +90,36 @@ class Problem:
     number: int
     variables: tuple[Variable, ...]
     assertions: tuple[tuple[int, Formula], ...]
+    commands: tuple[Node, ...]
     status: str = ""
+    name: str = ""
+    source: str = ""
+
+    @property
+    def place(self) -> str:
+        """File and line, and the name where there is one."""
+        return f"{self.file}:{self.line}" + (f" ({self.name})" if self.name else "")
+
+    @property
+    def script(self) -> str:
+        """A script of this problem alone.
+
+        >>> print(read_problems("(push)(assert false)(pop)(assert true)(check-sat)", "f")[0].script)
+        (set-logic QF_NRA)
+        (assert true)
+        (check-sat)
+        """
+        return "\n".join(["(set-logic QF_NRA)", *map(str, self.commands), "(check-sat)"])
 
 
 @dataclass
 class Frame:
-    """What was declared and asserted since the last push."""
+    """What was declared, defined and asserted since the last push, and by which commands."""
 
     scope: dict[str, Any] = field(default_factory=dict)
     variables: list[Variable] = field(default_factory=list)
     assertions: list[tuple[int, Formula]] = field(default_factory=list)
+    commands: list[Node] = field(default_factory=list)
 
 
 class Session:
@@ -76,7 +128,7 @@ class Session:
     def __init__(self, script: Script) -> None:
         self.script, self.reader = script, Reader(script)
         self.frames, self.problems = [Frame()], list[Problem]()
-        self.logic, self.status, self.ended = "", "", False
+        self.status, self.name, self.source, self.ended = "", "", "", False
 
     @property
     def scope(self) -> Mapping[str, Any]:
@@ -111,6 +163,8 @@ class Session:
                     "mend the command",
                 )
             doer(command, *command.items[1:])
+            if name in KEPT:
+                self.frames[-1].commands.append(command)
 
     # ------------------------------------------------------------ settings
 
@@ -119,7 +173,6 @@ class Session:
             self.script.fail(
                 command, f"the logic {logic} is not taken on", f"use {' or '.join(LOGICS)}"
             )
-        self.logic = str(logic)
 
     def _set_info(
         self, command: Node, keyword: Expression, value: Expression | None = None
@@ -130,6 +183,10 @@ class Session:
                     command, f"the status {value} is none", f"write one of {', '.join(STATUSES)}"
                 )
             self.status = str(value)
+        elif str(keyword) == ":name" and isinstance(value, Word):
+            self.name = value.text
+        elif str(keyword) == ":source" and isinstance(value, Word):
+            self.source = value.text
 
     def _set_option(
         self, command: Node, keyword: Expression, value: Expression | None = None
@@ -204,8 +261,8 @@ class Session:
         function = Function(
             tuple((name, self._sort(own)) for name, own in pairs), sort_name, body, self.scope
         )
-        # read once with parameters that stand for anything, so that a fault is told where it is
-        # written
+        # read once with parameters that stand for anything, so that an error names the line of the
+        # definition
         inner = {
             name: plain(real("any")) if own == "Real" else real("any") > 0
             for name, own in function.parameters
@@ -236,10 +293,13 @@ class Session:
                 len(self.problems) + 1,
                 variables,
                 assertions,
+                tuple(command for frame in self.frames for command in frame.commands),
                 self.status,
+                self.name,
+                self.source,
             )
         )
-        self.status = ""
+        self.status, self.name = "", ""
 
     def _push(self, command: Node, count: Expression | None = None) -> None:
         self.frames += [Frame() for _ in range(self._levels(command, count))]
@@ -260,7 +320,7 @@ class Session:
         return 1 if count is None else int(str(count))
 
     def _reset(self, command: Node) -> None:
-        self.frames, self.logic, self.status = [Frame()], "", ""
+        self.frames, self.status, self.name, self.source = [Frame()], "", "", ""
 
     def _reset_assertions(self, command: Node) -> None:
         self.frames = [Frame()]
@@ -282,6 +342,9 @@ COMMANDS = {
     "reset": (0, 0),
     "reset-assertions": (0, 0),
 }
+
+
+KEPT = ("declare-const", "declare-fun", "define-fun", "define-const", "assert")
 
 
 def read_problems(text: str, file: str) -> list[Problem]:

@@ -1,5 +1,11 @@
 """The figures of the paper, drawn again from what is derived, and two that it lacks; in the paper's
 order.
+
+    arcs     derived expressions as numbers, and arcs of parabolas
+    drawing  the look of figures, and a plane to draw on
+    states   the plane of the sampled states
+    paper    the figures of the paper
+    ours     the two that it lacks
 """
 
 from __future__ import annotations
@@ -12,10 +18,10 @@ if TYPE_CHECKING:
 
 
 class Entry(NamedTuple):
-    """A figure: its number in the paper ("" where the paper has none), what ids and file names
-    begin with, what is said beside it.
+    """A figure: its number in the paper ("" where the paper has none), the stem of its ids and file
+    names, its title, its caption, and a description for those who do not see it.
 
-    `place` is where the function stands that draws it; it is loaded when it draws.
+    `place` is "file.function", which draws it; the file is loaded then.
     """
 
     number: str
@@ -26,7 +32,7 @@ class Entry(NamedTuple):
     place: str
 
     def draw(self, *given: Any) -> Figure:
-        """The figure; those that the paper lacks are given what they show."""
+        """The figure; those that the paper lacks are given the data that they show."""
         module, _, name = self.place.partition(".")
         figure: Figure = getattr(import_module(f"juggleproof.scenes.figures.{module}"), name)(
             *given

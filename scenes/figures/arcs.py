@@ -1,4 +1,6 @@
-"""Derived expressions as numbers, and the arcs of parabolas that figures draw."""
+"""Derived expressions as numbers at the setting of the figures, and the arcs of parabolas that they
+draw.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +18,8 @@ from juggleproof.symbolic import (
 )
 
 # -------------------------------------------------------------------------------------------------
+# Expressions as numbers.
+#
 # Derived expressions as numbers, exact or floating, at one setting: alpha = 1/4, r = g = 1; states
 # and orbits of the map.
 
@@ -109,6 +113,8 @@ def orbit(start: tuple[Any, Any], steps: int) -> list[tuple[Any, Any]]:
 
 
 # -------------------------------------------------------------------------------------------------
+# Arcs.
+#
 # Curves of the figures as what they are, arcs of parabolas: from derived expressions, and taken by
 # the map f, cut where it jumps.
 

@@ -1,4 +1,4 @@
-"""How curves and regions are drawn."""
+"""The look of the figures, saved to the same bytes from run to run; and a plane to draw on."""
 
 from __future__ import annotations
 
@@ -14,12 +14,16 @@ from typing import TYPE_CHECKING, Any, ParamSpec
 
 from juggleproof.scenes.figures.arcs import Arc, Point
 
-# -------------------------------------------------------------------------------------------------
-# How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
-# from run to run.
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from matplotlib.path import Path
+    from matplotlib.transforms import Transform
+
+# -------------------------------------------------------------------------------------------------
+# The look of figures.
+#
+# How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
+# from run to run.
 
 P = ParamSpec("P")
 INK = "#222222"  # text, axes and whatever is no region; a page may put its own text colour for it
@@ -27,8 +31,8 @@ INK = "#222222"  # text, axes and whatever is no region; a page may put its own 
 
 @dataclass(frozen=True)
 class Look:
-    """How a region or its boundary is told: by colour (of Okabe and Ito), by hatch and by dashes,
-    so that none of them is needed alone.
+    """How a region or its boundary is distinguished: by colour (of Okabe and Ito), by hatch and by
+    dashes, so that none of them is needed alone.
     """
 
     colour: str
@@ -46,9 +50,8 @@ LOSS = Look("#56B4E9", "///", (3, 1), tint=0.4, hatched=0.6)
 KEPT = Look("#D55E00", "", (4, 1.5, 1, 1.5))
 BAND = Look("#CC79A7", "|||", (2, 2), tint=0.4)
 PALETTE = {"B1": B1, "B2": B2, "R": R, "B1+": GAIN, "B1-": LOSS, "B10": KEPT, "K": BAND}
-PLAIN = Look(
-    INK, "////", tint=0.1, hatched=0.18
-)  # what is no region of the paper, or all of it: the table, H
+# what is no region of the paper, or all of it: the table, H
+PLAIN = Look(INK, "////", tint=0.1, hatched=0.18)
 TRAP = Look(INK, "|||", (3, 2), tint=0.16, hatched=0.15)
 
 STYLE = {
@@ -108,7 +111,7 @@ def svg(figure: Figure, slug: str) -> bytes:
 
 
 def _with_own_ids(text: str, slug: str) -> str:
-    """The same file in fewer bytes, ids told apart from those of other figures; glyphs, which it
+    """The same file in fewer bytes, ids distinct from those of other figures; glyphs, which it
     uses most, have the shortest ids.
     """
     text = text.replace("xlink:href=", "href=").replace(
@@ -168,16 +171,12 @@ def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
+# The plane.
+#
 # A plane with two axes in a figure: curves, areas, dots, arrows and words put on it.
 #
 # Lighter than matplotlib's Axes, whose ticks and layout cost more than all that is drawn here.
-# Curves
-# keep their own coordinates.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-    from matplotlib.path import Path
-    from matplotlib.transforms import Transform
+# Curves keep their own coordinates.
 
 Sides = tuple[float, float]
 Box = tuple[float, float, float, float]  # left, bottom, width and height, in parts of the figure's
@@ -285,23 +284,29 @@ class Plane:
             )
         )
 
-    def text(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
+    def text(self, at: Point, label: str, shift: Point = (0, 0), **more: Any) -> None:
         """Writes at a point of the plane, shifted by points of print, about its middle unless
         aligned otherwise.
         """
-        self.words(self.place(*at), said, shift, **more)
+        self.words(self.place(*at), label, shift, **more)
 
-    def words(self, at: Point, said: str, shift: Point = (0, 0), **more: Any) -> None:
+    def words(self, at: Point, label: str, shift: Point = (0, 0), **more: Any) -> None:
         """Writes at a place of the figure in points of print."""
         from matplotlib.text import Text
 
-        if not said:
+        if not label:
             return
         style = {"ha": "center", "va": "center", "transform": self.points, "zorder": 6, **more}
-        self.figure.add_artist(Text(at[0] + shift[0], at[1] + shift[1], said, **style))
+        self.figure.add_artist(Text(at[0] + shift[0], at[1] + shift[1], label, **style))
 
     def along(
-        self, arc: Arc, parameter: float, said: str, above: bool = True, gap: float = 3, **more: Any
+        self,
+        arc: Arc,
+        parameter: float,
+        label: str,
+        above: bool = True,
+        gap: float = 3,
+        **more: Any,
     ) -> None:
         """Writes along a curve, so many points above or below its point with the parameter."""
         x, y = self.place(*arc.at(parameter))
@@ -311,7 +316,7 @@ class Plane:
         side = gap if above else -gap
         self.words(
             (x, y),
-            said,
+            label,
             (-side * sin(angle), side * cos(angle)),
             rotation=degrees(angle),
             rotation_mode="anchor",
@@ -384,15 +389,20 @@ class Plane:
             if up
             else [[(left, bottom), (right, bottom)]]
         )
-        for value, said in across.items():
+        for value, number in across.items():
             x = self.place(value, 0)[0]
             lines.append([(x, bottom), (x, bottom - TICK)])
-            self.words((x, bottom), said, (0, -TICK - 3), va="top", fontsize=NUMBERS)
-        for value, said in up.items():
+            self.words((x, bottom), number, (0, -TICK - 3), va="top", fontsize=NUMBERS)
+        for value, number in up.items():
             y = self.place(0, value)[1]
             lines.append([(left, y), (left - TICK, y)])
             self.words(
-                (left, y), said, (-TICK - 3, 0), ha="right", va="center_baseline", fontsize=NUMBERS
+                (left, y),
+                number,
+                (-TICK - 3, 0),
+                ha="right",
+                va="center_baseline",
+                fontsize=NUMBERS,
             )
         self._patch(
             polylines(lines),

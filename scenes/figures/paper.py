@@ -1,4 +1,4 @@
-"""Figures 3 to 14."""
+"""Figures 3 and 5 to 14 of the paper."""
 
 from __future__ import annotations
 
@@ -52,211 +52,17 @@ from juggleproof.symbolic import (
 )
 from juggleproof.symbolic.algebra import t, z2
 
-# -------------------------------------------------------------------------------------------------
-# Figures 12, 13 and 14: the region R, the point p that must lie outside it, and the band around
-# e_1 in it.
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-BOX = (0.135, 0.15, 0.84, 0.82)
-ACROSS, UP = (0.0, 1.9), (-2.6, 2.6)
-BEYOND = (-4.0, 4.0)  # beyond the lower and upper edges of the axes
-EPSILON = Fraction(
-    1, 32
-)  # of the band, in units of the square of the launch speed: a band of half width 1/4
-
-
-@styled
-def region() -> Figure:
-    """Figure 12: R, with B1 and B2."""
-    figure = blank(4.8, 3.5)
-    plane = states.StatePlane(figure, BOX, ACROSS, UP)
-    plane.fill(states.outline_b1(BEYOND[0]), "B1", B1)
-    plane.fill(states.outline_b2(8.0, BEYOND), "B2", B2)
-    plane.fill(states.outline_r(), "R", R)
-    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.4)
-    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
-    plane.text((0.42, -0.3), r"$\mathcal{R}$", fontsize=18)
-    plane.text((1.0, -1.75), r"$\mathcal{B}_1$", fontsize=18)
-    plane.text((1.4, 1.2), r"$\mathcal{B}_2$", fontsize=18)
-    plane.name(states.region_boundary(), 1.2, r"$\partial\mathcal{R}$: $R(\bar b) = 0$", gap=4)
-    plane.name(states.bounce_line(BEYOND[0]), -0.55, r"$\partial\mathcal{B}_2$")
-    return figure
-
-
-@styled
-def intersections() -> Figure:
-    """Figure 13: p, where the line tau_c = T has the velocity of e_1, and the level through it."""
-    figure = blank(4.8, 3.5)
-    plane = states.StatePlane(figure, BOX, ACROSS, UP)
-    through_p = states.level(float(value(energy_of_p())))
-    speed = states.speed_of_e_1()
-    plane.draw(
-        [straight((0, speed), (8.0, speed))], "speed-of-e-1", linewidth=0.9, linestyle=(0, (4, 2))
-    )
-    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.1)
-    plane.draw([states.kept()], "B10", KEPT, linewidth=1.6)
-    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
-    plane.draw([through_p], "level-of-p", linewidth=1.1, linestyle=(0, (1, 1.5)))
-    plane.mark(e_1(), "e-1", r"$e_1$", (5, 4))
-    plane.mark(point_p(), "p", r"$p$", (-3, -5), ha="right", va="top")
-    plane.name(states.kept(), 0.5, r"$\mathcal{B}_1^0$", above=False, gap=2)
-    plane.name(states.region_boundary(), 1.3, r"$\partial\mathcal{R}$", above=False)
-    plane.name(through_p, 1.5, r"$E = E(p)$")
-    plane.name(states.bounce_line(BEYOND[0]), 0.4, r"$\partial\mathcal{B}_2$", gap=2)
-    plane.text((0.58, speed - 0.06), r"$\dot{\bar\beta}$ of $e_1$", va="top", fontsize=9)
-    return figure
-
-
-def outline_band(half_width: float) -> tuple[Arc, ...]:
-    """The states of R whose velocity differs from that of e_1 by no more than this; ValueError
-    where they are not all in B1.
-    """
-    low, high = states.speed_of_e_1() - half_width, states.speed_of_e_1() + half_width
-    outside = states.region_boundary().part(high, low)
-    line = states.bounce_line(low)
-    if any(outside.at(speed)[0] >= line.at(speed)[0] for speed in (low, high)):
-        raise ValueError("the band leaves B1 before it leaves R")
-    return tuple(states.chain(outside, straight((0, low), (0, high))))
-
-
-@styled
-def band() -> Figure:
-    """Figure 14: the region K, the states of R and B1 whose velocity is near that of e_1."""
-    figure = blank(4.8, 3.5)
-    plane = states.StatePlane(figure, BOX, (0, 1.6), UP)
-    half = max(zeros(relative_kinetic_energy() - EPSILON * SETTING["r"] ** 2, z2))
-    plane.fill(states.outline_r(), "R", R)
-    plane.fill(outline_band(half), "K", BAND)
-    plane.draw(outline_band(half), "boundary-of-K", BAND, linewidth=1.8)
-    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.1)
-    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
-    plane.mark(e_1(), "e-1", r"$e_1$", (6, 0), va="center")
-    plane.text((0.62, states.speed_of_e_1()), r"$\mathcal{K}$", fontsize=14)
-    plane.text((0.25, -1.3), r"$\mathcal{R}$", fontsize=16)
-    plane.name(states.bounce_line(BEYOND[0]), -0.4, r"$\partial\mathcal{B}_2$", gap=2)
-    across = 1.22
-    low, high = states.speed_of_e_1() - half, states.speed_of_e_1() + half
-    plane.arrow((across, low), (across, high), both=True)
-    plane.text((across + 0.03, (low + high) / 2), r"$2\sqrt{2\epsilon}$", ha="left")
-    return figure
-
-
 # -------------------------------------------------------------------------------------------------
-# Figures 7, 8 and 11: energy levels, which flights keep to; the impacts that keep, gain and lose
-# energy.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-LEVELS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)  # in units of the square of the launch speed
-ENERGY_UP = (-2.6, 2.6)
-# beyond the lower and upper edges of the axes
-
-
-@styled
-def levels() -> Figure:
-    """Figure 7: the lines of equal energy, along which the state moves in free flight,
-    downwards.
-    """
-    figure = blank(4.8, 3.5)
-    plane = states.StatePlane(figure, BOX, (0, 1.8), ENERGY_UP)
-    unit = float(SETTING["r"] ** 2)
-    for energy in LEVELS:
-        arc = states.level(energy * unit)
-        plane.draw([arc], f"level-{energy}", linewidth=1.1)
-        for part in (0.25, 0.75):
-            tail, tip = (
-                states.drawn([arc])[0].at(arc.start + (arc.stop - arc.start) * (part + d))
-                for d in (-0.012, 0.012)
-            )
-            plane.arrow(tail, tip)
-        plane.text(
-            states.drawn([arc])[0].at(0.0),
-            f"{energy:g}",
-            (3, 3),
-            ha="left",
-            va="bottom",
-            fontsize=9,
-        )
-    plane.text((1.79, 2.3), r"$E(\bar b)\,/\,\dot\rho_0^2$ at each tip", ha="right", fontsize=10)
-    return figure
-
-
-@styled
-def important_lines() -> Figure:
-    """Figure 8: B1^0, the level E_max that touches it, and the boundary of R, which is Delta E_max
-    above.
-    """
-    figure = blank(4.8, 3.5)
-    plane = states.StatePlane(figure, BOX, (-0.46, 1.6), ENERGY_UP)
-    kept_level = states.level(float(value(E_max())))
-    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=0.9)
-    plane.draw([states.kept()], "B10", KEPT, linewidth=1.8)
-    plane.draw([kept_level], "E-max", linewidth=1.1, linestyle=(0, (5, 2)))
-    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
-    plane.name(states.bounce_line(BEYOND[0]), -0.42, r"$\partial\mathcal{B}_2$", gap=2)
-    plane.name(states.kept(), 0.55, r"$\mathcal{B}_1^0$", above=False, gap=2)
-    plane.name(kept_level, -1.1, r"$E = E_{max}$", above=False)
-    plane.name(
-        states.region_boundary(),
-        1.35,
-        r"$\partial\mathcal{R}$: $E = E_{max} + \Delta E_{max}$",
-        gap=4,
-    )
-    left, right = (
-        states.drawn([arc])[0].at(-0.6) for arc in (kept_level, states.region_boundary())
-    )
-    plane.arrow(left, right, both=True)
-    plane.text(
-        ((left[0] + right[0]) / 2, -0.55), r"$\Delta E_{max}\,/\,\gamma$", va="bottom", fontsize=9
-    )
-    for state, name, said in (
-        (largest_kept_energy().state, "greatest-kept", "$E_{max}$ is\nkept here"),
-        (largest_energy_change().state, "greatest-gain", "$\\Delta E_{max}$ is\ngained here"),
-    ):
-        plane.mark(state, name, said, (-5, 0), ha="right", va="center", linespacing=1.1)
-    return figure
-
-
-@styled
-def gains_and_losses() -> Figure:
-    """Figure 11: the parts of B1 whose impacts gain, keep and lose energy."""
-    figure = blank(4.8, 3.5)
-    plane = states.StatePlane(figure, BOX, (0, 1.6), ENERGY_UP)
-    plane.fill(states.outline_gain(), "B1+", GAIN)
-    plane.fill(states.outline_loss(BEYOND[0]), "B1-", LOSS)
-    plane.fill(states.outline_b2(6.0, BEYOND), "B2", B2)
-    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.4)
-    plane.draw([states.kept()], "B10", KEPT, linewidth=2)
-    plane.text((0.15, -0.42), r"$\mathcal{B}_1^+$", fontsize=16)
-    plane.text((0.15, -0.8), r"$\Delta_1 E > 0$", fontsize=9)
-    plane.text((0.85, -1.1), r"$\mathcal{B}_1^-$", fontsize=16)
-    plane.text((0.85, -1.5), r"$\Delta_1 E < 0$")
-    plane.text((1.0, 1.4), r"$\mathcal{B}_2$", fontsize=16)
-    plane.text((1.0, 1.0), r"$\Delta_2 E = 0$")
-    plane.text(
-        states.drawn([states.kept()])[0].at(-0.75),
-        r"$\mathcal{B}_1^0$: $\Delta_1 E = 0$",
-        (9, -2),
-        ha="left",
-        va="top",
-    )
-    return figure
-
-
-# -------------------------------------------------------------------------------------------------
-# Figure 3: the boundary of R and its images under f, cut where f jumps.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Figure 3.
+#
+# The boundary of R and its images under f, cut where f jumps.
 
 STEPS = 6  # images shown, the boundary itself being the first
-WHOLE, CLOSE = (
-    ((0.0, 1.75), (-2.4, 2.4)),
-    ((0.0, 0.9), (-1.0, 0.2)),
-)  # the axes of the upper and of the lower row
+# the axes of the upper and of the lower row
+WHOLE, CLOSE = ((0.0, 1.75), (-2.4, 2.4)), ((0.0, 0.9), (-1.0, 0.2))
 
 
 @cache
@@ -339,17 +145,161 @@ def draw_image(plane: states.StatePlane, step: int) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figures 9 and 10: the table alone, and the ball with the table, against time.
+# Figures 5 and 6.
+#
+# The half plane H of the states, and what the table does to them: B1 (it strikes within the period)
+# and B2 (it does not).
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+REGION_ACROSS, REGION_UP = (-0.35, 2.3), (-2.2, 2.2)
+REACH = 6.0  # beyond the right edge of the axes, in units of height
+REGION_BEYOND = (-3.0, 3.0)  # beyond their lower and upper edges
+
+
+@styled
+def half_plane() -> Figure:
+    """Figure 5: H, the states with the ball on or above the table."""
+    figure = blank(4.6, 3.2)
+    plane = states.StatePlane(figure, BOX, REGION_ACROSS, REGION_UP)
+    plane.fill(states.outline_h(REACH, REGION_BEYOND), "H", PLAIN)
+    plane.text((1.15, 0.9), r"$\mathcal{H}$", fontsize=20)
+    plane.text((1.15, 0.42), r"$\bar\beta \geq 0$: ball on or above the table")
+    plane.text((-0.17, -1.1), "below the table", rotation=90, alpha=0.8)
+    plane.text((0, -1.75), r"$\bar\beta = 0$", (8, 0), ha="left")
+    return figure
+
+
+@styled
+def strikes_and_flights() -> Figure:
+    """Figure 6: B1, B2 and the line between them, which belongs to B2."""
+    figure = blank(4.6, 3.2)
+    plane = states.StatePlane(figure, BOX, REGION_ACROSS, REGION_UP)
+    plane.fill(states.outline_b1(REGION_BEYOND[0]), "B1", B1)
+    plane.fill(states.outline_b2(REACH, REGION_BEYOND), "B2", B2)
+    plane.draw([states.bounce_line(REGION_BEYOND[0])], "bounce-line", linewidth=1.6)
+    plane.text((0.45, -1.0), r"$\mathcal{B}_1$", fontsize=18)
+    plane.text((0.45, -1.4), "struck within\nthe period", va="top", linespacing=1.0)
+    plane.text((1.55, 1.2), r"$\mathcal{B}_2$", fontsize=18)
+    plane.text((1.55, 0.8), "not struck\nwithin the period", va="top", linespacing=1.0)
+    plane.name(states.bounce_line(REGION_BEYOND[0]), -0.4, r"$\tau_c = T$")
+    plane.name(
+        states.bounce_line(REGION_BEYOND[0]),
+        -0.75,
+        r"$\partial\mathcal{B}_2 \subset \mathcal{B}_2$",
+        above=False,
+    )
+    return figure
+
+
+# -------------------------------------------------------------------------------------------------
+# Figures 7, 8 and 11.
+#
+# Energy levels, which flights keep to; the impacts that keep, gain and lose energy.
+
+LEVELS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)  # in units of the square of the launch speed
+ENERGY_UP = (-2.6, 2.6)
+# beyond the lower and upper edges of the axes
+
+
+@styled
+def levels() -> Figure:
+    """Figure 7: the lines of equal energy, along which the state moves in free flight,
+    downwards.
+    """
+    figure = blank(4.8, 3.5)
+    plane = states.StatePlane(figure, BOX, (0, 1.8), ENERGY_UP)
+    unit = float(SETTING["r"] ** 2)
+    for energy in LEVELS:
+        arc = states.level(energy * unit)
+        plane.draw([arc], f"level-{energy}", linewidth=1.1)
+        for part in (0.25, 0.75):
+            tail, tip = (
+                states.drawn([arc])[0].at(arc.start + (arc.stop - arc.start) * (part + d))
+                for d in (-0.012, 0.012)
+            )
+            plane.arrow(tail, tip)
+        plane.text(
+            states.drawn([arc])[0].at(0.0),
+            f"{energy:g}",
+            (3, 3),
+            ha="left",
+            va="bottom",
+            fontsize=9,
+        )
+    plane.text((1.79, 2.3), r"$E(\bar b)\,/\,\dot\rho_0^2$ at each tip", ha="right", fontsize=10)
+    return figure
+
+
+@styled
+def important_lines() -> Figure:
+    """Figure 8: B1^0, the level E_max that touches it, and the boundary of R, which is Delta E_max
+    above.
+    """
+    figure = blank(4.8, 3.5)
+    plane = states.StatePlane(figure, BOX, (-0.46, 1.6), ENERGY_UP)
+    kept_level = states.level(float(value(E_max())))
+    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=0.9)
+    plane.draw([states.kept()], "B10", KEPT, linewidth=1.8)
+    plane.draw([kept_level], "E-max", linewidth=1.1, linestyle=(0, (5, 2)))
+    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
+    plane.name(states.bounce_line(BEYOND[0]), -0.42, r"$\partial\mathcal{B}_2$", gap=2)
+    plane.name(states.kept(), 0.55, r"$\mathcal{B}_1^0$", above=False, gap=2)
+    plane.name(kept_level, -1.1, r"$E = E_{max}$", above=False)
+    plane.name(
+        states.region_boundary(),
+        1.35,
+        r"$\partial\mathcal{R}$: $E = E_{max} + \Delta E_{max}$",
+        gap=4,
+    )
+    left, right = (
+        states.drawn([arc])[0].at(-0.6) for arc in (kept_level, states.region_boundary())
+    )
+    plane.arrow(left, right, both=True)
+    plane.text(
+        ((left[0] + right[0]) / 2, -0.55), r"$\Delta E_{max}\,/\,\gamma$", va="bottom", fontsize=9
+    )
+    for state, name, label in (
+        (largest_kept_energy().state, "greatest-kept", "$E_{max}$ is\nkept here"),
+        (largest_energy_change().state, "greatest-gain", "$\\Delta E_{max}$ is\ngained here"),
+    ):
+        plane.mark(state, name, label, (-5, 0), ha="right", va="center", linespacing=1.1)
+    return figure
+
+
+@styled
+def gains_and_losses() -> Figure:
+    """Figure 11: the parts of B1 whose impacts gain, keep and lose energy."""
+    figure = blank(4.8, 3.5)
+    plane = states.StatePlane(figure, BOX, (0, 1.6), ENERGY_UP)
+    plane.fill(states.outline_gain(), "B1+", GAIN)
+    plane.fill(states.outline_loss(BEYOND[0]), "B1-", LOSS)
+    plane.fill(states.outline_b2(6.0, BEYOND), "B2", B2)
+    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.4)
+    plane.draw([states.kept()], "B10", KEPT, linewidth=2)
+    plane.text((0.15, -0.42), r"$\mathcal{B}_1^+$", fontsize=16)
+    plane.text((0.15, -0.8), r"$\Delta_1 E > 0$", fontsize=9)
+    plane.text((0.85, -1.1), r"$\mathcal{B}_1^-$", fontsize=16)
+    plane.text((0.85, -1.5), r"$\Delta_1 E < 0$")
+    plane.text((1.0, 1.4), r"$\mathcal{B}_2$", fontsize=16)
+    plane.text((1.0, 1.0), r"$\Delta_2 E = 0$")
+    plane.text(
+        states.drawn([states.kept()])[0].at(-0.75),
+        r"$\mathcal{B}_1^0$: $\Delta_1 E = 0$",
+        (9, -2),
+        ha="left",
+        va="top",
+    )
+    return figure
+
+
+# -------------------------------------------------------------------------------------------------
+# Figures 9 and 10.
+#
+# The table alone, and the ball with the table, against time.
 
 TIME = r"$t\,/\,T$"
 HEIGHT, VELOCITY = r"$\rho\,/\,(\dot\rho_0 T)$", r"$\dot\rho\,/\,\dot\rho_0$"  # of the table
-START = (
-    Fraction(9, 5),
-    Fraction(3, 5),
-)  # height and velocity as the ball starts, the table being at its lowest
+# height and velocity as the ball starts, the table being at its lowest
+START = (Fraction(9, 5), Fraction(3, 5))
 
 
 def against_time(height: Any, shift: Any, stop: Any, **values: Any) -> Arc:
@@ -471,47 +421,88 @@ def oscillator() -> Figure:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figures 5 and 6: the half plane H of the states, and what the table does to them: B1 (it strikes
-# within the period) and B2 (it does not).
+# Figures 12, 13 and 14.
+#
+# The region R, the point p that must lie outside it, and the band around e_1 in it.
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-REGION_ACROSS, REGION_UP = (-0.35, 2.3), (-2.2, 2.2)
-REACH = 6.0  # beyond the right edge of the axes, in units of height
-REGION_BEYOND = (-3.0, 3.0)  # beyond their lower and upper edges
+BOX = (0.135, 0.15, 0.84, 0.82)
+ACROSS, UP = (0.0, 1.9), (-2.6, 2.6)
+BEYOND = (-4.0, 4.0)  # beyond the lower and upper edges of the axes
+# of the band, in units of the square of the launch speed: a band of half width 1/4
+EPSILON = Fraction(1, 32)
 
 
 @styled
-def half_plane() -> Figure:
-    """Figure 5: H, the states with the ball on or above the table."""
-    figure = blank(4.6, 3.2)
-    plane = states.StatePlane(figure, BOX, REGION_ACROSS, REGION_UP)
-    plane.fill(states.outline_h(REACH, REGION_BEYOND), "H", PLAIN)
-    plane.text((1.15, 0.9), r"$\mathcal{H}$", fontsize=20)
-    plane.text((1.15, 0.42), r"$\bar\beta \geq 0$: ball on or above the table")
-    plane.text((-0.17, -1.1), "below the table", rotation=90, alpha=0.8)
-    plane.text((0, -1.75), r"$\bar\beta = 0$", (8, 0), ha="left")
+def region() -> Figure:
+    """Figure 12: R, with B1 and B2."""
+    figure = blank(4.8, 3.5)
+    plane = states.StatePlane(figure, BOX, ACROSS, UP)
+    plane.fill(states.outline_b1(BEYOND[0]), "B1", B1)
+    plane.fill(states.outline_b2(8.0, BEYOND), "B2", B2)
+    plane.fill(states.outline_r(), "R", R)
+    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.4)
+    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
+    plane.text((0.42, -0.3), r"$\mathcal{R}$", fontsize=18)
+    plane.text((1.0, -1.75), r"$\mathcal{B}_1$", fontsize=18)
+    plane.text((1.4, 1.2), r"$\mathcal{B}_2$", fontsize=18)
+    plane.name(states.region_boundary(), 1.2, r"$\partial\mathcal{R}$: $R(\bar b) = 0$", gap=4)
+    plane.name(states.bounce_line(BEYOND[0]), -0.55, r"$\partial\mathcal{B}_2$")
     return figure
 
 
 @styled
-def strikes_and_flights() -> Figure:
-    """Figure 6: B1, B2 and the line between them, which belongs to B2."""
-    figure = blank(4.6, 3.2)
-    plane = states.StatePlane(figure, BOX, REGION_ACROSS, REGION_UP)
-    plane.fill(states.outline_b1(REGION_BEYOND[0]), "B1", B1)
-    plane.fill(states.outline_b2(REACH, REGION_BEYOND), "B2", B2)
-    plane.draw([states.bounce_line(REGION_BEYOND[0])], "bounce-line", linewidth=1.6)
-    plane.text((0.45, -1.0), r"$\mathcal{B}_1$", fontsize=18)
-    plane.text((0.45, -1.4), "struck within\nthe period", va="top", linespacing=1.0)
-    plane.text((1.55, 1.2), r"$\mathcal{B}_2$", fontsize=18)
-    plane.text((1.55, 0.8), "not struck\nwithin the period", va="top", linespacing=1.0)
-    plane.name(states.bounce_line(REGION_BEYOND[0]), -0.4, r"$\tau_c = T$")
-    plane.name(
-        states.bounce_line(REGION_BEYOND[0]),
-        -0.75,
-        r"$\partial\mathcal{B}_2 \subset \mathcal{B}_2$",
-        above=False,
+def intersections() -> Figure:
+    """Figure 13: p, where the line tau_c = T has the velocity of e_1, and the level through it."""
+    figure = blank(4.8, 3.5)
+    plane = states.StatePlane(figure, BOX, ACROSS, UP)
+    through_p = states.level(float(value(energy_of_p())))
+    speed = states.speed_of_e_1()
+    plane.draw(
+        [straight((0, speed), (8.0, speed))], "speed-of-e-1", linewidth=0.9, linestyle=(0, (4, 2))
     )
+    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.1)
+    plane.draw([states.kept()], "B10", KEPT, linewidth=1.6)
+    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
+    plane.draw([through_p], "level-of-p", linewidth=1.1, linestyle=(0, (1, 1.5)))
+    plane.mark(e_1(), "e-1", r"$e_1$", (5, 4))
+    plane.mark(point_p(), "p", r"$p$", (-3, -5), ha="right", va="top")
+    plane.name(states.kept(), 0.5, r"$\mathcal{B}_1^0$", above=False, gap=2)
+    plane.name(states.region_boundary(), 1.3, r"$\partial\mathcal{R}$", above=False)
+    plane.name(through_p, 1.5, r"$E = E(p)$")
+    plane.name(states.bounce_line(BEYOND[0]), 0.4, r"$\partial\mathcal{B}_2$", gap=2)
+    plane.text((0.58, speed - 0.06), r"$\dot{\bar\beta}$ of $e_1$", va="top", fontsize=9)
+    return figure
+
+
+def outline_band(half_width: float) -> tuple[Arc, ...]:
+    """The states of R whose velocity differs from that of e_1 by no more than this; ValueError
+    where they are not all in B1.
+    """
+    low, high = states.speed_of_e_1() - half_width, states.speed_of_e_1() + half_width
+    outside = states.region_boundary().part(high, low)
+    line = states.bounce_line(low)
+    if any(outside.at(speed)[0] >= line.at(speed)[0] for speed in (low, high)):
+        raise ValueError("the band leaves B1 before it leaves R")
+    return tuple(states.chain(outside, straight((0, low), (0, high))))
+
+
+@styled
+def band() -> Figure:
+    """Figure 14: the region K, the states of R and B1 whose velocity is near that of e_1."""
+    figure = blank(4.8, 3.5)
+    plane = states.StatePlane(figure, BOX, (0, 1.6), UP)
+    half = max(zeros(relative_kinetic_energy() - EPSILON * SETTING["r"] ** 2, z2))
+    plane.fill(states.outline_r(), "R", R)
+    plane.fill(outline_band(half), "K", BAND)
+    plane.draw(outline_band(half), "boundary-of-K", BAND, linewidth=1.8)
+    plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.1)
+    plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
+    plane.mark(e_1(), "e-1", r"$e_1$", (6, 0), va="center")
+    plane.text((0.62, states.speed_of_e_1()), r"$\mathcal{K}$", fontsize=14)
+    plane.text((0.25, -1.3), r"$\mathcal{R}$", fontsize=16)
+    plane.name(states.bounce_line(BEYOND[0]), -0.4, r"$\partial\mathcal{B}_2$", gap=2)
+    across = 1.22
+    low, high = states.speed_of_e_1() - half, states.speed_of_e_1() + half
+    plane.arrow((across, low), (across, high), both=True)
+    plane.text((across + 0.03, (low + high) / 2), r"$2\sqrt{2\epsilon}$", ha="left")
     return figure

@@ -1,4 +1,6 @@
-"""The plane of the sampled states: its axes, curves and the outlines of its regions."""
+"""The plane of the sampled states: height across in units of r T, velocity up in units of r; its
+curves, and the outlines of its regions.
+"""
 
 from __future__ import annotations
 
@@ -27,10 +29,6 @@ from juggleproof.symbolic import (
     zero_change_height,
 )
 from juggleproof.symbolic.algebra import E0, beta, v
-
-# -------------------------------------------------------------------------------------------------
-# The plane of the sampled states: height across in units of r T, velocity up in units of r; its
-# curves, and the outlines of its regions.
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -99,9 +97,9 @@ class StatePlane(Plane):
         """Fills a region of states."""
         self.area(drawn(arcs), name, look)
 
-    def name(self, arc: Arc, speed: float, said: str, **more: Any) -> None:
+    def name(self, arc: Arc, speed: float, label: str, **more: Any) -> None:
         """Writes along a curve of states, at this velocity."""
-        self.along(drawn([arc])[0], speed, said, **more)
+        self.along(drawn([arc])[0], speed, label, **more)
 
     def mark(
         self, state: Any, name: str, label: str = "", shift: Point = (5, 4), **more: Any

@@ -5,33 +5,30 @@ motion between samples.
 
     orbit(scene("3/10", point(1000, -41)), "exact", until_trap=True).row(0)
 
+In reading order:
+
+    given     the derived formulas as arithmetic, and numbers as they are given
+    starts    scenes, and the states from which orbits start
+    track     one orbit in any arithmetic: flights, impacts, the trap
+    exact     orbits in exact rationals and in mpmath numbers
+    bounded   orbits in Arb balls, and in float64 with proved bounds
+    orbits    the orbits of a scene, and the motion between samples
+    periodic  periodic orbits
+    tables    tables, pictures and hard cases
+
 Importing this package loads what it needs only when a name is first used.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from juggleproof.symbolic.lazy import lazy_names
 
-_NAMES = {
-    "juggleproof.scenes.errors": ("SceneError"),
-    "juggleproof.scenes.juggler.starts": (
+NAMES = {
+    "..errors": "SceneError",
+    ".starts": (
         "Goal Scene scene arrays boundary grid listed physical physical_box physical_grid "
         "point random"
     ),
-    "juggleproof.scenes.juggler.orbits": ("ARITHMETICS Orbits Row orbit prepare"),
+    ".orbits": "ARITHMETICS Orbits Row orbit prepare",
 }
-_PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
-
-
-__all__ = sorted(_PLACE)
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _PLACE:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_PLACE[name]), name)
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *_PLACE})
+__all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

@@ -1,4 +1,6 @@
-"""Balls and float64 with bounds."""
+"""Orbits with a proved error: numbers in float64 with running bounds, orbits in Arb balls, and
+millions of orbits in float64 at once.
+"""
 
 from __future__ import annotations
 
@@ -12,36 +14,34 @@ from flint import arb, ctx
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.exact import Exact, lifted, lowest, told
+from juggleproof.scenes.juggler.exact import Exact, as_fraction, lifted, lowest
 from juggleproof.scenes.juggler.given import formulas, nearest
 from juggleproof.scenes.juggler.starts import Goal, Scene
 from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 
 # -------------------------------------------------------------------------------------------------
+# Numbers in float64 with bounds.
+#
 # Arrays of float64 with a proved bound on their distance to the exact numbers (running error
 # analysis).
 #
 # A `Bounded` is an array v of floats and an array e >= 0 of floats with |exact - v| <= e, entry by
 # entry.  Let u = 2^-53 be the unit roundoff, fl a rounded result (IEEE 754 binary64, to nearest,
-# with
-# gradual underflow), and X = x + dx, Y = y + dy the exact numbers, |dx| <= e_x, |dy| <= e_y.
+# with gradual underflow), and X = x + dx, Y = y + dy the exact numbers, |dx| <= e_x, |dy| <= e_y.
 #
 # - Sum, z = fl(x + y): |fl(a) - a| <= u |fl(a)|, and sums do not underflow inexactly.  So |X + Y -
-# z|
-# <= e_x + e_y + u |z|.
+#   z| <= e_x + e_y + u |z|.
 # - Product, z = fl(x y): the same, and 2^-1075 more where it underflows.  So |X Y - z| <= |x| e_y +
-# |y| e_x + e_x e_y + u |z| + 2^-1075.
+#   |y| e_x + e_x e_y + u |z| + 2^-1075.
 # - Quotient, z = fl(x/y), where |y| > e_y: X/Y - x/y = (dx - (x/y) dy)/Y and |x/y| <= |z| (1 + 2 u)
-# +
-# 2^-1074.
-#   So |X/Y - z| <= (e_x + (|z| (1 + 2 u) + 2^-1074) e_y)/(|y| - e_y) + u |z| + 2^-1075; infinite
-#   elsewhere.
+#   + 2^-1074. So |X/Y - z| <= (e_x + (|z| (1 + 2 u) + 2^-1074) e_y)/(|y| - e_y) + u |z| + 2^-1075;
+#   infinite elsewhere.
 # - The bounds are themselves computed in floats: sums, products and quotients of numbers >= 0, at
-# most 9 roundings deep, so that what is computed is at
-# least (1 - u)^9 times the bound less what underflows; |y| - e_y is first lowered by 4 u |y|, which
-#   is more than its rounding, and 2^-1065 is added to what is divided by it.  Each bound is
-# multiplied by 1 + 2^-49 = 1 + 16 u and 2^-1065 is added: more than (1 - u)^-10, and more than all
-#   underflows (each at most 2^-1075, fewer than 8).
+#   most 9 roundings deep, so that what is computed is at least (1 - u)^9 times the bound less what
+#   underflows; |y| - e_y is first lowered by 4 u |y|, which is more than its rounding, and 2^-1065
+#   is added to what is divided by it.  Each bound is multiplied by 1 + 2^-49 = 1 + 16 u and 2^-1065
+#   is added: more than (1 - u)^-10, and more than all underflows (each at most 2^-1075, fewer than
+#   8).
 #
 # An overflow makes v infinite or not a number, and e too: no comparison then holds, and the sign is
 # not decided.  Numbers that come in are whole numbers below 2^53, which are exact, or have their
@@ -150,17 +150,16 @@ def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
 
 
 # -------------------------------------------------------------------------------------------------
-# Orbits in balls that are proved to hold the exact state, at a precision that is raised until
-# every branch is decided.
+# Orbits in balls.
 #
-# Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses.
-# The
+# Orbits in balls that are proved to hold the exact state, at a precision that is raised until every
+# branch is decided.
+#
+# Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses. The
 # margin w - x of a ball that holds 0 is settled by the exact orbit from the rational start, as long
 # as that stays about as short as the balls; otherwise the orbit begins again with twice the bits.
-# So
-# a state is said to lie on x = w only where that is proved, and nothing is guessed.  In the trap
-# the
-# closed form holds for any number of periods at once.
+# So a state is said to lie on x = w only where that is proved, and nothing is guessed.  In the trap
+# the closed form holds for any number of periods at once.
 
 BITS = 128  # to begin with
 MOST_BITS = 2**21
@@ -217,7 +216,7 @@ class Enclosed:
 
 def radius_of(ball: Any) -> Fraction:
     """The radius of a ball, exactly."""
-    return told(ball.rad().fmpq())
+    return as_fraction(ball.rad().fmpq())
 
 
 def _wide(track: Track, radius: Fraction) -> bool:
@@ -275,20 +274,22 @@ def follow(
 
 
 def _exactly(track: Track) -> Sample:
-    return Sample(track.here.periods, track.here.impacts, told(track.here.x), told(track.here.w))
+    return Sample(
+        track.here.periods, track.here.impacts, as_fraction(track.here.x), as_fraction(track.here.w)
+    )
 
 
 # -------------------------------------------------------------------------------------------------
+# Orbits in float64 with bounds.
+#
 # Millions of orbits at once in float64, each with a proved bound on its error; what the bound
 # cannot decide is listed, not guessed.
 #
 # The states of a chunk move together: a whole flight and an impact a round, the closed form once
-# they
-# are in the trap.  Every number is a `Bounded`, so that the bound of each state accounts for what
-# its
-# start's conversion missed, for alpha's, and for every operation.  A branch is taken only where the
-# margin w - x is further from 0 than its bound; a state where it is not is left there, with the
-# period at which that happened.
+# they are in the trap.  Every number is a `Bounded`, so that the bound of each state accounts for
+# what its start's conversion missed, for alpha's, and for every operation.  A branch is taken only
+# where the margin w - x is further from 0 than its bound; a state where it is not is left there,
+# with the period at which that happened.
 
 CHUNK = 1 << 14  # states that move together: their temporaries stay in the processor's cache
 ROUND_MEMORY = 64 * 8 * CHUNK  # at most so many temporaries of one chunk are alive
@@ -435,9 +436,8 @@ class _Chunk:
             return
         x, w, left = self.x.at(who), self.w.at(who), self.left[who]
         power = powers(-self.alpha, left)
-        number = Bounded(
-            left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52)
-        )  # whole floats are exact below 2^53
+        # whole floats are exact below 2^53
+        number = Bounded(left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52))
         x, w = formulas().later(x, w, *self.fixed, number, power)
         self.x.put(who, x)
         self.w.put(who, w)

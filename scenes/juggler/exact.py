@@ -1,4 +1,4 @@
-"""Exact and mp numbers."""
+"""Orbits in exact rationals, not in lowest terms where that is faster, and in mpmath numbers."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from juggleproof.scenes.juggler.given import formulas
 from juggleproof.scenes.juggler.track import Sample, Stop, Track
 
 # -------------------------------------------------------------------------------------------------
-# Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of
-# alpha.
+# Rationals not in lowest terms.
+#
+# Rationals top / (rest q^k) that are not brought to lowest terms, q being the denominator of alpha.
 #
 # An impact multiplies by alpha, so that on an orbit only k grows: sums and products of such numbers
 # need no greatest common divisor, which would take most of the time where the numbers have
-# thousands
-# of digits.  What has piled up of q above and below is taken out now and then.
+# thousands of digits.  What has piled up of q above and below is taken out now and then.
 
 RECENT = 16  # powers that are kept
 
@@ -141,17 +141,13 @@ def shortened(value: Ratio) -> Ratio:
 # Orbits in exact rationals.
 #
 # Numbers are python-flint's fmpq, which from a few dozen digits on are faster than Fraction, and
-# from
-# a few hundred on `Ratio`s, which are faster still; results are told as Fraction.  They grow by the
-# length of alpha with every impact, also in the trap, where the closed form is exact too.  They
-# stay
-# within a stated length, or the orbit ends there.
+# from a few hundred on `Ratio`s, which are faster still; results are given as Fraction.  They grow
+# by the length of alpha with every impact, also in the trap, where the closed form is exact too.
+# They stay within a stated length, or the orbit ends there.
 
 MOST_BITS = 2**23  # of a numerator or denominator on an orbit
-FEW_BITS, MANY_BITS = (
-    2**10,
-    2**16,
-)  # from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
+# from where on `Ratio`s are faster; from where on an fmpq, such as a start, is left as it is
+FEW_BITS, MANY_BITS = 2**10, 2**16
 PLACES = 64  # binary, of what only guesses are made from
 
 
@@ -160,10 +156,10 @@ def lifted(value: Fraction) -> Any:
     return fmpq(value.numerator, value.denominator)
 
 
-def told(value: Any) -> Fraction:
+def as_fraction(value: Any) -> Fraction:
     """A rational of an exact orbit, or of python-flint, as a Fraction.
 
-    >>> told(lifted(Fraction(-2, 3)))
+    >>> as_fraction(lifted(Fraction(-2, 3)))
     Fraction(-2, 3)
     """
     value = lowest(value)
@@ -174,9 +170,8 @@ def _of_coprime() -> Callable[[int, int], Fraction]:
     """Fraction without its greatest common divisor, which takes seconds for a million digits and is
     1 here: fmpq is in lowest terms.
     """
-    quick: Callable[[int, int], Fraction] | None = getattr(
-        Fraction, "_from_coprime_ints", None
-    )  # from Python 3.12 on
+    # from Python 3.12 on
+    quick: Callable[[int, int], Fraction] | None = getattr(Fraction, "_from_coprime_ints", None)
     if quick is not None:
         return quick
     whole: Any = Fraction
@@ -301,9 +296,8 @@ def flight_length(x: Fraction, w: Fraction) -> int:
     if strikes(x, w):
         return 0
     b, square = formulas().end_of_flight(x, w)
-    length = max(
-        (isqrt(square // 1) - b) // 2 + 1, 1
-    )  # not above the length, and at most one below
+    # not above the length, and at most one below
+    length = max((isqrt(square // 1) - b) // 2 + 1, 1)
     while not strikes(*flight(x, w, length)):
         length += 1
     if length > 1 and strikes(*flight(x, w, length - 1)):
@@ -326,7 +320,9 @@ def later(alpha: Fraction, x: Fraction, w: Fraction, periods: int) -> tuple[Frac
 
 
 # -------------------------------------------------------------------------------------------------
-# Orbits in mpmath numbers of so many digits: fast to ask for any precision, and nothing is proved.
+# Orbits in mpmath numbers.
+#
+# Numbers of so many digits: fast at any precision, and nothing is proved.
 #
 # Branches are decided by the rounded state.  The length of a flight is that of the rounded state
 # exactly, by whole square roots.

@@ -1,4 +1,6 @@
-"""Given numbers, the derived formulas."""
+"""The map and its flights as arithmetic, compiled from the derived expressions; and numbers as they
+are given, taken exactly or refused.
+"""
 
 from __future__ import annotations
 
@@ -31,6 +33,8 @@ from juggleproof.symbolic import (
 from juggleproof.symbolic.algebra import K, alpha, beta, n, r, w, x
 
 # -------------------------------------------------------------------------------------------------
+# The derived formulas.
+#
 # The map, its flights and its closed form as plain arithmetic, written out from the expressions
 # that the proofs are about.
 #
@@ -194,6 +198,8 @@ def _closed_form() -> tuple[Expr, Expr]:
 
 
 # -------------------------------------------------------------------------------------------------
+# Given numbers.
+#
 # Numbers as they are given: taken exactly and within their ranges, or refused in one line with the
 # value and what is allowed.
 
@@ -201,9 +207,8 @@ Number: TypeAlias = int | float | str | Fraction  # a float means the binary num
 BITS = (
     14000  # of a numerator or denominator that is given; Python writes numbers of up to 4300 digits
 )
-_LONG_POWER = re.compile(
-    r"e[+-]?[\d_]{6,}", re.IGNORECASE
-)  # Fraction would write all its digits out
+# Fraction would write all its digits out
+_LONG_POWER = re.compile(r"e[+-]?[\d_]{6,}", re.IGNORECASE)
 _FINITE = "is no finite number; give an integer, a fraction or a finite float"
 
 

@@ -1,4 +1,4 @@
-"""The orbits of a scene."""
+"""The orbits of a scene in any arithmetic, and the motion of ball and table between samples."""
 
 from __future__ import annotations
 
@@ -28,8 +28,7 @@ from juggleproof.symbolic import ball_after_collision, collision_time, fly, peri
 from juggleproof.symbolic.algebra import alpha, beta, r, t, v
 
 # -------------------------------------------------------------------------------------------------
-# The motion between samples: heights of ball and table at any times, exactly, by the flights,
-# impacts and parabolas that the map is derived from.
+# The motion between samples: heights of ball and table at any times, exactly.
 
 MOST_IMPACTS = 10**4  # before the last of the times
 MOST_TIMES = 10**6
@@ -111,8 +110,8 @@ def _time(value: Number) -> Fraction:
 
 
 # -------------------------------------------------------------------------------------------------
-# `orbit`: the orbits of a scene in the arithmetic of one's choice; its result is filled as it
-# goes: an interrupted run keeps what is done.
+# The orbits of a scene.  The result of `orbit` is filled as it goes: an interrupted run keeps what
+# is done.
 
 ARITHMETICS = ("exact", "enclosed", "mp", "fast")
 MOST_TRACKS, MOST_KEPT = 10**6, 4 * 10**6  # as single numbers, of a kilobyte each
@@ -123,9 +122,9 @@ class Row(NamedTuple):
     """Where one orbit stands: its start's number, periods and impacts passed, the state in numbers
     of the arithmetic, a bound on its error, its end.
 
-    `error` is what the true x and w differ from the told ones by at most; None where nothing is
+    `error` bounds the distance of x and w from the true ones; None where nothing is
     proved (mp).  `end` is "reached" (the steps asked for), "trap" (only with until_trap),
-    "undecided" (the branch at the state told), "too long" (the exact numbers), or "" (not followed
+    "undecided" (the branch at this state), "too long" (the exact numbers), or "" (not followed
     to its end).
     """
 
@@ -245,7 +244,7 @@ class Orbits:
         return self._row(index, self.tracks[index].here, self.tracks[index].end)
 
     def _row(self, index: int, here: Sample, end: str) -> Row:
-        x, w, error = told(here.x, self.arithmetic), told(here.w, self.arithmetic), None
+        x, w, error = held(here.x, self.arithmetic), held(here.w, self.arithmetic), None
         if isinstance(x, Fraction):  # exact, or a start that has not moved yet
             error = (Fraction(0), Fraction(0))
         elif self.arithmetic == "enclosed":
@@ -302,11 +301,15 @@ class Orbits:
         return {name: found[name] for name in (*bounded.ENDS[1:], "") if found[name]}
 
 
-def told(value: Any, arithmetic: str) -> Any:
-    """A number as it is told: Fraction of exact numbers; the ball of an enclosure and the mpf of mp
-    as they are.
+def held(value: Any, arithmetic: str) -> Any:
+    """A number as rows hold it: Fraction of exact numbers; the ball of an enclosure and the mpf of
+    mp as they are.
     """
-    return exact.told(value) if arithmetic == "exact" and not isinstance(value, Fraction) else value
+    return (
+        exact.as_fraction(value)
+        if arithmetic == "exact" and not isinstance(value, Fraction)
+        else value
+    )
 
 
 def _refuse_many(count: int, arithmetic: str, steps: int, keep: bool) -> None:

@@ -1,4 +1,6 @@
-"""Periodic orbits."""
+"""Periodic orbits by the lengths of their flights: their states, and for which alpha they exist and
+attract.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +21,8 @@ from juggleproof.symbolic import normal_f1, normal_flight_power, normal_margin, 
 from juggleproof.symbolic.algebra import K, alpha, w, x
 
 # -------------------------------------------------------------------------------------------------
+# Conditions on alpha.
+#
 # For which alpha in (0, 1) polynomial conditions hold, exactly: isolated real roots, and signs
 # between and at them.
 
@@ -95,7 +99,7 @@ def roots_between(polynomials: Sequence[Any]) -> list[Root]:
     found = []
     for (low, high), owners in isolating([one.as_expr() for one in factors], strict=True):
         factor, ends = factors[next(iter(owners))], [low, high]
-        if factor.degree() == 1:  # a rational root, told as it is
+        if factor.degree() == 1:  # a rational root, as it is
             ends = [-factor.nth(0) / factor.nth(1)] * 2
         found.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
     return [
@@ -170,27 +174,23 @@ def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Rang
 
 
 # -------------------------------------------------------------------------------------------------
+# Periodic orbits.
+#
 # Periodic orbits by the lengths of their flights: where they are, for which alpha they exist, and
 # whether they attract.
 #
 # A word (K_1, .., K_m) means: an impact, then K_1 - 1 periods without one, an impact, and so on, m
 # impacts in K_1 + .. + K_m periods, and the state is back. From impact to impact the map is affine
 # with the matrix -alpha A^K, A unipotent; so the word's matrix is (-alpha)^m A^(K_1 + .. + K_m),
-# with
-# the eigenvalue (-alpha)^m twice, and for every alpha < 1 exactly one state comes back.  It is an
-# orbit of f where it is one of the word: each x >= 0, each impact at x < w, each period between at
-# x
-# >= w.  Along a flight w - x is a convex parabola of time: first and last period suffice. Inside
-# (no
-# state on x = w) f is that affine map near the orbit, whose spectral radius is alpha^m < 1: the
-# orbit
-# attracts a neighbourhood.
+# with the eigenvalue (-alpha)^m twice, and for every alpha < 1 exactly one state comes back.  It is
+# an orbit of f where it is one of the word: each x >= 0, each impact at x < w, each period between
+# at x >= w.  Along a flight w - x is a convex parabola of time: first and last period suffice.
+# Inside (no state on x = w) f is that affine map near the orbit, whose spectral radius is alpha^m <
+# 1: the orbit attracts a neighbourhood.
 #
 # Words that exist have no flight longer than (1 + alpha)/(1 - alpha): the flight K' after a flight
-# K
-# has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one that
-# is
-# not longer.  So for one alpha and one number of impacts the search is complete.
+# K has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one
+# that is not longer.  So for one alpha and one number of impacts the search is complete.
 
 Word = tuple[int, ...]
 Place = tuple[Fraction, Fraction]
@@ -274,11 +274,8 @@ def _back_again(at: Fraction, word: Word) -> Place:
 
     zero, one = Fraction(0), Fraction(1)
     (c, d), (a, _), (b, e) = (image(place) for place in ((zero, zero), (one, zero), (zero, one)))
-    a, b, e = (
-        a - c,
-        b - c,
-        e - d,
-    )  # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
+    # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
+    a, b, e = a - c, b - c, e - d
     speed = d / (1 - e)
     return (b * speed + c) / (1 - a), speed
 

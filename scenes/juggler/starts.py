@@ -1,4 +1,4 @@
-"""Scenes and starting states."""
+"""Scenes of the juggler, and the states from which orbits start."""
 
 from __future__ import annotations
 
@@ -26,8 +26,10 @@ from juggleproof.scenes.juggler.given import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# Starting states by number: listed, on a grid, on the boundary of R, random, in arrays; each an
-# exact rational state, told as floats on demand.
+# Starting states by number.
+#
+# Listed, on a grid, on the boundary of R, random, in arrays; each an exact rational state, in
+# floats on demand.
 #
 # All in normal form: x the height in units of r T, w the closing speed in units of r; x >= 0.
 # Whatever the number of states, only those asked for are made.
@@ -251,8 +253,7 @@ def goal(steps: int, impacts: bool = False, until_trap: bool = False) -> Goal:
 
 
 # -------------------------------------------------------------------------------------------------
-# Where orbits start: points, grids, the boundary of R, random states, arrays, made of what is
-# given, or refused in one line.
+# Starts made of what is given: points, grids, the boundary of R, random states, arrays.
 #
 # In normal form, x the height in units of r T and w the closing speed in units of r, or in the
 # paper's units, beta and v; heights are at least 0.
@@ -323,8 +324,8 @@ def _grid_of(heights: Axis, speeds: Axis, names: tuple[str, str]) -> Grid:
 def _parts(given: Any, count: int, name: str) -> Any:
     """What an axis or a side is given by: from, to, and for an axis how many."""
     if not isinstance(given, (tuple, list)) or len(given) != count:
-        told = "an axis has from, to and how many" if count == 3 else "a side has from and to"
-        raise SceneError(f"{name} = {brief(given)} has not {count} parts; {told}")
+        wanted = "an axis has from, to and how many" if count == 3 else "a side has from and to"
+        raise SceneError(f"{name} = {brief(given)} has not {count} parts; {wanted}")
     return given
 
 
@@ -432,9 +433,8 @@ def boundary(alpha: Number, count: int) -> OnBoundary:
     counted(count, "the number of states", 2, 10**6)
     level = region()(at)
     fine = 10**6
-    reach = Fraction(
-        isqrt(int(2 * level * fine**2)), fine
-    )  # at most the root of 2 E, so that x >= 0
+    # at most the root of 2 E, so that x >= 0
+    reach = Fraction(isqrt(int(2 * level * fine**2)), fine)
     added = formulas().energy(Fraction(1), Fraction(1)) - formulas().energy(
         Fraction(0), Fraction(1)
     )

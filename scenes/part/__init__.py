@@ -5,31 +5,31 @@ with its corners, turns, and comes to rest.
 
     table_one(scene(e=0.7, mu=0.08))
 
+In reading order:
+
+    body       the compiler, and block and table as numbers
+    setting    a scene: what the paper gives and what is inferred
+    flight     free flight and the first contact
+    strike     impacts, and the forces that hold a block on the table
+    rest       lasting contact: on a face, or on a corner
+    motion     the orbit of one block
+    ensemble   many blocks
+    onsets     table I and sweeps
+    picture    figure 2
+    animation  the same in motion, as one HTML file
+
 Kernels are compiled by numba, the optional extra `part`; importing this package loads what it needs
 only when a name is first used.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from juggleproof.symbolic.lazy import lazy_names
 
-_NAMES = {
-    "juggleproof.scenes.errors": ("SceneError"),
-    "juggleproof.scenes.part.setting": ("Scene scene standing moving"),
-    "juggleproof.scenes.part.ensemble": ("Run run fresh_notes"),
-    "juggleproof.scenes.part.onsets": ("Row Table table_one Point chosen misfit recorded sweep"),
+NAMES = {
+    "..errors": "SceneError",
+    ".setting": "Scene scene standing moving",
+    ".ensemble": "Run run fresh_notes",
+    ".onsets": "Row Table table_one Point chosen misfit recorded sweep",
 }
-_PLACE = {name: module for module, names in _NAMES.items() for name in names.split()}
-
-__all__ = sorted(_PLACE)
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _PLACE:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_PLACE[name]), name)
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *_PLACE})
+__all__, __getattr__, __dir__ = lazy_names(__name__, NAMES)

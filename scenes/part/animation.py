@@ -60,10 +60,10 @@ def page(setting: Scene, seen: Array) -> bytes:
     style, script = (
         (HERE / f"animation.{kind}").read_text(encoding="utf-8") for kind in ("css", "js")
     )
-    said = vibration(setting)
+    words = vibration(setting)
     shown = {
         "title": f"{seen.shape[1]} blocks on the vibrating table",
-        "vibration": escape(said[:1].upper() + said[1:]),
+        "vibration": escape(words[:1].upper() + words[1:]),
         "alt": escape(alt(setting, seen)),
         "horizon": repr((len(seen) - 1) / RATE),
         "step": repr(1 / RATE),
@@ -84,7 +84,7 @@ def digest(text: str) -> str:
 
 
 def alt(setting: Scene, seen: Array) -> str:
-    """What is said to readers who do not see the picture."""
+    """A description for readers who do not see the picture."""
     first, last = (int((~lying(setting, one)).sum()) for one in (seen[0], seen[-1]))
     return (
         f"{seen.shape[1]} rectangles in rows bounce and turn on a table that vibrates: {first}"

@@ -1,4 +1,4 @@
-"""Block and table as numbers; the compiler."""
+"""The compiler of the kernels, and the block and the table as numbers for them."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 # -------------------------------------------------------------------------------------------------
-# The compiler of the part scene: numba where it is installed, and the same functions in plain
-# Python where it is not.
+# The compiler: numba where it is installed, and the same functions in plain Python where it is not.
 
 try:
     import numba
@@ -21,30 +20,17 @@ except ImportError:  # the optional extra `part`
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 COMPILED = numba is not None
-KERNELS = (
-    "body",
-    "compiling",
-    "impact",
-    "flight",
-    "contact",
-    "turns",
-    "strike",
-    "pivot",
-    "face",
-    "motion",
-    "watch",
-    "ending",
-)
+KERNELS = ("body", "flight", "strike", "rest", "motion")  # the files that are compiled
 
 
 def _digest() -> str:
     """A digest of all kernels: numba looks at the file of a function only, not at those of the
     functions that it calls.
     """
-    said = hashlib.sha256(sys.version.encode())
+    digest = hashlib.sha256(sys.version.encode())
     for name in KERNELS:
-        said.update(Path(__file__).with_name(f"{name}.py").read_bytes())
-    return said.hexdigest()[:16]
+        digest.update(Path(__file__).with_name(f"{name}.py").read_bytes())
+    return digest.hexdigest()[:16]
 
 
 def _folder() -> Path | None:
@@ -60,11 +46,11 @@ def _folder() -> Path | None:
             if chosen
             else Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "juggleproof"
         )
-        found = root / f"numba-{_digest()}"
-        found.mkdir(parents=True, exist_ok=True)
+        folder = root / f"numba-{_digest()}"
+        folder.mkdir(parents=True, exist_ok=True)
     except (OSError, RuntimeError):
         return None
-    return found if os.access(found, os.W_OK) else None
+    return folder if os.access(folder, os.W_OK) else None
 
 
 FOLDER = _folder() if COMPILED else None
@@ -94,13 +80,15 @@ def plain(function: Kernel) -> Kernel:
 
 
 # -------------------------------------------------------------------------------------------------
+# The block and the table.
+#
 # The block and the table as numbers for the kernels: what their parameters, states and counts are
 # called, and where corners and table are.
 #
 # Lengths in metres, times in seconds, angles in radians, energies in joules per kilogram.  theta =
-# 0
-# is upright, with the long sides vertical, and grows counterclockwise.  A state is (t, X, Y, theta,
-# V_X, V_Y, omega) of the centre of mass in the resting frame, then how the block is in contact.
+# 0 is upright, with the long sides vertical, and grows counterclockwise.  A state is (t, X, Y,
+# theta, V_X, V_Y, omega) of the centre of mass in the resting frame, then how the block is in
+# contact.
 
 
 class Floats(Protocol):

@@ -1,4 +1,4 @@
-"""Many blocks."""
+"""Many blocks at once: runs on any executor, frames for pictures, and blocks on a still table."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ from juggleproof.scenes.part import body
 from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
-# Many blocks at once: chunks of them on any executor of `concurrent.futures`; the results do not
+# Runs.
+#
+# Many blocks at once, chunks of them on any executor of `concurrent.futures`; the results do not
 # depend on which.
 
 CHUNK = 91
@@ -137,6 +139,8 @@ def each(
 
 
 # -------------------------------------------------------------------------------------------------
+# Frames.
+#
 # Many blocks at given times, for pictures: all of one orbit each, which is not stopped at them.
 
 MOST_STATES = 5_000_000
@@ -210,14 +214,14 @@ def watched(job: FrameJob) -> Array:
 
 
 # -------------------------------------------------------------------------------------------------
-# Blocks on a still table: on which face each comes to rest, and at which starting angle the two
-# are parted.
+# A still table.
+#
+# Blocks on a still table: on which face each comes to rest, and at which starting angle the two are
+# parted.
 #
 # Both are decided by geometry: a block that starts at rest on a corner falls to the side on which
-# its
-# centre is, and that is parted at atan(a/b). The paper says that 0 to 26 degrees go to 0 and 27 to
-# 90
-# degrees to 90; so the sides that it shows are as 1 to 2.
+# its centre is, and that is parted at atan(a/b). The paper says that 0 to 26 degrees go to 0 and 27
+# to 90 degrees to 90; so the sides that it shows are as 1 to 2.
 
 DEGREES = tuple(range(91))
 LAST_UPRIGHT, FIRST_LYING = 26, 27  # of the paper, in degrees

@@ -45,10 +45,8 @@ NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton'
 # matter
 NEAR = 1e-15
 LEAST_FLIGHT = 1e-10  # seconds: how long a flight takes that would end at once
-MOST_GUESSES, NEAR_TIME = (
-    100,
-    1e-14,
-)  # of the time at which a corner comes down to a height, and the seconds to which it is found
+# of the time at which a corner comes down to a height, and the seconds to which it is found
+MOST_GUESSES, NEAR_TIME = 100, 1e-14
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""The orbit of one block."""
+"""The orbit of one block: flights, impacts and contact in turn; and its places at given times."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from juggleproof.scenes.part.rest import lie, note_turn, pivot
 from juggleproof.scenes.part.strike import strike
 
 # -------------------------------------------------------------------------------------------------
+# Orbits.
+#
 # The orbit of one block: flights, impacts and contact in turn; and of many, one after another.
 
 MOST_EVENTS = 100_000_000
@@ -76,6 +78,8 @@ def follow_all(
 
 
 # -------------------------------------------------------------------------------------------------
+# Places at given times.
+#
 # Where blocks are at given times of an orbit that is not stopped there: a stop rounds, and chaos
 # soon makes another orbit of that.
 

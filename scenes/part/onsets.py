@@ -1,4 +1,6 @@
-"""Table I, sweeps, what is inferred."""
+"""Table I of the paper and sweeps over restitution and friction, what is inferred from them, and
+their files.
+"""
 
 from __future__ import annotations
 
@@ -22,16 +24,16 @@ from juggleproof.scenes.part.ensemble import Job, Run, each, fresh_notes, joined
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
-# Table I of the paper: from when on all 91 blocks lie, for six vibrations along the table; with
-# one (e, mu) for all, over jittered ensembles.
+# Table I.
+#
+# Table I of the paper: from when on all 91 blocks lie, for six vibrations along the table; with one
+# (e, mu) for all, over jittered ensembles.
 #
 # Onset of an ensemble: the last time at which any of its blocks is nearer to upright than to lying.
 # An ensemble is chaotic if in the second half of the run blocks pass both ways, from upright to
-# lying
-# and from lying to upright; a row is, if more than half of its ensembles are.  An ensemble with a
-# block nearer to upright at the end, and not chaotic, is censored: its onset is later than the run
-# is
-# long.
+# lying and from lying to upright; a row is, if more than half of its ensembles are.  An ensemble
+# with a block nearer to upright at the end, and not chaotic, is censored: its onset is later than
+# the run is long.
 
 # frequency in hertz, amplitude in metres, and the onset in seconds that the paper prints; None:
 # "chaotic"
@@ -142,13 +144,15 @@ def judged(row: tuple[float, float, float | None], notes: list[Array], horizon: 
 
 
 # -------------------------------------------------------------------------------------------------
+# Sweeps.
+#
 # Table I over a grid of restitution and friction, which the paper does not give; and the choice of
 # one pair for all rows, by a stated rule.
 
 RECORD = Path(__file__).with_name("sweep.json")
 WORST = 1.0  # of a row: as if its onset were off by a factor e
 MOST_POINTS = 10_000
-# misfits this near one another are not told apart: two sweeps of 16 ensembles that differ in
+# misfits that differ by less are not distinguished: two sweeps of 16 ensembles that differ in
 # rounding alone differ by up to 0.12
 SCATTER = 0.1
 
@@ -281,15 +285,14 @@ def recorded() -> tuple[Point, ...]:
 
 
 # -------------------------------------------------------------------------------------------------
-# What the paper gives of its three-degree-of-freedom simulation, what is inferred, and what is
-# chosen here; and where the results differ from it.
+# Assumptions.
+#
+# What the paper gives of its simulation, what is inferred and what is chosen here; and where the
+# results differ.
 
 Standing = Literal["given", "inferred", "chosen"]
-FACES = {
-    "2x4": (0.01, 0.02),
-    "1x2": (0.005, 0.01),
-    "1x4": (0.005, 0.02),
-}  # half sides in metres of the block's face in the plane
+# half sides in metres of the block's face in the plane
+FACES = {"2x4": (0.01, 0.02), "1x2": (0.005, 0.01), "1x4": (0.005, 0.02)}
 AMPLITUDES = {"peak": 1.0, "peak-to-peak": 0.5}
 
 
@@ -366,24 +369,26 @@ def discrepancies(rows: tuple[Row, ...]) -> list[str]:
     """Where the rows differ from the paper's: a row is chaotic on one side only, or the paper's
     onset is outside of the 16 to 84 percent.
     """
-    told = []
+    lines = []
     for row in rows:
         name, chaotic = f"{row.frequency:g} Hz {1000 * row.amplitude:g} mm", sum(row.chaotic)
         low, high = row.quantile(0.16), row.quantile(0.84)
         if (row.paper is None) != row.is_chaotic():
             printed = "chaotic" if row.paper is None else f"{row.paper:g} s"
-            told.append(
+            lines.append(
                 f"{name}: {printed} in the paper, {chaotic} of {len(row.chaotic)} ensembles are"
                 " chaotic here"
             )
         elif row.paper is not None and not low <= row.paper <= high:
-            told.append(
+            lines.append(
                 f"{name}: {row.paper:g} s in the paper, outside of {low:.3g} to {high:.3g} s"
             )
-    return told
+    return lines
 
 
 # -------------------------------------------------------------------------------------------------
+# Files.
+#
 # Table I and sweeps as files: CSV with a line an ensemble, and NumPy arrays; the same to the byte
 # from run to run.
 

@@ -1,4 +1,4 @@
-"""Figure 2."""
+"""Figure 2 of the paper: 91 blocks at three times."""
 
 from __future__ import annotations
 
@@ -28,14 +28,18 @@ from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import frames
 from juggleproof.scenes.part.setting import Array, Scene
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 # -------------------------------------------------------------------------------------------------
-# How 91 blocks are laid out in a picture: rows of ten from front to back, as in figure 2; and
-# which of them are nearer to lying.
+# Layout.
+#
+# How 91 blocks are laid out in a picture: rows of ten from front to back, as in figure 2; and which
+# of them are nearer to lying.
 #
 # Blocks move in parallel planes and do not meet, so each is shown at its own place of a grid, at
-# its
-# true angle and height above the table.  How far it has drifted along the table, some centimetres a
-# second, is left out of figure 2.
+# its true angle and height above the table.  How far it has drifted along the table, some
+# centimetres a second, is left out of figure 2.
 
 COLUMNS, MOST_ROWS = 10, 60
 PITCH = 2.6  # from one place to the next, in half diagonals of the block
@@ -82,11 +86,9 @@ def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
 
 
 # -------------------------------------------------------------------------------------------------
-# Figure 2: where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by
-# side.
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Figure 2.
+#
+# Where 91 blocks are at the start, after 0.8 and after 3 seconds, as three grids side by side.
 
 SLUG = "fig-2"
 TITLE = "Figure 2. Ninety-one blocks on the vibrating table"
@@ -114,7 +116,7 @@ def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
 
 def caption(setting: Scene, seen: Array) -> str:
     """What stands below the figure."""
-    told = "; ".join(
+    counts = "; ".join(
         f"after {one[0, body.TIME]:g} s, {int(lying(setting, one).sum())} of {len(one)} are nearer"
         " to lying"
         for one in seen[1:]
@@ -123,20 +125,21 @@ def caption(setting: Scene, seen: Array) -> str:
         "The foremost row starts at 0 to 9 degrees from left to right, each row behind it ten"
         " degrees further, the last block at 90 degrees. Rectangles are drawn at their true angles"
         " and heights above the table, each at its own place: how far a block has drifted along"
-        f" the table is left out. Here, {told}. The paper's figure shows all of them lying after"
+        f" the table is left out. Here, {counts}. The paper's figure shows all of them lying after"
         " 3 s."
     )
 
 
 def alt(setting: Scene, seen: Array) -> str:
-    """What is said to readers who do not see the figure."""
-    told = ", ".join(
+    """A description for readers who do not see the figure."""
+    counts = ", ".join(
         f"{int((~lying(setting, states)).sum())} at {states[0, body.TIME]:g} s" for states in seen
     )
     return (
         f"{len(seen)} grids of {len(seen[0])} rectangles, one for each time. At the start the"
         " rectangles lean ever more to the left, from the upright one at the lower left to the one"
-        f" that lies in the back row. Nearer to upright are {told}; all others are nearer to lying."
+        " that lies in the back row."
+        f" Nearer to upright are {counts}; all others are nearer to lying."
     )
 
 

@@ -1,4 +1,4 @@
-"""Impacts."""
+"""Impacts of corners, and the forces that hold a block on the table."""
 
 from __future__ import annotations
 
@@ -47,57 +47,13 @@ from juggleproof.scenes.part.body import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# What holds a block that stays on the table: the force at one corner, which sticks or slides, and
-# when it lets go.
+# One corner.
 #
-# The corner's acceleration is (B1 F - B3 N - omega^2 x, B2 N - B3 F - g - omega^2 y), as impulses
-# change its velocity (`juggleproof.symbolic.corner_impact`); the table's is subtracted.  SLIDE of a
-# state is the
-# direction of sliding, 0 where the corner or face sticks; CORNER the corner, or the number of
-# quarter
-# turns of the face.
-
-
-@compiled
-def hold(
-    p: Floats, t: float, theta: float, omega: float, i: int, slide: float
-) -> tuple[float, float, float]:
-    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the
-    direction `slide`, or sticking where that is 0.
-
-    Third, the angular acceleration by this force.
-    """
-    c, s = cos(theta), sin(theta)
-    x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
-    k2 = p[GYRATION]
-    B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
-    down = p[G] + omega * omega * y + table_lift(p, t)
-    if slide != 0:
-        normal = down / (B2 + slide * p[FRICTION] * B3)
-        along = -slide * p[FRICTION] * normal
-    else:
-        across = omega * omega * x + table_push(p, t)
-        full = B1 * B2 - B3 * B3
-        along, normal = (B2 * across + B3 * down) / full, (B1 * down + B3 * across) / full
-    return along, normal, (x * normal - y * along) / k2
-
-
-@compiled
-def first_turn(i: int, theta: float) -> float:
-    """The number of quarter turns, near theta, from which on corner i is the lowest, for one
-    quarter turn.
-    """
-    start = (4 - i) % 4
-    return start + 4 * floor((theta - QUARTER * start - QUARTER / 2) / (4 * QUARTER) + 0.5)
-
-
-# -------------------------------------------------------------------------------------------------
-# The impact of one corner: Wang and Mason's five contact modes with Poisson's restitution, as
+# Wang and Mason's five contact modes with Poisson's restitution, as
 # `juggleproof.symbolic.corner_impact` derives them.
 #
 # The formulas stand here once more so that they can be compiled; a test compares them, exactly,
-# with
-# the derived ones in every mode.
+# with the derived ones in every mode.
 
 (
     SLIDING,
@@ -170,23 +126,66 @@ def impulse(
 
 
 # -------------------------------------------------------------------------------------------------
-# What happens where corners meet the table: impacts, one after another, until no corner that
-# touches approaches; then how the block goes on.
+# Holding forces.
+#
+# What holds a block that stays on the table: the force at one corner, which sticks or slides, and
+# when it lets go.
+#
+# The corner's acceleration is (B1 F - B3 N - omega^2 x, B2 N - B3 F - g - omega^2 y), as impulses
+# change its velocity (`juggleproof.symbolic.corner_impact`); the table's is subtracted.  SLIDE of a
+# state is the direction of sliding, 0 where the corner or face sticks; CORNER the corner, or the
+# number of quarter turns of the face.
+
+
+@compiled
+def hold(
+    p: Floats, t: float, theta: float, omega: float, i: int, slide: float
+) -> tuple[float, float, float]:
+    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the
+    direction `slide`, or sticking where that is 0.
+
+    Third, the angular acceleration by this force.
+    """
+    c, s = cos(theta), sin(theta)
+    x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
+    k2 = p[GYRATION]
+    B1, B2, B3 = 1 + y * y / k2, 1 + x * x / k2, x * y / k2
+    down = p[G] + omega * omega * y + table_lift(p, t)
+    if slide != 0:
+        normal = down / (B2 + slide * p[FRICTION] * B3)
+        along = -slide * p[FRICTION] * normal
+    else:
+        across = omega * omega * x + table_push(p, t)
+        full = B1 * B2 - B3 * B3
+        along, normal = (B2 * across + B3 * down) / full, (B1 * down + B3 * across) / full
+    return along, normal, (x * normal - y * along) / k2
+
+
+@compiled
+def first_turn(i: int, theta: float) -> float:
+    """The number of quarter turns, near theta, from which on corner i is the lowest, for one
+    quarter turn.
+    """
+    start = (4 - i) % 4
+    return start + 4 * floor((theta - QUARTER * start - QUARTER / 2) / (4 * QUARTER) + 0.5)
+
+
+# -------------------------------------------------------------------------------------------------
+# Corners that meet the table.
+#
+# Impacts, one after another, until no corner that touches approaches; then how the block goes on.
 #
 # The corner that approaches fastest is struck first.  Where two approach alike, as when a face
-# lands
-# flat, one impulse acts midway between them, so that the mirror image of an orbit is an orbit.  A
-# corner slower than the rest speed v is struck without restitution and stays.  A face whose two
-# corners are slower than v comes to lie: turning and closing are taken away, and sliding if it is
-# slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length; none is added.
-# Coming to rest moves a corner by at most two tolerances.
+# lands flat, one impulse acts midway between them, so that the mirror image of an orbit is an
+# orbit.  A corner slower than the rest speed v is struck without restitution and stays.  A face
+# whose two corners are slower than v comes to lie: turning and closing are taken away, and sliding
+# if it is slower than v, at most v^2 (2 + k^2/w^2)/2 of kinetic energy, w half its length; none is
+# added. Coming to rest moves a corner by at most two tolerances.
 
 MOST_IMPACTS = 10_000  # at one time
 STILL = 1e-12  # metres a second: closing speeds below are rounding
-SLACK, ROUNDING = (
-    1e-12,
-    1e-14,
-)  # relative rounding that the guarantees are counted with, and that of a difference of speeds
+# relative rounding that the guarantees are counted with, and that of a difference of speeds
+SLACK, ROUNDING = 1e-12, 1e-14
 
 
 @compiled
@@ -262,9 +261,8 @@ def strike(p: Floats, z: Floats, notes: Floats) -> int:
             if resting >= 0:
                 stay(p, z, resting)
                 if z[MODE] == FLIGHT:
-                    z[Y] += max(
-                        -p[TOLERANCE] / 2 - lowest, 0.0
-                    )  # a corner without speed, any deeper, would end the next flight at once
+                    # a corner without speed, any deeper, would end the next flight at once
+                    z[Y] += max(-p[TOLERANCE] / 2 - lowest, 0.0)
             return DONE
         x, y = corner_x(p, first, c, s), corner_y(p, first, c, s)
         if second >= 0:
@@ -301,9 +299,8 @@ def stay(p: Floats, z: Floats, i: int) -> None:
     else the block flies.
     """
     turn = first_turn(i, z[THETA])
-    z[THETA] = min(
-        max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER
-    )  # two corners touch, and this one is not quite the lowest
+    # two corners touch, and this one is not quite the lowest
+    z[THETA] = min(max(z[THETA], turn * QUARTER), (turn + 1) * QUARTER)
     t, theta, omega = z[TIME], z[THETA], z[OMEGA]
     slide = slide_of(z[V_X] - omega * corner_y(p, i, cos(theta), sin(theta)) - table_glide(p, t))
     along, normal, _ = hold(p, t, theta, omega, i, slide)

@@ -17,7 +17,6 @@ import sympy
 
 from juggleproof import symbolic
 from juggleproof.benchmarks.bench import methods as methods_ours
-from juggleproof.benchmarks.bench import questions as growth
 from juggleproof.benchmarks.bench import run, table
 from juggleproof.benchmarks.bench.answers import (
     Answer,
@@ -34,8 +33,10 @@ from juggleproof.benchmarks.bench.methods import (
     bernstein,
 )
 from juggleproof.benchmarks.bench.numerics import Arb, Mpmath, never_negative
+from juggleproof.benchmarks.bench.orbits import STARTS
 from juggleproof.benchmarks.bench.questions import (
     ALPHAS,
+    balls,
     kept_curve,
     outside_region,
     p,
@@ -87,9 +88,9 @@ def test_floating_point_comes_near_from_below_holds(name: str) -> None:
     ) - Fraction(1, 10**12)
 
 
-@pytest.mark.parametrize("balls", [1, 4, 7])
-def test_a_point_is_found_in_many_variables_holds(balls: int) -> None:
-    problem, truth = growth.balls(balls)
+@pytest.mark.parametrize("count", [1, 4, 7])
+def test_a_point_is_found_in_many_variables_holds(count: int) -> None:
+    problem, truth = balls(count)
     assert truth - Fraction(1, 10**12) <= best_point(problem, Fraction(1, 10**12))[1] <= truth
 
 
@@ -227,12 +228,12 @@ def test_a_bound_that_the_exact_orbit_breaks_is_noticed() -> None:
 @pytest.mark.parametrize("arithmetic", ORBITS)
 @pytest.mark.parametrize("steps", [1, 1000])
 def test_orbits_stay_within_their_bounds_holds(arithmetic: str, steps: int) -> None:
-    found = ORBITS[arithmetic].solve(growth.STARTS["orbit"], Fraction(steps))()
+    found = ORBITS[arithmetic].solve(STARTS["orbit"], Fraction(steps))()
     assert not found.beyond and found.distance < Fraction(1, 10**12)
 
 
 def test_floats_stray_where_the_others_do_not_holds() -> None:
-    start, steps = growth.STARTS["orbit-edge"], Fraction(50)
+    start, steps = STARTS["orbit-edge"], Fraction(50)
     assert (
         ORBITS["floats"].solve(start, steps)().distance
         > 1
@@ -244,7 +245,7 @@ def test_floats_stray_where_the_others_do_not_holds() -> None:
 
 @pytest.mark.parametrize("count", [1, 2])
 def test_the_sum_over_balls_has_its_closed_form_holds(count: int) -> None:
-    problem, expected = growth.balls(count)
+    problem, expected = balls(count)
     for name in ("bernstein", "arb", "z3-once"):
         answer = METHODS[name].solve(problem, COARSE)
         assert answer.low <= expected <= answer.high <= answer.low + COARSE

@@ -20,10 +20,15 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.api import certify
 from juggleproof.proofs.smtlib.answering import Question, answer, answer_files, settled
+from juggleproof.proofs.smtlib.script import problems_of_file
 from tests.proofs.smtlib.evaluating import truth
 
 ROOT = Path(__file__).resolve().parents[3]
-SET = ROOT / "benchmarks" / "problems"
+SET = {
+    problem.name: problem
+    for path in sorted((ROOT / "benchmarks" / "problems").glob("*.smt2"))
+    for problem in problems_of_file(path)
+}
 FAST = (
     "am-gm-3",
     "nesbitt",
@@ -66,8 +71,8 @@ def script(folder: Path, text: str, name: str = "mine") -> Path:
 
 @pytest.mark.parametrize("name", FAST)
 def test_a_problem_is_answered_as_it_is_stated_holds(name: str, tmp_path: Path) -> None:
-    (one,) = answer_files([SET / f"{name}.smt2"], store=tmp_path)
-    assert one.problem.status in ("sat", "unsat") and one.answer.word == one.problem.status
+    (one,) = answer_files([script(tmp_path, SET[name].script, name)], store=tmp_path)
+    assert SET[name].status in ("sat", "unsat") and one.answer.word == SET[name].status
     results = checker.check_folder(str(tmp_path))
     assert [outcome for _, outcome, _ in results] == [
         "certified" if one.answer.word == "unsat" else "refuted"
@@ -89,6 +94,25 @@ def test_every_check_sat_of_a_script_is_answered_holds(tmp_path: Path) -> None:
     ]
     assert found[2].model["b"] == "true" and found[2].numbers and found[3].model == {}
     assert checker.main([str(path.with_suffix(".certificates"))]) == 0
+
+
+NAMED = """(declare-const x Real)
+(push 1)(set-info :name |two roots|)(assert (= (* x x) 2))(check-sat)(pop 1)
+(push 1)(assert (< (* x x) 0))(check-sat)(pop 1)
+(set-info :name square)(set-info :status sat)(assert (< (* x x) 0))(check-sat)
+"""
+
+
+def test_a_problem_bears_the_name_that_its_script_gives_it_holds(tmp_path: Path) -> None:
+    found = certify(script(tmp_path, NAMED))
+    assert [(one.name, one.answer) for one in found] == [
+        ("mine/two-roots", "sat"),
+        ("mine/check-2", "unsat"),
+        ("mine/square", "unsat"),
+    ]
+    done = run("certify", str(tmp_path / "mine.smt2"))
+    assert done.returncode == 1 and "mine/two-roots  sat" in done.stdout
+    assert "mine.smt2:4 (square): the script states sat, but it is unsat" in done.stdout
 
 
 NINES = "9" * 999
@@ -155,7 +179,7 @@ def test_rejects_a_certificate_for_another_statement() -> None:
 
 
 def test_a_small_budget_leaves_a_problem_unknown_and_says_so(tmp_path: Path) -> None:
-    (found,) = certify(SET / "minkowski-plane.smt2", budget=2000, store=tmp_path)
+    (found,) = certify(script(tmp_path, SET["minkowski-plane"].script), budget=2000, store=tmp_path)
     assert found.answer == "unknown"
     assert checker.check_folder(str(tmp_path))[0][1] == "unknown"
 
@@ -271,7 +295,7 @@ def test_rejects_what_is_neither_a_path_nor_claims() -> None:
 
 
 def test_the_command_answers_and_keeps_certificates_beside_the_script(tmp_path: Path) -> None:
-    path = script(tmp_path, (SET / "motzkin.smt2").read_text(encoding="utf-8"))
+    path = script(tmp_path, SET["motzkin"].script)
     done = run("certify", str(path), "--json", str(tmp_path / "out.json"))
     assert done.returncode == 0, done.stderr
     assert (
@@ -316,9 +340,7 @@ def test_an_answer_that_the_script_states_otherwise_is_told_loudly(tmp_path: Pat
 
 
 def test_an_open_problem_gives_exit_code_1(tmp_path: Path) -> None:
-    done = run(
-        "certify", str(SET / "minkowski-plane.smt2"), "--store", str(tmp_path), "--budget", "2000"
-    )
+    done = run("certify", str(script(tmp_path, SET["minkowski-plane"].script)), "--budget", "2000")
     assert done.returncode == 1 and "1 problem: 0 unsat, 0 sat, 1 unknown" in done.stdout
 
 
@@ -326,6 +348,16 @@ WRONG = [
     (["mine.smt2"], "(assert (> x 0))(check-sat)", "mine.smt2:1: x is not declared"),
     (["mine.smt2", "other.py"], "(check-sat)", "other.py: beside scripts of SMT-LIB"),
     (["mine.smt2", "mine.smt2"], "(check-sat)", "rename one"),
+    (
+        ["mine.smt2"],
+        "(set-info :name a)(check-sat)\n(set-info :name a)(check-sat)",
+        "mine.smt2:2 (a): its statement would have the name of that of mine.smt2:1 (a)",
+    ),
+    (
+        ["mine.smt2"],
+        "(check-sat)(set-info :name check-1)(check-sat)",
+        "(check-1): its statement would have the name of that of mine.smt2:1; rename one",
+    ),
     (["mine.smt2", "--only", "x"], "(check-sat)", "--only: not for scripts"),
     (["mine.smt2", "--junit", "x.xml"], "(check-sat)", "--junit: not for scripts"),
     (["mine.smt2", "--json", "mine.smt2"], "(check-sat)", "would overwrite"),

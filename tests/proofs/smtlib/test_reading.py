@@ -209,6 +209,43 @@ def test_every_check_sat_has_the_assertions_and_the_status_of_its_place_holds() 
     ]
 
 
+def test_a_name_and_a_status_are_of_the_next_problem_and_a_source_of_all_that_follow_holds() -> (
+    None
+):
+    text = (
+        "(set-info :name first)(set-info :source |a; book|)(set-info :status sat)(check-sat)"
+        '(push 1)(set-info :name "the second")(check-sat)(pop 1)(check-sat)'
+        "(set-info :name lost)(set-info :status sat)(reset)(check-sat)"
+    )
+    assert [(one.name, one.source, one.status) for one in read_problems(text, "f")] == [
+        ("first", "a; book", "sat"),
+        ("the second", "a; book", ""),
+        ("", "a; book", ""),
+        ("", "", ""),
+    ]
+
+
+def test_a_script_of_one_problem_holds_what_is_in_force_at_its_check_sat_holds() -> None:
+    text = (
+        "(set-logic QF_NRA)(declare-const |a b| Real)(define-fun |f(| ((t Real)) Real (* t t))"
+        "(push 1)(assert (> |a b| 1))(check-sat)(pop 1)(push 1)(declare-const b Bool)"
+        "(assert (! (=> b (< (|f(| |a b|) 2.50)) :named |n 1|))(push)(assert b)(pop)(check-sat)"
+    )
+    first, second = read_problems(text, "f")
+    assert second.script.splitlines() == [
+        "(set-logic QF_NRA)",
+        "(declare-const |a b| Real)",
+        "(define-fun |f(| ((t Real)) Real (* t t))",
+        "(declare-const b Bool)",
+        "(assert (! (=> b (< (|f(| |a b|) 2.50)) :named |n 1|))",
+        "(check-sat)",
+    ]
+    for one in (first, second):
+        (alone,) = read_problems(one.script, "alone")
+        assert alone.variables == one.variables and alone.commands != ()
+        assert [said for _, said in alone.assertions] == [said for _, said in one.assertions]
+
+
 def test_names_that_two_symbols_would_share_are_kept_apart_holds() -> None:
     (problem,) = read_problems(
         "(declare-const |a b| Real)(declare-const a_b Real)(assert (> |a b| a_b))(check-sat)", "f"

@@ -119,15 +119,8 @@ def test_a_formula_that_is_written_and_read_back_means_the_same_holds(
 
 
 STORE = Store()
-KEYWORDS = (
-    "forall ",
-    "range ",
-    "given ",
-    "have ",
-    "let ",
-    "root ",
-    "show ",
-)  # no integers, nothing to exist, no rule
+# no integers, nothing to exist, no rule
+KEYWORDS = ("forall ", "range ", "given ", "have ", "let ", "root ", "show ")
 SAMPLE = [
     name
     for name, text in sorted(STORE.texts.items())
@@ -170,10 +163,11 @@ def test_our_own_export_read_back_is_the_same_up_to_names_holds(name: str) -> No
                 symbol: Fraction(chance.randint(-6, 6), chance.randint(1, 4))
                 for symbol in question.names
             }
+            # e! where Z3 has its own e
             ours = {
                 variable.name: point[variable.symbol.removesuffix("!")]
                 for variable in problem.variables
-            }  # e! where Z3 has its own e
+            }
             values = [point[symbol] for symbol in question.names]
             for (_, read), formula in zip(problem.assertions, formulas):
                 assert truth(read, ours) == holds(formula, values)

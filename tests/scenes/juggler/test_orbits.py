@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler import boundary, grid, listed, orbit, physical, point, random, scene
 from juggleproof.scenes.juggler.bounded import RADIUS, radius_of
-from juggleproof.scenes.juggler.exact import flight, told
+from juggleproof.scenes.juggler.exact import as_fraction, flight
 from juggleproof.scenes.juggler.given import formulas, region
 from juggleproof.scenes.juggler.orbits import Row, heights
 from juggleproof.scenes.juggler.tables import in_units
@@ -34,7 +34,7 @@ def holds(ball: Row, exact: Row) -> bool:
 
 
 def encloses(ball: Any, exact: Fraction) -> bool:
-    return abs(told(ball.mid().fmpq()) - exact) <= radius_of(ball)
+    return abs(as_fraction(ball.mid().fmpq()) - exact) <= radius_of(ball)
 
 
 def bound_holds(fast: Row, exact: Row) -> bool:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 
-from juggleproof.scenes.juggler.exact import told
+from juggleproof.scenes.juggler.exact import as_fraction
 from juggleproof.scenes.juggler.tables import CASES, Case, Finding, finding
 
 LONG = "10^6 periods"
@@ -58,7 +58,7 @@ def test_balls_hold_the_truth_and_prove_the_edges_holds(one: Finding) -> None:
         for ball, exact, radius in zip(
             (one.enclosed.x, one.enclosed.w), (one.exact.x, one.exact.w), one.enclosed.error
         ):
-            assert abs(told(ball.mid().fmpq()) - exact) <= radius
+            assert abs(as_fraction(ball.mid().fmpq()) - exact) <= radius
     else:
         assert one.exact.end == "too long" and one.case.most_bits is not None
 

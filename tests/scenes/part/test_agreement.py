@@ -13,8 +13,8 @@ import pytest
 
 from juggleproof.scenes.part import body, fresh_notes, scene
 from juggleproof.scenes.part.flight import fly
-from juggleproof.scenes.part.reference import Chatter, State, dropped, reference_orbit, setting
 from juggleproof.scenes.part.strike import first_slide, mode_of, strike
+from tests.scenes.part.reference import Chatter, State, dropped, reference_orbit, setting
 
 UNTIL = 0.2
 MODES = (

@@ -13,10 +13,7 @@ import pytest
 from juggleproof.scenes.part import body, moving, scene
 from juggleproof.scenes.part.ensemble import fresh_notes
 from juggleproof.scenes.part.flight import fly, safe_step
-from juggleproof.scenes.part.reference import setting
-from juggleproof.scenes.part.reference.flight import Flight
-from juggleproof.scenes.part.reference.roots import first_crossing
-from juggleproof.scenes.part.reference.setting import Model, State
+from tests.scenes.part.reference import Flight, Model, State, first_crossing, setting
 
 UNTIL = 0.2
 TO_REFERENCE = (2, 3, 0, 1)  # the corner's number there

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 import multiprocessing
+import re
 import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -184,6 +185,16 @@ def test_scenes_of_one_degree_of_freedom_load_nothing_of_the_part_holds(code: st
     ]
 
 
+def test_machine_code_is_kept_anew_where_a_compiled_file_changes_holds() -> None:
+    folder = Path(body.__file__).parent
+    assert set(body.KERNELS) == {
+        path.stem
+        for path in folder.glob("*.py")
+        if re.search(r"^@(body\.)?compiled", path.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+    assert (body.FOLDER is not None) is body.COMPILED
+
+
 def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
     assert "numba" not in loaded_by("import juggleproof.scenes.part; dir(juggleproof.scenes.part)")
     assert "numba" in loaded_by("from juggleproof.scenes.part import scene")
@@ -192,7 +203,7 @@ def test_door_loads_numba_only_when_a_name_is_used_holds() -> None:
 @pytest.mark.parametrize(
     "first",
     [
-        "import juggleproof.scenes.part.onsets, juggleproof.scenes.part.onsets",
+        "import juggleproof.scenes.part.onsets",
         "from juggleproof.scenes.part import sweep, table_one",
         "pass",
     ],
