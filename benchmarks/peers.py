@@ -18,13 +18,14 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Literal
 
+from flint import fmpz_mpoly
+
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.certificate import search_certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.certificates.votes.questions import (
     Atom,
     Formula,
-    Polynomial,
     Question,
     join,
     questions,
@@ -161,11 +162,11 @@ def write(formula: Formula, short: dict[str, str]) -> str:
     )
 
 
-def polynomial(poly: Polynomial, short: dict[str, str]) -> str:
-    """The polynomial times its denominator, which changes no relation to 0."""
-    text = ""
-    for exponents, c in poly.terms:
-        powers = [short[n] for n, e in zip(poly.names, exponents) for _ in range(e)]
+def polynomial(poly: fmpz_mpoly, short: dict[str, str]) -> str:
+    """The polynomial, its powers as products."""
+    text, names = "", poly.context().names()
+    for exponents, c in zip(poly.monoms(), poly.coeffs()):
+        powers = [short[n] for n, e in zip(names, exponents) for _ in range(e)]
         factors = "*".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
         text += (" - " if c < 0 else " + ") + factors if text else ("- " if c < 0 else "") + factors
     return text or "0"
@@ -261,15 +262,11 @@ def write_qepcad(formula: Formula, short: dict[str, str]) -> str:
     )
 
 
-def qepcad_polynomial(poly: Polynomial, short: dict[str, str]) -> str:
-    """The polynomial times its denominator, which changes no relation to 0; a product is written by
-    a space.
-    """
-    text = ""
-    for exponents, c in poly.terms:
-        powers = [
-            short[n] if e == 1 else f"{short[n]}^{e}" for n, e in zip(poly.names, exponents) if e
-        ]
+def qepcad_polynomial(poly: fmpz_mpoly, short: dict[str, str]) -> str:
+    """The polynomial; a product is written by a space."""
+    text, names = "", poly.context().names()
+    for exponents, c in zip(poly.monoms(), poly.coeffs()):
+        powers = [short[n] if e == 1 else f"{short[n]}^{e}" for n, e in zip(names, exponents) if e]
         factors = " ".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
         text += (" - " if c < 0 else " + ") + factors if text else ("- " if c < 0 else "") + factors
     return text or "0"
