@@ -9,7 +9,7 @@ from juggleproof.certificates.votes import boxes, z3
 from juggleproof.certificates.votes.questions import questions
 from juggleproof.certificates.votes.vote import Budget, Vote, compare
 
-ROUTES = {"z3": z3.vote, "boxes": boxes.vote}
+ROUTES = {"z3": z3, "boxes": boxes}
 
 
 def cast_votes(
@@ -27,7 +27,7 @@ def cast_votes(
     """
     asked = questions(statement, earlier)
     votes = tuple(
-        ROUTES[route](statement, earlier, budget, asked) for route in routes if route in ROUTES
+        ROUTES[route].vote(statement, earlier, budget, asked) for route in routes if route in ROUTES
     )
     compare(statement.name, outcome, votes)
     return votes
