@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from juggleproof.certificates.store import Store
 from juggleproof.certificates.algebra.polynomials import value_at
+from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.questions import Atom, questions, read_statement
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.smtlib.script import read_problems

@@ -55,7 +55,7 @@ def test_a_matrix_with_a_negative_direction_has_no_squares_holds(vectors: list[l
 def test_the_image_of_a_matrix_is_found_again_as_integers_holds(vectors: list[list[int]]) -> None:
     matrix = np.array(vectors, dtype=float)
     left, values, _ = np.linalg.svd(matrix.T, full_matrices=False)
-    image = rational_image(left[:, values > 1e-9])
+    image = rational_image(left[:, values > 1e-9], 1e-9)  # exact but for rounding
     rank = int((values > 1e-9).sum())
     if image is not None:
         assert (
