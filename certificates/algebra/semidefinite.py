@@ -239,7 +239,7 @@ Factors = tuple[tuple[int, int], ...]  # (number of a fact, exponent)
 
 
 @dataclass
-class Block:
+class GramBlock:
     """A product of facts that is multiplied by a sum of squares of combinations of the basis.
 
     poly = scale * product of facts^exponents, scale > 0; `strict` where the product is known to be
@@ -261,7 +261,7 @@ class LinearEquations:
     """
 
     def __init__(
-        self, blocks: Sequence[Block], cofactors: Sequence[fmpz_mpoly], total: Fraction
+        self, blocks: Sequence[GramBlock], cofactors: Sequence[fmpz_mpoly], total: Fraction
     ) -> None:
         self.blocks, self.total, more = blocks, total, list(cofactors)
         self.entries = [

@@ -15,7 +15,6 @@ from functools import partial
 from itertools import combinations_with_replacement
 from itertools import product as choices
 from math import comb, lcm, prod
-from typing import Any
 
 import numpy as np
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mpoly
@@ -23,16 +22,16 @@ from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mpo
 from juggleproof.certificates.algebra.numbers import exact
 from juggleproof.certificates.algebra.polynomials import Ring, total_degree
 from juggleproof.certificates.algebra.semidefinite import (
-    Block,
     Entry,
-    Factors,
     Floats,
+    GramBlock,
     LinearEquations,
     Monomial,
     as_squares,
     rational_image,
 )
-from juggleproof.certificates.search.linear import lift, powers_of
+from juggleproof.certificates.search.facts import Factors
+from juggleproof.certificates.search.lifting import Cofactor, Node, lift, powers_of
 from juggleproof.certificates.search.problem import Problem
 from juggleproof.certificates.search.small_boxes import Box, Terms
 from juggleproof.certificates.work import Budget
@@ -45,10 +44,8 @@ from juggleproof.certificates.work import Budget
 # (Peyrl and Parrilo 2008; Monniaux and Corbineau 2011).  The result is exact, and the checker
 # confirms it.
 
-Node = list[Any]
 Solved = tuple[LinearEquations, list[Floats]]
 Square = tuple[tuple[Factors, int], Fraction]  # (factors, number of a root or -1 for 1), weight
-Cofactor = tuple[int, Monomial]  # the number of an equation, and what multiplies it
 Lift = Callable[[list[Square], list[tuple[Cofactor, Fraction]], list[fmpz_mpoly]], Node | None]
 MOST_ENTRIES = 2_000_000
 MOST_BITS = 6000  # of a coefficient
@@ -64,7 +61,7 @@ KERNELS = (1e-3, 1e-5, 1e-2, 1e-7)
 
 
 @dataclass
-class Program:
+class SquaresProgram:
     """Blocks and cofactors, each with the product that it stands for, of which some combination is
     to be 0; `lift` makes the node of an identity between the facts.
 
@@ -72,7 +69,7 @@ class Program:
     """
 
     ring: Ring
-    blocks: list[Block]
+    blocks: list[GramBlock]
     cofactors: list[tuple[Cofactor, fmpz_mpoly]]
     lift: Lift
     total: Fraction = Fraction(1)
@@ -97,7 +94,7 @@ class Program:
 
     def _followed(
         self,
-        blocks: list[Block],
+        blocks: list[GramBlock],
         solved: Solved | None,
         threshold: float,
         goal: tuple[float, float],
@@ -139,7 +136,7 @@ class Program:
         linear = LinearEquations(self.blocks, [poly for _, poly in self.cofactors], self.total)
         return linear if linear.size <= MOST_ENTRIES else None
 
-    def _confined(self, grams: list[Floats], threshold: float) -> list[Block]:
+    def _confined(self, grams: list[Floats], threshold: float) -> list[GramBlock]:
         """The blocks, each confined to the complement of its matrix's kernel, where that is a
         simple rational space.
         """
@@ -203,7 +200,7 @@ class Program:
             return None
 
 
-def search_squares(programs: Iterable[Program], budget: Budget) -> Node | None:
+def search_squares(programs: Iterable[SquaresProgram], budget: Budget) -> Node | None:
     """The node of the first program that leads to an identity."""
     for program in programs:
         node = program.node(budget)
@@ -232,7 +229,7 @@ STAGES = (
 
 def programs_of_facts(
     problem: Problem, budget: Budget, stages: Sequence[tuple[int, int, bool]] = STAGES
-) -> Iterator[Program]:
+) -> Iterator[SquaresProgram]:
     """The programs of the stages, smaller ones first.
 
     Without the signs of variables more changes of signs leave everything as it is, and programs are
@@ -256,11 +253,11 @@ def programs_of_facts(
             and len(only) > MOST_FOR_PAIRS
         ):
             continue
-        found = Products(problem, count, top + top % 2 + more, only, budget)
-        yield Program(problem.ring, found.blocks, found.cofactors, partial(lift, problem))
+        found = ProductsOfFacts(problem, count, top + top % 2 + more, only, budget)
+        yield SquaresProgram(problem.ring, found.blocks, found.cofactors, partial(lift, problem))
 
 
-class Products:
+class ProductsOfFacts:
     """The blocks and cofactors of a program of products of a problem's facts."""
 
     def __init__(
@@ -321,7 +318,7 @@ class Products:
                 found.append(tuple(exponents))
         return found
 
-    def _blocks(self, count: int, budget: Budget) -> Iterator[Block]:
+    def _blocks(self, count: int, budget: Budget) -> Iterator[GramBlock]:
         facts = self.problem.facts
         for number in range(count + 1):
             for chosen in combinations_with_replacement(self.only, number):
@@ -342,15 +339,15 @@ class Products:
                         self.ring.ctx.from_dict({monomial: 1})
                     )
                 for basis in parts.values():
-                    yield Block(powers_of(chosen), poly, False, basis)
+                    yield GramBlock(powers_of(chosen), poly, False, basis)
                 if all(facts[k].strict for k in chosen):
-                    yield Block(powers_of(chosen), poly, True, [self.ring.one])
+                    yield GramBlock(powers_of(chosen), poly, True, [self.ring.one])
                 if number == 1 and facts[chosen[0]].strict:
                     for power in range(2, self.degree // max(1, total_degree(poly)) + 1):
-                        yield Block(((chosen[0], power),), poly**power, True, [self.ring.one])
+                        yield GramBlock(((chosen[0], power),), poly**power, True, [self.ring.one])
 
 
-def pruned(blocks: list[Block], cofactors: Sequence[fmpz_mpoly]) -> list[Block]:
+def pruned(blocks: list[GramBlock], cofactors: Sequence[fmpz_mpoly]) -> list[GramBlock]:
     """The blocks without squares that nothing can cancel: of a monomial that only squares reach,
     and all with one sign.
     """
@@ -410,7 +407,7 @@ def program_around(
     facts: Sequence[Sequence[int]],
     goal: int,
     gap: Fraction = Fraction(0),
-) -> Program | None:
+) -> SquaresProgram | None:
     """The program that closes fact `goal`, p(x*) - gap - p > 0, on a box; None where it is too
     large, or where p falls from the point into the box by more than the gap makes up for.
 
@@ -430,7 +427,7 @@ def program_around(
             products.append([str(weight * content**2), [list(f) for f in factors], text])
         return ["psatz", products, []]
 
-    return Program(
+    return SquaresProgram(
         around.ring, around.blocks, [], lifted, around.total(), GOALS[-1:], FINE, kernels=()
     )
 
@@ -472,7 +469,7 @@ class Around:
                 for degree in range(2, self.half + 1)
             )
         ]
-        self.blocks: list[Block] = []
+        self.blocks: list[GramBlock] = []
         self._add(-p, ((goal, 1),), [self.ring.one], strict=True)
         constant = self.one if gap else []
         self._add(self.rational.constant(1), (), [*constant, *self.lines, *self._above(self.half)])
@@ -535,7 +532,7 @@ class Around:
         scale = lcm(*(int(c.q) for c in product.coeffs()))
         whole = {m: int((c * scale).p) for m, c in zip(product.monoms(), product.coeffs())}
         poly = self.ring.ctx.from_dict(whole)
-        self.blocks.append(Block(factors, poly, strict, basis, Fraction(scale)))
+        self.blocks.append(GramBlock(factors, poly, strict, basis, Fraction(scale)))
 
     def _add_sides(self, i: int, low: Fraction, high: Fraction) -> None:
         """Squares times (x - low)(high - x), and times the one side where the point is held."""
