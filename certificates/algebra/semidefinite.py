@@ -5,7 +5,7 @@ that meet its equations exactly, and taken apart into squares.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
@@ -34,11 +34,13 @@ def feasible(
     blocks: list[Floats], free: Floats, right: Floats, budget: Budget, trace: float, last: float
 ) -> list[Floats] | None:
     """Positive semidefinite X_k with sum A_k X_k + free m = right for some m, as floats; None where
-    the steps lead to none.
+    the steps lead to none.  Raises Exhausted where the budget ends.
 
-    A_k has the shape (rows, n_k, n_k).  With a cost of the trace, X tends to a simple solution;
-    with hardly any, to the middle of all solutions: where all of them are singular, X is nearly so,
-    and its small eigenvalues show their common kernel.
+    Shapes: A_k (rows, n_k, n_k), free (rows, columns), right (rows,), X_k (n_k, n_k).  The cost is
+    `trace` times the trace, and the steps end where the duality gap is below `last`.  With a cost
+    of the trace, X tends to a simple solution; with hardly any, to the middle of all solutions:
+    where all of them are singular, X is nearly so, and its small eigenvalues show their common
+    kernel.
     """
     if free.shape[1]:
         budget.spend(20 + len(right) ** 3 // 8000)
@@ -204,7 +206,7 @@ def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] |
     size = len(gram)
     near = np.array([[float(c) for c in row] for row in gram])
     if size and np.linalg.eigvalsh(near)[0] < -1e-6 * np.abs(near).max():
-        return None  # told by floats where it is plain; exact arithmetic decides the rest
+        return None  # floats see what is far from it; exact arithmetic decides the rest
     rest, squares = [[fmpq(c.numerator, c.denominator) for c in row] for row in gram], []
     for k in range(size):
         head = rest[k][k]
@@ -235,29 +237,26 @@ def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] |
 Monomial = tuple[int, ...]
 Entry = tuple[int, int, int]  # block, row, column
 PRIME = (1 << 61) - 1
-Factors = tuple[tuple[int, int], ...]  # (number of a fact, exponent)
 
 
 @dataclass
 class GramBlock:
-    """A product of facts that is multiplied by a sum of squares of combinations of the basis.
+    """A polynomial that is multiplied by a sum of squares of combinations of the basis.
 
-    poly = scale * product of facts^exponents, scale > 0; `strict` where the product is known to be
-    positive, not only not negative.
+    `strict` where it is known to be positive, not only not negative; then the basis is 1.
     """
 
-    factors: Factors
     poly: fmpz_mpoly
     strict: bool
     basis: list[fmpz_mpoly]
-    scale: Fraction = field(default=Fraction(1))
 
 
 class LinearEquations:
-    """The equations on the entries of the blocks' Gram matrices, and on the multiples of the
-    cofactors.
+    """The equations on the entries of the blocks' Gram matrices, and on the multipliers of the
+    cofactors: sum_k poly_k * basis_k^T G_k basis_k + sum m_j * cofactor_j = 0.
 
     There is one for each monomial, and one that sets the sum of the strict terms to `total`.
+    Source: Powers and Woermann, J. Pure and Applied Algebra 127 (1998).
     """
 
     def __init__(
@@ -292,17 +291,19 @@ class LinearEquations:
         self.size = self.rows * sum(len(block.basis) ** 2 for block in blocks)
 
     def solve(self, budget: Budget, trace: float, last: float) -> list[Floats] | None:
-        """Gram matrices in floats."""
+        """Gram matrices in floats, one for each block, each times its scale, of the shape (n, n)
+        for a basis of n; None where none is found.  `trace` and `last` are those of `feasible`.
+        """
         blocks = [
             np.zeros((self.rows, len(block.basis), len(block.basis))) for block in self.blocks
         ]
         for (k, i, j), column in zip(self.entries, self.terms):
-            scale = self.scales[k]
+            scale, half = self.scales[k], 1 if i == j else 2
             for row, c in column.items():
-                value = float(Fraction(c) / scale)
-                blocks[k][row, i, j] += value / (1 if i == j else 2)
+                value = c * scale.denominator / scale.numerator / half
+                blocks[k][row, i, j] += value
                 if i != j:
-                    blocks[k][row, j, i] += value / 2
+                    blocks[k][row, j, i] += value
         free = np.zeros((self.rows, len(self.terms) - self.count))
         for at, column in enumerate(self.terms[self.count :]):
             size = max(map(abs, column.values()))

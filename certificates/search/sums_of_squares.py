@@ -61,6 +61,14 @@ KERNELS = (1e-3, 1e-5, 1e-2, 1e-7)
 
 
 @dataclass
+class FactBlock(GramBlock):
+    """A block of a product of facts: poly = scale * product of facts^exponents, scale > 0."""
+
+    factors: Factors
+    scale: Fraction = Fraction(1)
+
+
+@dataclass
 class SquaresProgram:
     """Blocks and cofactors, each with the product that it stands for, of which some combination is
     to be 0; `lift` makes the node of an identity between the facts.
@@ -69,7 +77,7 @@ class SquaresProgram:
     """
 
     ring: Ring
-    blocks: list[GramBlock]
+    blocks: list[FactBlock]
     cofactors: list[tuple[Cofactor, fmpz_mpoly]]
     lift: Lift
     total: Fraction = Fraction(1)
@@ -94,7 +102,7 @@ class SquaresProgram:
 
     def _followed(
         self,
-        blocks: list[GramBlock],
+        blocks: list[FactBlock],
         solved: Solved | None,
         threshold: float,
         goal: tuple[float, float],
@@ -136,7 +144,7 @@ class SquaresProgram:
         linear = LinearEquations(self.blocks, [poly for _, poly in self.cofactors], self.total)
         return linear if linear.size <= MOST_ENTRIES else None
 
-    def _confined(self, grams: list[Floats], threshold: float) -> list[GramBlock]:
+    def _confined(self, grams: list[Floats], threshold: float) -> list[FactBlock]:
         """The blocks, each confined to the complement of its matrix's kernel, where that is a
         simple rational space.
         """
@@ -318,7 +326,7 @@ class ProductsOfFacts:
                 found.append(tuple(exponents))
         return found
 
-    def _blocks(self, count: int, budget: Budget) -> Iterator[GramBlock]:
+    def _blocks(self, count: int, budget: Budget) -> Iterator[FactBlock]:
         facts = self.problem.facts
         for number in range(count + 1):
             for chosen in combinations_with_replacement(self.only, number):
@@ -339,15 +347,16 @@ class ProductsOfFacts:
                         self.ring.ctx.from_dict({monomial: 1})
                     )
                 for basis in parts.values():
-                    yield GramBlock(powers_of(chosen), poly, False, basis)
+                    yield FactBlock(poly, False, basis, powers_of(chosen))
                 if all(facts[k].strict for k in chosen):
-                    yield GramBlock(powers_of(chosen), poly, True, [self.ring.one])
+                    yield FactBlock(poly, True, [self.ring.one], powers_of(chosen))
                 if number == 1 and facts[chosen[0]].strict:
                     for power in range(2, self.degree // max(1, total_degree(poly)) + 1):
-                        yield GramBlock(((chosen[0], power),), poly**power, True, [self.ring.one])
+                        factors = ((chosen[0], power),)
+                        yield FactBlock(poly**power, True, [self.ring.one], factors)
 
 
-def pruned(blocks: list[GramBlock], cofactors: Sequence[fmpz_mpoly]) -> list[GramBlock]:
+def pruned(blocks: list[FactBlock], cofactors: Sequence[fmpz_mpoly]) -> list[FactBlock]:
     """The blocks without squares that nothing can cancel: of a monomial that only squares reach,
     and all with one sign.
     """
@@ -469,7 +478,7 @@ class Around:
                 for degree in range(2, self.half + 1)
             )
         ]
-        self.blocks: list[GramBlock] = []
+        self.blocks: list[FactBlock] = []
         self._add(-p, ((goal, 1),), [self.ring.one], strict=True)
         constant = self.one if gap else []
         self._add(self.rational.constant(1), (), [*constant, *self.lines, *self._above(self.half)])
@@ -532,7 +541,7 @@ class Around:
         scale = lcm(*(int(c.q) for c in product.coeffs()))
         whole = {m: int((c * scale).p) for m, c in zip(product.monoms(), product.coeffs())}
         poly = self.ring.ctx.from_dict(whole)
-        self.blocks.append(GramBlock(factors, poly, strict, basis, Fraction(scale)))
+        self.blocks.append(FactBlock(poly, strict, basis, factors, Fraction(scale)))
 
     def _add_sides(self, i: int, low: Fraction, high: Fraction) -> None:
         """Squares times (x - low)(high - x), and times the one side where the point is held."""

@@ -61,7 +61,7 @@ def vote(
     >>> text = "statement demo/disc\\nforall x y\\ngiven x^2 + y^2 <= 1\\nshow x*y < 3/5"
     >>> v = vote(read_statement(text))
     >>> v.answer, v.detail
-    ('holds', '26 boxes discarded')
+    ('holds', '44 boxes discarded')
     """
     budget = budget or Budget()
     if statement.kind != "universal":

@@ -272,28 +272,28 @@ def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[
 def _universal_questions(
     statement: Any, name: str, sharp: Sequence[Any] | None, where: str
 ) -> list[Question]:
-    story: Any = unfolded(statement, sharp if sharp is None else list(sharp))
-    own, universal = tuple(story.context.index), set(story.universal)
-    free, integers = tuple(n for n in own if n in universal), frozenset(story.integers)
+    unfolding: Any = unfolded(statement, sharp if sharp is None else list(sharp))
+    own, universal = tuple(unfolding.context.index), set(unfolding.universal)
+    free, integers = tuple(n for n in own if n in universal), frozenset(unfolding.integers)
     asked = []
-    for number, (count, negation) in enumerate(story.obligations, 1):
+    for number, (count, negation) in enumerate(unfolding.obligations, 1):
         asked.append(
             Question(
                 name,
                 f"{where}obligation {number}",
                 free,
                 integers & universal,
-                _premises(story, own, free, count),
+                _premises(unfolding, own, free, count),
                 (Denial((), formula_of(negation, own, free)),),
                 refutes=False,
             )
         )
     denial = Denial(
-        tuple(n for n in own if n not in universal), formula_of(story.goal(False), own, own)
+        tuple(n for n in own if n not in universal), formula_of(unfolding.goal(False), own, own)
     )
     return [
         *asked,
-        Question(name, f"{where}goal", own, integers, _premises(story, own, own), (denial,)),
+        Question(name, f"{where}goal", own, integers, _premises(unfolding, own, own), (denial,)),
     ]
 
 
@@ -318,22 +318,22 @@ def _outside(
     """Is there a parameter in the domain, but outside the range, at which all the named statements
     hold?
     """
-    stories = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
-    names, integers = list[str](over), {p for p in over if p in stories[0].integers}
+    unfoldings = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
+    names, integers = list[str](over), {p for p in over if p in unfoldings[0].integers}
     renamed = list[tuple[str, ...]]()
     # every denial binds its own variables; a name is shared unless it is an integer in one
     # statement only
-    for story in stories:
+    for unfolding in unfoldings:
         own = [
             (
                 n
-                if n in over or n not in names or (n in integers) == (n in story.integers)
-                else _fresh(n, {*names, *story.context.index})
+                if n in over or n not in names or (n in integers) == (n in unfolding.integers)
+                else _fresh(n, {*names, *unfolding.context.index})
             )
-            for n in story.context.index
+            for n in unfolding.context.index
         ]
         names += [n for n in own if n not in names]
-        integers |= {n for n, key in zip(own, story.context.index) if key in story.integers}
+        integers |= {n for n, key in zip(own, unfolding.context.index) if key in unfolding.integers}
         renamed.append(tuple(own))
     context, order = TRUSTED.Context(), tuple(names)
     for parameter in over:
@@ -343,11 +343,11 @@ def _outside(
         for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))
     ]
     denials = []
-    for story, bound in zip(stories, renamed):
+    for unfolding, bound in zip(unfoldings, renamed):
         held = TRUSTED.join(
-            "or", [TRUSTED.negate(TRUSTED.join("and", story.premises)), story.goal(True)]
+            "or", [TRUSTED.negate(TRUSTED.join("and", unfolding.premises)), unfolding.goal(True)]
         )
-        of_all = {n for n, key in zip(bound, story.context.index) if key in story.universal}
+        of_all = {n for n, key in zip(bound, unfolding.context.index) if key in unfolding.universal}
         denials.append(
             Denial(
                 tuple(n for n in bound if n in of_all and n not in over),
@@ -373,16 +373,16 @@ def _iterate_questions(statement: Any) -> list[Question]:
     context = TRUSTED.Context()
     for name in variables:
         context.declare(name)
-    plain, (k,), names = dict(context.values), count, tuple(context.index)
+    values, (k,), names = dict(context.values), count, tuple(context.index)
 
     def image(trees: Sequence[Any], changes: Mapping[str, Any]) -> list[Any]:
-        inner = TRUSTED.Context(context, {**plain, **changes})
+        inner = TRUSTED.Context(context, {**values, **changes})
         for name, tree in statement.get("let"):
             inner.define(name, inner.value(tree))
         return [inner.value(tree) for tree in trees]
 
     pairs = [
-        *zip(image(powers, {k: TRUSTED.ZERO}), (plain[name] for name in arguments)),
+        *zip(image(powers, {k: TRUSTED.ZERO}), (values[name] for name in arguments)),
         *zip(
             image(images, dict(zip(arguments, image(powers, {})))),
             image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}),
@@ -397,9 +397,9 @@ def _iterate_questions(statement: Any) -> list[Question]:
 
 
 def _premises(
-    story: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None
+    unfolding: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None
 ) -> tuple[Formula, ...]:
-    return flat([formula_of(premise, own, names) for premise in story.premises[:count]])
+    return flat([formula_of(premise, own, names) for premise in unfolding.premises[:count]])
 
 
 def changed(question: Question, change: Callable[[Atom], Formula]) -> Question:

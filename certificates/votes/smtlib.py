@@ -68,25 +68,25 @@ def recurrence(statement: Any) -> list[str]:
         statement.get(keyword) for keyword in ("forall", "iterates", "after")
     )
     images, powers = ([parse(text) for text in terms] for terms in (images, powers))
-    plain = {name: symbol(name) for name in variables}
+    symbols = {name: symbol(name) for name in variables}
     k = count[0]
 
     def image(trees: Sequence[Any], changes: Mapping[str, str]) -> list[str]:
-        values = {**plain, **changes}
+        values = {**symbols, **changes}
         for name, tree in statement.get("let"):
             values[name] = write_term(tree, values)
         return [write_term(tree, values) for tree in trees]
 
     pairs = [
-        *zip(image(powers, {k: "0"}), (plain[name] for name in arguments)),
+        *zip(image(powers, {k: "0"}), (symbols[name] for name in arguments)),
         *zip(
             image(images, dict(zip(arguments, image(powers, {})))),
-            image(powers, {k: f"(+ {plain[k]} 1)"}),
+            image(powers, {k: f"(+ {symbols[k]} 1)"}),
         ),
     ]
     fails = " ".join(f"(not (= {left} {right}))" for left, right in pairs)
     return [
-        *(f"(declare-const {plain[name]} Real)" for name in variables),
+        *(f"(declare-const {symbols[name]} Real)" for name in variables),
         f"(assert (or {fails}))",
     ]
 
