@@ -24,6 +24,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Literal
 
+from flint import fmpz_mpoly
+
 from juggleproof.benchmarks.processes import Clock
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.certificate import search_certificate
@@ -31,7 +33,6 @@ from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.certificates.votes.questions import (
     Atom,
     Formula,
-    Polynomial,
     Question,
     join,
     questions,
@@ -68,11 +69,13 @@ class Notation:
         inner = (" /\\ " if formula.op == "and" else " \\/ ").join(parts)
         return self.brackets[0] + inner + self.brackets[1]
 
-    def polynomial(self, poly: Polynomial, short: Mapping[str, str]) -> str:
-        """The polynomial times its denominator, which changes no relation to 0."""
-        text = ""
-        for exponents, c in poly.terms:
-            powers = [self.power(short[n], e) for n, e in zip(poly.names, exponents) if e]
+    def polynomial(self, poly: fmpz_mpoly, short: Mapping[str, str]) -> str:
+        """The polynomial, with short names in place of those of its ring."""
+        text, names = "", [short.get(name, name) for name in poly.context().names()]
+        for exponents, c in zip(poly.monoms(), poly.coeffs()):
+            powers = [
+                self.power(short[n], e) for n, e in zip(poly.context().names(), exponents) if e
+            ]
             size = [] if abs(c) == 1 and powers else [str(abs(c))]
             factors = self.times.join([*size, *powers])
             sign = (" - " if c < 0 else " + ") if text else ("- " if c < 0 else "")

@@ -1,3 +1,14 @@
 """The language of statements, the searches that find certificates, their store, and the checker
 that believes none of them.
+
+In reading order:
+
+- `checker`: reads statements and certificates, and says whether these prove those;
+- `language`: terms, formulas and statements as values, and their text;
+- `algebra`: arithmetic that the search and the votes share;
+- `work`: counted work, and statements unfolded once;
+- `search`: finds certificates;
+- `votes`: other ways to decide a statement, recorded beside the certificate;
+- `store`: statements and certificates as files;
+- `coq`: certified statements as Coq lemmas.
 """

@@ -21,7 +21,7 @@ from juggleproof.certificates.language import (
     Statement,
 )
 from juggleproof.certificates.store import Store
-from juggleproof.certificates.votes.vote import Vote, cast_votes, compare
+from juggleproof.certificates.votes.vote import Vote, compare
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.claims import (
     Argument,
@@ -276,7 +276,9 @@ class Judge:
         return cast
 
     def cast(self, name: str, text: str, outcome: str, routes: Sequence[str]) -> Sequence[Vote]:
-        return cast_votes(read(text, name), outcome, routes, None)
+        from juggleproof.certificates.votes.casting import cast_votes  # loads FLINT and Z3
+
+        return cast_votes(read(text, name), outcome, routes)
 
     def search(self, statement: AnyStatement, parsed: checker.Statement, confirm: bool) -> Any:
         if isinstance(statement, (Iterates, MapRule)):
@@ -479,7 +481,7 @@ class Judge:
 
 @cache
 def _tools() -> str:
-    return " ".join(version(tool) for tool in ("z3-solver", "python-flint", "mpmath"))
+    return " ".join(version(tool) for tool in ("z3-solver", "python-flint"))
 
 
 def _voted_on(text: str) -> str:

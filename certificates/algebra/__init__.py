@@ -1,3 +1,11 @@
-"""Arithmetic that the search and the votes share: polynomials, real algebraic numbers, intervals,
-conditions, semidefinite programs.  None of it is believed.
+"""Arithmetic that the search and the votes share; nothing here has to be believed.
+
+In reading order:
+
+- `numbers`: real algebraic numbers, signs of polynomials at them, polynomials in one variable;
+- `polynomials`: between the checker's polynomials, FLINT's, and arrays;
+- `intervals`: enclosures of a polynomial on a box, in Arb's balls;
+- `conditions`: the condition of a statement as FLINT's polynomials, and where it can change its
+  truth as a parameter moves;
+- `semidefinite`: the program of sums of squares, its rounding to rationals, and LDL^T.
 """

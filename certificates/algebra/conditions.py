@@ -12,6 +12,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, fraction, real_roots, sign
+from juggleproof.certificates.algebra.polynomials import monomials
 from juggleproof.certificates.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
@@ -55,15 +56,8 @@ def valued(poly: fmpq_mpoly, given: Mapping[str, fmpq]) -> fmpq | None:
 
 def to_flint(poly: checker.Poly, ring: fmpq_mpoly_ctx, size: int) -> fmpq_mpoly:
     """The same polynomial over flint."""
-    mask = (1 << checker.BITS) - 1
-    spread, rest = [checker.BITS * i for i in range(size)], [0] * (ring.nvars() - size)
-    den = poly.den
-    return ring.from_dict(
-        {
-            tuple([(m >> shift) & mask for shift in spread] + rest): fmpq(c, den)
-            for m, c in poly.terms.items()
-        }
-    )
+    rest, den = (0,) * (ring.nvars() - size), poly.den
+    return ring.from_dict({m + rest: fmpq(c, den) for m, c in monomials(poly, size).items()})
 
 
 def to_text(poly: fmpq_mpoly) -> str:

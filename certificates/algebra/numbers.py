@@ -1,13 +1,15 @@
-"""Real algebraic numbers: an irreducible polynomial with an isolating interval, compared and."""
+"""Real algebraic numbers, signs of polynomials at them, and polynomials in one variable on an
+interval; all of it exact.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import total_ordering
-from math import comb
+from math import comb, floor, lcm, prod
 
-from flint import fmpq, fmpq_poly, fmpz, fmpz_mpoly, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mpoly, fmpz_poly
 
 from juggleproof.certificates import checker
 
@@ -102,6 +104,21 @@ class AlgebraicNumber:
         while self._high - self._low > bound:
             self.refine()
         return self
+
+    def enclosure(self, bits: int) -> tuple[Fraction, Fraction]:
+        """The two neighbouring multiples of 2^-bits between which the number lies; both are the
+        number where it is rational.
+
+        >>> AlgebraicNumber([-2, 0, 1], Fraction(1), Fraction(2)).enclosure(4)
+        (Fraction(11, 8), Fraction(23, 16))
+        """
+        if self.is_rational:
+            return self.as_fraction(), self.as_fraction()
+        scale = 1 << bits
+        while floor(self.low * scale) != floor(self.high * scale):
+            self.refine()
+        whole = floor(self.low * scale)
+        return Fraction(whole, scale), Fraction(whole + 1, scale)
 
     def approximation(self) -> fmpq:
         """A rational within 2^-80 of the number."""
@@ -218,6 +235,19 @@ def real_roots(poly: fmpq_poly) -> list[AlgebraicNumber]:
     return sorted(roots)
 
 
+def root_number(coefficients: Sequence[int], number: int) -> AlgebraicNumber:
+    """The number-th distinct real root of an integer polynomial (constant first), from the smallest
+    up and counted from 1.  Raises ValueError where it has fewer.
+
+    >>> root_number([0, -2, 0, 1], 3).decimal(3)
+    '1.414'
+    """
+    roots = real_roots(fmpq_poly(list(coefficients)))
+    if not 1 <= number <= len(roots):
+        raise ValueError("the polynomial has no such real root")
+    return roots[number - 1]
+
+
 def _roots_of_irreducible(poly: fmpz_poly) -> list[AlgebraicNumber]:
     if poly.degree() == 1:
         return [AlgebraicNumber.rational(fmpq(-poly[0], poly[1]))]
@@ -256,6 +286,78 @@ def simplest_between(low: fmpq, high: fmpq) -> fmpq:
         # Between whole and at most whole + 1: whole + 1/n with the least n that fits.
         return fmpq(whole) + 1 / fmpq(fmpz((1 / (high - whole)).floor()) + 1)
     return fmpq(whole) + 1 / simplest_between(1 / (high - whole), 1 / (low - whole))
+
+
+MOST_BITS = 1 << 14  # of the enclosures by which a sign is decided
+
+
+def sign_at(poly: fmpz_mpoly, point: Sequence[Fraction | AlgebraicNumber]) -> int | None:
+    """The sign (-1, 0 or 1) of the polynomial at a point of rational and algebraic numbers; None
+    where that takes too many bits.
+
+    Formula: with integer coefficients, L = prod lead_i^deg_i and M >= |P| at all conjugates, D the
+    product of the degrees: P(a) = 0 or |P(a)| >= (L M)^(1 - D) / L, because L P(a) is an algebraic
+    integer of degree at most D.
+    """
+    roots = {
+        i: value
+        for i, value in enumerate(point)
+        if isinstance(value, AlgebraicNumber) and not value.is_rational
+    }
+    known = {
+        i: value if isinstance(value, Fraction) else value.as_fraction()
+        for i, value in enumerate(point)
+        if i not in roots
+    }
+    sums: dict[tuple[int, ...], Fraction] = {}
+    for monomial, coefficient in zip(poly.monoms(), poly.coeffs()):
+        exponents = tuple(int(monomial[i]) for i in roots)
+        part = int(coefficient) * prod(value ** int(monomial[i]) for i, value in known.items())
+        sums[exponents] = sums.get(exponents, Fraction(0)) + part
+    whole = lcm(*(c.denominator for c in sums.values()))
+    terms = {e: int(c * whole) for e, c in sums.items() if c}
+    return _sign(terms, list(roots.values()))
+
+
+def _sign(terms: Mapping[tuple[int, ...], int], roots: Sequence[AlgebraicNumber]) -> int | None:
+    """The sign of sum c * roots^e."""
+    if not any(any(e) for e in terms):
+        return sign(fmpq(sum(terms.values())))
+    if len(roots) == 1:
+        (root,) = roots
+        (degree,) = max(terms)
+        return root.sign_of(fmpq_poly([terms.get((k,), 0) for k in range(degree + 1)]))
+    leads = [abs(root.coefficients[-1]) for root in roots]
+    cauchy = [
+        1 + max(-(-abs(c) // lead) for c in root.coefficients[:-1])
+        for root, lead in zip(roots, leads)
+    ]
+    size = sum(abs(c) * prod(b**k for b, k in zip(cauchy, e)) for e, c in terms.items())
+    lead = prod(a ** max(e[i] for e in terms) for i, a in enumerate(leads))
+    degree = prod(int(root.poly.degree()) for root in roots)
+    bits, enough = 32, (lead * size).bit_length() * (degree - 1) + lead.bit_length() + 1
+    while bits <= MOST_BITS:
+        with ctx.workprec(2 * bits + size.bit_length()):
+            value = _enclosed(terms, [root.narrow(Fraction(1, 1 << bits)) for root in roots])
+            if value > 0 or value < 0:
+                return 1 if value > 0 else -1
+            if abs(value) * fmpz(1 << enough) < 1:
+                return 0
+        bits *= 2
+    return None
+
+
+def _enclosed(terms: Mapping[tuple[int, ...], int], roots: Sequence[AlgebraicNumber]) -> arb:
+    """A ball that holds sum c * roots^e."""
+    balls = [arb(root._low).union(arb(root._high)) for root in roots]
+    total = arb(0)
+    for exponents, c in terms.items():
+        part = arb(c)
+        for value, e in zip(balls, exponents):
+            for _ in range(e):
+                part = part * value
+        total = total + part
+    return total
 
 
 # -------------------------------------------------------------------------------------------------

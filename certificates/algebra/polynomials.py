@@ -1,9 +1,13 @@
-"""Polynomials and boxes as plain data, and what is computed of them exactly; nothing here loads."""
+"""Polynomials between the checker, python-flint and NumPy: everything that computes with them in
+FLINT reads them here.
+"""
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from functools import lru_cache
 from math import lcm
 from typing import Any
 
@@ -33,6 +37,23 @@ WEIGHTS = (
 )
 
 
+def monomials(poly: checker.Poly, size: int) -> dict[tuple[int, ...], int]:
+    """The numerator of a polynomial of the checker as {exponents of its first `size` variables:
+    coefficient}.
+
+    >>> x = checker.Poly({1: 1}, 2, 1, checker.Work())
+    >>> monomials(x, 2)
+    {(1, 0): 1}
+    """
+    unpack, width = _unpacker(size), 2 * size
+    return {unpack(m.to_bytes(width, "little")): c for m, c in poly.terms.items()}
+
+
+@lru_cache(maxsize=64)
+def _unpacker(size: int) -> Any:
+    return struct.Struct(f"<{size}H").unpack  # the checker packs an exponent into 16 bits
+
+
 class Ring:
     """The integer polynomials in the variables of a context.
 
@@ -41,12 +62,11 @@ class Ring:
     'x^2 - 3*y'
     """
 
-    def __init__(self, names: tuple[str, ...]) -> None:
+    def __init__(self, names: tuple[str, ...], ordering: Ordering = Ordering.degrevlex) -> None:
         self.names = names
-        self.ctx = fmpz_mpoly_ctx.get(names or ("none",), Ordering.degrevlex)
+        self.ctx = fmpz_mpoly_ctx.get(names or ("none",), ordering)
         self.gens = self.ctx.gens()
         self.size = max(1, len(names))
-        self.form = struct.Struct(f"<{self.size}H")
         self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
         self.differences: dict[
             int, tuple[fmpz_mpoly, frozenset[tuple[int, ...]]]
@@ -61,9 +81,7 @@ class Ring:
         known = self.seen.get(id(poly))
         if known is not None:
             return known[1]
-        unpack, width = self.form.unpack, 2 * self.size
-        terms = {unpack(m.to_bytes(width, "little")): c for m, c in poly.terms.items()}
-        result = self.ctx.from_dict(terms) if terms else self.zero
+        result = self.ctx.from_dict(monomials(poly, self.size)) if poly.terms else self.zero
         self.seen[id(poly)] = (
             poly,
             result,
@@ -137,6 +155,11 @@ def constant_of(poly: fmpz_mpoly) -> int | None:
     return int(poly.leading_coefficient()) if poly.is_constant() else None
 
 
+def used_in(poly: fmpz_mpoly) -> tuple[int, ...]:
+    """The numbers of the variables that occur."""
+    return tuple(i for i, degree in enumerate(poly.degrees()) if degree > 0)
+
+
 def degree_in(poly: fmpz_mpoly, variable: int) -> int:
     """The degree in one variable; 0 for the zero polynomial."""
     return int(poly.degrees()[variable]) if poly else 0
@@ -178,6 +201,41 @@ def pseudo_divide(
         value = value * rest + c * power
     scaled = poly * lead**degree
     return degree, (scaled - value) / (lead * gen - rest), value
+
+
+def with_value(poly: fmpz_mpoly, variable: int, value: Fraction) -> fmpz_mpoly:
+    """The polynomial with a rational p/q in place of one variable, times q^degree: a polynomial of
+    the same ring with the same sign.
+    """
+    p, q = value.numerator, value.denominator
+    if q == 1:
+        return poly.subs({variable: p})
+    degree, terms = degree_in(poly, variable), dict[tuple[int, ...], int]()
+    for m, c in zip(poly.monoms(), poly.coeffs()):
+        key = (*m[:variable], 0, *m[variable + 1 :])
+        terms[key] = terms.get(key, 0) + int(c) * p ** m[variable] * q ** (degree - m[variable])
+    return poly.context().from_dict({m: c for m, c in terms.items() if c})
+
+
+def value_at(poly: fmpz_mpoly, point: Sequence[Fraction]) -> Fraction:
+    """The exact value at a rational point: every variable is brought to its own denominator once.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> value_at(x**2 - 3 * y, [Fraction(1, 2), Fraction(1, 3)])
+    Fraction(-3, 4)
+    """
+    powers, den = [], 1
+    for value, degree in zip(point, map(int, poly.degrees())):
+        n, d = value.numerator, value.denominator
+        powers.append([n**k * d ** (degree - k) for k in range(degree + 1)])
+        den *= d ** max(degree, 0)
+    total = 0
+    for exponents, coefficient in zip(poly.monoms(), poly.coeffs()):
+        c = int(coefficient)
+        for table, e in zip(powers, exponents):
+            c *= table[e]
+        total += c
+    return Fraction(total, den)
 
 
 def total_degree(poly: fmpz_mpoly) -> int:

@@ -1,5 +1,5 @@
-"""Positive definite Gram matrices with given coefficients: found in floating point, then rounded
-to.
+"""The semidefinite program of sums of squares: solved in floats as a hint, rounded to rationals
+that meet its equations exactly, and taken apart into squares.
 """
 
 from __future__ import annotations
@@ -7,208 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import lcm
 from typing import Any
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpz_mat, fmpz_mpoly, nmod_mat
 
-from juggleproof.certificates.search.small_boxes import Exponents
 from juggleproof.certificates.work import Budget
-
-# -------------------------------------------------------------------------------------------------
-# Positive definite Gram matrices with given coefficients: found in floating point, then rounded to
-# exact rationals.
-
-Array = Any
-Polynomial = dict[Exponents, Fraction]
-Matrix = list[list[Fraction]]
-STEPS = 80
-BITS = (4, 7, 10, 14, 20, 28, 36)  # after the point, of a rounded entry
-CENTRED = 1e-8
-
-
-@dataclass(frozen=True)
-class Block:
-    """sum G_ij multiplier b_i b_j, for the monomials b of the basis, each times its scale: a
-    positive definite G is sought.
-    """
-
-    multiplier: Polynomial
-    basis: tuple[Exponents, ...]
-    scales: tuple[Fraction, ...]
-
-    def parts(self) -> Iterator[tuple[int, int, Polynomial]]:
-        """(i, j, multiplier b_i b_j) for all i, j."""
-        for i, a in enumerate(self.basis):
-            for j, b in enumerate(self.basis):
-                scale = self.scales[i] * self.scales[j]
-                yield (
-                    i,
-                    j,
-                    {tuple(map(sum, zip(e, a, b))): c * scale for e, c in self.multiplier.items()},
-                )
-
-
-def product(p: Polynomial, q: Polynomial) -> Polynomial:
-    """p times q."""
-    total: Polynomial = {}
-    for monomial, c in q.items():
-        for e, value in p.items():
-            both = tuple(map(sum, zip(e, monomial)))
-            total[both] = total.get(both, Fraction(0)) + c * value
-    return {e: c for e, c in total.items() if c}
-
-
-def inner(p: Polynomial, blocks: Sequence[Block]) -> list[Array] | None:
-    """Matrices of the blocks whose sum is p to rounding, with the least eigenvalue as large as it
-    gets; None where it is not positive.
-
-    It follows the central path of: minimise t, where the matrices plus t are positive definite and
-    have the sum p. Source: Boyd and Vandenberghe, Convex Optimization, 11.4 (phase I).
-    """
-    rows = {
-        e: k
-        for k, e in enumerate(
-            sorted({e for block in blocks for _, _, part in block.parts() for e in part})
-        )
-    }
-    if any(e not in rows for e in p):
-        return None
-    scales = [max(abs(float(c)) for c in block.multiplier.values()) for block in blocks]
-    forms = [np.zeros((len(rows), len(block.basis), len(block.basis))) for block in blocks]
-    for block, form, scale in zip(blocks, forms, scales):
-        for i, j, part in block.parts():
-            for e, c in part.items():
-                form[rows[e], i, j] += float(c) / scale
-    size = max(abs(float(c)) for c in p.values())
-    sought = np.zeros(len(rows))
-    for e, c in p.items():
-        sought[rows[e]] = float(c) / size
-    norms = np.max(
-        [np.abs(form).max(axis=(1, 2)) for form in forms if form.size], axis=0
-    )  # a small row is to hold as well as a large one
-    found = _follow([form / norms[:, None, None] for form in forms], sought / norms)
-    return None if found is None else [gram * size / scale for gram, scale in zip(found, scales)]
-
-
-def _follow(forms: list[Array], sought: Array) -> list[Array] | None:
-    flat = np.concatenate([form.reshape(len(sought), -1) for form in forms], axis=1)
-    start = np.linalg.lstsq(flat, sought, rcond=1e-12)[0]
-    if np.abs(flat @ start - sought).max() > CENTRED:
-        return None
-    ends = np.cumsum([0] + [form.shape[1] ** 2 for form in forms])
-    grams = [
-        start[first:last].reshape(form.shape[1:])
-        for first, last, form in zip(ends, ends[1:], forms)
-    ]
-    lift = 1 - min(float(np.linalg.eigvalsh((gram + gram.T) / 2)[0]) for gram in grams)
-    grams = [(gram + gram.T) / 2 + lift * np.eye(len(gram)) for gram in grams]
-    units = sum(np.trace(form, axis1=1, axis2=2) for form in forms)
-    best, pull = None, 1.0
-    for _ in range(STEPS):
-        values = sum(np.tensordot(form, gram, axes=2) for form, gram in zip(forms, grams))
-        system = np.zeros((len(sought) + 1, len(sought) + 1))
-        system[:-1, -1] = system[-1, :-1] = units
-        for form, gram in zip(forms, grams):
-            system[:-1, :-1] += (
-                form.reshape(len(sought), -1) @ (gram @ form @ gram).reshape(len(sought), -1).T
-            )
-        solved = np.linalg.lstsq(system, np.append(values, pull), rcond=1e-15)[0]
-        steps = [
-            gram - gram @ np.tensordot(solved[:-1], form, axes=1) @ gram
-            for form, gram in zip(forms, grams)
-        ]
-        reach = min(_reach(gram, step) for gram, step in zip(grams, steps))
-        length = min(1.0, 0.8 * reach)
-        grams = [gram + length * (step + step.T) / 2 for gram, step in zip(grams, steps)]
-        lift += length * float(solved[-1])
-        least = min(float(np.linalg.eigvalsh(gram)[0]) for gram in grams)
-        if not np.isfinite(lift) or least <= 0:
-            break
-        if least > lift and (best is None or least - lift > best[0] * 1.05):
-            best = (least - lift, [gram - lift * np.eye(len(gram)) for gram in grams])
-        elif best is not None and length == 1.0:
-            break
-        pull *= 4 if length == 1.0 or reach > 2 else 1.5
-    return None if best is None else best[1]
-
-
-def _reach(gram: Array, step: Array) -> float:
-    """How many such steps lead to the edge of the cone."""
-    root = np.linalg.inv(np.linalg.cholesky(gram))
-    least = float(np.linalg.eigvalsh(root @ ((step + step.T) / 2) @ root.T)[0])
-    return 1e9 if least >= 0 else -1 / least
-
-
-def rounded(
-    p: Polynomial, blocks: Sequence[Block], grams: Sequence[Array], spare: Sequence[int]
-) -> list[Matrix] | None:
-    """Rational matrices, positive definite, with exactly the sum p: the first block makes up for
-    what rounding the others leaves.
-
-    `spare` names blocks whose entry (0, 0) takes what is left of a monomial that the first block
-    cannot have.
-    """
-    home: dict[Exponents, list[tuple[int, int]]] = {}
-    for i, a in enumerate(blocks[0].basis):
-        for j in range(i, len(blocks[0].basis)):
-            home.setdefault(tuple(map(sum, zip(a, blocks[0].basis[j]))), []).append((i, j))
-    for bits in BITS:
-        exact = [
-            [
-                [Fraction(round(float(c) * 2**bits), 2**bits) for c in row]
-                for row in (gram + gram.T) / 2
-            ]
-            for gram in grams
-        ]
-        left = _left(p, blocks, exact)
-        for k in spare:
-            ((monomial, c),) = blocks[k].multiplier.items()
-            if monomial in left and monomial not in home:
-                exact[k][0][0] += left.pop(monomial) / c
-        if any(e not in home for e in left):
-            continue
-        for e, c in left.items():
-            share = c / sum(1 if i == j else 2 for i, j in home[e])
-            for i, j in home[e]:
-                exact[0][i][j] += share / (blocks[0].scales[i] * blocks[0].scales[j])
-                exact[0][j][i] = exact[0][i][j]
-        if all(
-            min(np.linalg.eigvalsh(np.array(gram, dtype=float))[:1], default=1) > 0
-            for gram in exact
-        ) and all(map(squares, exact)):
-            return exact
-    return None
-
-
-def _left(p: Polynomial, blocks: Sequence[Block], grams: Sequence[Matrix]) -> Polynomial:
-    left = dict(p)
-    for block, gram in zip(blocks, grams):
-        for i, j, part in block.parts():
-            for e, c in part.items():
-                left[e] = left.get(e, Fraction(0)) - c * gram[i][j]
-    return {e: c for e, c in left.items() if c}
-
-
-def squares(gram: Matrix) -> list[tuple[Fraction, list[Fraction]]] | None:
-    """G = sum d l l^T with d > 0, by elimination; None where G is not positive definite.  An empty
-    G has no squares.
-    """
-    rest, found = [list(row) for row in gram], []
-    for k in range(len(gram)):
-        pivot = rest[k][k]
-        if pivot <= 0:
-            return None
-        row = [c / pivot for c in rest[k]]
-        found.append((pivot, row))
-        for i in range(k + 1, len(gram)):
-            if rest[i][k]:
-                rest[i] = [x - rest[k][i] * y for x, y in zip(rest[i], row)]
-        for i in range(k + 1, len(gram)):
-            rest[i][k] = Fraction(0)
-    return found
-
 
 # -------------------------------------------------------------------------------------------------
 # Semidefinite feasibility in floats: a hint at sums of squares, which exact arithmetic and the
@@ -228,11 +34,13 @@ def feasible(
     blocks: list[Floats], free: Floats, right: Floats, budget: Budget, trace: float, last: float
 ) -> list[Floats] | None:
     """Positive semidefinite X_k with sum A_k X_k + free m = right for some m, as floats; None where
-    the steps lead to none.
+    the steps lead to none.  Raises Exhausted where the budget ends.
 
-    A_k has the shape (rows, n_k, n_k).  With a cost of the trace, X tends to a simple solution;
-    with hardly any, to the middle of all solutions: where all of them are singular, X is nearly so,
-    and its small eigenvalues show their common kernel.
+    Shapes: A_k (rows, n_k, n_k), free (rows, columns), right (rows,), X_k (n_k, n_k).  The cost is
+    `trace` times the trace, and the steps end where the duality gap is below `last`.  With a cost
+    of the trace, X tends to a simple solution; with hardly any, to the middle of all solutions:
+    where all of them are singular, X is nearly so, and its small eigenvalues show their common
+    kernel.
     """
     if free.shape[1]:
         budget.spend(20 + len(right) ** 3 // 8000)
@@ -398,7 +206,7 @@ def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] |
     size = len(gram)
     near = np.array([[float(c) for c in row] for row in gram])
     if size and np.linalg.eigvalsh(near)[0] < -1e-6 * np.abs(near).max():
-        return None  # told by floats where it is plain; exact arithmetic decides the rest
+        return None  # floats see what is far from it; exact arithmetic decides the rest
     rest, squares = [[fmpq(c.numerator, c.denominator) for c in row] for row in gram], []
     for k in range(size):
         head = rest[k][k]
@@ -420,3 +228,220 @@ def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] |
         for i in range(k + 1, size):
             rest[i][k] = fmpq(0)
     return squares
+
+
+# -------------------------------------------------------------------------------------------------
+# The linear equations on the entries of Gram matrices: solved in floats, rounded, and met
+# exactly.
+
+Monomial = tuple[int, ...]
+Entry = tuple[int, int, int]  # block, row, column
+PRIME = (1 << 61) - 1
+
+
+@dataclass
+class GramBlock:
+    """A polynomial that is multiplied by a sum of squares of combinations of the basis.
+
+    `strict` where it is known to be positive, not only not negative; then the basis is 1.
+    """
+
+    poly: fmpz_mpoly
+    strict: bool
+    basis: list[fmpz_mpoly]
+
+
+class LinearEquations:
+    """The equations on the entries of the blocks' Gram matrices, and on the multipliers of the
+    cofactors: sum_k poly_k * basis_k^T G_k basis_k + sum m_j * cofactor_j = 0.
+
+    There is one for each monomial, and one that sets the sum of the strict terms to `total`.
+    Source: Powers and Woermann, J. Pure and Applied Algebra 127 (1998).
+    """
+
+    def __init__(
+        self, blocks: Sequence[GramBlock], cofactors: Sequence[fmpz_mpoly], total: Fraction
+    ) -> None:
+        self.blocks, self.total, more = blocks, total, list(cofactors)
+        self.entries = [
+            (k, i, j)
+            for k, block in enumerate(blocks)
+            for i in range(len(block.basis))
+            for j in range(i + 1)
+        ]
+        polys = [
+            blocks[k].poly * blocks[k].basis[i] * blocks[k].basis[j] * (1 if i == j else 2)
+            for k, i, j in self.entries
+        ]
+        self.count = len(polys)
+        rows: dict[Monomial, int] = {}
+        self.terms: list[dict[int, int]] = []
+        for poly in (*polys, *more):
+            self.terms.append(
+                {
+                    rows.setdefault(m, len(rows)): int(c)
+                    for m, c in zip(poly.monoms(), poly.coeffs())
+                }
+            )
+        self.rows = len(rows) + 1
+        self.multipliers = [0.0] * len(more)  # of the equations, in floats, when it has been solved
+        for (k, _, _), column in zip(self.entries, self.terms):
+            if blocks[k].strict:
+                column[len(rows)] = 1
+        self.size = self.rows * sum(len(block.basis) ** 2 for block in blocks)
+
+    def solve(self, budget: Budget, trace: float, last: float) -> list[Floats] | None:
+        """Gram matrices in floats, one for each block, each times its scale, of the shape (n, n)
+        for a basis of n; None where none is found.  `trace` and `last` are those of `feasible`.
+        """
+        blocks = [
+            np.zeros((self.rows, len(block.basis), len(block.basis))) for block in self.blocks
+        ]
+        for (k, i, j), column in zip(self.entries, self.terms):
+            scale, half = self.scales[k], 1 if i == j else 2
+            for row, c in column.items():
+                value = c * scale.denominator / scale.numerator / half
+                blocks[k][row, i, j] += value
+                if i != j:
+                    blocks[k][row, j, i] += value
+        free = np.zeros((self.rows, len(self.terms) - self.count))
+        for at, column in enumerate(self.terms[self.count :]):
+            size = max(map(abs, column.values()))
+            for row, c in column.items():
+                free[row, at] = c / size
+        # a small row is to hold as well as a large one
+        sizes = np.max(
+            [
+                np.abs(part).reshape(self.rows, -1).max(axis=1, initial=0.0)
+                for part in (*blocks, free)
+            ],
+            axis=0,
+        )
+        blocks = [block / sizes[:, None, None] for block in blocks]
+        free /= sizes[:, None]
+        right = np.zeros(self.rows)
+        right[-1] = float(self.total) / sizes[-1]
+        found = feasible(blocks, free, right, budget, trace, last)
+        if found is None:
+            return None
+        if free.shape[1]:
+            rest = right - sum(
+                (block.reshape(self.rows, -1) @ gram.ravel() for block, gram in zip(blocks, found)),
+                np.zeros(self.rows),
+            )
+            tops = [max(map(abs, column.values())) for column in self.terms[self.count :]]
+            self.multipliers = (np.linalg.lstsq(free, rest, rcond=None)[0] / tops).tolist()
+        return found
+
+    @cached_property
+    def scales(self) -> list[Fraction]:
+        """By what the entries of each block are multiplied in floats, so that its product has a
+        size of 1: a power of 2, near the largest coefficient; for strict ones what makes their sum
+        1.
+        """
+        return [
+            1 / self.total
+            if block.strict
+            else Fraction(1 << max(int(c).bit_length() for c in block.poly.coeffs()) - 1)
+            for block in self.blocks
+        ]
+
+    def rounded(
+        self, grams: list[Floats], denominator: int
+    ) -> Iterator[tuple[dict[Entry, Fraction], list[Fraction]]]:
+        """Exact entries near the floating ones that meet all equations, and multipliers of the
+        equations: at most two of them.
+
+        The entries are rounded, and what is then missing is made up for: by the entries that stand
+        in one equation only, which keeps denominators short, and by the shortest vector in the
+        entries.
+        """
+        start = [
+            Fraction(round(float(grams[k][i, j]) * denominator), denominator) / self.scales[k]
+            for k, i, j in self.entries
+        ]
+        start += [Fraction(round(m * denominator), denominator) for m in self.multipliers]
+        strict = [at for at, (k, _, _) in enumerate(self.entries) if self.blocks[k].strict]
+        if len(strict) == 1:
+            start[strict[0]] = self.total
+        missing = [-c for c in self.combination(start)]
+        missing[-1] += self.total
+        for correction in (self.spread, self.shortest) if any(missing) else ():
+            change = correction(missing)
+            if change is not None:
+                exact = [a + b for a, b in zip(start, change)]
+                yield dict(zip(self.entries, exact)), exact[self.count :]
+        if not any(missing):
+            yield dict(zip(self.entries, start)), start[self.count :]
+
+    def combination(self, values: Sequence[Fraction]) -> list[Fraction]:
+        """The left side of every equation at these values."""
+        left = [Fraction(0)] * self.rows
+        for value, column in zip(values, self.terms):
+            for row, c in column.items() if value else ():
+                left[row] += c * value
+        return left
+
+    def spread(self, missing: list[Fraction]) -> list[Fraction] | None:
+        """What is missing in each equation, spread over the entries that stand in no other; None
+        where it has no such entry.
+        """
+        change = [Fraction(0)] * len(self.terms)
+        for row, value in enumerate(missing):
+            if value:
+                own = self.alone.get(row, [])
+                size = sum(c * c for _, c in own)
+                if not size:
+                    return None
+                for k, c in own:
+                    change[k] = value * c / size
+        return change
+
+    @cached_property
+    def alone(self) -> dict[int, list[tuple[int, int]]]:
+        """For each equation the columns that stand in no other, with their coefficients."""
+        found: dict[int, list[tuple[int, int]]] = {}
+        for k, column in enumerate(self.terms):
+            if len(column) == 1:
+                ((row, c),) = column.items()
+                found.setdefault(row, []).append((k, c))
+        return found
+
+    def shortest(self, missing: list[Fraction]) -> list[Fraction] | None:
+        """The shortest vector whose combination of the columns is what is missing."""
+        pivots, kept, square = self.independent
+        scale = lcm(*(m.denominator for m in missing))
+        try:
+            above, below = _solved(
+                square, fmpz_mat([[int(missing[row] * scale)] for row in pivots])
+            )
+        except ZeroDivisionError:
+            return None
+        result = kept.transpose() * above
+        change = [Fraction(int(result[k, 0]), below * scale) for k in range(len(self.terms))]
+        return change if self.combination(change) == missing else None
+
+    @cached_property
+    def independent(self) -> tuple[list[int], fmpz_mat, fmpz_mat]:
+        """Rows of which no one follows from the others, the matrix of these, and it times its
+        transpose.
+        """
+        table = [[0] * len(self.terms) for _ in range(self.rows)]
+        for at, column in enumerate(self.terms):
+            for row, c in column.items():
+                table[row][at] = c
+        reduced, rank = nmod_mat(fmpz_mat(table).transpose(), PRIME).rref()
+        pivots, at = list[int](), 0
+        for row in range(rank):
+            while not int(reduced[row, at]):
+                at += 1
+            pivots.append(at)
+        kept = fmpz_mat([table[row] for row in pivots])
+        return pivots, kept, kept * kept.transpose()
+
+
+def _solved(matrix: fmpz_mat, right: fmpz_mat) -> tuple[fmpz_mat, int]:
+    """(n, d) with matrix * n = d * right."""
+    solution = matrix.solve(right)
+    common = lcm(*(int(solution[k, 0].q) for k in range(solution.nrows())))
+    return fmpz_mat([[int(solution[k, 0] * common)] for k in range(solution.nrows())]), common

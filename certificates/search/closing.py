@@ -31,7 +31,7 @@ from juggleproof.certificates.search.linear import (
     search,
 )
 from juggleproof.certificates.search.problem import Problem, has_interior_point
-from juggleproof.certificates.search.sums_of_squares import search_squares_of_facts
+from juggleproof.certificates.search.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.work import Budget, Exhausted, accepted
 
 # -------------------------------------------------------------------------------------------------
@@ -197,7 +197,8 @@ class Closing:
             problem, FIRST if self.effort else QUICK, self.budget
         )
         if node is None and self.effort == SQUARED:
-            node = search_squares_of_facts(self.problem(inside, True), self.budget)
+            programs = programs_of_facts(self.problem(inside, True), self.budget)
+            node = search_squares(programs, self.budget)
         elif (
             node is None
             and self.effort

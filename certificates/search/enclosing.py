@@ -23,7 +23,8 @@ from juggleproof.certificates.search.small_boxes import (
     simple_points,
     value_at,
 )
-from juggleproof.certificates.search.sums_of_squares import search_squares
+from juggleproof.certificates.search.sums_of_squares import program_around, search_squares
+from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
 # Points where a polynomial is small on a box, found in floating point: nothing here is believed,
@@ -147,6 +148,7 @@ Prove = Callable[
 ]  # whether the checker accepts that the polynomial is at least so much, by this node
 SIMPLE = 10**6  # the denominator of a value that may be the minimum itself
 QUICK = 300  # boxes before squares are tried
+SQUARES = 100_000_000  # units of work for squares
 FINE = Fraction(1, 10**13)  # a width for which floating point has no point good enough
 SHARE = 8  # of the width, which the value at the point and its rounding may each take
 
@@ -286,7 +288,7 @@ def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Found | N
         (best.exact, best.exact, best.point),
         *([(low, high, _shorter(best))] if best.width else []),
     ]:
-        node = search_squares(
+        program = program_around(
             problem.terms,
             problem.box,
             point,
@@ -295,6 +297,7 @@ def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Found | N
             problem.goal,
             value_at(problem.terms, point) - bound,
         )
+        node = search_squares([program], Budget(SQUARES)) if program else None
         if node and prove(bound, node):
             return Found(bound, top, best.point, node, done, True)
     return None

@@ -7,7 +7,7 @@ from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as choices
-from math import lcm, prod
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -22,17 +22,15 @@ from juggleproof.certificates.algebra.polynomials import (
     multiply,
     total_degree,
 )
-from juggleproof.certificates.search.facts import Fact, Factors, Sum, merge, power, times
+from juggleproof.certificates.search.facts import Factors, merge, power
+from juggleproof.certificates.search.lifting import Cofactor, Node, Term, finish, lift, powers_of
 from juggleproof.certificates.search.linear_program import Mask, Program, solve
-from juggleproof.certificates.search.problem import Problem, Term, finish
+from juggleproof.certificates.search.problem import Problem
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
 # The columns of a linear program made from a problem's facts, and the certificate read off its
 # solution.
-
-Node = list[Any]
-Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
 
 
 class Combination:
@@ -265,11 +263,6 @@ def counted(counts: Keys) -> Keys:
     return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
-def powers_of(chosen: tuple[int, ...]) -> Factors:
-    """A product of facts, each with its exponent."""
-    return tuple((k, chosen.count(k)) for k in sorted(set(chosen)))
-
-
 class Level:
     """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded
     variable, and how often.
@@ -307,103 +300,6 @@ class Level:
         self.strict = np.array(
             [all(facts[k].strict for k, _ in own) for own in self.factors], dtype=bool
         )
-
-
-def lift(
-    problem: Problem,
-    used: list[tuple[tuple[Factors, int], Fraction]],
-    cofactors: list[tuple[Cofactor, Fraction]],
-    roots: list[fmpz_mpoly],
-) -> Node | None:
-    """The node of an identity between the problem's facts and the equations left."""
-    ring, facts = problem.ring, problem.facts
-    divided: dict[int, int] = {}  # facts with a multiplier -> the largest exponent in use
-    for (factors, _), _ in used:
-        for k, e in factors:
-            if facts[k].multiplier is not None:
-                divided[k] = max(divided.get(k, 0), e)
-    terms: list[Term] = []
-    for (factors, root), c in used:
-        have = dict(factors)
-        whole: Sum = [(c, factors)]
-        for k, most in divided.items():
-            for _ in range(most - have.get(k, 0)):
-                whole = times(whole, facts[k].multiplier or [])
-        for value, product in whole:
-            terms.append(term(problem, value, product, roots[root] if root >= 0 else ring.one))
-    common = lcm(
-        1, *(c.denominator for _, c in cofactors), *(t.coefficient.denominator for t in terms)
-    )
-    extra = ring.one  # what the terms have been multiplied by
-    scale = Fraction(common)
-    for k, most in divided.items():
-        poly, unit = sum_of(problem, facts[k].multiplier or [])
-        extra, scale = extra * poly**most, scale * unit**most
-    terms = [Term(t.coefficient * common * scale.denominator, t.factors, t.root) for t in terms]
-    scale *= scale.denominator
-    owed: dict[int, fmpz_mpoly] = {}
-    used_equations = sorted({place for (place, _), _ in cofactors})
-    multiples = [squared(problem, place) for place in used_equations]
-    for at, place in enumerate(used_equations):
-        equation = problem.reduction.left[place]
-        own = [(monomial, c) for (where, monomial), c in cofactors if where == place]
-        # every term is multiplied by all multiples: an equation's own multiple is part of its
-        # combination
-        cofactor = extra * prod(
-            (multiple for other, (multiple, _) in enumerate(multiples) if other != at),
-            start=ring.one,
-        )
-        if multiples[at][0] != equation.multiple:
-            cofactor = cofactor * equation.multiple
-        whole_cofactor = ring.zero
-        clear = lcm(1, *(Fraction(c * scale).denominator for _, c in own))
-        if clear != 1:
-            return None
-        for monomial, c in own:
-            whole_cofactor = whole_cofactor + ring.ctx.from_dict({monomial: int(c * scale)})
-        for k, part in equation.combination.items():
-            owed[k] = owed.get(k, ring.zero) + part * whole_cofactor * cofactor
-    shared = merge(*(factors for _, factors in multiples))
-    terms = [Term(t.coefficient, merge(t.factors, shared), t.root) for t in terms]
-    return finish(problem.source, problem.reduction, terms, owed)
-
-
-def term(problem: Problem, coefficient: Fraction, product: Factors, root: fmpz_mpoly) -> Term:
-    """A product of the problem's facts in terms of the state's facts."""
-    factors: Factors = ()
-    for k, e in product:
-        fact: Fact = problem.facts[k]
-        factors, coefficient = merge(factors, power(fact.factors, e)), coefficient / fact.scale**e
-        for step, n in zip(problem.reduction.steps, fact.counts):
-            factors, coefficient = (
-                merge(factors, power(step.lead_factors, n * e)),
-                coefficient * step.lead_scale ** (n * e),
-            )
-    return Term(coefficient, factors, root)
-
-
-def sum_of(problem: Problem, total: Sum) -> tuple[fmpz_mpoly, Fraction]:
-    """(p, c) with c * p the value of a sum over the problem's facts."""
-    common = lcm(*(c.denominator for c, _ in total))
-    poly = problem.ring.zero
-    for c, factors in total:
-        poly = poly + prod(
-            (problem.facts[k].poly ** e for k, e in factors), start=problem.ring.one
-        ) * int(c * common)
-    return poly, Fraction(1, common)
-
-
-def squared(problem: Problem, place: int) -> tuple[fmpz_mpoly, Factors]:
-    """The multiple of an equation left and its facts, squared where a fact in it has no known
-    sign.
-    """
-    equation = problem.reduction.left[place]
-    even = any(problem.source.relations[k] == "!=" for k, _ in equation.factors)
-    return (
-        (equation.multiple * equation.multiple, power(equation.factors, 2))
-        if even
-        else (equation.multiple, equation.factors)
-    )
 
 
 # -------------------------------------------------------------------------------------------------

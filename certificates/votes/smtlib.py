@@ -1,6 +1,4 @@
-"""Terms of a statement as SMT-LIB text without expanding them: what a recurrence and an
-algebraic.
-"""
+"""Statements and their questions as SMT-LIB 2 text for Z3 and other solvers."""
 
 from __future__ import annotations
 
@@ -8,13 +6,15 @@ import ast
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from flint import fmpz_mpoly
+
+from juggleproof.certificates.algebra.polynomials import used_in
 from juggleproof.certificates.checker import parse
 from juggleproof.certificates.votes.questions import (
     TRUSTED,
     Atom,
     Denial,
     Formula,
-    Polynomial,
     Question,
     questions,
 )
@@ -68,25 +68,25 @@ def recurrence(statement: Any) -> list[str]:
         statement.get(keyword) for keyword in ("forall", "iterates", "after")
     )
     images, powers = ([parse(text) for text in terms] for terms in (images, powers))
-    plain = {name: symbol(name) for name in variables}
+    symbols = {name: symbol(name) for name in variables}
     k = count[0]
 
     def image(trees: Sequence[Any], changes: Mapping[str, str]) -> list[str]:
-        values = {**plain, **changes}
+        values = {**symbols, **changes}
         for name, tree in statement.get("let"):
             values[name] = write_term(tree, values)
         return [write_term(tree, values) for tree in trees]
 
     pairs = [
-        *zip(image(powers, {k: "0"}), (plain[name] for name in arguments)),
+        *zip(image(powers, {k: "0"}), (symbols[name] for name in arguments)),
         *zip(
             image(images, dict(zip(arguments, image(powers, {})))),
-            image(powers, {k: f"(+ {plain[k]} 1)"}),
+            image(powers, {k: f"(+ {symbols[k]} 1)"}),
         ),
     ]
     fails = " ".join(f"(not (= {left} {right}))" for left, right in pairs)
     return [
-        *(f"(declare-const {plain[name]} Real)" for name in variables),
+        *(f"(declare-const {symbols[name]} Real)" for name in variables),
         f"(assert (or {fails}))",
     ]
 
@@ -261,19 +261,20 @@ def write_formula(formula: Formula, integers: frozenset[str] = frozenset()) -> s
     return f"({formula.op} {' '.join(write_formula(part, integers) for part in formula.parts)})"
 
 
-def write_polynomial(poly: Polynomial, integers: frozenset[str] = frozenset()) -> str:
-    """The polynomial times its denominator as a sum of monomials; a relation to 0 is the same for
-    it.
+def write_polynomial(poly: fmpz_mpoly, integers: frozenset[str] = frozenset()) -> str:
+    """The polynomial as a sum of monomials.
 
     A variable that is an integer is read as a real wherever a real variable stands beside it in the
     polynomial.
     """
-    mixed = any(poly.names[i] not in integers for i in poly.used)
+    names = poly.context().names()
+    mixed = any(names[i] not in integers for i in used_in(poly))
     terms = []
-    for exponents, c in poly.terms:
+    for exponents, coefficient in zip(poly.monoms(), poly.coeffs()):
+        c = int(coefficient)
         factors = [
             _variable(n, n in integers and mixed)
-            for n, e in zip(poly.names, exponents)
+            for n, e in zip(names, exponents)
             for _ in range(e)
         ]
         number = str(c) if c >= 0 else f"(- {-c})"

@@ -1,55 +1,67 @@
-"""Exact intervals whose ends may be infinite, and the values of polynomials on boxes of them."""
+"""Exact intervals whose ends may be infinite, and boxes that hold every solution of some facts.
+
+A half-line is no ball, so Arb does not serve here: ends are rational or infinite, and propagation
+rounds them outwards to short ones.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import lru_cache
-from importlib import import_module
-from math import comb
-from typing import Any
+from functools import cached_property, lru_cache
 
-from juggleproof.certificates.votes.questions import Atom, Polynomial
+from flint import fmpq, fmpq_poly, fmpz_mpoly
+
+from juggleproof.certificates.algebra.numbers import bernstein, exact, fraction, sign
+from juggleproof.certificates.algebra.polynomials import used_in
+from juggleproof.certificates.votes.questions import Atom
 
 # -------------------------------------------------------------------------------------------------
-# Exact intervals whose ends may be infinite, and the values of polynomials on boxes of them.
-#
-# The numbers are flint's rationals, which are exact too and far quicker than Fraction: regions are
-# bounded with many of them.
+# Intervals, and the values of polynomials on boxes of them.
 
-Rational = Any  # flint.fmpq
 End = tuple[
-    int, Rational
+    int, fmpq
 ]  # (-1, 0) and (1, 0) are the infinite ends, (0, q) is q: tuples compare as the ends do
 Interval = tuple[End, End]
+ZERO: End = (0, fmpq(0))
 
 
-@lru_cache(maxsize=1)
-def _fmpq() -> Any:
-    return import_module("flint").fmpq
+class Expanded:
+    """A polynomial with what bounding asks of it again and again."""
+
+    def __init__(self, poly: fmpz_mpoly) -> None:
+        self.poly, self.used = poly, used_in(poly)
+        self.degrees = tuple(max(0, int(d)) for d in poly.degrees())
+        self._collected: dict[int, tuple[tuple[int, Expanded], ...]] = {}
+
+    @cached_property
+    def terms(self) -> list[tuple[tuple[int, ...], int]]:
+        """(exponents, coefficient) of every term."""
+        return [
+            (tuple(map(int, m)), int(c)) for m, c in zip(self.poly.monoms(), self.poly.coeffs())
+        ]
+
+    def collected(self, i: int) -> tuple[tuple[int, Expanded], ...]:
+        """The pairs (k, c_k) with the polynomial = sum c_k x_i^k, each c_k not 0 and without x_i,
+        from k = 0 up.
+        """
+        if i not in self._collected:
+            parts: dict[int, dict[tuple[int, ...], int]] = {}
+            for e, c in self.terms:
+                parts.setdefault(e[i], {})[(*e[:i], 0, *e[i + 1 :])] = c
+            ring = self.poly.context()
+            self._collected[i] = tuple(
+                (k, Expanded(ring.from_dict(part))) for k, part in sorted(parts.items())
+            )
+        return self._collected[i]
 
 
-def rational(value: int | Fraction) -> Rational:
-    """The same number for flint."""
-    return _fmpq()(value.numerator, value.denominator)
-
-
-def fraction(value: Rational) -> Fraction:
-    """The same number for Python."""
-    return Fraction(int(value.p), int(value.q))
-
-
-def zero_end() -> End:
-    """The end 0."""
-    return (0, _fmpq()(0))
-
-
-def upper_end(p: Polynomial, box: Sequence[Interval]) -> End:
+def upper_end(poly: fmpz_mpoly, box: Sequence[Interval]) -> End:
     """An upper end for the polynomial on the box."""
-    return span(p, box)[1]
+    return span(Expanded(poly), box)[1]
 
 
-def span(p: Polynomial, box: Sequence[Interval]) -> Interval:
+def span(p: Expanded, box: Sequence[Interval]) -> Interval:
     """An interval that holds all values of the polynomial on the box.
 
     Formula: sum c_k x^k for the first unbounded variable x, each c_k bounded first: so 8*a*x - 4*x
@@ -57,7 +69,7 @@ def span(p: Polynomial, box: Sequence[Interval]) -> Interval:
     """
     unbounded = next((i for i in p.used if box[i][0][0] or box[i][1][0]), None)
     if unbounded is not None and len(p.used) > 1:
-        total: Interval = (zero_end(), zero_end())
+        total: Interval = (ZERO, ZERO)
         for k, coefficient in p.collected(unbounded):
             inner = span(coefficient, box)
             total = _plus(total, _times(inner, power_span(box[unbounded], k)) if k else inner)
@@ -70,33 +82,25 @@ def span(p: Polynomial, box: Sequence[Interval]) -> Interval:
             box[i][0][1],
             box[i][1][1],
         )
-        return (0, low / p.den), (0, high / p.den)
+        return (0, low), (0, high)
     return _termwise(p, box)
 
 
 @lru_cache(maxsize=4096)
-def _bernstein_range(
-    coefficients: tuple[int, ...], low: Rational, high: Rational
-) -> tuple[Rational, Rational]:
+def _bernstein_range(coefficients: tuple[int, ...], low: fmpq, high: fmpq) -> tuple[fmpq, fmpq]:
     """The least and the largest Bernstein coefficient of a polynomial in one variable on [low,
     high]: they enclose its values there.
     """
-    moved = shifted([rational(c) for c in coefficients], low)
-    n, scaled = len(moved) - 1, [c * (high - low) ** k for k, c in enumerate(moved)]
-    bernstein = [
-        sum(
-            (scaled[i] * rational(Fraction(comb(j, i), comb(n, i))) for i in range(j + 1)),
-            rational(0),
-        )
-        for j in range(n + 1)
-    ]
-    return min(bernstein), max(bernstein)
+    found = bernstein(
+        fmpq_poly(list(coefficients)), fraction(low), fraction(high), len(coefficients) - 1
+    )
+    return min(found), max(found)
 
 
-def _termwise(p: Polynomial, box: Sequence[Interval]) -> Interval:
-    total: Interval = (zero_end(), zero_end())
+def _termwise(p: Expanded, box: Sequence[Interval]) -> Interval:
+    total: Interval = (ZERO, ZERO)
     for exponents, c in p.terms:
-        term: Interval = ((0, rational(c)), (0, rational(c)))
+        term: Interval = ((0, fmpq(c)), (0, fmpq(c)))
         for i, e in enumerate(exponents):
             if e:
                 term = _times(term, power_span(box[i], e))
@@ -106,7 +110,7 @@ def _termwise(p: Polynomial, box: Sequence[Interval]) -> Interval:
 
 def _plus(a: Interval, b: Interval) -> Interval:
     def end(x: End, y: End, side: int) -> End:
-        return (side, rational(0)) if side in (x[0], y[0]) else (x[0] or y[0], x[1] + y[1])
+        return (side, fmpq(0)) if side in (x[0], y[0]) else (x[0] or y[0], x[1] + y[1])
 
     return end(a[0], b[0], -1), end(a[1], b[1], 1)
 
@@ -116,8 +120,8 @@ def power_span(span: Interval, exponent: int) -> Interval:
     low, high = (_power(end, exponent) for end in span)
     if exponent % 2:
         return low, high
-    if span[0] <= zero_end() <= span[1]:
-        return zero_end(), max(low, high)
+    if span[0] <= ZERO <= span[1]:
+        return ZERO, max(low, high)
     return min(low, high), max(low, high)
 
 
@@ -133,23 +137,8 @@ def _times(a: Interval, b: Interval) -> Interval:
 def _product(a: End, b: End) -> End:
     if not a[0] and not b[0]:
         return (0, a[1] * b[1])
-    sign = (a[0] or _sign(a[1])) * (
-        b[0] or _sign(b[1])
-    )  # 0 times an infinite end is 0: the ends are limits of finite ones
-    return (sign, rational(0))
-
-
-def _sign(value: Rational) -> int:
-    return int(value > 0) - int(value < 0)
-
-
-def shifted(coefficients: Sequence[Rational], by: Rational) -> list[Rational]:
-    """The coefficients of u(x + by), constant first."""
-    moved = list(coefficients)
-    for k in range(len(moved) - 1):
-        for j in range(len(moved) - 2, k - 1, -1):
-            moved[j] += by * moved[j + 1]
-    return moved
+    # 0 times an infinite end is 0: the ends are limits of finite ones
+    return ((a[0] or sign(a[1])) * (b[0] or sign(b[1])), fmpq(0))
 
 
 # -------------------------------------------------------------------------------------------------
@@ -168,10 +157,10 @@ def bounding_box(facts: Sequence[Atom], width: int) -> list[Bounds] | None:
     t) has no positive coefficient, p <= 0 beyond t.  Source: interval constraint propagation;
     Descartes' rule of signs for the shift.
     """
-    box: list[Interval] = [((-1, rational(0)), (1, rational(0)))] * width
+    box: list[Interval] = [((-1, fmpq(0)), (1, fmpq(0)))] * width
     sides = [(fact, p) for fact in facts if fact.relation != "!=" for p in _signs(fact)]
     found = _propagate(sides, box)
-    used = sorted({i for fact in facts for i in fact.poly.used})
+    used = sorted({i for fact in facts for i in fact.used})
     if found and any(_infinite(box[i]) for i in used):
         # the bounds of one variable often need a better lower end of another, such as s >= 1.4 from
         # s^2 > 2
@@ -187,19 +176,23 @@ def bounding_box(facts: Sequence[Atom], width: int) -> list[Bounds] | None:
 
 def intervals(bounds: Sequence[Bounds]) -> list[Interval]:
     """The bounds in flint's rationals."""
-    return [((low[0], rational(low[1])), (high[0], rational(high[1]))) for low, high in bounds]
+    return [((low[0], exact(low[1])), (high[0], exact(high[1]))) for low, high in bounds]
 
 
 def _infinite(side: Interval) -> bool:
     return bool(side[0][0] or side[1][0])
 
 
-def _signs(fact: Atom) -> list[Polynomial]:
+def _signs(fact: Atom) -> list[Expanded]:
     """The polynomials that the fact makes >= 0."""
-    return [fact.poly, fact.poly.minus] if fact.relation == "=" else [fact.poly]
+    return (
+        [Expanded(fact.poly), Expanded(-fact.poly)]
+        if fact.relation == "="
+        else [Expanded(fact.poly)]
+    )
 
 
-def _shave(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval], i: int) -> bool:
+def _shave(sides: Sequence[tuple[Atom, Expanded]], box: list[Interval], i: int) -> bool:
     """Cuts slices from both ends of a bounded side on which some fact fails; False where nothing is
     left.
     """
@@ -226,19 +219,17 @@ def _shave(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval], i: int
     return box[i][0] <= box[i][1]
 
 
-def _fails(fact: Atom, p: Polynomial, box: Sequence[Interval]) -> bool:
+def _fails(fact: Atom, p: Expanded, box: Sequence[Interval]) -> bool:
     """Whether p >= 0, or p > 0 for a strict fact, fails everywhere on the box."""
-    end = upper_end(p, box)
-    return end < zero_end() or fact.relation == ">" and end == zero_end()
+    end = span(p, box)[1]
+    return end < ZERO or fact.relation == ">" and end == ZERO
 
 
-def _propagate(sides: Sequence[tuple[Atom, Polynomial]], box: list[Interval]) -> bool:
+def _propagate(sides: Sequence[tuple[Atom, Expanded]], box: list[Interval]) -> bool:
     """Moves ends inwards, in a few rounds, and to finite values where it can; False where an
     interval becomes empty.
     """
-    known: dict[
-        tuple[int, int], tuple[tuple[Interval, ...], tuple[Rational | None, Rational | None]]
-    ] = {}
+    known: dict[tuple[int, int], tuple[tuple[Interval, ...], tuple[fmpq | None, fmpq | None]]] = {}
     for _ in range(ROUNDS):
         changed = False
         for number, (_, p) in enumerate(sides):
@@ -270,9 +261,7 @@ def _worth(old: Interval, new: Interval) -> bool:
     return not _infinite(old) and bool(16 * (new[1][1] - new[0][1]) < 15 * (old[1][1] - old[0][1]))
 
 
-def _ends_along(
-    p: Polynomial, i: int, box: list[Interval]
-) -> tuple[Rational | None, Rational | None]:
+def _ends_along(p: Expanded, i: int, box: list[Interval]) -> tuple[fmpq | None, fmpq | None]:
     """(t, s) such that p >= 0 fails for x_i > t and for x_i < s; None where none is found."""
     spans = [
         (k, span(coefficient, box), bool(coefficient.used))
@@ -286,11 +275,11 @@ def _ends_along(
 
 def _end(
     spans: Sequence[tuple[int, Interval, bool]], degree: int, direction: int, constant: bool
-) -> Rational | None:
+) -> fmpq | None:
     """t such that p >= 0 fails for direction * x > t, from what the coefficients of the powers of x
     lie between.
     """
-    none = rational(0)
+    none = fmpq(0)
     tops = [none] * (degree + 1)
     for k, (least, most), _ in spans:
         top = most if direction > 0 or k % 2 == 0 else (-least[0], -least[1])
@@ -312,19 +301,21 @@ def _end(
         SHIFTS
     ):  # Cauchy's bound, then the least shift that is seen to be beyond all roots
         middle = rounded((low + end) / 2, up=True)
-        if low < middle < end and all(c <= 0 for c in shifted(tops, middle)):
+        if low < middle < end and all(
+            c <= 0 for c in fmpq_poly(tops)(fmpq_poly([middle, 1])).coeffs()
+        ):
             end = middle
         else:
             low = middle
     return end
 
 
-def rounded(value: Rational, up: bool) -> Rational:
+def rounded(value: fmpq, up: bool) -> fmpq:
     """The value itself where it is short, else a number with few digits beyond it: propagation
     would make the digits grow without end.
 
     >>> third, near = Fraction(1, 3), Fraction(10**30 + 1, 3 * 10**30)
-    >>> fraction(rounded(rational(third), True)), fraction(rounded(rational(near), True))
+    >>> fraction(rounded(exact(third), True)), fraction(rounded(exact(near), True))
     (Fraction(1, 3), Fraction(11184811, 33554432))
     """
     p, q = int(value.p), int(value.q)
@@ -332,14 +323,8 @@ def rounded(value: Rational, up: bool) -> Rational:
         return value
     unit = Fraction(2) ** (p.bit_length() - q.bit_length() - SHORT // 2)
     scaled = Fraction(p, q) / unit
-    return rational(
-        unit
-        * (
-            -(-scaled.numerator // scaled.denominator)
-            if up
-            else scaled.numerator // scaled.denominator
-        )
-    )
+    down = scaled.numerator // scaled.denominator
+    return exact(unit * (-(-scaled.numerator // scaled.denominator) if up else down))
 
 
 def dyadic(low: Fraction, high: Fraction) -> tuple[int, int, int]:

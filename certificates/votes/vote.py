@@ -4,10 +4,9 @@ contradicts what was checked.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 AGREES = {"certified": "holds", "refuted": "fails"}
 
@@ -58,8 +57,7 @@ class Vote:
     """What one route says of one statement: `holds` or `fails` decide it; `unknown`, `enclosed` and
     `not applicable` do not.
 
-    `model` is an exact point (name, value) at which the statement fails; `opinions` are
-    (arithmetic, what it found) where two were asked.
+    `model` is an exact point (name, value) at which the statement fails.
     """
 
     route: str
@@ -68,7 +66,6 @@ class Vote:
     work: int = 0
     model: tuple[tuple[str, str], ...] = ()
     enclosures: tuple[Enclosure, ...] = ()
-    opinions: tuple[tuple[str, str], ...] = ()
 
     @property
     def decided(self) -> bool:
@@ -76,13 +73,7 @@ class Vote:
         return self.answer in ("holds", "fails")
 
     def __str__(self) -> str:
-        said = "; ".join(
-            [
-                self.detail,
-                *(f"{how}: {what}" for how, what in self.opinions),
-                *map(str, self.enclosures),
-            ]
-        )
+        said = "; ".join([self.detail, *map(str, self.enclosures)])
         at = (
             " at " + ", ".join(f"{name} = {value}" for name, value in self.model)
             if self.model
@@ -118,35 +109,3 @@ def compare(statement: str, outcome: str, votes: Sequence[Vote]) -> None:
                 if answer != vote.answer:
                     raise Disagreement(statement, said, str(vote))
             sides.append((vote.answer, str(vote)))
-
-
-def cast_votes(
-    statement: Any,
-    outcome: str,
-    routes: Sequence[str] = ("z3", "boxes"),
-    budget: Budget | None = None,
-    earlier: Mapping[str, Any] | None = None,
-) -> tuple[Vote, ...]:
-    """One vote for each of the routes named that casts any ("z3", "boxes"), on a statement of the
-    checker with its checked outcome.
-
-    `earlier` gives the statements that a sharp range names.  Raises Disagreement where a vote
-    contradicts the outcome or another vote.
-    """
-    from juggleproof.certificates.votes.questions import questions  # only where a vote is cast anew
-
-    asked = questions(statement, earlier)
-    votes: list[Vote] = []
-    for route in routes:
-        if route == "z3":
-            from juggleproof.certificates.votes import (
-                z3,  # loading Z3 takes 70 ms: only where it is asked
-            )
-
-            votes.append(z3.vote(statement, earlier, budget, asked))
-        elif route == "boxes":
-            from juggleproof.certificates.votes import boxes as boxes_route
-
-            votes.append(boxes_route.vote(statement, earlier, budget, asked))
-    compare(statement.name, outcome, votes)
-    return tuple(votes)

@@ -4,38 +4,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib import import_module
 from itertools import islice, product
 from typing import Any
 
+from juggleproof.certificates.algebra.numbers import AlgebraicNumber, root_number, sign_at
+from juggleproof.certificates.algebra.polynomials import with_value
 from juggleproof.certificates.votes.questions import (
     Atom,
     Denial,
     Formula,
-    Polynomial,
     Question,
     atom,
     branches,
-    flat,
+    changed,
     join,
-    map_atoms,
     questions,
-)
-from juggleproof.certificates.votes.regions import (
-    Exact,
-    Root,
-    at_unit_values,
-    fixed_by_units,
-    root_number,
-    truth_at,
+    ring_of,
+    scale_variables,
+    truth,
+    with_scales_one,
 )
 from juggleproof.certificates.votes.smtlib import question_text, symbol
 from juggleproof.certificates.votes.vote import Budget, Vote
 
+Exact = Fraction | AlgebraicNumber
 MOST_BRANCHES, MOST_TRIES = 64, 16
+BITS = 12  # after the point, of the ends between which a root is written
 TACTICS = {
     "nlsat": ("simplify", "propagate-values", "qfnra-nlsat"),
     "nlqsat": ("simplify", "nnf", "nlqsat"),
@@ -117,7 +115,8 @@ class Session:
             scale = max(c.denominator for c in parts)
             if any((c * scale).denominator != 1 for c in parts):
                 raise ValueError("a model's polynomial is not over the integers")
-            return root_number([int(c * scale) for c in parts], value.index())
+            root = root_number([int(c * scale) for c in parts], value.index())
+            return root.as_fraction() if root.is_rational else root
         if self.z3.is_int_value(value) or self.z3.is_rational_value(value):
             return Fraction(
                 str(value.as_fraction()) if self.z3.is_rational_value(value) else value.as_long()
@@ -168,7 +167,7 @@ def _failure(session: Session, question: Question, reply: Reply) -> Vote:
             session.spent,
         )
     if any(
-        isinstance(value := point[name], Root) or value.denominator != 1
+        isinstance(value := point[name], AlgebraicNumber) or value.denominator != 1
         for name in question.integers & set(point)
     ):
         return Vote(
@@ -179,7 +178,7 @@ def _failure(session: Session, question: Question, reply: Reply) -> Vote:
         )
     values = [point.get(name, Fraction(0)) for name in question.names]
     free = join("and", [*question.assumed, *(d.formula for d in question.denials if not d.bound)])
-    if truth_at(free, values) is not True:
+    if _truth_at(free, values) is not True:
         return Vote(
             "z3",
             "unknown",
@@ -198,7 +197,7 @@ def _failure(session: Session, question: Question, reply: Reply) -> Vote:
                     session.spent,
                 )
             how += ", and no " + ", ".join(denial.bound) + " there by a second query"
-    model = tuple((name, str(value)) for name, value in point.items())
+    model = tuple((name, _text(value)) for name, value in point.items())
     return Vote("z3", "fails", f"{question.part}: {how}", session.spent, model)
 
 
@@ -207,28 +206,37 @@ def _any_value(
 ) -> str:
     """Whether, at the model's values, some values of the bound variables break the denial."""
     facts: list[Formula] = []
+    generators = dict(zip(question.names, ring_of(question.names).gens()))
     for name, value in point.items():
-        i = question.names.index(name)
-
-        def line(coefficients: tuple[int, ...], i: int = i) -> Polynomial:
-            return Polynomial.of(
-                question.names, {_power(question, i, k): c for k, c in enumerate(coefficients)}
-            )
-
-        if isinstance(value, Root):
+        x = generators[name]
+        if isinstance(value, AlgebraicNumber):
+            low, high = value.enclosure(BITS)
             facts += [
-                atom(line(value.coefficients), "="),
-                atom(line((-value.low.numerator, value.low.denominator)), ">"),
-                atom(line((value.high.numerator, -value.high.denominator)), ">"),
+                atom(sum(c * x**k for k, c in enumerate(value.coefficients)), "="),
+                atom(x * low.denominator - low.numerator, ">"),
+                atom(high.numerator - x * high.denominator, ">"),
             ]
         else:
-            facts.append(atom(line((-value.numerator, value.denominator)), "="))
+            facts.append(atom(x * value.denominator - value.numerator, "="))
     asked = replace(question, assumed=tuple(facts), denials=(Denial((), negation(denial.formula)),))
     return decide(session, asked).answer
 
 
-def _power(question: Question, i: int, k: int) -> tuple[int, ...]:
-    return tuple(k if j == i else 0 for j in range(len(question.names)))
+def _text(value: Exact) -> str:
+    if isinstance(value, Fraction):
+        return str(value)
+    low, high = value.enclosure(BITS)
+    return f"the root of {value.polynomial_text('z')} in [{low}, {high}]"
+
+
+def _truth_at(formula: Formula, point: Sequence[Exact]) -> bool | None:
+    """The exact truth value of the formula at the point; None where a sign takes too many bits."""
+
+    def decide(fact: Atom) -> bool | None:
+        sign = sign_at(fact.poly, point)
+        return None if sign is None else fact.holds(sign)
+
+    return truth(formula, decide)
 
 
 def negation(formula: Formula) -> Formula:
@@ -236,16 +244,14 @@ def negation(formula: Formula) -> Formula:
     if isinstance(formula, bool):
         return not formula
     if isinstance(formula, Atom):
-        return atom(
-            formula.poly.minus, {">": ">=", ">=": ">", "=": "!=", "!=": "="}[formula.relation]
-        )
+        return atom(-formula.poly, {">": ">=", ">=": ">", "=": "!=", "!=": "="}[formula.relation])
     return join("or" if formula.op == "and" else "and", [negation(part) for part in formula.parts])
 
 
 def decide(session: Session, question: Question) -> Reply:
     """The question's answer, by steps that are each sound for the whole question, cheap ones first.
 
-    As it stands; with units set to 1, which loses nothing; branch by branch, or with witnesses
+    As it stands; with scales set to 1, which loses nothing; branch by branch, or with witnesses
     tried for what is said to exist, which only makes them harder to find.  Integers are first let
     be reals, after p > 0 has become p >= 1: unsat then settles the whole; a solution in reals
     counts only if its integers are integers, and otherwise small integers are tried in turn.
@@ -261,9 +267,9 @@ def decide(session: Session, question: Question) -> Reply:
         )
     if reply.answer != "unknown":
         return reply
-    units = fixed_by_units(question)
-    with_units = f" with {', '.join(units)} = 1" if units else ""
-    question = at_unit_values(question, units)
+    scales = scale_variables(question)
+    with_scales = f" with {', '.join(scales)} = 1" if scales else ""
+    question = with_scales_one(question, scales)
     reply = session.ask(question, engine, session.purse // 4)
     if reply.answer == "unknown":
         reply = (
@@ -276,11 +282,11 @@ def decide(session: Session, question: Question) -> Reply:
     ):  # never smt, whose simplex does work on reals that no unit counts
         reply = session.ask(question, engine, session.purse // 2)
     point = (
-        {**reply.point, **{name: Fraction(1) for name in units}}
+        {**reply.point, **{name: Fraction(1) for name in scales}}
         if reply.point is not None
         else None
     )
-    return Reply(reply.answer, point, reply.how + with_units)
+    return Reply(reply.answer, point, reply.how + with_scales)
 
 
 def _with_integers(session: Session, question: Question) -> Reply:
@@ -298,7 +304,7 @@ def _with_integers(session: Session, question: Question) -> Reply:
     for values in islice(product(range(4), repeat=len(names)), MOST_TRIES):
         tried = relaxed
         for name, value in zip(names, values):
-            tried = with_value(tried, name, value)
+            tried = at_integer(tried, name, value)
         reply = session.ask(tried, "nlqsat" if tried.quantified else "nlsat", session.purse // 32)
         if reply.answer == "sat" and reply.point is not None:
             return Reply(
@@ -317,39 +323,25 @@ def _tightened(question: Question) -> Question:
     """p >= 1 in place of p > 0 where p has integer coefficients and integer variables only."""
 
     def change(fact: Atom) -> Formula:
-        poly = fact.poly
-        if (
-            fact.relation != ">"
-            or poly.den != 1
-            or not {poly.names[i] for i in poly.used} <= question.integers
-        ):
+        own = {question.names[i] for i in fact.used}
+        if fact.relation != ">" or not own <= question.integers:
             return fact
-        terms, constant = dict(poly.terms), (0,) * len(poly.names)
-        terms[constant] = terms.get(constant, 0) - 1
-        return atom(Polynomial.of(poly.names, terms), ">=")
+        return atom(fact.poly - 1, ">=")
 
-    return _changed(question, change)
+    return changed(question, change)
 
 
-def with_value(question: Question, name: str, value: int) -> Question:
+def at_integer(question: Question, name: str, value: int) -> Question:
     """The question with an integer in place of one variable, which no denial binds any more."""
     i = question.names.index(name)
-    changed = _changed(
-        question, lambda fact: atom(fact.poly.with_value(i, Fraction(value)), fact.relation)
+    new = changed(
+        question, lambda fact: atom(with_value(fact.poly, i, Fraction(value)), fact.relation)
     )
     return replace(
-        changed,
+        new,
         denials=tuple(
-            Denial(tuple(n for n in d.bound if n != name), d.formula) for d in changed.denials
+            Denial(tuple(n for n in d.bound if n != name), d.formula) for d in new.denials
         ),
-    )
-
-
-def _changed(question: Question, change: Callable[[Atom], Formula]) -> Question:
-    return replace(
-        question,
-        assumed=flat([map_atoms(formula, change) for formula in question.assumed]),
-        denials=tuple(Denial(d.bound, map_atoms(d.formula, change)) for d in question.denials),
     )
 
 
@@ -376,7 +368,7 @@ def _with_witnesses(session: Session, question: Question) -> Reply:
     if not question.refutes or question.part == "outside":
         return Reply("unknown", how="undecided within the budget")
     for name in (name for name in question.names if name in question.bound):
-        tried = with_value(question, name, 0)
+        tried = at_integer(question, name, 0)
         reply = session.ask(tried, "nlqsat" if tried.quantified else "nlsat", session.purse // 4)
         if reply.answer == "unsat":
             return Reply("unsat", how=f"{reply.how} with the witness {name} = 0")

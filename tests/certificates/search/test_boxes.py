@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.boxes import Branching, bernstein_tensor
 from juggleproof.certificates.search.small_boxes import value_at
-from juggleproof.certificates.search.sums_of_squares import search_squares
+from juggleproof.certificates.search.sums_of_squares import program_around, search_squares
+from juggleproof.certificates.work import Budget
 from juggleproof.proofs.bounds import LOWER, Enclosure, enclose_minimum
 from tests.certificates.checker.evaluator import term_at
 
@@ -186,21 +187,12 @@ def test_a_changed_square_is_rejected() -> None:
     )
 
 
-def test_no_squares_where_the_point_is_not_stationary() -> None:
-    box = [(Fraction(-1), Fraction(1))]
-    assert (
-        search_squares(
-            {(2,): Fraction(1), (1,): Fraction(1)}, box, [Fraction(0)], ["x"], [[0, 1]], 2
-        )
-        is None
-    )
+def test_no_program_where_the_point_is_not_stationary() -> None:
+    box, terms = [(Fraction(-1), Fraction(1))], {(2,): Fraction(1), (1,): Fraction(1)}
+    assert program_around(terms, box, [Fraction(0)], ["x"], [[0, 1]], 2) is None
 
 
 def test_no_squares_where_the_point_is_not_least() -> None:
-    box = [(Fraction(-2), Fraction(2))]
-    assert (
-        search_squares(
-            {(4,): Fraction(1), (2,): Fraction(-1)}, box, [Fraction(0)], ["x"], [[0, 1]], 2
-        )
-        is None
-    )
+    box, terms = [(Fraction(-2), Fraction(2))], {(4,): Fraction(1), (2,): Fraction(-1)}
+    program = program_around(terms, box, [Fraction(0)], ["x"], [[0, 1]], 2)
+    assert program is not None and search_squares([program], Budget(10**7)) is None

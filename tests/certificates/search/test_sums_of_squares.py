@@ -12,7 +12,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.algebra.semidefinite import as_squares, feasible, rational_image
+from juggleproof.certificates.algebra.polynomials import Ring
+from juggleproof.certificates.algebra.semidefinite import (
+    GramBlock,
+    LinearEquations,
+    as_squares,
+    feasible,
+    rational_image,
+)
 from juggleproof.certificates.search.certificate import SQUARES_FIRST, search_certificate
 from juggleproof.certificates.search.closing import SQUARED, search_closing
 from juggleproof.certificates.search.points import search_found
@@ -55,7 +62,7 @@ def test_a_matrix_with_a_negative_direction_has_no_squares_holds(vectors: list[l
 def test_the_image_of_a_matrix_is_found_again_as_integers_holds(vectors: list[list[int]]) -> None:
     matrix = np.array(vectors, dtype=float)
     left, values, _ = np.linalg.svd(matrix.T, full_matrices=False)
-    image = rational_image(left[:, values > 1e-9])
+    image = rational_image(left[:, values > 1e-9], 1e-9)  # exact but for rounding
     rank = int((values > 1e-9).sum())
     if image is not None:
         assert (
@@ -80,6 +87,39 @@ def test_a_semidefinite_program_without_a_solution_has_none_holds() -> None:
         and abs(np.trace(found[0]) - 1) < 1e-5
         and np.linalg.eigvalsh(found[0])[0] > 0
     )
+
+
+def program() -> LinearEquations:
+    """2 x^2 - 2 x y + 2 y^2 + 1 > 0, as the negation's strict term and a sum of squares."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    goal = GramBlock(-(2 * x**2 - 2 * x * y + 2 * y**2 + 1), True, [ring.one])
+    return LinearEquations([goal, GramBlock(ring.one, False, [ring.one, x, y])], [], Fraction(1, 3))
+
+
+@pytest.mark.parametrize("denominator", [1, 7, 1 << 20])
+def test_rounded_entries_meet_every_equation_holds(denominator: int) -> None:
+    equations = program()
+    grams = equations.solve(Budget(10**6), 1e-6, 1e-7)
+    assert grams is not None
+    found = list(equations.rounded(grams, denominator))
+    assert found
+    for entries, multipliers in found:
+        left = equations.combination([*(entries[e] for e in equations.entries), *multipliers])
+        assert left == [0] * (equations.rows - 1) + [Fraction(1, 3)]
+
+
+def test_what_no_entry_alone_can_make_up_for_is_not_spread_holds() -> None:
+    ring = Ring(("x",))
+    (x,) = ring.gens
+    blocks = [
+        GramBlock(-(x**2) - 1, True, [ring.one]),
+        GramBlock(1 - x, False, [ring.one, x]),
+    ]
+    equations = LinearEquations(blocks, [], Fraction(1))
+    missing = [Fraction(1)] * equations.rows
+    assert equations.spread(missing) is None
+    assert program().spread([Fraction(1)] * (program().rows - 1) + [Fraction(0)]) is not None
 
 
 TRUE = {

@@ -7,8 +7,9 @@ import pickle
 import pytest
 
 from juggleproof.certificates.votes import boxes, z3
+from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.questions import read_statement
-from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote, cast_votes, compare
+from juggleproof.certificates.votes.vote import Budget, Disagreement, Vote, compare
 from tests.certificates.votes.corpus import STATEMENTS
 
 HOLDS = Vote("z3", "holds", "unsat")

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from juggleproof.certificates.algebra.polynomials import value_at
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.questions import Atom, questions, read_statement
 from juggleproof.certificates.votes.smtlib import script
@@ -134,7 +135,7 @@ def holds(formula: Any, values: list[Fraction]) -> bool:
     if isinstance(formula, bool):
         return formula
     if isinstance(formula, Atom):
-        at = formula.poly.at(values)
+        at = value_at(formula.poly, values)
         return {">": at > 0, ">=": at >= 0, "=": at == 0, "!=": at != 0}[formula.relation]
     return (all if formula.op == "and" else any)(holds(part, values) for part in formula.parts)
 
@@ -144,7 +145,7 @@ def values_in(formula: Any, values: list[Fraction]) -> set[Fraction]:
     if isinstance(formula, bool):
         return set()
     if isinstance(formula, Atom):
-        return {formula.poly.at(values) * formula.poly.den}
+        return {value_at(formula.poly, values)}
     return {value for part in formula.parts for value in values_in(part, values)}
 
 
