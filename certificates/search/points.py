@@ -26,12 +26,14 @@ from juggleproof.certificates.algebra.numbers import (
     sign,
     simplest_between,
 )
+from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.search.candidates import trials
 from juggleproof.certificates.search.closing import Adjoined, close_at_number, search_closing
 from juggleproof.certificates.search.families import cover
 from juggleproof.certificates.search.found_terms import Task, adjoined_entry
 from juggleproof.certificates.search.models import ask, model_assignments, near_points
 from juggleproof.certificates.search.samples import Assignment, Sampler, base_samples
+from juggleproof.certificates.search.scales import with_scales
 from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
 
 # -------------------------------------------------------------------------------------------------
@@ -71,14 +73,10 @@ class Towers:
         guide: Mapping[str, fmpq],
         nodes: int,
         width: int,
+        roles: Roles,
     ) -> None:
-        self.budget, self.names, self.guide, self.nodes, self.width = (
-            budget,
-            list(names),
-            guide,
-            nodes,
-            width,
-        )
+        self.budget, self.names, self.guide = budget, list(names), guide
+        self.nodes, self.width, self.roles = nodes, width, roles
 
     def search(
         self,
@@ -178,7 +176,7 @@ class Towers:
                 )
             )
         values += trials(
-            condition.substituted(near) if near else condition, name, False, self.width
+            condition.substituted(near) if near else condition, name, False, self.width, self.roles
         )
         return list(dict.fromkeys(values))
 
@@ -277,18 +275,22 @@ ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
 
 
 def search_points(
-    statement: checker.Statement, known: Known, budget: Budget, effort: int = 0
+    statement: checker.Statement,
+    known: Known,
+    budget: Budget,
+    effort: int = 0,
+    roles: Roles = NO_ROLES,
 ) -> tuple[Found | None, Found | None]:
     """(a point that meets the premises, a counterexample), each as the checker accepts it, or
     None.
     """
     state: checker.State = checker.State(checker.Context())
     counterexample = search_found(
-        statement, state, "counterexample", {}, known, budget, effort=effort
+        statement, state, "counterexample", {}, known, budget, None, effort, roles
     )
     if counterexample is not None:
         return counterexample[:4], counterexample
-    return search_found(statement, state, "point", {}, known, budget, effort=effort), None
+    return search_found(statement, state, "point", {}, known, budget, None, effort, roles), None
 
 
 def search_found(
@@ -300,13 +302,16 @@ def search_found(
     budget: Budget,
     sharp: list[Any] | None = None,
     effort: int = 1,
+    roles: Roles = NO_ROLES,
 ) -> Found | None:
     """Values as `checker.find` takes them for the purpose "point", "counterexample" or "witness";
     None where none was found.
     """
-    if base:
-        return _found_terms(Task(statement, purpose, base, known, budget, sharp, effort), state)
     story = unfolded(statement, sharp)
+    roles = with_scales(roles, story)
+    if base:
+        task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
+        return _found_terms(task, state)
     exists = bool(statement.get("exists"))
     parts = list(story.premises)
     names = list(story.universal)
@@ -343,6 +348,7 @@ def search_found(
             budget,
             sharp,
             effort,
+            roles,
         )
     try:
         part = budget.part(budget.left * 6 // 10)
@@ -358,10 +364,13 @@ def search_found(
             part,
             sharp,
             effort,
+            roles,
         )
     except Exhausted:
         found = None
-    return found or _by_towers(statement, state, condition, names, purpose, known, budget, effort)
+    return found or _by_towers(
+        statement, state, condition, names, purpose, known, budget, effort, roles
+    )
 
 
 def _sampled(
@@ -376,11 +385,13 @@ def _sampled(
     budget: Budget,
     sharp: list[Any] | None,
     effort: int,
+    roles: Roles,
 ) -> Found | None:
     """A point from samples and models, with one irrational number at most."""
     failures = 0
-    for assignment in assignments(condition, names, integers, budget, effort, goal is not None):
-        if goal is not None and not _beyond(goal, assignment, names, integers, budget):
+    many = goal is not None
+    for assignment in assignments(condition, names, integers, budget, effort, many, roles):
+        if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
             failures += 1
         else:
             found = as_found_point(
@@ -403,11 +414,12 @@ def _by_towers(
     known: Known,
     budget: Budget,
     effort: int,
+    roles: Roles,
 ) -> Found | None:
     """A point with several irrational values, sought near points in floats."""
     for guide in near_points(condition, names, budget):
         failures = 0
-        for tower in Towers(budget, names, guide, 60 * effort, 1).search(condition):
+        for tower in Towers(budget, names, guide, 60 * effort, 1, roles).search(condition):
             for digits in DIGITS:
                 found = as_found(statement, state, tower, purpose, known, budget, digits)
                 if found is not None and accepted(
@@ -433,6 +445,7 @@ def _beyond(
     names: Sequence[str],
     integers: frozenset[str],
     budget: Budget,
+    roles: Roles,
 ) -> bool:
     """Whether Z3 thinks that no values of the `exists` variables meet the goals at a rational
     point.
@@ -443,7 +456,8 @@ def _beyond(
         return False
     there = goal.substituted(exact)
     rest = sorted(there.variables())
-    if next(Sampler(budget, integers, *ROUNDS[0][0]).search(there, rest), None) is not None:
+    sampler = Sampler(budget, integers, *ROUNDS[0][0], roles=roles)
+    if next(sampler.search(there, rest), None) is not None:
         return False  # so simple values that meet the goals need not be asked for
     return ask(there, budget, integers, 200_000).verdict == "unsat"
 
@@ -452,7 +466,9 @@ def _found_terms(task: Task, state: checker.State) -> Found | None:
     """Terms in the base variables, on all of the state."""
     if task.effort == 0:
         task = replace(task, effort=1, nodes=40, tries=2)
-    return cover(task, state, base_samples(state, task.budget), depth=(0, 2, 4)[task.effort])
+    return cover(
+        task, state, base_samples(state, task.budget, task.roles), depth=(0, 2, 4)[task.effort]
+    )
 
 
 def assignments(
@@ -462,19 +478,20 @@ def assignments(
     budget: Budget,
     effort: int,
     many: bool = False,
+    roles: Roles = NO_ROLES,
 ) -> Iterator[Assignment]:
     """Assignments that meet a condition, from wider and wider samples; at last from Z3's models."""
     for width, last, nodes, irrational in ROUNDS[effort]:
-        yield from Sampler(budget, integers, width, last + 12 * many, nodes, irrational).search(
-            condition, names
-        )
+        yield from Sampler(
+            budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
+        ).search(condition, names)
         if effort and width == 6:
             # Where Z3 sees that there is nothing, wider samples would be in vain.
             answer = ask(condition, budget, integers, 100_000).verdict
             if answer == "unsat":
                 return
             if answer == "sat" and not many:
-                yield from model_assignments(condition, names, integers, budget, effort)
+                yield from model_assignments(condition, names, integers, budget, effort, roles)
 
 
 def as_found_point(

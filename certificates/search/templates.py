@@ -16,9 +16,8 @@ from juggleproof.certificates.algebra.conditions import (
     replace,
     valued,
 )
+from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.search.candidates import (
-    PARAMETERS,
-    UNITS,
     favourites,
     solutions,
     trials,
@@ -71,6 +70,7 @@ class TemplateSearch:
         hints: Mapping[str, Sequence[Quotient]] | None = None,
         margins: Sequence[fmpq_mpoly] = (),
         borders: Sequence[fmpq_mpoly] | None = None,
+        roles: Roles = NO_ROLES,
     ) -> None:
         self.base, self.samples, self.budget, self.integers = (
             list(base),
@@ -78,6 +78,7 @@ class TemplateSearch:
             budget,
             integers,
         )
+        self.roles = roles
         self.nodes, self.hints, self.margins = nodes, dict(hints or {}), list(margins)
         self.given: dict[
             tuple[int, str], dict[str, fmpq]
@@ -87,7 +88,9 @@ class TemplateSearch:
         self.slight = [
             Quotient(margin * c, margin**0) for margin in self.margins[:5] for c in BESIDE
         ]
-        small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
+        small = [
+            (m, k) for m in self.margins if roles.parameter not in ring_names(m) for k in (4, 20)
+        ]
         self.small = [Quotient(m * sign, m + k) for m, k in small for sign in (1, -1)]
         self.borders = borders  # where these are given, they are tried first
         self.least = len(self.samples) if least is None else least
@@ -318,13 +321,13 @@ class TemplateSearch:
     def _candidates(self, partial: Partial, name: str, rest: Sequence[str]) -> Iterator[Candidate]:
         """Quotients to try for an unknown, made only as far as they are asked for."""
         one = self.ring.constant(1)
-        if name in UNITS:
+        if self.roles.is_scale(name):
             yield Quotient(one, one), None, None
             return
         plain = list(self.hints.get(name, ()))
         likely = [
             Quotient(self.ring.constant(v), one)
-            for v in favourites(name, name in self.integers)[:8]
+            for v in favourites(name, name in self.integers, self.roles)[:8]
         ]
         if name in self.integers:
             gens = [self.ring.gen(places(self.ring)[n]) for n in self.base if n in self.integers]
@@ -365,11 +368,11 @@ class TemplateSearch:
             if condition.variables() == {name}:
                 values = [
                     v
-                    for v in solutions(condition, name, name in self.integers, 2, False)
+                    for v in solutions(condition, name, name in self.integers, 2, False, self.roles)
                     if isinstance(v, fmpq)
                 ]
             else:
-                values = trials(condition, name, name in self.integers, 2)
+                values = trials(condition, name, name in self.integers, 2, self.roles)
             found += [v for v in values if v not in found]
         return [Quotient(self.ring.constant(v), self.ring.constant(1)) for v in found]
 
@@ -494,10 +497,10 @@ class CornerSearch(TemplateSearch):
         if not unknowns:
             yield from super()._descend(partial, unknowns)
             return
-        unit = next((name for name in unknowns if name in UNITS), None)
-        if unit is not None:
+        scale = next((name for name in unknowns if self.roles.is_scale(name)), None)
+        if scale is not None:
             one = partial.condition.ring.constant(1)
-            yield from self._follow(partial, unknowns, chosen, [(unit, Quotient(one, one), None)])
+            yield from self._follow(partial, unknowns, chosen, [(scale, Quotient(one, one), None)])
             return
         forced = next(
             (
