@@ -204,30 +204,35 @@ def search_proof(
     """["proof" | "witness", nodes of the side conditions, last] that the checker accepts, or None;
     `confirm=False` leaves that to the caller.
     """
-    story = unfolded(statement, sharp)
+    unfolding = unfolded(statement, sharp)
     steps = []
-    for count, negation in story.obligations:
+    for count, negation in unfolding.obligations:
         node = search_closing(
-            story.state(count).assume(negation), known, budget, effort, None, confirm=False
+            unfolding.state(count).assume(negation), known, budget, effort, None, confirm=False
         )
         if (
             node is None and hints is not None
         ):  # as a rule a side condition needs no lemma, and cases of one only delay it
             node = search_closing(
-                story.state(count).assume(negation), known, budget, effort, hints, confirm=False
+                unfolding.state(count).assume(negation), known, budget, effort, hints, confirm=False
             )
         if node is None:
             return None
         steps.append(node)
     if statement.get("exists"):
-        base = {name: story.context.values[name] for name in story.universal}
+        base = {name: unfolding.context.values[name] for name in unfolding.universal}
         last = search_found(
-            statement, story.state(), "witness", base, known, budget, sharp, effort, roles
+            statement, unfolding.state(), "witness", base, known, budget, sharp, effort, roles
         )
         proof = ["witness", steps, last]
     else:
         last = search_closing(
-            story.state().assume(story.goal(False)), known, budget, effort, hints, confirm=False
+            unfolding.state().assume(unfolding.goal(False)),
+            known,
+            budget,
+            effort,
+            hints,
+            confirm=False,
         )
         proof = ["proof", steps, last]
     return (

@@ -49,8 +49,8 @@ class Renamed:
 
 
 class TermWriter:
-    """Writes quotients of lowered polynomials in a context; a bottom without a licence is adjoined,
-    as a root.
+    """Writes quotients of dehomogenised polynomials in a context; a bottom without a licence is
+    adjoined, as a root.
     """
 
     def __init__(self, context: checker.Context, renamed: Renamed, normal: Normal) -> None:
@@ -59,15 +59,15 @@ class TermWriter:
         ring = renamed.ring
         size = len(context.index)
         keys = list(context.index)
-        self.licensed: list[tuple[fmpq_mpoly, fmpq_mpoly]] = []  # each as it is, and lowered
+        self.licensed: list[tuple[fmpq_mpoly, fmpq_mpoly]] = []  # each as it is, and dehomogenised
         for poly, _ in context.licensed.values():
             if set(keys) <= set(ring.names()):
                 whole = to_flint(
                     poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size
                 ).project_to_context(ring)
-                lowered = normal.lower(whole)
-                if not lowered.is_constant():
-                    self.licensed.append((whole, lowered))
+                dehomogenised = normal.dehomogenised(whole)
+                if not dehomogenised.is_constant():
+                    self.licensed.append((whole, dehomogenised))
         self.inverses: dict[str, tuple[str, fmpq_mpoly]] = {}
 
     def fresh(self, name: str) -> str:
@@ -78,7 +78,7 @@ class TermWriter:
         return name
 
     def licence(self, factor: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly] | None:
-        """What is licensed and has this factor, as it is and lowered."""
+        """What is licensed and has this factor, as it is and dehomogenised."""
         return next((pair for pair in self.licensed if (pair[1] % factor) == 0), None)
 
     def unlicensed(self, value: Quotient) -> list[fmpq_mpoly]:
@@ -105,22 +105,22 @@ class TermWriter:
                 bottoms += [(self.renamed.text(licence[0]), power)]
                 need = [
                     n + power * w
-                    for n, w in zip(need, normal.weight(normal.lower_units(licence[0])))
+                    for n, w in zip(need, normal.weight(normal.at_scale_one(licence[0])))
                 ]
             else:
-                mark = self.renamed.text(factor)
-                if mark not in self.inverses:
-                    self.inverses[mark] = (self.fresh("inverse"), factor)
-                inverses += [(self.inverses[mark][0], power)]
+                key = self.renamed.text(factor)
+                if key not in self.inverses:
+                    self.inverses[key] = (self.fresh("inverse"), factor)
+                inverses += [(self.inverses[key][0], power)]
         missing = [n - w for n, w in zip(need, normal.weight(top))]
         whole = normal.lift(top)
-        for unit, power in zip(normal.units, missing):
+        for scale, power in zip(normal.scales, missing):
             if power > 0:
                 whole = (
-                    whole * whole.context().gen(whole.context().variable_to_index(unit)) ** power
+                    whole * whole.context().gen(whole.context().variable_to_index(scale)) ** power
                 )
             elif power < 0 and top != 0:
-                bottoms.append((unit, -power))
+                bottoms.append((scale, -power))
         text = self.renamed.text(whole)
         if inverses:
             text = "*".join([_whole(text), *(n if e == 1 else f"{n}^{e}" for n, e in inverses)])
@@ -235,17 +235,23 @@ def _with_nodes(
         values = {
             variable: own.context.value(checker.parse(text)) for variable, text in terms.items()
         }
-        story = checker.Unfolding(
+        unfolding = checker.Unfolding(
             statement, checker.Context(own.context, {**values, **base}), sharp
         )
         aims = [
             own.branch(
                 checker.negate(
-                    checker.join("and", story.goals if purpose == "witness" else story.premises)
+                    checker.join(
+                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
+                    )
                 )
             )
         ]
-        aims += [own.branch(story.goal(True), story.context)] if purpose == "counterexample" else []
+        aims += (
+            [own.branch(unfolding.goal(True), unfolding.context)]
+            if purpose == "counterexample"
+            else []
+        )
     except checker.Rejected:
         return None
     nodes = []
@@ -379,22 +385,22 @@ def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str]
     """The condition on base and unknowns, the key in the ring of every unknown, and the keys that
     are integers.
     """
-    story = checker.Unfolding(
+    unfolding = checker.Unfolding(
         task.statement, checker.Context(state.context, dict(task.base)), task.sharp
     )
     if task.purpose == "witness":
-        formula = story.goal(True)
-        needed = story.variables
+        formula = unfolding.goal(True)
+        needed = unfolding.variables
     else:
-        premises = checker.join("and", list(story.premises))
+        premises = checker.join("and", list(unfolding.premises))
         exists = task.statement.get("exists")
         formula = (
-            checker.join("and", [premises, story.goal(False)])
+            checker.join("and", [premises, unfolding.goal(False)])
             if task.purpose == "counterexample" and not exists
             else premises
         )
-        needed = set(story.universal)
-    by_place = {i: key for key, i in story.context.index.items()}
+        needed = set(unfolding.universal)
+    by_place = {i: key for key, i in unfolding.context.index.items()}
     keys = {}
     order = [
         n for line in (*task.statement.get("forall"), *task.statement.get("exists")) for n in line
@@ -403,13 +409,13 @@ def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str]
         needed - set(task.base),
         key=lambda n: (not task.roles.is_scale(n), order.index(n) if n in order else len(order)),
     ):
-        (monomial,) = story.context.values[name].terms
+        (monomial,) = unfolding.context.values[name].terms
         keys[name] = by_place[(monomial.bit_length() - 1) // checker.BITS]
-    integers = frozenset(keys[n] for n in story.integers if n in keys) | frozenset(
+    integers = frozenset(keys[n] for n in unfolding.integers if n in keys) | frozenset(
         state.context.integers
     )
     return (
-        Condition.of(story.context, formula, ring_of(story.context, *SPARE)).cleared(),
+        Condition.of(unfolding.context, formula, ring_of(unfolding.context, *SPARE)).cleared(),
         keys,
         integers,
     )
@@ -423,10 +429,10 @@ def failing_goal(
     """
     if task.purpose != "counterexample" or not task.statement.get("exists"):
         return None, []
-    story = checker.Unfolding(
+    unfolding = checker.Unfolding(
         task.statement, checker.Context(state.context, dict(task.base)), task.sharp
     )
-    goal = Condition.of(story.context, story.goal(True), condition.ring)
+    goal = Condition.of(unfolding.context, unfolding.goal(True), condition.ring)
     outer = set(condition.ring.names()) - {
         name for line in task.statement.get("exists") for name in line
     }
@@ -437,8 +443,8 @@ def failing_goal(
 
 
 def margins_of(state: checker.State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
-    """What the state says to be positive, lowered, as long as it is short, and products: small
-    where the state ends.
+    """What the state says to be positive, dehomogenised, as long as it is short, and products:
+    small where the state ends.
     """
     size = len(state.context.index)
     keys = list(state.context.index)
@@ -446,14 +452,16 @@ def margins_of(state: checker.State, condition: Condition, normal: Normal) -> li
     found: list[fmpq_mpoly] = []
     for poly, relation in state.facts:
         if relation in (">", ">="):
-            lowered = normal.lower(to_flint(poly, ring, size).project_to_context(condition.ring))
+            dehomogenised = normal.dehomogenised(
+                to_flint(poly, ring, size).project_to_context(condition.ring)
+            )
             if (
-                not lowered.is_constant()
-                and len(lowered) <= 6
-                and lowered.total_degree() <= 4
-                and lowered not in found
+                not dehomogenised.is_constant()
+                and len(dehomogenised) <= 6
+                and dehomogenised.total_degree() <= 4
+                and dehomogenised not in found
             ):
-                found.append(lowered)
+                found.append(dehomogenised)
     least = sorted(found, key=lambda p: (p.total_degree(), len(p)))[:5]
     return least + [least[0] * q for q in least[1:3]]
 

@@ -93,14 +93,14 @@ class Towers:
         if condition.tree is True:
             yield self._completed(condition, roots, steps)
             return
-        near = {name: value for name, _, value in roots}
+        approximate = {name: value for name, _, value in roots}
         for poly, relation in condition.facts():
-            free = self._free(poly, near)
+            free = self._free(poly, approximate)
             if relation == "=" and len(free) == 1:
-                yield from self._rooted(condition, roots, steps, free[0], poly, near)
+                yield from self._rooted(condition, roots, steps, free[0], poly, approximate)
                 return
         for poly, relation in condition.facts():
-            for name in self._free(poly, near) if relation == "=" else ():
+            for name in self._free(poly, approximate) if relation == "=" else ():
                 rest, *slopes = coefficients_in(poly, name)
                 slope = constant_of(slopes[0]) if len(slopes) == 1 else None
                 if slope:
@@ -111,19 +111,19 @@ class Towers:
                         (*steps, (name, value)),
                     )
                     return
-        name = next(n for n in self.names if n in condition.variables() and n not in near)
-        for value in self._tried(condition, name, near):
+        name = next(n for n in self.names if n in condition.variables() and n not in approximate)
+        for value in self._tried(condition, name, approximate):
             yield from self.search(
                 condition.substituted({name: value}),
                 roots,
                 (*steps, (name, condition.ring.constant(value))),
             )
 
-    def _free(self, poly: fmpq_mpoly, near: Mapping[str, fmpq]) -> list[str]:
+    def _free(self, poly: fmpq_mpoly, approximate: Mapping[str, fmpq]) -> list[str]:
         return [
             name
             for name, e in zip(places(poly.context()), poly.degrees())
-            if e > 0 and name not in near
+            if e > 0 and name not in approximate
         ]
 
     def _rooted(
@@ -133,10 +133,10 @@ class Towers:
         steps: tuple[tuple[str, fmpq_mpoly], ...],
         name: str,
         poly: fmpq_mpoly,
-        near: Mapping[str, fmpq],
+        approximate: Mapping[str, fmpq],
     ) -> Iterator[Tower]:
         """The roots of an equation in one variable, those next to the guide first."""
-        given = {places(condition.ring)[n]: v for n, v in near.items()}
+        given = {places(condition.ring)[n]: v for n, v in approximate.items()}
         alone = univariate(poly.subs(given), name)
         found = [
             root
@@ -149,7 +149,7 @@ class Towers:
             )
         )
         rational = not any(
-            e > 0 for n, e in zip(places(poly.context()), poly.degrees()) if n in near
+            e > 0 for n, e in zip(places(poly.context()), poly.degrees()) if n in approximate
         )
         for root in found:
             if root.is_rational and rational:
@@ -164,7 +164,9 @@ class Towers:
                     condition, (*roots, (name, poly, root.approximation())), steps
                 )
 
-    def _tried(self, condition: Condition, name: str, near: Mapping[str, fmpq]) -> list[fmpq]:
+    def _tried(
+        self, condition: Condition, name: str, approximate: Mapping[str, fmpq]
+    ) -> list[fmpq]:
         values: list[fmpq] = []
         if name in self.guide:
             values += [
@@ -176,7 +178,11 @@ class Towers:
                 )
             )
         values += trials(
-            condition.substituted(near) if near else condition, name, False, self.width, self.roles
+            condition.substituted(approximate) if approximate else condition,
+            name,
+            False,
+            self.width,
+            self.roles,
         )
         return list(dict.fromkeys(values))
 
@@ -184,15 +190,15 @@ class Towers:
         self, condition: Condition, roots: Sequence[tuple[str, fmpq_mpoly, fmpq]]
     ) -> Condition:
         """The condition with the signs of polynomials in roots alone, as they seem."""
-        near = {name: value for name, _, value in roots}
-        if not near or isinstance(condition.tree, bool):
+        approximate = {name: value for name, _, value in roots}
+        if not approximate or isinstance(condition.tree, bool):
             return condition
         given, changed = (
-            {places(condition.ring)[n]: v for n, v in near.items()},
+            {places(condition.ring)[n]: v for n, v in approximate.items()},
             list(condition.polys),
         )
         for k in condition.used():
-            if changed[k].total_degree() > 0 and not self._free(changed[k], near):
+            if changed[k].total_degree() > 0 and not self._free(changed[k], approximate):
                 value = constant_of(changed[k].subs(given)) or fmpq(0)
                 changed[k] = condition.ring.constant(0 if abs(value) < TINY else sign(value))
         return Condition(condition.ring, changed, fold(condition.tree, changed.__getitem__))
@@ -250,11 +256,13 @@ def as_found(
     terms = {name: to_text(value) for name, value in sorted(tower.values.items())}
     try:
         values = {name: own.context.value(checker.parse(text)) for name, text in terms.items()}
-        story = checker.Unfolding(statement, checker.Context(own.context, values))
+        unfolding = checker.Unfolding(statement, checker.Context(own.context, values))
     except checker.Rejected:
         return None
-    aims = [own.branch(checker.negate(checker.join("and", story.premises)))]
-    aims += [own.branch(story.goal(True), story.context)] if purpose == "counterexample" else []
+    aims = [own.branch(checker.negate(checker.join("and", unfolding.premises)))]
+    aims += (
+        [own.branch(unfolding.goal(True), unfolding.context)] if purpose == "counterexample" else []
+    )
     nodes = [search_closing(aim, known, budget, 1) for aim in aims]
     return None if None in nodes else [statement.name, entries, terms, *nodes]
 
@@ -274,25 +282,6 @@ ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
 )
 
 
-def search_points(
-    statement: checker.Statement,
-    known: Known,
-    budget: Budget,
-    effort: int = 0,
-    roles: Roles = NO_ROLES,
-) -> tuple[Found | None, Found | None]:
-    """(a point that meets the premises, a counterexample), each as the checker accepts it, or
-    None.
-    """
-    state: checker.State = checker.State(checker.Context())
-    counterexample = search_found(
-        statement, state, "counterexample", {}, known, budget, None, effort, roles
-    )
-    if counterexample is not None:
-        return counterexample[:4], counterexample
-    return search_found(statement, state, "point", {}, known, budget, None, effort, roles), None
-
-
 def search_found(
     statement: checker.Statement,
     state: checker.State,
@@ -307,31 +296,31 @@ def search_found(
     """Values as `checker.find` takes them for the purpose "point", "counterexample" or "witness";
     None where none was found.
     """
-    story = unfolded(statement, sharp)
-    roles = with_scales(roles, story)
+    unfolding = unfolded(statement, sharp)
+    roles = with_scales(roles, unfolding)
     if base:
         task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
         return _found_terms(task, state)
     exists = bool(statement.get("exists"))
-    parts = list(story.premises)
-    names = list(story.universal)
+    parts = list(unfolding.premises)
+    names = list(unfolding.universal)
     if purpose == "witness":
-        parts, names = [story.goal(True)], sorted(story.variables)
+        parts, names = [unfolding.goal(True)], sorted(unfolding.variables)
     elif purpose == "counterexample" and not exists:
-        parts.append(story.goal(False))
+        parts.append(unfolding.goal(False))
     whole = checker.join("and", parts)
     if whole is False:
         return None
-    condition = Condition.of(story.context, whole, ring_of(story.context))
+    condition = Condition.of(unfolding.context, whole, ring_of(unfolding.context))
     goal = (
-        Condition.of(story.context, story.goal(True), condition.ring)
+        Condition.of(unfolding.context, unfolding.goal(True), condition.ring)
         if exists and purpose == "counterexample"
         else None
     )
     if (
         exists
         or purpose == "witness"
-        or story.integers
+        or unfolding.integers
         or sharp
         or not effort
         or not any(r == "=" for _, r in condition.facts())
@@ -342,7 +331,7 @@ def search_found(
             condition,
             goal,
             names,
-            frozenset(story.integers),
+            frozenset(unfolding.integers),
             purpose,
             known,
             budget,
@@ -534,7 +523,7 @@ def as_found_point(
     return None
 
 
-def _story(
+def _unfolding(
     statement: checker.Statement, state: checker.State, found: Found, sharp: list[Any] | None
 ) -> tuple[checker.State, checker.Unfolding]:
     """The state and the unfolding that the checker has when it comes to the nodes of a found
@@ -556,9 +545,9 @@ def _goal_node(
     sharp: list[Any] | None,
     effort: int,
 ) -> list[Any] | None:
-    state, story = _story(statement, state, found, sharp)
+    state, unfolding = _unfolding(statement, state, found, sharp)
     return search_closing(
-        state.branch(story.goal(True), story.context), known, budget, min(effort, 1)
+        state.branch(unfolding.goal(True), unfolding.context), known, budget, min(effort, 1)
     )
 
 
@@ -572,16 +561,18 @@ def _with_nodes(
 ) -> bool:
     """Fills in the nodes at an adjoined number; whether that went well."""
     try:
-        state, story = _story(statement, state, found, sharp)
+        state, unfolding = _unfolding(statement, state, found, sharp)
         branches = [
             state.branch(
                 checker.negate(
-                    checker.join("and", story.goals if purpose == "witness" else story.premises)
+                    checker.join(
+                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
+                    )
                 )
             )
         ]
         if purpose == "counterexample":
-            branches.append(state.branch(story.goal(True), story.context))
+            branches.append(state.branch(unfolding.goal(True), unfolding.context))
         for k, branch in enumerate(branches):
             node = close_at_number(branch, adjoined)
             if node is None:

@@ -82,12 +82,12 @@ def _said(
     budget: Budget,
     roles: Roles,
 ) -> list[Formula]:
-    story = checker.Unfolding(statement, checker.Context(), [domain])
-    if name not in story.integers or name not in story.universal:
+    unfolding = checker.Unfolding(statement, checker.Context(), [domain])
+    if name not in unfolding.integers or name not in unfolding.universal:
         return []
-    ring = ring_of(story.context)
-    premises = Condition.of(story.context, checker.join("and", list(story.premises)), ring)
-    premises = premises.substituted(_ones(story, roles))
+    ring = ring_of(unfolding.context)
+    premises = Condition.of(unfolding.context, checker.join("and", list(unfolding.premises)), ring)
+    premises = premises.substituted(_ones(unfolding, roles))
     left, _ = without_equations(premises, {parameter, name}, budget, ())
     positive = [
         poly
@@ -101,10 +101,10 @@ def _said(
     ]
 
 
-def _ones(story: checker.Unfolding, roles: Roles) -> dict[str, fmpq]:
+def _ones(unfolding: checker.Unfolding, roles: Roles) -> dict[str, fmpq]:
     """1 for every scale of an unfolded statement."""
-    scales = with_scales(roles, story).scales or frozenset()
-    return {name: fmpq(1) for name in scales & story.variables}
+    scales = with_scales(roles, unfolding).scales or frozenset()
+    return {name: fmpq(1) for name in scales & unfolding.variables}
 
 
 def _without(positive: Sequence[fmpq_mpoly], poly: fmpq_mpoly) -> fmpq_mpoly:
@@ -346,19 +346,21 @@ class Violation:
     @staticmethod
     def of(statement: checker.Statement, domain: Any, roles: Roles = NO_ROLES) -> Violation:
         """The violations of a statement in a domain, scales being 1."""
-        story = checker.Unfolding(statement, checker.Context(), [domain])
-        premises = list(story.premises)
-        ones = _ones(story, roles)
-        ring = ring_of(story.context)
-        exists = tuple(sorted(story.variables - set(story.universal)))
-        whole = premises if exists else [*premises, story.goal(False)]
-        condition = Condition.of(story.context, checker.join("and", whole), ring).substituted(ones)
+        unfolding = checker.Unfolding(statement, checker.Context(), [domain])
+        premises = list(unfolding.premises)
+        ones = _ones(unfolding, roles)
+        ring = ring_of(unfolding.context)
+        exists = tuple(sorted(unfolding.variables - set(unfolding.universal)))
+        whole = premises if exists else [*premises, unfolding.goal(False)]
+        condition = Condition.of(unfolding.context, checker.join("and", whole), ring).substituted(
+            ones
+        )
         goal = (
-            Condition.of(story.context, story.goal(True), ring).substituted(ones)
+            Condition.of(unfolding.context, unfolding.goal(True), ring).substituted(ones)
             if exists
             else None
         )
-        return Violation(statement.name, condition, goal, exists, tuple(sorted(story.integers)))
+        return Violation(statement.name, condition, goal, exists, tuple(sorted(unfolding.integers)))
 
     def absent(
         self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES

@@ -26,7 +26,7 @@ from juggleproof.certificates.search.terms import Root, Sample
 # statement says of them prefers a unit.
 
 
-def with_scales(roles: Roles, story: checker.Unfolding) -> Roles:
+def with_scales(roles: Roles, unfolding: checker.Unfolding) -> Roles:
     """The roles with the scales of an unfolded statement, found by homogeneity where nothing is
     said of scales.
 
@@ -36,25 +36,25 @@ def with_scales(roles: Roles, story: checker.Unfolding) -> Roles:
     >>> text = "statement a/b\\nforall r v\\ngiven r > 0 and v < r\\nshow v - 2*r < "
     >>> for end in ("0", "1"):
     ...     (one,) = checker.read_statements(text + end).values()
-    ...     story = checker.Unfolding(one, checker.Context())
-    ...     print(sorted(with_scales(Roles(), story).scales))
+    ...     unfolding = checker.Unfolding(one, checker.Context())
+    ...     print(sorted(with_scales(Roles(), unfolding).scales))
     ['r']
     []
     """
     if roles.scales is not None:
         return roles
-    ring = ring_of(story.context)
-    premises = Condition.of(story.context, checker.join("and", list(story.premises)), ring)
-    goal = Condition.of(story.context, story.goal(True), ring)
+    ring = ring_of(unfolding.context)
+    premises = Condition.of(unfolding.context, checker.join("and", list(unfolding.premises)), ring)
+    goal = Condition.of(unfolding.context, unfolding.goal(True), ring)
     names = tuple(ring.names())
-    numbers = {*story.context.integers, *roles.domains} & set(names)
+    numbers = {*unfolding.context.integers, *roles.domains} & set(names)
     polys = [condition.polys[k] for condition in (premises, goal) for k in condition.used()]
     polys += [ring.gen(names.index(name)) + 1 for name in sorted(numbers)]
     positive = positive_variables(premises.facts())
     scaling = Scaling(
         Ring(names),
         [poly for poly in polys if poly != 0],
-        [k for k in positive if names[k] in story.universal],
+        [k for k in positive if names[k] in unfolding.universal],
     )
     return replace(roles, scales=frozenset(names[k] for k in scaling.units))
 
@@ -74,13 +74,13 @@ def positive_variables(facts: Sequence[tuple[fmpq_mpoly, str]]) -> list[int]:
 
 
 # -------------------------------------------------------------------------------------------------
-# A state in fewer variables: units set to 1 and linear equations used up, with a way back for the
+# A state in fewer variables: scales set to 1 and linear equations used up, with a way back for the
 # terms found there.
 
 
 class Normal:
-    """The variables of a state and of the unknowns, lowered: a unit is 1, and a variable that an
-    equation gives is what it gives.
+    """The variables of a state and of the unknowns, dehomogenised: a scale is 1, and a variable
+    that an equation gives is what it gives.
     """
 
     def __init__(self, state: checker.State, condition: Condition, equations: bool = True) -> None:
@@ -107,14 +107,14 @@ class Normal:
             if name in whole and self.scaling.units
         ):
             self.scaling = Scaling(Ring(names), polys, [])
-        self.units = {names[k]: fmpq(1) for k in self.scaling.units}
+        self.scales = {names[k]: fmpq(1) for k in self.scaling.units}
         self.weights: dict[str, Weight] = (
-            dict(zip(names, self.scaling.weights)) if self.units else {}
+            dict(zip(names, self.scaling.weights)) if self.scales else {}
         )
         self.steps: list[tuple[str, fmpq_mpoly]] = []
         if equations:
             self._use_equations(
-                [p.subs(self.units) for p, relation in facts if relation == "="],
+                [p.subs(self.scales) for p, relation in facts if relation == "="],
                 [n for n in state.context.index if n not in whole],
             )
 
@@ -134,34 +134,34 @@ class Normal:
             self.steps.append(step)
             equations = [_put(poly, *step) for poly in equations]
 
-    def lower(self, poly: fmpq_mpoly) -> fmpq_mpoly:
+    def dehomogenised(self, poly: fmpq_mpoly) -> fmpq_mpoly:
         """The polynomial in the variables that are left."""
-        poly = self.lower_units(poly)
+        poly = self.at_scale_one(poly)
         for name, value in self.steps:
             poly = _put(poly, name, value)
         return poly
 
-    def lower_units(self, poly: fmpq_mpoly) -> fmpq_mpoly:
-        """The polynomial with the units set to 1, and no more."""
-        return poly.subs(self.units) if self.units else poly
+    def at_scale_one(self, poly: fmpq_mpoly) -> fmpq_mpoly:
+        """The polynomial with the scales set to 1, and no more."""
+        return poly.subs(self.scales) if self.scales else poly
 
     def condition(self, condition: Condition) -> Condition:
         """The condition in the variables that are left."""
-        return condition.mapped(self.lower) if self.units or self.steps else condition
+        return condition.mapped(self.dehomogenised) if self.scales or self.steps else condition
 
     def base(self, names: Sequence[str]) -> list[str]:
         """Those of the names that are left."""
-        gone = {*self.units, *(name for name, _ in self.steps)}
+        gone = {*self.scales, *(name for name, _ in self.steps)}
         return [name for name in names if name not in gone]
 
     def sample(self, sample: Sample) -> Sample:
         """The sample in these units."""
-        if not self.units:
+        if not self.scales:
             return sample
         found = {}
         for name, value in sample.items():
-            for unit, power in zip(self.units, self.weights[name]):
-                value = value / sample[unit] ** power
+            for scale, power in zip(self.scales, self.weights[name]):
+                value = value / sample[scale] ** power
             found[name] = value
         return found
 
@@ -171,16 +171,16 @@ class Normal:
         """The weight that makes the polynomial of an adjoined root liftable; from now on that of
         its name.
         """
-        if self.units and root.name.startswith("root"):
-            self.weights[root.name] = (0,) * len(self.units)
+        if self.scales and root.name.startswith("root"):
+            self.weights[root.name] = (0,) * len(self.scales)
             lower = coefficients_in(root.poly, root.name)
             tops = [self.weight(c) for c in lower[:2]]
             self.weights[root.name] = tuple(max(b, -(-c // 2)) for c, b in zip(*tops))
         return self.weights.get(root.name, ())
 
     def weight(self, poly: fmpq_mpoly) -> Weight:
-        """The least weight to which a lowered polynomial can be lifted."""
-        names, zero = self.ring.names(), (0,) * len(self.units)
+        """The least weight to which a dehomogenised polynomial can be lifted."""
+        names, zero = self.ring.names(), (0,) * len(self.scales)
         parts = [
             tuple(
                 sum(int(e) * self.weights[n][k] for n, e in zip(names, powers) if e)
@@ -191,14 +191,14 @@ class Normal:
         return tuple(map(max, zip(*parts))) if parts and zero else zero
 
     def lift(self, poly: fmpq_mpoly, weight: Weight | None = None) -> fmpq_mpoly:
-        """The homogeneous polynomial of this weight, or the least possible, which lowers to the
-        given one.
+        """The homogeneous polynomial of this weight, or the least possible, which dehomogenises to
+        the given one.
         """
-        if not self.units:
+        if not self.scales:
             return poly
         weight = self.weight(poly) if weight is None else weight
         names, terms = self.ring.names(), {}
-        places = [self.ring.variable_to_index(unit) for unit in self.units]
+        places = [self.ring.variable_to_index(scale) for scale in self.scales]
         for powers, c in poly.to_dict().items():
             exponents = [int(e) for e in powers]
             for k, place in enumerate(places):

@@ -9,7 +9,6 @@ from flint import fmpq, fmpq_mpoly
 
 from juggleproof.certificates.algebra.conditions import (
     Condition,
-    Tree,
     coefficients_in,
     constant_of,
     places,
@@ -32,6 +31,7 @@ from juggleproof.certificates.search.terms import (
     Sample,
     Trial,
     among,
+    atoms,
     between,
     insert,
     partly,
@@ -154,14 +154,14 @@ class TemplateSearch:
                 if root is None
                 else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
             )
-            mark = () if more else value.mark()
-            if mark in tried or not self._plausible(widened, rows, value, more, values):
+            key = () if more else value.key()
+            if key in tried or not self._plausible(widened, rows, value, more, values):
                 continue
             if more is not None:
                 value = value.plus(more)
-                mark = value.mark()
-            if mark not in tried:
-                tried.add(mark)
+                key = value.key()
+            if key not in tried:
+                tried.add(key)
                 yield from self._descend(self._with(widened, name, value.top, value.bottom), rest)
 
     def _plausible(
@@ -196,21 +196,21 @@ class TemplateSearch:
 
     def _points(self, partial: Partial) -> list[Point]:
         """The samples with the values of the adjoined roots, as points of the ring."""
-        mark = tuple(map(id, partial.roots))
+        key = tuple(map(id, partial.roots))
         if (
-            mark not in self.points
+            key not in self.points
         ):  # the roots are kept with their points, so that their ids stay theirs
-            self.points[mark] = (
+            self.points[key] = (
                 partial.roots,
                 [Point.of(self.ring, self._given(partial, sample)) for sample in self.samples],
             )
-        return self.points[mark][1]
+        return self.points[key][1]
 
     def _shift(self, more: Quotient, k: int) -> fmpq | None:
-        mark = id(more), k
-        if mark not in self.shifts:
-            self.shifts[mark] = more.at(self.samples[k])
-        return self.shifts[mark]
+        key = id(more), k
+        if key not in self.shifts:
+            self.shifts[key] = more.at(self.samples[k])
+        return self.shifts[key]
 
     def _with(self, partial: Partial, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Partial:
         def make() -> Condition:
@@ -310,11 +310,11 @@ class TemplateSearch:
         """The sample with the values of the adjoined roots there."""
         if not partial.roots:
             return sample
-        mark = id(sample), "; ".join(str(root.poly) for root in partial.roots)
-        if mark not in self.given:
+        key = id(sample), "; ".join(str(root.poly) for root in partial.roots)
+        if key not in self.given:
             self.budget.spend(100)
-            self.given[mark] = {**sample, **root_values(partial.roots, sample)}
-        return self.given[mark]
+            self.given[key] = {**sample, **root_values(partial.roots, sample)}
+        return self.given[key]
 
     # ------------------------------------------------ candidates
 
@@ -324,7 +324,7 @@ class TemplateSearch:
         if self.roles.is_scale(name):
             yield Quotient(one, one), None, None
             return
-        plain = list(self.hints.get(name, ()))
+        simple = list(self.hints.get(name, ()))
         likely = [
             Quotient(self.ring.constant(v), one)
             for v in favourites(name, name in self.integers, self.roles)[:8]
@@ -333,12 +333,12 @@ class TemplateSearch:
             gens = [self.ring.gen(places(self.ring)[n]) for n in self.base if n in self.integers]
             whole = [Quotient(gen + shift, one) for shift in (0, 1, -1) for gen in gens]
             yield from (
-                (q, None, None) for q in [*plain, *likely, *self._constants(partial, name), *whole]
+                (q, None, None) for q in [*simple, *likely, *self._constants(partial, name), *whole]
             )
             return
         lines, roots = self._lines(partial, name, rest)
-        plain += [*likely[:3], *lines] if self.borders is None else [*lines, *likely[:3]]
-        yield from ((q, None, None) for q in plain)
+        simple += [*likely[:3], *lines] if self.borders is None else [*lines, *likely[:3]]
+        yield from ((q, None, None) for q in simple)
         parts = (fmpq(1), fmpq(1, 2), fmpq(1, 10), fmpq(1, 100))
         yield from (
             (Quotient(margin * part, one), None, None) for margin in self.margins for part in parts
@@ -350,9 +350,9 @@ class TemplateSearch:
         yield from ((q, None, None) for q in [*likely[3:], *self._constants(partial, name)])
         yield from ((q, None, None) for q in between(lines))
         yield from ((q, None, root) for q, root in roots)
-        near = [*((q, None) for q in lines[:4]), *roots[:4]]
+        nearby = [*((q, None) for q in lines[:4]), *roots[:4]]
         for more in (self.small, self.slight):
-            yield from ((q, shift, root) for q, root in near for shift in more)
+            yield from ((q, shift, root) for q, root in nearby for shift in more)
 
     def _constants(self, partial: Partial, name: str) -> list[Quotient]:
         """Numbers that serve at the middle sample or at the first and the last."""
@@ -595,14 +595,3 @@ class CornerSearch(TemplateSearch):
         if any(valued(parts[1], self._given(partial, sample)) == 0 for sample in self.samples):
             return []
         return [(name, Quotient.reduced(-parts[0], parts[1]), None)]
-
-
-def atoms(tree: Tree) -> Iterator[tuple[int, str]]:
-    """The relations of a tree, each as (number of its polynomial, relation)."""
-    if isinstance(tree, bool):
-        return
-    if isinstance(tree[0], int):
-        yield tree
-    else:
-        for part in tree[1]:
-            yield from atoms(part)
