@@ -73,9 +73,7 @@ class Notation:
         """The polynomial, with short names in place of those of its ring."""
         text, names = "", [short.get(name, name) for name in poly.context().names()]
         for exponents, c in zip(poly.monoms(), poly.coeffs()):
-            powers = [
-                self.power(short[n], e) for n, e in zip(poly.context().names(), exponents) if e
-            ]
+            powers = [self.power(n, e) for n, e in zip(names, exponents) if e]
             size = [] if abs(c) == 1 and powers else [str(abs(c))]
             factors = self.times.join([*size, *powers])
             sign = (" - " if c < 0 else " + ") if text else ("- " if c < 0 else "")

@@ -365,6 +365,32 @@ Line = tuple[str, Union[Formula, tuple[str, Term]]]
 
 
 @dataclass(frozen=True)
+class Roles:
+    """What the variables of statements stand for, which their text does not say.
+
+    `domains` has the parameters, each with what is assumed of it alone; sharp ranges are sought
+    there, over the first parameter unless others are asked for. `scales` are positive variables
+    that a change of units makes 1; None where homogeneity is to tell them. Searches take both as
+    hints: the checker is told neither.
+    """
+
+    domains: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
+    scales: frozenset[str] | None = None
+
+    @property
+    def parameter(self) -> str:
+        """The first parameter; an empty name where there is none."""
+        return next(iter(self.domains), "")
+
+    def is_scale(self, name: str) -> bool:
+        """Whether the variable is known to be a scale."""
+        return self.scales is not None and name in self.scales
+
+
+NO_ROLES = Roles()
+
+
+@dataclass(frozen=True)
 class Statement:
     """For all `forall`: the lines (range, given, have, let, root) imply `show`, or that some
     `exists` meet `within` and `show`.
@@ -521,3 +547,61 @@ def _line(line: Line) -> str:
         return f"{keyword} {said}"
     name, value = said
     return f"{keyword} {name} = " + (f"sqrt({value})" if keyword == "root" else str(value))
+
+
+# -------------------------------------------------------------------------------------------------
+# The interval that conditions on one variable alone make.
+
+End = tuple[str, str]  # a rational, and < or <=
+
+
+def bounds_of(condition: str, name: str) -> tuple[End | None, End | None] | None:
+    """The ends of the interval that the conditions on one variable alone make; None in place of an
+    end that there is not, and in place of both where a condition is not linear.
+
+    >>> bounds_of("3*a >= 1 and a < 1 and g > 0", "a")
+    (('1/3', '<='), ('1', '<'))
+    >>> bounds_of("a > 2", "a")
+    (('2', '<'), None)
+    """
+    context = checker.Context()
+    for each in sorted(checker.names_in(condition)):
+        context.declare(each)
+    lows: list[tuple[Fraction, bool]] = []
+    highs: list[tuple[Fraction, bool]] = []
+    for part in checker.conjuncts(context.formula(checker.parse(condition))):
+        if isinstance(part, bool) or part[0] != "atom":
+            return None
+        _, poly, relation = part
+        if checker.variables_of(context, poly) == {name}:
+            coefficients = checker.univariate(context, poly, name)
+            if len(coefficients) != 2 or relation == "!=":
+                return None
+            constant, slope = coefficients
+            end = Fraction(-constant, slope)
+            if slope > 0 or relation == "=":
+                lows.append((end, relation == ">"))
+            if slope < 0 or relation == "=":
+                highs.append((end, relation != ">"))
+    low, high = max(lows, default=None), min(highs, default=None)
+    return (
+        (str(low[0]), "<" if low[1] else "<=") if low else None,
+        (str(high[0]), "<=" if high[1] else "<") if high else None,
+    )
+
+
+def interval_text(name: str, low: End | None, high: End | None) -> str:
+    """The interval as a person reads it.
+
+    >>> interval_text("a", ("0", "<"), ("1/3", "<=")), interval_text("a", ("2", "<"), None)
+    ('0 < a <= 1/3', 'a > 2')
+    """
+    if low and high:
+        return (
+            f"{name} = {low[0]}"
+            if low[0] == high[0]
+            else f"{low[0]} {low[1]} {name} {high[1]} {high[0]}"
+        )
+    if low:
+        return f"{name} {'>' if low[1] == '<' else '>='} {low[0]}"
+    return f"{name} {high[1]} {high[0]}" if high else f"every {name}"

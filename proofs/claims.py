@@ -16,9 +16,11 @@ from juggleproof.certificates.language import (
     Formula,
     Iterates,
     MapRule,
+    Roles,
     SharpRange,
     Statement,
 )
+from juggleproof.proofs.forms import PLAIN, Vocabulary, domains_of
 
 # -------------------------------------------------------------------------------------------------
 # Claims: an assertion with its place and print, and the formal reading that is judged.
@@ -98,11 +100,27 @@ class Claim:
     printed: str = ""
     as_it_stands: str = ""
     repeats: str = ""
-    parameters: tuple[str, ...] = ("alpha",)
+    parameters: tuple[str, ...] | None = None
     derived: Callable[[], Any] | None = None
     nearby: tuple[str, Callable[[], Any]] | None = None
     hints: Mapping[str, Any] = field(default_factory=dict)
     source: str = ""
+    vocabulary: Vocabulary = PLAIN
+
+    def roles(self, statements: Sequence[Statement]) -> Roles:
+        """The parameters of the claim with their domains, and its scales: what its vocabulary says,
+        else what its statements do.
+        """
+        domains = self.vocabulary.domains or domains_of(statements, self.parameters)
+        return Roles(domains, self.vocabulary.scales)
+
+    def over(self, roles: Roles) -> tuple[str, ...]:
+        """The parameters that its sharp ranges are over: those that it names, else the first of its
+        vocabulary, else those that its statements bound.
+        """
+        if self.parameters is not None:
+            return self.parameters
+        return tuple(roles.domains)[: 1 if self.vocabulary.domains else None]
 
     @property
     def where(self) -> str:
@@ -210,18 +228,21 @@ def claim(
     printed: str = "",
     as_it_stands: str = "",
     repeats: str = "",
-    parameters: Sequence[str] = ("alpha",),
+    parameters: Sequence[str] | None = None,
     derived: Callable[[], Any] | None = None,
     nearby: tuple[str, Callable[[], Any]] | None = None,
     hints: Mapping[str, Any] | None = None,
+    vocabulary: Vocabulary = PLAIN,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription
     has where it mangles the print. `derived` gives the true right-hand side, and `nearby` a true
     assertion near a false one, with its text: both are tried as corrections where no change of one
-    mark mends the print.  Raises ClaimError for a duplicate name, an empty docstring, or a name
-    that is not letters, digits, - and dots.
+    mark mends the print.  `parameters` are the variables that sharp ranges are sought over, none
+    where it is empty; without it the vocabulary tells them, else `forms.domains_of`.  Raises
+    ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, -
+    and dots.
     """
 
     def register(read: Callable[..., Any]) -> Callable[..., Any]:
@@ -241,11 +262,12 @@ def claim(
             printed,
             as_it_stands,
             repeats,
-            tuple(parameters),
+            None if parameters is None else tuple(parameters),
             derived,
             nearby,
             dict(hints or {}),
             f"{read.__module__}.{read.__qualname__}",
+            vocabulary,
         )
         _registry.append(made)
         _by_module.setdefault(read.__module__, {})[id] = made

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -109,7 +109,7 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
         truth = claim.derived()
         right = _printed_right(claim)
         fitted = (
-            coefficients_on_printed_terms(right, truth)
+            coefficients_on_printed_terms(right, truth, claim.vocabulary.roots)
             if isinstance(right, Term) and isinstance(truth, Term)
             else None
         )
@@ -129,18 +129,22 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
 
 
 def _printed_right(claim: Claim) -> Any:
-    """The printed right-hand side in the paper's names, where those suffice to read it."""
-    from juggleproof.proofs.paper.names import PAPER
-
+    """The printed right-hand side in the names of the claim's vocabulary, where those suffice to
+    read it.
+    """
+    if claim.vocabulary.reads is None:
+        return None
     try:
-        return claim.read_print().right(PAPER)
+        return claim.read_print().right(claim.vocabulary.reads())
     except ClaimError:
         return None
 
 
-def coefficients_on_printed_terms(printed: Term, truth: Term) -> Term | None:
+def coefficients_on_printed_terms(
+    printed: Term, truth: Term, roots: Mapping[str, Term] | None = None
+) -> Term | None:
     """The printed sum with other rational coefficients on its terms that equals the truth; None
-    where there is none.
+    where there is none.  `roots` are names for square roots of terms, each linear in one variable.
 
     >>> from juggleproof.certificates.language import reals
     >>> x, y = reals("x y")
@@ -158,8 +162,12 @@ def coefficients_on_printed_terms(printed: Term, truth: Term) -> Term | None:
             name: Fraction(7 * (seed + 2) + 3 * i * (seed + 1), 11 + 5 * i + seed)
             for i, name in enumerate(names)
         }
-        if "s" in point:  # the adjoined root of 2 + 2 alpha
-            point["alpha"] = point["s"] ** 2 / 2 - 1
+        for name, under in (roots or {}).items():
+            variables = names_in(under)
+            if name in point and len(variables) == 1:  # its square has to be what is under the root
+                (variable,) = variables
+                constant, one = (_value(under, {variable: Fraction(k)}) for k in (0, 1))
+                point[variable] = (point[name] ** 2 - constant) / (one - constant)
         try:
             row = [_value(rebuild([one]), point) for one in terms]
             rows.append([*row, _value(truth, point)])

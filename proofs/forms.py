@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import ast
+import operator
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
 from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
+    NO_ROLES,
     ClaimError,
     Formula,
     Line,
     Number,
+    Roles,
     Statement,
     Term,
     disjunction,
@@ -41,6 +44,11 @@ from juggleproof.certificates.work import Budget, Exhausted
 class Vocabulary:
     """What names mean where nothing is said: order of variables, standing assumptions,
     abbreviations and roots.
+
+    `domains` has the parameters over which sharp ranges are sought, the first one first, each with
+    what is assumed of it alone; `scales` the positive variables that a change of units makes 1,
+    which homogeneity tells where it is None; `sample` a point at which signs of denominators are
+    guessed; `reads` gives the environment in which a print is read that is to be corrected.
     """
 
     order: tuple[str, ...] = ()
@@ -49,12 +57,21 @@ class Vocabulary:
     abbreviations: Mapping[str, Term] = field(default_factory=dict)
     roots: Mapping[str, Term] = field(default_factory=dict)
     integers: frozenset[str] = frozenset()
-    sample: Mapping[str, Fraction] = field(
-        default_factory=lambda: {"alpha": Fraction(3, 11), "r": Fraction(1), "g": Fraction(1)}
-    )
+    sample: Mapping[str, Fraction] = field(default_factory=dict)
+    domains: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
+    scales: frozenset[str] | None = None
+    reads: Callable[[], Any] | None = None
 
 
 PLAIN = Vocabulary()
+COMPARISONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "=": operator.eq,
+    "!=": operator.ne,
+}
 
 
 class _Writer:
@@ -69,6 +86,8 @@ class _Writer:
         self.context = checker.Context()
         self.later: list[Callable[[checker.Context], None]] = []
         self.lines: list[Line] = []
+        self.sample = dict(vocabulary.sample)
+        self.said: dict[str, list[Formula]] = {}
 
     def declare(self, names: Sequence[str]) -> None:
         for name in names:
@@ -80,9 +99,23 @@ class _Writer:
     def add(self, keyword: str, formula: Formula) -> None:
         self.prepare(formula)
         self.lines.append((keyword, formula))
+        self._sample(formula)
         self.later.append(
             lambda context: context.license(context.formula(checker.parse(str(formula))))
         )
+
+    def _sample(self, formula: Formula) -> None:
+        """Moves the sample value of a variable to the first one that meets what is said of it
+        alone, where the vocabulary gives none.
+        """
+        names = names_in(formula)
+        if len(names) == 1 and not names & set(self.vocabulary.sample):
+            (name,) = names
+            self.said.setdefault(name, []).append(formula)
+            for value in SAMPLES:
+                if all(_meets(one, {name: value}) for one in self.said[name]):
+                    self.sample[name] = value
+                    return
 
     def by_now(self) -> checker.Context:
         """What the checker knows after the lines so far."""
@@ -132,7 +165,7 @@ class _Writer:
         elif below.op == "^":
             self.license(below.args[0])
         else:
-            sign = _likely_sign(below, self.vocabulary)
+            sign = _likely_sign(below, self.vocabulary, self.sample)
             formula = below > 0 if sign > 0 else below < 0
             self.lines.append(("have", formula))
             self.later.append(
@@ -150,9 +183,22 @@ def _denominators(thing: Term | Formula) -> list[Term]:
     return found
 
 
-def _likely_sign(value: Term, vocabulary: Vocabulary) -> int:
-    """The sign at the vocabulary's sample point, 2 for names that it lacks: a guess that the
-    certificate of the `have` line has to confirm.
+SAMPLES = tuple(Fraction(p, q) for p, q in ((2, 1), (3, 11), (5, 2), (10, 1), (-1, 1), (-10, 1)))
+
+
+def _meets(formula: Formula, sample: Mapping[str, Fraction]) -> bool:
+    """Whether a relation holds at a sample; any other formula counts as met."""
+    if formula.op == "and":
+        return all(_meets(part, sample) for part in formula.args)
+    if formula.op not in COMPARISONS:
+        return True
+    left, right = (_evaluate(side, sample) for side in formula.args)
+    return COMPARISONS[formula.op](left, right)
+
+
+def _likely_sign(value: Term, vocabulary: Vocabulary, sample: Mapping[str, Fraction]) -> int:
+    """The sign at the sample point, 2 for names that it lacks: a guess that the certificate of the
+    `have` line has to confirm.
     """
     for _ in range(8):
         hidden = {
@@ -161,7 +207,7 @@ def _likely_sign(value: Term, vocabulary: Vocabulary) -> int:
         if not hidden:
             break
         value = substitute(value, hidden)
-    return 1 if _evaluate(value, vocabulary.sample) >= 0 else -1
+    return 1 if _evaluate(value, sample) >= 0 else -1
 
 
 def _evaluate(value: Term, sample: Mapping[str, Fraction]) -> Fraction:
@@ -383,8 +429,8 @@ def same_set(
 
 
 # -------------------------------------------------------------------------------------------------
-# What the hypotheses of a statement say: nothing, where they contradict one another; the whole
-# range of alpha, or a part of it.
+# What the hypotheses of a statement say: nothing, where they contradict one another; the domain of
+# a parameter, or a part of it.
 
 
 def read(text: str, name: str) -> checker.Statement:
@@ -394,7 +440,11 @@ def read(text: str, name: str) -> checker.Statement:
 
 
 def refuse_what_says_nothing(
-    statement: Statement, outcome: str, known: dict[str, checker.Statement], budget: int
+    statement: Statement,
+    outcome: str,
+    known: dict[str, checker.Statement],
+    budget: int,
+    roles: Roles = NO_ROLES,
 ) -> None:
     """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep
     a denominator from vanishing.
@@ -405,7 +455,7 @@ def refuse_what_says_nothing(
     def settles(part: Statement, outcome: str) -> bool:
         try:
             return outcome in search_certificate(
-                read(part.text(), part.name), known, Budget(budget)
+                read(part.text(), part.name), known, Budget(budget), roles=roles
             )
         except Exhausted:
             return False
@@ -439,26 +489,87 @@ def refuse_what_says_nothing(
         )
 
 
-def speaks_of_range(statement: Statement) -> bool:
-    """Whether a statement is about a range of alpha: by range lines, or by givens that say 0 <
-    alpha < 1.
+def domains_of(
+    statements: Sequence[Statement], named: Sequence[str] | None = None
+) -> dict[str, tuple[Formula, ...]]:
+    """The parameters of a claim whose vocabulary says nothing of them, each with its domain.
+
+    They are the variables that the claim names; else those of which a range line speaks alone; else
+    the one variable of which the givens say that it lies between 0 and 1, and no more.  The domain
+    is what the range lines say of the variable alone, else the givens; a variable of which two
+    statements say different things is left out.
+
+    >>> from juggleproof.certificates.language import reals
+    >>> a, q = reals("a q")
+    >>> claimed = always(a * q < 1, given=[a > 0, a < 1, q > 2, q < 3])
+    >>> {name: [str(one) for one in said] for name, said in domains_of([claimed]).items()}
+    {'a': ['a > 0', 'a < 1']}
+    """
+    said = [(_alone(one, "range"), _alone(one, "given")) for one in statements]
+    names: Sequence[str] = list(dict.fromkeys(name for ranges, _ in said for name in ranges))
+    if named is not None:
+        names = named
+    elif not names:
+        names = list(
+            dict.fromkeys(
+                name
+                for _, givens in said
+                for name, formulas in givens.items()
+                if _say_the_same([name], formulas, [f"{name} > 0", f"{name} < 1"])
+            )
+        )
+        names = names if len(names) == 1 else []
+    domains: dict[str, tuple[Formula, ...]] = {}
+    for name in names:
+        texts: dict[tuple[str, ...], tuple[Formula, ...]] = {}
+        for kind in (0, 1):
+            for both in said if not texts else ():
+                if name in both[kind]:
+                    texts[tuple(map(str, both[kind][name]))] = both[kind][name]
+        if len(texts) == 1:
+            (domains[name],) = texts.values()
+    return domains
+
+
+def _alone(statement: Statement, keyword: str) -> dict[str, tuple[Formula, ...]]:
+    """What the lines of a keyword say of one variable alone, by variable in order."""
+    found: dict[str, tuple[Formula, ...]] = {}
+    for kind, said in statement.lines:
+        names = _names_of(str(said)) if kind == keyword else set()
+        if len(names) == 1 and names <= set(statement.forall):
+            (name,) = names
+            found[name] = (*found.get(name, ()), said)  # type: ignore[arg-type]
+    return {name: found[name] for name in statement.forall if name in found}
+
+
+def speaks_of_range(statement: Statement, domains: Mapping[str, tuple[Formula, ...]]) -> bool:
+    """Whether a statement is about a range of parameters: by range lines, or by givens that say
+    just the domain of the first one.
     """
     if any(keyword == "range" for keyword, _ in statement.lines):
         return True
-    given = [
-        ("range", said)
-        for keyword, said in statement.lines
-        if keyword == "given" and _names_of(str(said)) == {"alpha"}
+    first = next(iter(domains), "")
+    given = _alone(statement, "given").get(first, ())
+    return bool(given) and _say_the_same(statement.forall, given, domains[first])
+
+
+def has_whole_range(statement: Statement, domains: Mapping[str, tuple[Formula, ...]]) -> bool:
+    """Whether the range lines say the domains of the statement's parameters and nothing else,
+    however they are written; what the givens say need not be said again.
+    """
+    given = {str(said) for keyword, said in statement.lines if keyword == "given"}
+    whole = [
+        formula
+        for name in statement.forall
+        for formula in domains.get(name, ())
+        if str(formula) not in given
     ]
-    return bool(given) and has_whole_range(replace(statement, lines=tuple(given)))
+    ranges = [said for keyword, said in statement.lines if keyword == "range"]
+    return _say_the_same(statement.forall, ranges, whole)
 
 
-def has_whole_range(statement: Statement) -> bool:
-    """Whether the range lines say 0 < alpha < 1 and nothing else, however they are written."""
-    return _is_whole_range(
-        statement.forall,
-        tuple(str(formula) for keyword, formula in statement.lines if keyword == "range"),
-    )
+def _say_the_same(variables: Sequence[str], left: Sequence[Any], right: Sequence[Any]) -> bool:
+    return _are_the_same(tuple(variables), tuple(map(str, left)), tuple(map(str, right)))
 
 
 @cache
@@ -467,13 +578,14 @@ def _names_of(text: str) -> set[str]:
 
 
 @cache
-def _is_whole_range(variables: tuple[str, ...], said: tuple[str, ...]) -> bool:
+def _are_the_same(
+    variables: tuple[str, ...], left: tuple[str, ...], right: tuple[str, ...]
+) -> bool:
     context = checker.Context()
     for name in variables:
         context.declare(name)
-    whole = ["alpha > 0", "alpha < 1"] if "alpha" in variables else []
-    return _atoms(context, [checker.parse(text) for text in said]) == _atoms(
-        context, [checker.parse(text) for text in whole]
+    return _atoms(context, [checker.parse(text) for text in left]) == _atoms(
+        context, [checker.parse(text) for text in right]
     )
 
 

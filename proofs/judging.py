@@ -13,10 +13,12 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
+    NO_ROLES,
     AnyStatement,
     ClaimError,
     Iterates,
     MapRule,
+    Roles,
     SharpRange,
     Statement,
 )
@@ -44,7 +46,7 @@ from juggleproof.proofs.forms import (
     speaks_of_range,
 )
 from juggleproof.proofs.kept import record_of
-from juggleproof.proofs.rules import range_of_rule
+from juggleproof.proofs.rules import range_of_rule, whole_text
 
 DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
@@ -108,6 +110,7 @@ class Judgement:
         default_factory=lambda: Verdict("unknown")
     )  # the verdict if they are certified
     follows: bool = False
+    roles: Roles = NO_ROLES
     reused: int = 0
     record: Any = None
 
@@ -157,6 +160,14 @@ class Judge:
         ):
             self.known[name] = read(self.options.lemmas[name], name)
         body = self.body()
+        found.roles = claim.roles(
+            [
+                part
+                for _, assertion in assertions(body)
+                for part in assertion.parts
+                if isinstance(part, Statement)
+            ]
+        )
         for prefix, assertion in assertions(body):
             self.settle_all(prefix, assertion)
         found.verdict = verdict_of(claim.id, body, found.outcomes)
@@ -296,12 +307,17 @@ class Judge:
                 Budget(self.options.budget),
                 self.claim.hints.get("search"),
                 confirm,
+                roles=self.found.roles,
             )
         except Exhausted:
             found = {"unknown": f"the budget of {self.options.budget} units ran out"}
         if "certified" not in found and isinstance(statement, Statement) and not self.is_trial:
             refuse_what_says_nothing(
-                statement, next(iter(found)), self.known, self.options.budget // TRIAL
+                statement,
+                next(iter(found)),
+                self.known,
+                self.options.budget // TRIAL,
+                self.found.roles,
             )
         return found
 
@@ -330,7 +346,7 @@ class Judge:
             self.claim,
             replace(self.options, routes=("exact",), budget=self.options.budget // TRIAL),
         )
-        trial.known, trial.is_trial = self.known, True
+        trial.known, trial.is_trial, trial.found.roles = self.known, True, self.found.roles
         return trial
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
@@ -343,7 +359,14 @@ class Judge:
         start: checker.State = checker.State(checker.Context())
         return (
             search_found(
-                parsed, start, "counterexample", {}, self.known, Budget(QUICK_BUDGET), effort=0
+                parsed,
+                start,
+                "counterexample",
+                {},
+                self.known,
+                Budget(QUICK_BUDGET),
+                effort=0,
+                roles=self.found.roles,
             )
             is not None
         )
@@ -354,9 +377,12 @@ class Judge:
         """The set of parameters in the whole domain on which the assertion holds, settled on both
         sides by the checker.
 
-        Statements that are certified with the whole range 0 < alpha < 1 hold on all of it: the
+        Statements that are certified with the whole domain as their range hold on all of it: the
         others decide.
         """
+        roles = self.found.roles
+        sought = self.claim.over(roles)
+        domains = {name: roles.domains.get(name, ()) for name in sought or (roles.parameter,)}
         rules = [
             part.name
             for part in named_statements(self.claim.id, prefix, assertion)
@@ -364,7 +390,7 @@ class Judge:
         ]
         if rules:
             text = (
-                range_of_rule(rules[-1], dict(self.found.statements))
+                range_of_rule(rules[-1], dict(self.found.statements), roles)
                 if self.found.outcomes[rules[-1]] == "certified"
                 else ""
             )
@@ -376,7 +402,7 @@ class Judge:
             for part in named_statements(self.claim.id, prefix, assertion)
             if isinstance(part, Statement)
         ]
-        ranged = [part for part in parts if speaks_of_range(part)]
+        ranged = [part for part in parts if speaks_of_range(part, domains)]
         if (
             not ranged
             or outcome_of(self.claim.id, prefix, assertion, self.found.outcomes) == "unknown"
@@ -387,23 +413,21 @@ class Judge:
             for part in parts
             if part not in ranged and self.found.outcomes[part.name] == "refuted"
         ]
-        if always_false:  # refuted whatever alpha is
+        if always_false:  # refuted whatever the parameters are
             self.found.sharp[prefix] = {"text": "nowhere", "by": always_false}
             return
         open_parts = [
             part
             for part in ranged
-            if not (has_whole_range(part) and self.found.outcomes[part.name] == "certified")
+            if not (
+                has_whole_range(part, domains) and self.found.outcomes[part.name] == "certified"
+            )
         ]
         everywhere = [part.name for part in ranged if part not in open_parts]
         if not open_parts:
-            self.found.sharp[prefix] = {"text": "0 < alpha < 1", "by": everywhere}
+            self.found.sharp[prefix] = {"text": whole_text(roles), "by": everywhere}
             return
-        over = tuple(
-            name
-            for name in self.claim.parameters
-            if all(name in part.forall for part in open_parts)
-        )
+        over = tuple(name for name in sought if all(name in part.forall for part in open_parts))
         if not over:
             return
         name = f"{self.claim.id}/{prefix}sharp"
@@ -456,7 +480,9 @@ class Judge:
         """The sharp range with its certificate and how it is told, if the search finds one."""
         from juggleproof.proofs.ranges import search_sharp_range
 
-        return search_sharp_range(name, ranged, over, self.known, SHARP * self.options.budget)
+        return search_sharp_range(
+            name, ranged, over, self.known, SHARP * self.options.budget, self.found.roles
+        )
 
     def sharp_outcome(
         self, name: str, stored: str, certificate: Any, ranged: Sequence[Statement]

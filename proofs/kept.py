@@ -15,6 +15,7 @@ from typing import Any, get_args
 from juggleproof.certificates.language import ClaimError, MapRule, Statement
 from juggleproof.certificates.store import canonical, write_file
 from juggleproof.proofs.claims import Assertion, Body, Claim, assertions, named_statements
+from juggleproof.proofs.forms import Vocabulary
 
 # -------------------------------------------------------------------------------------------------
 # A file outside the tree with the records of the last runs, under a digest of all that they depend
@@ -212,7 +213,10 @@ def record_of(
     ]
     return {
         **{name: getattr(claim, name) for name in TOLD},
-        "parameters": list(claim.parameters),
+        "parameters": None if claim.parameters is None else list(claim.parameters),
+        "domains": [
+            [name, [str(one) for one in said]] for name, said in claim.vocabulary.domains.items()
+        ],
         "nearby": claim.nearby is not None,
         "body": _plain(body, named),
         "correction": dict(correction) if correction else None,
@@ -251,9 +255,18 @@ def claim_of(record: Mapping[str, Any]) -> Claim:
     return Claim(
         **told,
         read=read,
-        parameters=tuple(map(_text, record["parameters"])),
+        parameters=_parameters(record["parameters"]),
+        vocabulary=Vocabulary(domains=_domains(record["domains"])),
         nearby=("", read) if record["nearby"] else None,
     )
+
+
+def _parameters(names: Any) -> tuple[str, ...] | None:
+    return None if names is None else tuple(map(_text, names))
+
+
+def _domains(told: Any) -> Any:
+    return {_text(name): tuple(Quoted(_text(one)) for one in said) for name, said in told}
 
 
 def body_of(record: Mapping[str, Any], texts: Mapping[str, str]) -> Body:

@@ -8,13 +8,16 @@ from typing import Any
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
 from juggleproof.certificates.language import (
+    End,
     Formula,
+    Roles,
     SharpRange,
     Statement,
     Term,
+    bounds_of,
     conjunction,
     disjunction,
-    real,
+    interval_text,
 )
 from juggleproof.certificates.search.families import says_domain, solved
 from juggleproof.certificates.search.ranges import Line, pinned, polynomial_term
@@ -24,11 +27,6 @@ from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.forms import read
 
 DECIMALS = 12
-DOMAINS = {
-    "alpha": (real("alpha") > 0) & (real("alpha") < 1),
-    "K": real("K") >= 1,
-    "eps": real("eps") > 0,
-}
 
 
 def search_sharp_range(
@@ -37,59 +35,71 @@ def search_sharp_range(
     over: Sequence[str],
     known: Mapping[str, checker.Statement],
     budget: int,
+    roles: Roles,
 ) -> tuple[SharpRange, Any, str] | None:
     """The sharp range of the statements, its certificate and how it is told; None where the search
     does not find one.
 
-    Over alpha it is sought in (0, 1), over alpha and K in that times K >= 1.  A whole number that
-    the hypotheses tie to alpha, as floor and ceiling do, joins it, and they bound the domain.  Over
-    alpha and eps first the alpha are sought for which the statements hold with every eps > 0, since
-    eps has a dimension as a rule; then pairs.
+    It is sought in the domains of the parameters that it is over.  A whole number that the
+    hypotheses tie to the first one, as floor and ceiling do, joins it, and they bound the domain.
+    Over several real parameters first the values of the first one are sought for which the
+    statements hold with all values of the others; then pairs.
     """
     parsed = [read(statement.text(), statement.name) for statement in statements]
-    if "alpha" in over:
-        tied = _tied(parsed, budget)
+    first, whole = over[0], whole_parameters(over, parsed)
+    domains = {name: conjunction(roles.domains.get(name, ())) for name in over}
+    if first == roles.parameter:
+        tied = _tied(parsed, first, domains[first], budget, roles)
         if tied is not None:
             number, said = tied
-            domain = conjunction([DOMAINS["alpha"], said])
+            domain = conjunction([domains[first], said])
             region = find_sharp_region(
-                parsed, ("alpha", number), domain, name, known, Budget(budget // 3)
+                parsed, (first, number), domain, name, known, Budget(budget // 3), roles
             )
             if region.statement is not None and region.certificate is not None:
                 return region.statement, region.certificate, told_of_pairs(region.statement, number)
-    if "alpha" in over and "K" not in over:
+    if first == roles.parameter and not whole:
         try:
-            found = find_sharp_range(parsed, "alpha", DOMAINS["alpha"], name, known, Budget(budget))
+            found = find_sharp_range(
+                parsed, first, domains[first], name, known, Budget(budget), roles=roles
+            )
         except Exhausted:
             found = Range()
         if found.statement is not None and found.certificate is not None and found.line is not None:
             return (
                 found.statement,
                 found.certificate,
-                told(found.line.simplified(), "alpha", found.statement.numbers),
+                told(
+                    found.line.simplified(),
+                    first,
+                    found.statement.numbers,
+                    bounds_of(str(domains[first]), first) or (None, None),
+                ),
             )
     if len(over) > 1:
-        domain = conjunction([DOMAINS[parameter] for parameter in over])
-        region = find_sharp_region(parsed, over, domain, name, known, Budget(budget))
+        domain = conjunction([domains[parameter] for parameter in over])
+        region = find_sharp_region(parsed, over, domain, name, known, Budget(budget), roles)
         if region.statement is not None and region.certificate is not None:
-            return (
-                region.statement,
-                region.certificate,
-                told_plainly(region.statement, whole_parameters(over, parsed)),
-            )
+            return region.statement, region.certificate, told_plainly(region.statement, whole)
     return None
 
 
-def _tied(parsed: Sequence[checker.Statement], budget: int) -> tuple[str, Formula] | None:
+def _tied(
+    parsed: Sequence[checker.Statement],
+    parameter: str,
+    domain: Formula,
+    budget: int,
+    roles: Roles,
+) -> tuple[str, Formula] | None:
     try:
-        return pinned(parsed, "alpha", checker.parse(str(DOMAINS["alpha"])), Budget(budget // 10))
+        return pinned(parsed, parameter, checker.parse(str(domain)), Budget(budget // 10), roles)
     except Exhausted:
         return None
 
 
 def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
-    """A range over several parameters as a person reads it: solved for alpha, or its condition, or
-    that it is everything or nothing.
+    """A range over several parameters as a person reads it: solved for the first, or its condition,
+    or that it is everything or nothing.
 
     >>> alpha, size = real("alpha"), real("eps")
     >>> domain = (alpha > 0) & (size > 0)
@@ -102,12 +112,12 @@ def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
         str(statement.domain): str(statement.domain),
         str(disjunction([])): "nowhere",
     }
-    return plain.get(text) or solved(statement, "alpha", whole) or text
+    return plain.get(text) or solved(statement, statement.over[0], whole) or text
 
 
 def told_of_pairs(statement: SharpRange, number: str) -> str:
-    """A range over alpha and a whole number that is tied to it; what ties them is told where the
-    condition does not say it.
+    """A range over a parameter and a whole number that is tied to it; what ties them is told where
+    the condition does not say it.
     """
     text = told_plainly(statement, [number])
     if text == "nowhere":
@@ -119,13 +129,18 @@ def told_of_pairs(statement: SharpRange, number: str) -> str:
     )
 
 
-def told(line: Line, parameter: str, numbers: Sequence[tuple[str, Term, Any, Any]] = ()) -> str:
-    """The set as a person reads it: intervals, and for each irrational end its 12 decimals and its
-    equation, under its name in `numbers`.
+def told(
+    line: Line,
+    parameter: str,
+    numbers: Sequence[tuple[str, Term, Any, Any]] = (),
+    ends: tuple[End | None, End | None] = (None, None),
+) -> str:
+    """The set as a person reads it: intervals, up to the ends of the domain, and for each
+    irrational end its 12 decimals and its equation, under its name in `numbers`.
 
     >>> from fractions import Fraction
-    >>> told(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "alpha")
-    '0 < alpha < 1/3'
+    >>> told(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "a")
+    'a < 1/3'
     """
     names = {
         id(n): next(
@@ -139,30 +154,26 @@ def told(line: Line, parameter: str, numbers: Sequence[tuple[str, Term, Any, Any
         for k, n in enumerate(n for n in line.numbers if not n.is_rational)
     }
 
-    def shown(end: AlgebraicNumber | None, outer: str) -> str:
-        if end is None:
-            return outer
-        return str(end.as_fraction()) if end.is_rational else names[id(end)]
+    def shown(end: AlgebraicNumber, closed: bool) -> End:
+        value = str(end.as_fraction()) if end.is_rational else names[id(end)]
+        return value, "<=" if closed else "<"
 
-    parts = []
-    for interval in line.intervals(True):
-        if interval.low is not None and interval.low is interval.high:
-            parts.append(f"{parameter} = {shown(interval.low, '')}")
-        else:
-            low, high = (
-                "<=" if closed else "<" for closed in (interval.low_closed, interval.high_closed)
-            )
-            parts.append(
-                f"{shown(interval.low, '0')} {low} {parameter} {high} {shown(interval.high, '1')}"
-            )
+    parts = [
+        interval_text(
+            parameter,
+            shown(each.low, each.low_closed) if each.low is not None else ends[0],
+            shown(each.high, each.high_closed) if each.high is not None else ends[1],
+        )
+        for each in line.intervals(True)
+    ]
     text = " or ".join(parts) or "nowhere"
-    ends = [
+    equations = [
         f"{names[id(n)]} = {n.decimal(DECIMALS)}..., a root of"
         f" {polynomial(n.coefficients, parameter)}"
         for n in line.numbers
         if not n.is_rational
     ]
-    return "; ".join([text, *ends])
+    return "; ".join([text, *equations])
 
 
 def polynomial(coefficients: Sequence[Any], name: str) -> str:

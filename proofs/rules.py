@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError, rests_on
+from juggleproof.certificates.language import (
+    NO_ROLES,
+    ClaimError,
+    End,
+    Roles,
+    bounds_of,
+    interval_text,
+    rests_on,
+)
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.vote import Vote
+from juggleproof.proofs.theorem import SENTENCE, THEOREM
 
 # -------------------------------------------------------------------------------------------------
 # How the conclusion of a map rule rests on other rules, and on premises that the checker writes:
 # down to the inequalities.
-
-THEOREM = "theorem-in-units/exactly"
 
 
 def rules_of(store: Store) -> dict[str, Any]:
@@ -71,8 +77,7 @@ def theorem_line(
     count = sum(len(checker.premises_of(rules[name], rules)) for name in names)
     kinds = ", ".join(dict.fromkeys(rules[name].kind for name in reversed(names)))
     return (
-        "theorem: proved by exact certificates: for 0 < alpha < 1, e_1 is stable and attracts"
-        f" every state of H if and only if alpha < 1/3;\n         {THEOREM} rests on"
+        f"theorem: proved by exact certificates: {SENTENCE};\n         {THEOREM} rests on"
         f" {len(names) + len(used)} statements with {count} premises, under the checker's rules"
         f" {kinds}"
         + (
@@ -151,8 +156,8 @@ def lemmas(certificate: Any) -> set[str]:
 
 
 # -------------------------------------------------------------------------------------------------
-# What follows from map rules: verdicts that wait for rules of other claims, and the range of alpha
-# for which a rule speaks.
+# What follows from map rules: verdicts that wait for rules of other claims, and the range of the
+# parameter for which a rule speaks.
 
 if TYPE_CHECKING:
     from juggleproof.proofs.judging import Judgement
@@ -170,7 +175,7 @@ def settle_by_rules(
         if one.follows:
             one.sharp[""] = {
                 "text": (
-                    range_of_rule(one.rests_on[-1], texts)
+                    range_of_rule(one.rests_on[-1], texts, one.roles)
                     if one.verdict.word == "holds"
                     else "not found"
                 ),
@@ -189,56 +194,54 @@ def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
     return rows["domain"], False
 
 
-def range_of_rule(name: str, texts: Mapping[str, str]) -> str:
-    """The alpha in (0, 1) for which the rule's conclusion is proved, told as sharp where it is
-    refuted for all others.
+def range_of_rule(name: str, texts: Mapping[str, str], roles: Roles = NO_ROLES) -> str:
+    """The parameters for which the rule's conclusion is proved, told as sharp where it is refuted
+    for all others of their domain.
 
-    >>> text = "statement t/map\\nover alpha r\\ndomain alpha > 0 and 3*alpha < 1 and r > 0"
+    >>> text = "statement t/map\\nover a r\\ndomain a > 0 and 3*a < 1 and r > 0"
     >>> range_of_rule("t/map", {"t/map": text})
-    'at least 0 < alpha < 1/3'
+    'at least 0 < a < 1/3'
 
-    Nothing is told where the domain does not speak of alpha, and the domain itself where its
-    conditions on alpha are not linear.
+    The parameter is the first of the roles, else the first that the map is over.  Nothing is told
+    where the domain does not speak of it, and the domain itself where its conditions on it are not
+    linear.
     """
     domain, is_sharp = rule_domain(name, texts)
-    if "alpha" not in checker.names_in(domain):
+    parameter = roles.parameter or _first_over(name, texts)
+    if parameter not in checker.names_in(domain):
         return ""
-    ends = alpha_interval(domain)
+    ends = bounds_of(domain, parameter)
     if not ends:
         return ("" if is_sharp else "at least ") + domain
-    low, high = ends
-    if low[0] == high[0]:
-        return f"alpha = {low[0]}"
-    whole = low == ("0", "<") and high == ("1", "<")
+    whole = _ends(roles)
+    low, high = ends[0] or whole[0], ends[1] or whole[1]
+    at_one_point = low is not None and high is not None and low[0] == high[0]
+    sure = is_sharp or at_one_point or (low, high) == whole and bool(roles.parameter)
+    return ("" if sure else "at least ") + interval_text(parameter, low, high)
+
+
+def _first_over(name: str, texts: Mapping[str, str]) -> str:
+    """The first parameter of the map that a rule is about."""
+    rows = dict(row.partition(" ")[::2] for row in texts.get(name, "").splitlines())
+    if "over" in rows:
+        return rows["over"].split()[0]
+    inner = next((rows[key] for key in ("map", "attraction", "descent") if key in rows), "")
+    return _first_over(inner, texts) if inner else ""
+
+
+def _ends(roles: Roles) -> tuple[End | None, End | None]:
+    """The ends of the first parameter's domain."""
+    said = roles.domains.get(roles.parameter, ())
     return (
-        "" if is_sharp or whole else "at least "
-    ) + f"{low[0]} {low[1]} alpha {high[1]} {high[0]}"
+        bounds_of(" and ".join(map(str, said)), roles.parameter) or (None, None)
+        if said
+        else (
+            None,
+            None,
+        )
+    )
 
 
-def alpha_interval(domain: str) -> tuple[tuple[str, str], tuple[str, str]] | None:
-    """The ends, with < or <=, of the interval in (0, 1) that the conditions on alpha alone make;
-    None where one is not linear in alpha.
-
-    >>> alpha_interval("3*alpha >= 1 and alpha < 1 and g > 0")
-    (('1/3', '<='), ('1', '<'))
-    """
-    context = checker.Context()
-    for name in sorted(checker.names_in(domain)):
-        context.declare(name)
-    formula = context.formula(checker.parse(domain))
-    low, high = (Fraction(0), "<"), (Fraction(1), "<")
-    for part in checker.conjuncts(formula):
-        if isinstance(part, bool) or part[0] != "atom":
-            return None
-        _, poly, relation = part
-        if checker.variables_of(context, poly) == {"alpha"}:
-            coefficients = checker.univariate(context, poly, "alpha")
-            if len(coefficients) != 2 or relation == "!=":
-                return None
-            constant, slope = coefficients
-            end, sign = Fraction(-constant, slope), "<" if relation == ">" else "<="
-            if slope > 0 or relation == "=":
-                low = max(low, (end, sign), key=lambda bound: (bound[0], bound[1] == "<"))
-            if slope < 0 or relation == "=":
-                high = min(high, (end, sign), key=lambda bound: (bound[0], bound[1] != "<"))
-    return (str(low[0]), low[1]), (str(high[0]), high[1])
+def whole_text(roles: Roles) -> str:
+    """The domain of the first parameter as a person reads it."""
+    return interval_text(roles.parameter, *_ends(roles))

@@ -19,11 +19,10 @@ from juggleproof.certificates.algebra.numbers import (
     sign,
     simplest_between,
 )
+from juggleproof.certificates.language import Roles
 
 Value = Union[fmpq, AlgebraicNumber]
 
-PARAMETERS = frozenset({"alpha"})
-UNITS = frozenset({"r", "g"})
 FAVOURITES = tuple(
     fmpq(p, q)
     for p, q in (
@@ -87,9 +86,9 @@ FAVOURITE_PARAMETERS = tuple(
 )  # 2*(1 + 1/8) is a square, and so on
 
 
-def favourites(name: str, integral: bool) -> tuple[fmpq, ...]:
-    """The values to try first for a variable of this name."""
-    if name in PARAMETERS:
+def favourites(name: str, integral: bool, roles: Roles) -> tuple[fmpq, ...]:
+    """The values to try first for a variable of this name; between 0 and 1 for the parameter."""
+    if name == roles.parameter:
         return FAVOURITE_PARAMETERS
     return tuple(v for v in FAVOURITES if v.q == 1) if integral else FAVOURITES
 
@@ -185,7 +184,7 @@ def whole_between(low: fmpq, high: fmpq) -> Iterator[fmpq]:
 
 
 def solutions(
-    condition: Condition, name: str, integral: bool, count: int, irrational: bool
+    condition: Condition, name: str, integral: bool, count: int, irrational: bool, roles: Roles
 ) -> list[Value]:
     """Values of the one variable left that meet the condition: favourites, the simplest of every
     open cell, then roots.
@@ -199,7 +198,7 @@ def solutions(
             return True
         return False
 
-    for value in favourites(name, integral)[: 8 + count]:
+    for value in favourites(name, integral, roles)[: 8 + count]:
         offer(value)
         if len(found) >= count:
             return found
@@ -220,21 +219,21 @@ def solutions(
     return found[: max(count, 1)]
 
 
-def trials(condition: Condition, name: str, integral: bool, count: int) -> list[fmpq]:
+def trials(condition: Condition, name: str, integral: bool, count: int, roles: Roles) -> list[fmpq]:
     """Values to try for a variable that others still depend on, among those that meet the relations
     about it alone.
     """
     place = condition.ring.variable_to_index(name)
     own = [(p, relation) for p, relation in condition.facts() if _only(p, place)]
     if not own:
-        return list(favourites(name, integral)[:count])
+        return list(favourites(name, integral, roles)[:count])
     alone = Condition(
         condition.ring,
         [p for p, _ in own],
         ("and", [(k, relation) for k, (_, relation) in enumerate(own)]),
     )
     cells = Cells(alone.in_one_variable(name))
-    meets = [v for v in favourites(name, integral) if evaluate(alone.tree, cells.signs(v))]
+    meets = [v for v in favourites(name, integral, roles) if evaluate(alone.tree, cells.signs(v))]
     found = meets[:count]
     if len(found) < count:
         for low, high in cells.intervals():

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import rests_on
+from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
+from juggleproof.certificates.search.points import search_found
 from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
 
 # -------------------------------------------------------------------------------------------------
@@ -53,6 +53,7 @@ def search_certificate(
     hints: Hints | None = None,
     confirm: bool = True,
     attempts: Attempts = ATTEMPTS,
+    roles: Roles = NO_ROLES,
 ) -> Certificate:
     """{"certified": .., "point": ..}, {"refuted": ..} or {"unknown": reason}, each accepted by the
     checker.
@@ -65,7 +66,14 @@ def search_certificate(
     >>> search_certificate(statement, {}, Budget(10**6))["certified"]
     ['proof', [], ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]]
     """
-    settings = (str(budget.left), str(hints), str(confirm), str(attempts), *sorted(known))
+    settings = (
+        str(budget.left),
+        str(hints),
+        str(confirm),
+        str(attempts),
+        str(roles),
+        *sorted(known),
+    )
     key = (
         *((keyword, written(said)) for keyword, said in statement.lines),
         *(("", setting) for setting in settings),
@@ -73,7 +81,10 @@ def search_certificate(
     if key not in _made:
         while len(_made) >= MOST:
             del _made[next(iter(_made))]
-        _made[key] = statement.name, _search(statement, known, budget, hints, confirm, attempts)
+        _made[key] = (
+            statement.name,
+            _search(statement, known, budget, hints, confirm, attempts, roles),
+        )
     name, certificate = _made[key]
     return (
         {kind: renamed(part, name, statement.name) for kind, part in certificate.items()}
@@ -111,6 +122,7 @@ def _search(
     hints: Hints | None,
     confirm: bool,
     attempts: Attempts,
+    roles: Roles,
 ) -> Certificate:
     ended: set[tuple[bool, int]] = (
         set()
@@ -122,19 +134,17 @@ def _search(
             part = budget.part(budget.left * share // 100)
             try:
                 if refutes:
-                    refuted = found(statement, "counterexample", known, part, effort)
+                    refuted = found(statement, "counterexample", known, part, effort, roles)
                     if refuted is not None:
                         return {"refuted": refuted}
                     ended.add((refutes, effort))
                     continue
-                proof = search_proof(
-                    statement, known, part, effort=effort, hints=hints, confirm=confirm
-                )
+                proof = search_proof(statement, known, part, None, effort, hints, confirm, roles)
             except Exhausted:
                 continue
             ended.add((refutes, effort))
             if proof is not None:
-                return with_point(statement, proof, known, budget)
+                return with_point(statement, proof, known, budget, roles)
     except Exhausted:
         pass
     reason = (
@@ -150,10 +160,11 @@ def with_point(
     proof: list[Any],
     known: dict[str, checker.Statement],
     budget: Budget,
+    roles: Roles,
 ) -> Certificate:
     """The certificate of a proved statement: its proof and a point that meets its hypotheses."""
     for depth in (0, 1, 2):
-        point = found(statement, "point", known, budget, depth)
+        point = found(statement, "point", known, budget, depth, roles)
         if point is not None:
             return {"certified": proof, "point": point}
     return {"unknown": "proved, but no point was found that meets the hypotheses"}
@@ -165,13 +176,19 @@ def found(
     known: dict[str, checker.Statement],
     budget: Budget,
     effort: int,
+    roles: Roles,
 ) -> list[Any] | None:
     """A point or counterexample of the statement."""
-    points = import_module("juggleproof.certificates.search.points")
-    result: list[Any] | None = points.search_found(
-        statement, checker.State(checker.Context()), purpose, {}, known, budget, effort=effort
+    return search_found(
+        statement,
+        checker.State(checker.Context()),
+        purpose,
+        {},
+        known,
+        budget,
+        effort=effort,
+        roles=roles,
     )
-    return result
 
 
 def search_proof(
@@ -182,15 +199,16 @@ def search_proof(
     effort: int = 2,
     hints: Hints | None = None,
     confirm: bool = True,
+    roles: Roles = NO_ROLES,
 ) -> list[Any] | None:
     """["proof" | "witness", nodes of the side conditions, last] that the checker accepts, or None;
     `confirm=False` leaves that to the caller.
     """
-    story = unfolded(statement, sharp)
+    unfolding = unfolded(statement, sharp)
     steps = []
-    for count, negation in story.obligations:
+    for count, negation in unfolding.obligations:
         node = search_closing(
-            checker.state_of(story, count).assume(negation),
+            checker.state_of(unfolding, count).assume(negation),
             known,
             budget,
             effort,
@@ -201,7 +219,7 @@ def search_proof(
             node is None and hints is not None
         ):  # as a rule a side condition needs no lemma, and cases of one only delay it
             node = search_closing(
-                checker.state_of(story, count).assume(negation),
+                checker.state_of(unfolding, count).assume(negation),
                 known,
                 budget,
                 effort,
@@ -212,22 +230,22 @@ def search_proof(
             return None
         steps.append(node)
     if statement.get("exists"):
-        points = import_module("juggleproof.certificates.search.points")
-        base = {name: story.context.values[name] for name in story.universal}
-        last = points.search_found(
+        base = {name: unfolding.context.values[name] for name in unfolding.universal}
+        last = search_found(
             statement,
-            checker.state_of(story),
+            checker.state_of(unfolding),
             "witness",
             base,
             known,
             budget,
-            sharp=sharp,
-            effort=effort,
+            sharp,
+            effort,
+            roles,
         )
         proof = ["witness", steps, last]
     else:
         last = search_closing(
-            checker.state_of(story).assume(story.goal(False)),
+            checker.state_of(unfolding).assume(unfolding.goal(False)),
             known,
             budget,
             effort,

@@ -20,11 +20,10 @@ from juggleproof.certificates.algebra.conditions import (
 )
 from juggleproof.certificates.algebra.numbers import sign
 from juggleproof.certificates.algebra.polynomials import term_of
-from juggleproof.certificates.language import SharpRange
+from juggleproof.certificates.language import End, SharpRange, bounds_of
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.found_terms import (
     Node,
-    Normal,
     Task,
     Wanted,
     confirmed,
@@ -33,6 +32,7 @@ from juggleproof.certificates.search.found_terms import (
     setting,
 )
 from juggleproof.certificates.search.lines import LineCover
+from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import TemplateSearch
 from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Sample
 from juggleproof.certificates.work import Budget, Exhausted, accepted
@@ -65,7 +65,15 @@ def cover(
     if samples:
         margins = margins_of(state, condition, normal)
         search = TemplateSearch(
-            base, given, task.budget, integers, task.nodes, None, task.hints, margins
+            base,
+            given,
+            task.budget,
+            integers,
+            task.nodes,
+            None,
+            task.hints,
+            margins,
+            roles=task.roles,
         )
         tried += islice(search.search(condition, unknowns), task.tries)
     else:
@@ -81,7 +89,9 @@ def cover(
             return found
     if depth <= 0 or len(samples) < 2:
         return None
-    partial = TemplateSearch(base, given, task.budget, integers, task.nodes, 1, task.hints, margins)
+    partial = TemplateSearch(
+        base, given, task.budget, integers, task.nodes, 1, task.hints, margins, roles=task.roles
+    )
     choices = sorted(
         islice(partial.search(condition, unknowns), 60), key=lambda c: (-len(c.serves), length(c))
     )
@@ -157,8 +167,8 @@ TURNED = {">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
 
 def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -> str | None:
-    """The condition of a range as bounds on one parameter, 0 < parameter < 1 being understood; None
-    where it is not linear in it.
+    """The condition of a range as bounds on one parameter, those of the domain being understood;
+    None where it is not linear in it.
 
     A relation slope*parameter + rest > 0 says parameter > -rest/slope where slope > 0, and
     parameter < -rest/slope where slope < 0. Which of the two it is on the whole domain is proved:
@@ -177,27 +187,32 @@ def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -
     if isinstance(condition, bool):
         return None
     cases = condition[1] if condition[0] == "or" else [condition]
-    texts = [_interval(case[1] if case[0] == "and" else [case], parameter, state) for case in cases]
+    ends = bounds_of(str(statement.domain), parameter) or (None, None)
+    texts = [
+        _interval(case[1] if case[0] == "and" else [case], parameter, state, ends) for case in cases
+    ]
     return None if None in texts else " or ".join(text for text in texts if text)
 
 
 def says_domain(statement: SharpRange, whole: Collection[str]) -> bool:
-    """Whether the condition, with 0 < parameter < 1 and the whole numbers being whole, implies the
-    rest of the domain: proved.
+    """Whether the condition, with what the domain says of each parameter alone and the whole
+    numbers being whole, implies the rest of the domain: proved.
     """
     state = checker.State(_state(statement, whole).context)
     context = state.context
+    domain = context.formula(checker.parse(str(statement.domain)))
     own = [
-        context.formula(checker.parse(f"{name} > 0 and {name} < 1"))
-        for name in statement.over
-        if name not in whole
+        part
+        for part in checker.conjuncts(domain)
+        if not isinstance(part, bool)
+        and part[0] == "atom"
+        and len(checker.variables_of(context, part[1]) - set(whole)) == 1
+        and not checker.variables_of(context, part[1]) & set(whole)
     ]
     state.assume(
         checker.join("and", [context.formula(checker.parse(str(statement.condition))), *own])
     )
-    return _impossible(
-        state.assume(checker.negate(context.formula(checker.parse(str(statement.domain)))))
-    )
+    return _impossible(state.assume(checker.negate(domain)))
 
 
 def _state(statement: SharpRange, whole: Collection[str]) -> checker.State:
@@ -207,9 +222,14 @@ def _state(statement: SharpRange, whole: Collection[str]) -> checker.State:
     return state.assume(state.context.formula(checker.parse(str(statement.domain))))
 
 
-def _interval(atoms: list[Any], parameter: str, state: checker.State) -> str | None:
-    """The bounds that relations set, as text; None where one is not linear, has a slope of unknown
-    sign, or repeats a bound.
+def _interval(
+    atoms: list[Any],
+    parameter: str,
+    state: checker.State,
+    ends: tuple[End | None, End | None],
+) -> str | None:
+    """The bounds that relations set, as text, else the ends of the domain; None where one is not
+    linear, has a slope of unknown sign, or repeats a bound.
     """
     bounds: dict[str, str] = {}
     for atom in atoms:
@@ -226,10 +246,11 @@ def _interval(atoms: list[Any], parameter: str, state: checker.State) -> str | N
         return exact[0] if len(bounds) == 1 else None
     low = next(
         (f"{text} {TURNED[relation]} " for relation, text in bounds.items() if relation[0] == ">"),
-        "0 < ",
+        f"{ends[0][0]} {ends[0][1]} " if ends[0] else "",
     )
     high = next(
-        (f" {relation} {text}" for relation, text in bounds.items() if relation[0] == "<"), " < 1"
+        (f" {relation} {text}" for relation, text in bounds.items() if relation[0] == "<"),
+        f" {ends[1][1]} {ends[1][0]}" if ends[1] else "",
     )
     return low + parameter + high
 

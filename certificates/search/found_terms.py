@@ -18,181 +18,12 @@ from juggleproof.certificates.algebra.conditions import (
     to_flint,
     to_text,
 )
-from juggleproof.certificates.algebra.polynomials import Ring
+from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.facts import Scaling, Weight
+from juggleproof.certificates.search.facts import Weight
+from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Root, Sample
 from juggleproof.certificates.work import Budget, Exhausted, accepted
-
-# -------------------------------------------------------------------------------------------------
-# A state in fewer variables: units set to 1 and linear equations used up, with a way back for the
-# terms found there.
-
-
-class Normal:
-    """The variables of a state and of the unknowns, lowered: a unit is 1, and a variable that an
-    equation gives is what it gives.
-    """
-
-    def __init__(self, state: checker.State, condition: Condition, equations: bool = True) -> None:
-        self.ring: fmpq_mpoly_ctx = condition.ring
-        names = tuple(self.ring.names())
-        size = len(state.context.index)
-        own = fmpq_mpoly_ctx.get(list(state.context.index) or ["none"], self.ring.ordering())
-        facts = [
-            (to_flint(poly, own, size).project_to_context(self.ring), relation)
-            for poly, relation in state.facts
-        ]
-        positive = [
-            p.degrees().index(1)
-            for p, relation in facts
-            if relation == ">"
-            and len(p) == 1
-            and p.total_degree() == 1
-            and p.leading_coefficient() > 0
-        ]
-        choices = [
-            to_flint(part[1], own, size).project_to_context(self.ring)
-            for choice in state.choices
-            for part in _atoms(("or", list(choice)))
-        ]
-        polys = [p for p in [*condition.polys, *choices, *(p for p, _ in facts)] if p != 0]
-        self.scaling = Scaling(Ring(names), polys, sorted(set(positive)))
-        whole = {*state.context.integers}
-        if any(
-            any(self.scaling.weights[k])
-            for k, name in enumerate(names)
-            if name in whole and self.scaling.units
-        ):
-            self.scaling = Scaling(Ring(names), polys, [])
-        self.units = {names[k]: fmpq(1) for k in self.scaling.units}
-        self.weights: dict[str, Weight] = (
-            dict(zip(names, self.scaling.weights)) if self.units else {}
-        )
-        self.steps: list[tuple[str, fmpq_mpoly]] = []
-        if equations:
-            self._use_equations(
-                [p.subs(self.units) for p, relation in facts if relation == "="],
-                [n for n in state.context.index if n not in whole],
-            )
-
-    def _use_equations(self, equations: list[fmpq_mpoly], names: Sequence[str]) -> None:
-        while True:
-            step = next(
-                (
-                    (name, -rest / lead)
-                    for poly in equations
-                    for name in reversed(names)
-                    for rest, lead in _linear(poly, name)
-                ),
-                None,
-            )
-            if step is None:
-                return
-            self.steps.append(step)
-            equations = [_put(poly, *step) for poly in equations]
-
-    def lower(self, poly: fmpq_mpoly) -> fmpq_mpoly:
-        """The polynomial in the variables that are left."""
-        poly = self.lower_units(poly)
-        for name, value in self.steps:
-            poly = _put(poly, name, value)
-        return poly
-
-    def lower_units(self, poly: fmpq_mpoly) -> fmpq_mpoly:
-        """The polynomial with the units set to 1, and no more."""
-        return poly.subs(self.units) if self.units else poly
-
-    def condition(self, condition: Condition) -> Condition:
-        """The condition in the variables that are left."""
-        return condition.mapped(self.lower) if self.units or self.steps else condition
-
-    def base(self, names: Sequence[str]) -> list[str]:
-        """Those of the names that are left."""
-        gone = {*self.units, *(name for name, _ in self.steps)}
-        return [name for name in names if name not in gone]
-
-    def sample(self, sample: Sample) -> Sample:
-        """The sample in these units."""
-        if not self.units:
-            return sample
-        found = {}
-        for name, value in sample.items():
-            for unit, power in zip(self.units, self.weights[name]):
-                value = value / sample[unit] ** power
-            found[name] = value
-        return found
-
-    # ------------------------------------------------ the way back
-
-    def weight_of_root(self, root: Root) -> Weight:
-        """The weight that makes the polynomial of an adjoined root liftable; from now on that of
-        its name.
-        """
-        if self.units and root.name.startswith("root"):
-            self.weights[root.name] = (0,) * len(self.units)
-            lower = coefficients_in(root.poly, root.name)
-            tops = [self.weight(c) for c in lower[:2]]
-            self.weights[root.name] = tuple(max(b, -(-c // 2)) for c, b in zip(*tops))
-        return self.weights.get(root.name, ())
-
-    def weight(self, poly: fmpq_mpoly) -> Weight:
-        """The least weight to which a lowered polynomial can be lifted."""
-        names, zero = self.ring.names(), (0,) * len(self.units)
-        parts = [
-            tuple(
-                sum(int(e) * self.weights[n][k] for n, e in zip(names, powers) if e)
-                for k in range(len(zero))
-            )
-            for powers in poly.to_dict()
-        ]
-        return tuple(map(max, zip(*parts))) if parts and zero else zero
-
-    def lift(self, poly: fmpq_mpoly, weight: Weight | None = None) -> fmpq_mpoly:
-        """The homogeneous polynomial of this weight, or the least possible, which lowers to the
-        given one.
-        """
-        if not self.units:
-            return poly
-        weight = self.weight(poly) if weight is None else weight
-        names, terms = self.ring.names(), {}
-        places = [self.ring.variable_to_index(unit) for unit in self.units]
-        for powers, c in poly.to_dict().items():
-            exponents = [int(e) for e in powers]
-            for k, place in enumerate(places):
-                have = sum(int(e) * self.weights[n][k] for n, e in zip(names, powers) if e)
-                exponents[place] += weight[k] - have
-            terms[tuple(exponents)] = c
-        return self.ring.from_dict(terms)
-
-
-def _atoms(formula: Any) -> list[tuple[str, checker.Poly, str]]:
-    if isinstance(formula, bool):
-        return []
-    return (
-        [formula]
-        if formula[0] == "atom"
-        else [atom for part in formula[1] for atom in _atoms(part)]
-    )
-
-
-def _linear(poly: fmpq_mpoly, name: str) -> list[tuple[fmpq_mpoly, fmpq]]:
-    if poly == 0 or poly.degrees()[poly.context().variable_to_index(name)] != 1:
-        return []
-    rest, slope = coefficients_in(poly, name)
-    value = constant_of(slope)
-    return [(rest, value)] if value is not None else []
-
-
-def _put(poly: fmpq_mpoly, name: str, value: fmpq_mpoly) -> fmpq_mpoly:
-    if poly == 0 or not poly.degrees()[poly.context().variable_to_index(name)]:
-        return poly
-    coefficients = coefficients_in(poly, name)
-    result = coefficients[-1]
-    for c in reversed(coefficients[:-1]):
-        result = result * value + c
-    return result
-
 
 # -------------------------------------------------------------------------------------------------
 # Terms as the checker takes them: quotients written with divisions that are licensed, roots
@@ -218,8 +49,8 @@ class Renamed:
 
 
 class TermWriter:
-    """Writes quotients of lowered polynomials in a context; a bottom without a licence is adjoined,
-    as a root.
+    """Writes quotients of dehomogenised polynomials in a context; a bottom without a licence is
+    adjoined, as a root.
     """
 
     def __init__(self, context: checker.Context, renamed: Renamed, normal: Normal) -> None:
@@ -228,15 +59,15 @@ class TermWriter:
         ring = renamed.ring
         size = len(context.index)
         keys = list(context.index)
-        self.licensed: list[tuple[fmpq_mpoly, fmpq_mpoly]] = []  # each as it is, and lowered
+        self.licensed: list[tuple[fmpq_mpoly, fmpq_mpoly]] = []  # each as it is, and dehomogenised
         for poly, _ in context.licensed.values():
             if set(keys) <= set(ring.names()):
                 whole = to_flint(
                     poly, fmpq_mpoly_ctx.get(keys, ring.ordering()), size
                 ).project_to_context(ring)
-                lowered = normal.lower(whole)
-                if not lowered.is_constant():
-                    self.licensed.append((whole, lowered))
+                dehomogenised = normal.dehomogenised(whole)
+                if not dehomogenised.is_constant():
+                    self.licensed.append((whole, dehomogenised))
         self.inverses: dict[str, tuple[str, fmpq_mpoly]] = {}
 
     def fresh(self, name: str) -> str:
@@ -247,7 +78,7 @@ class TermWriter:
         return name
 
     def licence(self, factor: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly] | None:
-        """What is licensed and has this factor, as it is and lowered."""
+        """What is licensed and has this factor, as it is and dehomogenised."""
         return next((pair for pair in self.licensed if (pair[1] % factor) == 0), None)
 
     def unlicensed(self, value: Quotient) -> list[fmpq_mpoly]:
@@ -274,22 +105,22 @@ class TermWriter:
                 bottoms += [(self.renamed.text(licence[0]), power)]
                 need = [
                     n + power * w
-                    for n, w in zip(need, normal.weight(normal.lower_units(licence[0])))
+                    for n, w in zip(need, normal.weight(normal.at_scale_one(licence[0])))
                 ]
             else:
-                mark = self.renamed.text(factor)
-                if mark not in self.inverses:
-                    self.inverses[mark] = (self.fresh("inverse"), factor)
-                inverses += [(self.inverses[mark][0], power)]
+                key = self.renamed.text(factor)
+                if key not in self.inverses:
+                    self.inverses[key] = (self.fresh("inverse"), factor)
+                inverses += [(self.inverses[key][0], power)]
         missing = [n - w for n, w in zip(need, normal.weight(top))]
         whole = normal.lift(top)
-        for unit, power in zip(normal.units, missing):
+        for scale, power in zip(normal.scales, missing):
             if power > 0:
                 whole = (
-                    whole * whole.context().gen(whole.context().variable_to_index(unit)) ** power
+                    whole * whole.context().gen(whole.context().variable_to_index(scale)) ** power
                 )
             elif power < 0 and top != 0:
-                bottoms.append((unit, -power))
+                bottoms.append((scale, -power))
         text = self.renamed.text(whole)
         if inverses:
             text = "*".join([_whole(text), *(n if e == 1 else f"{n}^{e}" for n, e in inverses)])
@@ -404,17 +235,23 @@ def _with_nodes(
         values = {
             variable: own.context.value(checker.parse(text)) for variable, text in terms.items()
         }
-        story = checker.Unfolding(
+        unfolding = checker.Unfolding(
             statement, checker.Context(own.context, {**values, **base}), sharp
         )
         aims = [
             own.branch(
                 checker.negate(
-                    checker.join("and", story.goals if purpose == "witness" else story.premises)
+                    checker.join(
+                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
+                    )
                 )
             )
         ]
-        aims += [own.branch(story.goal(True), story.context)] if purpose == "counterexample" else []
+        aims += (
+            [own.branch(unfolding.goal(True), unfolding.context)]
+            if purpose == "counterexample"
+            else []
+        )
     except checker.Rejected:
         return None
     nodes = []
@@ -541,43 +378,44 @@ class Task:
     hints: Mapping[str, Sequence[Quotient]] = field(default_factory=dict)
     nodes: int = 400
     tries: int = 6
+    roles: Roles = NO_ROLES
 
 
 def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str], frozenset[str]]:
     """The condition on base and unknowns, the key in the ring of every unknown, and the keys that
     are integers.
     """
-    story = checker.Unfolding(
+    unfolding = checker.Unfolding(
         task.statement, checker.Context(state.context, dict(task.base)), task.sharp
     )
     if task.purpose == "witness":
-        formula = story.goal(True)
-        needed = story.variables
+        formula = unfolding.goal(True)
+        needed = unfolding.variables
     else:
-        premises = checker.join("and", list(story.premises))
+        premises = checker.join("and", list(unfolding.premises))
         exists = task.statement.get("exists")
         formula = (
-            checker.join("and", [premises, story.goal(False)])
+            checker.join("and", [premises, unfolding.goal(False)])
             if task.purpose == "counterexample" and not exists
             else premises
         )
-        needed = set(story.universal)
-    by_place = {i: key for key, i in story.context.index.items()}
+        needed = set(unfolding.universal)
+    by_place = {i: key for key, i in unfolding.context.index.items()}
     keys = {}
     order = [
         n for line in (*task.statement.get("forall"), *task.statement.get("exists")) for n in line
     ]
     for name in sorted(
         needed - set(task.base),
-        key=lambda n: (n not in ("r", "g"), order.index(n) if n in order else len(order)),
+        key=lambda n: (not task.roles.is_scale(n), order.index(n) if n in order else len(order)),
     ):
-        (monomial,) = story.context.values[name].terms
+        (monomial,) = unfolding.context.values[name].terms
         keys[name] = by_place[(monomial.bit_length() - 1) // checker.BITS]
-    integers = frozenset(keys[n] for n in story.integers if n in keys) | frozenset(
+    integers = frozenset(keys[n] for n in unfolding.integers if n in keys) | frozenset(
         state.context.integers
     )
     return (
-        Condition.of(story.context, formula, ring_of(story.context, *SPARE)).cleared(),
+        Condition.of(unfolding.context, formula, ring_of(unfolding.context, *SPARE)).cleared(),
         keys,
         integers,
     )
@@ -591,10 +429,10 @@ def failing_goal(
     """
     if task.purpose != "counterexample" or not task.statement.get("exists"):
         return None, []
-    story = checker.Unfolding(
+    unfolding = checker.Unfolding(
         task.statement, checker.Context(state.context, dict(task.base)), task.sharp
     )
-    goal = Condition.of(story.context, story.goal(True), condition.ring)
+    goal = Condition.of(unfolding.context, unfolding.goal(True), condition.ring)
     outer = set(condition.ring.names()) - {
         name for line in task.statement.get("exists") for name in line
     }
@@ -605,8 +443,8 @@ def failing_goal(
 
 
 def margins_of(state: checker.State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
-    """What the state says to be positive, lowered, as long as it is short, and products: small
-    where the state ends.
+    """What the state says to be positive, dehomogenised, as long as it is short, and products:
+    small where the state ends.
     """
     size = len(state.context.index)
     keys = list(state.context.index)
@@ -614,14 +452,16 @@ def margins_of(state: checker.State, condition: Condition, normal: Normal) -> li
     found: list[fmpq_mpoly] = []
     for poly, relation in state.facts:
         if relation in (">", ">="):
-            lowered = normal.lower(to_flint(poly, ring, size).project_to_context(condition.ring))
+            dehomogenised = normal.dehomogenised(
+                to_flint(poly, ring, size).project_to_context(condition.ring)
+            )
             if (
-                not lowered.is_constant()
-                and len(lowered) <= 6
-                and lowered.total_degree() <= 4
-                and lowered not in found
+                not dehomogenised.is_constant()
+                and len(dehomogenised) <= 6
+                and dehomogenised.total_degree() <= 4
+                and dehomogenised not in found
             ):
-                found.append(lowered)
+                found.append(dehomogenised)
     least = sorted(found, key=lambda p: (p.total_degree(), len(p)))[:5]
     return least + [least[0] * q for q in least[1:3]]
 

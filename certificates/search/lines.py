@@ -22,7 +22,6 @@ from juggleproof.certificates.search.candidates import separate
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.found_terms import (
     Node,
-    Normal,
     Task,
     Wanted,
     confirmed,
@@ -34,6 +33,7 @@ from juggleproof.certificates.search.found_terms import (
 from juggleproof.certificates.search.models import ask
 from juggleproof.certificates.search.ranges import Interval, Line
 from juggleproof.certificates.search.samples import state_condition
+from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import CornerSearch, TemplateSearch
 from juggleproof.certificates.search.terms import (
     NEGLIGIBLE,
@@ -174,6 +174,7 @@ class LineCover:
                 task.hints,
                 self.margins,
                 borders,
+                task.roles,
             )
             for kind in (CornerSearch, TemplateSearch)
         ]

@@ -15,6 +15,7 @@ from flint import fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 
 from juggleproof.certificates.algebra.conditions import Condition, Tree, places
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, exact, simplest_between
+from juggleproof.certificates.language import Roles
 from juggleproof.certificates.search.candidates import Value, trials
 from juggleproof.certificates.search.samples import Assignment, Sampler
 from juggleproof.certificates.work import Budget
@@ -195,6 +196,7 @@ def model_assignments(
     integers: frozenset[str],
     budget: Budget,
     effort: int,
+    roles: Roles,
 ) -> Iterator[Assignment]:
     """Assignments that meet the condition, near a model of it; none where Z3 finds no model."""
     resources = 300_000 * 10 ** (effort - 1)
@@ -207,25 +209,27 @@ def model_assignments(
         here = condition.substituted(pinned)
         if name not in here.variables():
             continue
-        for value in _near(here, name, model.get(name, fmpq(0)), name in integers):
+        for value in _near(here, name, model.get(name, fmpq(0)), name in integers, roles):
             answer = ask(here.substituted({name: value}), budget, integers, resources, model=True)
             if answer.verdict == "sat":
                 pinned[name] = value
                 model = answer.model
                 break
     rest = condition.substituted(pinned)
-    sampler = Sampler(budget, integers, 6, 2, 400, True)
+    sampler = Sampler(budget, integers, 6, 2, 400, True, roles=roles)
     for assignment in sampler.search(rest, [n for n in names if n not in pinned]):
         for name, pin in pinned.items():
             assignment.values[name] = _constant(pin)
         yield assignment
 
 
-def _near(condition: Condition, name: str, value: Value, integral: bool) -> list[fmpq]:
+def _near(
+    condition: Condition, name: str, value: Value, integral: bool, roles: Roles
+) -> list[fmpq]:
     """Values to try in place of a model's: favourites that meet what is said of the variable alone,
     then simple ones ever nearer.
     """
-    found = list(trials(condition, name, integral, 4))
+    found = list(trials(condition, name, integral, 4, roles))
     if isinstance(value, AlgebraicNumber):
         centre = value.approximation()
     else:

@@ -26,12 +26,14 @@ from juggleproof.certificates.algebra.numbers import (
     sign,
     simplest_between,
 )
+from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.search.candidates import trials
 from juggleproof.certificates.search.closing import Adjoined, close_at_number, search_closing
 from juggleproof.certificates.search.families import cover
 from juggleproof.certificates.search.found_terms import Task, adjoined_entry
 from juggleproof.certificates.search.models import ask, model_assignments, near_points
 from juggleproof.certificates.search.samples import Assignment, Sampler, base_samples
+from juggleproof.certificates.search.scales import with_scales
 from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
 
 # -------------------------------------------------------------------------------------------------
@@ -71,14 +73,10 @@ class Towers:
         guide: Mapping[str, fmpq],
         nodes: int,
         width: int,
+        roles: Roles,
     ) -> None:
-        self.budget, self.names, self.guide, self.nodes, self.width = (
-            budget,
-            list(names),
-            guide,
-            nodes,
-            width,
-        )
+        self.budget, self.names, self.guide = budget, list(names), guide
+        self.nodes, self.width, self.roles = nodes, width, roles
 
     def search(
         self,
@@ -95,14 +93,14 @@ class Towers:
         if condition.tree is True:
             yield self._completed(condition, roots, steps)
             return
-        near = {name: value for name, _, value in roots}
+        approximate = {name: value for name, _, value in roots}
         for poly, relation in condition.facts():
-            free = self._free(poly, near)
+            free = self._free(poly, approximate)
             if relation == "=" and len(free) == 1:
-                yield from self._rooted(condition, roots, steps, free[0], poly, near)
+                yield from self._rooted(condition, roots, steps, free[0], poly, approximate)
                 return
         for poly, relation in condition.facts():
-            for name in self._free(poly, near) if relation == "=" else ():
+            for name in self._free(poly, approximate) if relation == "=" else ():
                 rest, *slopes = coefficients_in(poly, name)
                 slope = constant_of(slopes[0]) if len(slopes) == 1 else None
                 if slope:
@@ -113,19 +111,19 @@ class Towers:
                         (*steps, (name, value)),
                     )
                     return
-        name = next(n for n in self.names if n in condition.variables() and n not in near)
-        for value in self._tried(condition, name, near):
+        name = next(n for n in self.names if n in condition.variables() and n not in approximate)
+        for value in self._tried(condition, name, approximate):
             yield from self.search(
                 condition.substituted({name: value}),
                 roots,
                 (*steps, (name, condition.ring.constant(value))),
             )
 
-    def _free(self, poly: fmpq_mpoly, near: Mapping[str, fmpq]) -> list[str]:
+    def _free(self, poly: fmpq_mpoly, approximate: Mapping[str, fmpq]) -> list[str]:
         return [
             name
             for name, e in zip(places(poly.context()), poly.degrees())
-            if e > 0 and name not in near
+            if e > 0 and name not in approximate
         ]
 
     def _rooted(
@@ -135,10 +133,10 @@ class Towers:
         steps: tuple[tuple[str, fmpq_mpoly], ...],
         name: str,
         poly: fmpq_mpoly,
-        near: Mapping[str, fmpq],
+        approximate: Mapping[str, fmpq],
     ) -> Iterator[Tower]:
         """The roots of an equation in one variable, those next to the guide first."""
-        given = {places(condition.ring)[n]: v for n, v in near.items()}
+        given = {places(condition.ring)[n]: v for n, v in approximate.items()}
         alone = univariate(poly.subs(given), name)
         found = [
             root
@@ -151,7 +149,7 @@ class Towers:
             )
         )
         rational = not any(
-            e > 0 for n, e in zip(places(poly.context()), poly.degrees()) if n in near
+            e > 0 for n, e in zip(places(poly.context()), poly.degrees()) if n in approximate
         )
         for root in found:
             if root.is_rational and rational:
@@ -166,7 +164,9 @@ class Towers:
                     condition, (*roots, (name, poly, root.approximation())), steps
                 )
 
-    def _tried(self, condition: Condition, name: str, near: Mapping[str, fmpq]) -> list[fmpq]:
+    def _tried(
+        self, condition: Condition, name: str, approximate: Mapping[str, fmpq]
+    ) -> list[fmpq]:
         values: list[fmpq] = []
         if name in self.guide:
             values += [
@@ -178,7 +178,11 @@ class Towers:
                 )
             )
         values += trials(
-            condition.substituted(near) if near else condition, name, False, self.width
+            condition.substituted(approximate) if approximate else condition,
+            name,
+            False,
+            self.width,
+            self.roles,
         )
         return list(dict.fromkeys(values))
 
@@ -186,15 +190,15 @@ class Towers:
         self, condition: Condition, roots: Sequence[tuple[str, fmpq_mpoly, fmpq]]
     ) -> Condition:
         """The condition with the signs of polynomials in roots alone, as they seem."""
-        near = {name: value for name, _, value in roots}
-        if not near or isinstance(condition.tree, bool):
+        approximate = {name: value for name, _, value in roots}
+        if not approximate or isinstance(condition.tree, bool):
             return condition
         given, changed = (
-            {places(condition.ring)[n]: v for n, v in near.items()},
+            {places(condition.ring)[n]: v for n, v in approximate.items()},
             list(condition.polys),
         )
         for k in condition.used():
-            if changed[k].total_degree() > 0 and not self._free(changed[k], near):
+            if changed[k].total_degree() > 0 and not self._free(changed[k], approximate):
                 value = constant_of(changed[k].subs(given)) or fmpq(0)
                 changed[k] = condition.ring.constant(0 if abs(value) < TINY else sign(value))
         return Condition(condition.ring, changed, fold(condition.tree, changed.__getitem__))
@@ -252,11 +256,13 @@ def as_found(
     terms = {name: to_text(value) for name, value in sorted(tower.values.items())}
     try:
         values = {name: own.context.value(checker.parse(text)) for name, text in terms.items()}
-        story = checker.Unfolding(statement, checker.Context(own.context, values))
+        unfolding = checker.Unfolding(statement, checker.Context(own.context, values))
     except checker.Rejected:
         return None
-    aims = [own.branch(checker.negate(checker.join("and", story.premises)))]
-    aims += [own.branch(story.goal(True), story.context)] if purpose == "counterexample" else []
+    aims = [own.branch(checker.negate(checker.join("and", unfolding.premises)))]
+    aims += (
+        [own.branch(unfolding.goal(True), unfolding.context)] if purpose == "counterexample" else []
+    )
     nodes = [search_closing(aim, known, budget, 1) for aim in aims]
     return None if None in nodes else [statement.name, entries, terms, *nodes]
 
@@ -276,21 +282,6 @@ ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
 )
 
 
-def search_points(
-    statement: checker.Statement, known: Known, budget: Budget, effort: int = 0
-) -> tuple[Found | None, Found | None]:
-    """(a point that meets the premises, a counterexample), each as the checker accepts it, or
-    None.
-    """
-    state: checker.State = checker.State(checker.Context())
-    counterexample = search_found(
-        statement, state, "counterexample", {}, known, budget, effort=effort
-    )
-    if counterexample is not None:
-        return counterexample[:4], counterexample
-    return search_found(statement, state, "point", {}, known, budget, effort=effort), None
-
-
 def search_found(
     statement: checker.Statement,
     state: checker.State,
@@ -300,33 +291,36 @@ def search_found(
     budget: Budget,
     sharp: list[Any] | None = None,
     effort: int = 1,
+    roles: Roles = NO_ROLES,
 ) -> Found | None:
     """Values as `checker.find` takes them for the purpose "point", "counterexample" or "witness";
     None where none was found.
     """
+    unfolding = unfolded(statement, sharp)
+    roles = with_scales(roles, unfolding)
     if base:
-        return _found_terms(Task(statement, purpose, base, known, budget, sharp, effort), state)
-    story = unfolded(statement, sharp)
+        task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
+        return _found_terms(task, state)
     exists = bool(statement.get("exists"))
-    parts = list(story.premises)
-    names = list(story.universal)
+    parts = list(unfolding.premises)
+    names = list(unfolding.universal)
     if purpose == "witness":
-        parts, names = [story.goal(True)], sorted(story.variables)
+        parts, names = [unfolding.goal(True)], sorted(unfolding.variables)
     elif purpose == "counterexample" and not exists:
-        parts.append(story.goal(False))
+        parts.append(unfolding.goal(False))
     whole = checker.join("and", parts)
     if whole is False:
         return None
-    condition = Condition.of(story.context, whole, ring_of(story.context))
+    condition = Condition.of(unfolding.context, whole, ring_of(unfolding.context))
     goal = (
-        Condition.of(story.context, story.goal(True), condition.ring)
+        Condition.of(unfolding.context, unfolding.goal(True), condition.ring)
         if exists and purpose == "counterexample"
         else None
     )
     if (
         exists
         or purpose == "witness"
-        or story.integers
+        or unfolding.integers
         or sharp
         or not effort
         or not any(r == "=" for _, r in condition.facts())
@@ -337,12 +331,13 @@ def search_found(
             condition,
             goal,
             names,
-            frozenset(story.integers),
+            frozenset(unfolding.integers),
             purpose,
             known,
             budget,
             sharp,
             effort,
+            roles,
         )
     try:
         part = budget.part(budget.left * 6 // 10)
@@ -358,10 +353,13 @@ def search_found(
             part,
             sharp,
             effort,
+            roles,
         )
     except Exhausted:
         found = None
-    return found or _by_towers(statement, state, condition, names, purpose, known, budget, effort)
+    return found or _by_towers(
+        statement, state, condition, names, purpose, known, budget, effort, roles
+    )
 
 
 def _sampled(
@@ -376,11 +374,13 @@ def _sampled(
     budget: Budget,
     sharp: list[Any] | None,
     effort: int,
+    roles: Roles,
 ) -> Found | None:
     """A point from samples and models, with one irrational number at most."""
     failures = 0
-    for assignment in assignments(condition, names, integers, budget, effort, goal is not None):
-        if goal is not None and not _beyond(goal, assignment, names, integers, budget):
+    many = goal is not None
+    for assignment in assignments(condition, names, integers, budget, effort, many, roles):
+        if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
             failures += 1
         else:
             found = as_found_point(
@@ -403,11 +403,12 @@ def _by_towers(
     known: Known,
     budget: Budget,
     effort: int,
+    roles: Roles,
 ) -> Found | None:
     """A point with several irrational values, sought near points in floats."""
     for guide in near_points(condition, names, budget):
         failures = 0
-        for tower in Towers(budget, names, guide, 60 * effort, 1).search(condition):
+        for tower in Towers(budget, names, guide, 60 * effort, 1, roles).search(condition):
             for digits in DIGITS:
                 found = as_found(statement, state, tower, purpose, known, budget, digits)
                 if found is not None and accepted(
@@ -433,6 +434,7 @@ def _beyond(
     names: Sequence[str],
     integers: frozenset[str],
     budget: Budget,
+    roles: Roles,
 ) -> bool:
     """Whether Z3 thinks that no values of the `exists` variables meet the goals at a rational
     point.
@@ -443,7 +445,8 @@ def _beyond(
         return False
     there = goal.substituted(exact)
     rest = sorted(there.variables())
-    if next(Sampler(budget, integers, *ROUNDS[0][0]).search(there, rest), None) is not None:
+    sampler = Sampler(budget, integers, *ROUNDS[0][0], roles=roles)
+    if next(sampler.search(there, rest), None) is not None:
         return False  # so simple values that meet the goals need not be asked for
     return ask(there, budget, integers, 200_000).verdict == "unsat"
 
@@ -452,7 +455,9 @@ def _found_terms(task: Task, state: checker.State) -> Found | None:
     """Terms in the base variables, on all of the state."""
     if task.effort == 0:
         task = replace(task, effort=1, nodes=40, tries=2)
-    return cover(task, state, base_samples(state, task.budget), depth=(0, 2, 4)[task.effort])
+    return cover(
+        task, state, base_samples(state, task.budget, task.roles), depth=(0, 2, 4)[task.effort]
+    )
 
 
 def assignments(
@@ -462,19 +467,20 @@ def assignments(
     budget: Budget,
     effort: int,
     many: bool = False,
+    roles: Roles = NO_ROLES,
 ) -> Iterator[Assignment]:
     """Assignments that meet a condition, from wider and wider samples; at last from Z3's models."""
     for width, last, nodes, irrational in ROUNDS[effort]:
-        yield from Sampler(budget, integers, width, last + 12 * many, nodes, irrational).search(
-            condition, names
-        )
+        yield from Sampler(
+            budget, integers, width, last + 12 * many, nodes, irrational, roles=roles
+        ).search(condition, names)
         if effort and width == 6:
             # Where Z3 sees that there is nothing, wider samples would be in vain.
             answer = ask(condition, budget, integers, 100_000).verdict
             if answer == "unsat":
                 return
             if answer == "sat" and not many:
-                yield from model_assignments(condition, names, integers, budget, effort)
+                yield from model_assignments(condition, names, integers, budget, effort, roles)
 
 
 def as_found_point(
@@ -517,7 +523,7 @@ def as_found_point(
     return None
 
 
-def _story(
+def _unfolding(
     statement: checker.Statement, state: checker.State, found: Found, sharp: list[Any] | None
 ) -> tuple[checker.State, checker.Unfolding]:
     """The state and the unfolding that the checker has when it comes to the nodes of a found
@@ -539,9 +545,9 @@ def _goal_node(
     sharp: list[Any] | None,
     effort: int,
 ) -> list[Any] | None:
-    state, story = _story(statement, state, found, sharp)
+    state, unfolding = _unfolding(statement, state, found, sharp)
     return search_closing(
-        state.branch(story.goal(True), story.context), known, budget, min(effort, 1)
+        state.branch(unfolding.goal(True), unfolding.context), known, budget, min(effort, 1)
     )
 
 
@@ -555,16 +561,18 @@ def _with_nodes(
 ) -> bool:
     """Fills in the nodes at an adjoined number; whether that went well."""
     try:
-        state, story = _story(statement, state, found, sharp)
+        state, unfolding = _unfolding(statement, state, found, sharp)
         branches = [
             state.branch(
                 checker.negate(
-                    checker.join("and", story.goals if purpose == "witness" else story.premises)
+                    checker.join(
+                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
+                    )
                 )
             )
         ]
         if purpose == "counterexample":
-            branches.append(state.branch(story.goal(True), story.context))
+            branches.append(state.branch(unfolding.goal(True), unfolding.context))
         for k, branch in enumerate(branches):
             node = close_at_number(branch, adjoined)
             if node is None:

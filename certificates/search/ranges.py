@@ -28,7 +28,9 @@ from juggleproof.certificates.algebra.numbers import (
 )
 from juggleproof.certificates.algebra.polynomials import relation_of
 from juggleproof.certificates.language import (
+    NO_ROLES,
     Formula,
+    Roles,
     Term,
     conjunction,
     disjunction,
@@ -36,8 +38,9 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.certificates.search.candidates import FAVOURITE_PARAMETERS, UNITS, separate
+from juggleproof.certificates.search.candidates import FAVOURITE_PARAMETERS, separate
 from juggleproof.certificates.search.models import RESOURCES, ask
+from juggleproof.certificates.search.scales import with_scales
 from juggleproof.certificates.search.terms import ring_names
 from juggleproof.certificates.work import Budget
 
@@ -47,10 +50,14 @@ from juggleproof.certificates.work import Budget
 
 
 def pinned(
-    statements: Sequence[checker.Statement], parameter: str, domain: Any, budget: Budget
+    statements: Sequence[checker.Statement],
+    parameter: str,
+    domain: Any,
+    budget: Budget,
+    roles: Roles = NO_ROLES,
 ) -> tuple[str, Formula] | None:
     """(a whole number of all the statements, what their hypotheses say of it and the parameter
-    alone), units being 1.
+    alone), scales being 1.
 
     >>> text = "statement a/b\\nforall alpha n x\\ninteger n\\n"
     >>> text += "given n <= 2*alpha and 2*alpha < n + 1\\nshow x*n <= 2*x*alpha"
@@ -59,7 +66,7 @@ def pinned(
     '2*alpha - n >= 0 and -2*alpha + n + 1 > 0'
     """
     for name in sorted({n for each in statements for line in each.get("integer") for n in line}):
-        said = [_said(each, parameter, name, domain, budget) for each in statements]
+        said = [_said(each, parameter, name, domain, budget, roles) for each in statements]
         if said and all(said):
             return name, conjunction(
                 list({str(formula): formula for formulas in said for formula in formulas}.values())
@@ -68,14 +75,19 @@ def pinned(
 
 
 def _said(
-    statement: checker.Statement, parameter: str, name: str, domain: Any, budget: Budget
+    statement: checker.Statement,
+    parameter: str,
+    name: str,
+    domain: Any,
+    budget: Budget,
+    roles: Roles,
 ) -> list[Formula]:
-    story = checker.Unfolding(statement, checker.Context(), [domain])
-    if name not in story.integers or name not in story.universal:
+    unfolding = checker.Unfolding(statement, checker.Context(), [domain])
+    if name not in unfolding.integers or name not in unfolding.universal:
         return []
-    ring = ring_of(story.context)
-    premises = Condition.of(story.context, checker.join("and", list(story.premises)), ring)
-    premises = premises.substituted({unit: fmpq(1) for unit in UNITS & story.variables})
+    ring = ring_of(unfolding.context)
+    premises = Condition.of(unfolding.context, checker.join("and", list(unfolding.premises)), ring)
+    premises = premises.substituted(_ones(unfolding, roles))
     left, _ = without_equations(premises, {parameter, name}, budget, ())
     positive = [
         poly
@@ -87,6 +99,12 @@ def _said(
         for poly, relation in left.facts()
         if ring_names(poly) == {parameter, name}
     ]
+
+
+def _ones(unfolding: checker.Unfolding, roles: Roles) -> dict[str, fmpq]:
+    """1 for every scale of an unfolded statement."""
+    scales = with_scales(roles, unfolding).scales or frozenset()
+    return {name: fmpq(1) for name in scales & unfolding.variables}
 
 
 def _without(positive: Sequence[fmpq_mpoly], poly: fmpq_mpoly) -> fmpq_mpoly:
@@ -326,21 +344,23 @@ class Violation:
     integers: tuple[str, ...]
 
     @staticmethod
-    def of(statement: checker.Statement, domain: Any, units: bool) -> Violation:
-        """The violations of a statement in a domain, in units of r and g unless told otherwise."""
-        story = checker.Unfolding(statement, checker.Context(), [domain])
-        premises = list(story.premises)
-        ones = {name: fmpq(1) for name in UNITS & story.variables} if units else {}
-        ring = ring_of(story.context)
-        exists = tuple(sorted(story.variables - set(story.universal)))
-        whole = premises if exists else [*premises, story.goal(False)]
-        condition = Condition.of(story.context, checker.join("and", whole), ring).substituted(ones)
+    def of(statement: checker.Statement, domain: Any, roles: Roles = NO_ROLES) -> Violation:
+        """The violations of a statement in a domain, scales being 1."""
+        unfolding = checker.Unfolding(statement, checker.Context(), [domain])
+        premises = list(unfolding.premises)
+        ones = _ones(unfolding, roles)
+        ring = ring_of(unfolding.context)
+        exists = tuple(sorted(unfolding.variables - set(unfolding.universal)))
+        whole = premises if exists else [*premises, unfolding.goal(False)]
+        condition = Condition.of(unfolding.context, checker.join("and", whole), ring).substituted(
+            ones
+        )
         goal = (
-            Condition.of(story.context, story.goal(True), ring).substituted(ones)
+            Condition.of(unfolding.context, unfolding.goal(True), ring).substituted(ones)
             if exists
             else None
         )
-        return Violation(statement.name, condition, goal, exists, tuple(sorted(story.integers)))
+        return Violation(statement.name, condition, goal, exists, tuple(sorted(unfolding.integers)))
 
     def absent(
         self, parameter: str, at: fmpq | AlgebraicNumber, budget: Budget, resources: int = RESOURCES

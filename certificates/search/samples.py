@@ -20,9 +20,8 @@ from juggleproof.certificates.algebra.conditions import (
     univariate,
 )
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, real_roots, simplest_between
+from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.search.candidates import (
-    PARAMETERS,
-    UNITS,
     Cells,
     Value,
     favourites,
@@ -66,6 +65,7 @@ class Sampler:
     nodes: int = 80
     irrational: bool = False
     order: Sequence[str] = ()
+    roles: Roles = NO_ROLES
 
     def search(self, condition: Condition, names: Sequence[str]) -> Iterator[Assignment]:
         """Assignments of the names that meet the condition, the simplest first as far as the
@@ -85,10 +85,10 @@ class Sampler:
         names = condition.variables() - ({theta[0]} if theta else set())
         place = {name: i for i, name in enumerate(self.order)}
         free = sorted(names, key=lambda n: place[n])
-        units = [n for n in free if n in UNITS]
-        if units:
-            for value in favourites(units[0], False)[: 1 if self.width < 7 else 3]:
-                yield from self._step(condition, steps, theta, units[0], value)
+        scale = next((n for n in free if self.roles.is_scale(n)), None)
+        if scale is not None:
+            for value in favourites(scale, False, self.roles)[: 1 if self.width < 7 else 3]:
+                yield from self._step(condition, steps, theta, scale, value)
             return
         equation = self._equation_in_one(condition, theta)
         if equation is not None:
@@ -131,12 +131,17 @@ class Sampler:
             if theta is not None and not alone.variables() == {name}:
                 return
             for value in solutions(
-                alone, name, name in self.integers, self.last, self.irrational and theta is None
+                alone,
+                name,
+                name in self.integers,
+                self.last,
+                self.irrational and theta is None,
+                self.roles,
             ):
                 yield from self._step(condition, steps, theta, name, value)
             return
         self._spend(condition)
-        for value in trials(condition, name, name in self.integers, self.width):
+        for value in trials(condition, name, name in self.integers, self.width, self.roles):
             yield from self._step(condition, steps, theta, name, value)
 
     def _spend(self, condition: Condition) -> None:
@@ -211,13 +216,15 @@ class Sampler:
         self, condition: Condition, free: Sequence[str], theta: Theta
     ) -> tuple[str, fmpq_mpoly] | None:
         """(variable, value) from an equation that is linear in it with a number as its coefficient;
-        parameters last.
+        the parameter last.
         """
         for poly, relation in condition.facts():
             if relation != "=":
                 continue
             degrees = poly.degrees()
-            for name in sorted(free, key=lambda n: (n in PARAMETERS, -self._index(condition, n))):
+            for name in sorted(
+                free, key=lambda n: (n == self.roles.parameter, -self._index(condition, n))
+            ):
                 if degrees[self._index(condition, name)] != 1 or name in self.integers:
                     continue
                 rest, slope = coefficients_in(poly, name)
@@ -247,12 +254,12 @@ class Sampler:
 
     def _complete(self, condition: Condition, steps: Steps, theta: Theta) -> Assignment | None:
         """The values of all variables, from the last decided back to the first; what does not
-        matter is 1, or 1/2 for a parameter.
+        matter is 1, or 1/2 for the parameter.
         """
         decided = {name for name, _ in steps}
         ring = condition.ring
         values: dict[str, fmpq_mpoly] = {
-            name: ring.constant(fmpq(1, 2) if name in PARAMETERS else 1)
+            name: ring.constant(fmpq(1, 2) if name == self.roles.parameter else 1)
             for name in self.order
             if name not in decided
         }
@@ -309,24 +316,26 @@ def state_condition(state: checker.State) -> Condition:
     )
 
 
-def base_samples(state: checker.State, budget: Budget, count: int = 12) -> list[Sample]:
+def base_samples(
+    state: checker.State, budget: Budget, roles: Roles, count: int = 12
+) -> list[Sample]:
     """Points of the state, in a fixed order."""
     condition = state_condition(state)
     if condition.tree is False:
         return []
     names = list(state.context.index)
-    used = condition.variables()
+    used, scales = condition.variables(), roles.scales or frozenset()
     if len(used) == 1:
         return [
             {**{n: fmpq(1) for n in names}, **s} for s in _on_a_line(condition, next(iter(used)))
         ]
-    found: list[Sample] = _close_to_ends(condition, names, used)
+    found: list[Sample] = _close_to_ends(condition, names, used, roles)
     for width, last, nodes in ((4, 3, 300), (9, 3, 3000), (24, 3, 3000)):
         every = list(
             islice(
-                Sampler(budget, frozenset(state.context.integers), width, last, nodes).search(
-                    condition, names
-                ),
+                Sampler(
+                    budget, frozenset(state.context.integers), width, last, nodes, roles=roles
+                ).search(condition, names),
                 400,
             )
         )
@@ -337,24 +346,28 @@ def base_samples(state: checker.State, budget: Budget, count: int = 12) -> list[
         if len(found) >= count // 2 or found and width >= 9:
             break
     found += [
-        s for s in _scattered(condition, names, state.context.integers, count) if s not in found
+        s
+        for s in _scattered(condition, names, state.context.integers, count, roles)
+        if s not in found
     ]
     return found + _extreme(
         condition,
         found[:1] + found[len(found) // 2 :][:1],
-        sorted(used - UNITS - set(state.context.integers)),
+        sorted(used - scales - set(state.context.integers)),
     )
 
 
-def _close_to_ends(condition: Condition, names: list[str], used: set[str]) -> list[Sample]:
-    """Where units aside there is one variable: points all along its line, close to the ends too, in
-    units of 1.
+def _close_to_ends(
+    condition: Condition, names: list[str], used: set[str], roles: Roles
+) -> list[Sample]:
+    """Where scales aside there is one variable: points all along its line, close to the ends too,
+    with scales of 1.
     """
-    ones = {name: fmpq(1) for name in used & UNITS}
-    line = condition.substituted(ones)
-    if len(used - UNITS) != 1 or not ones or line.variables() != used - UNITS:
+    others = {name for name in used if not roles.is_scale(name)}
+    line = condition.substituted({name: fmpq(1) for name in used - others})
+    if len(others) != 1 or others == used or line.variables() != others:
         return []
-    return [{**{n: fmpq(1) for n in names}, **s} for s in _on_a_line(line, *(used - UNITS))]
+    return [{**{n: fmpq(1) for n in names}, **s} for s in _on_a_line(line, *others)]
 
 
 def _extreme(condition: Condition, samples: list[Sample], names: list[str]) -> list[Sample]:
@@ -372,7 +385,7 @@ def _extreme(condition: Condition, samples: list[Sample], names: list[str]) -> l
 
 
 def _scattered(
-    condition: Condition, names: list[str], integers: set[str], count: int
+    condition: Condition, names: list[str], integers: set[str], count: int, roles: Roles
 ) -> list[Sample]:
     """Favourite values combined in a fixed pseudo-random order, so that variables are not all tied
     to one another.
@@ -383,7 +396,7 @@ def _scattered(
         sample = {}
         for name in names:
             state = (state * 6364136223846793005 + 1442695040888963407) % 2**64
-            values = favourites(name, name in integers)[:12]
+            values = favourites(name, name in integers, roles)[:12]
             sample[name] = values[(state >> 33) % len(values)]
         if sample not in found and condition.substituted(sample).tree is True:
             found.append(sample)

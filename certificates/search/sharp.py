@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
@@ -13,11 +13,19 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import Condition, candidate_numbers, evaluate
 from juggleproof.certificates.algebra.numbers import (
     AlgebraicNumber,
+    exact,
     fraction,
     real_roots,
     simplest_between,
 )
-from juggleproof.certificates.language import Formula, SharpRange, Term, disjunction
+from juggleproof.certificates.language import (
+    NO_ROLES,
+    Formula,
+    Roles,
+    SharpRange,
+    Term,
+    disjunction,
+)
 from juggleproof.certificates.search.certificate import search_proof
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
@@ -35,7 +43,8 @@ from juggleproof.certificates.search.ranges import (
     polynomial_term,
 )
 from juggleproof.certificates.search.samples import Sampler, base_samples
-from juggleproof.certificates.work import Budget, Exhausted, accepted
+from juggleproof.certificates.search.scales import with_scales
+from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
 
 # -------------------------------------------------------------------------------------------------
 # The certificate of a sharp range: counterexamples on every interval outside on which one
@@ -54,12 +63,13 @@ def sharp_certificate(
     verdicts: Mapping[str, Sequence[bool]],
     known: Mapping[str, checker.Statement],
     budget: Budget,
+    roles: Roles,
 ) -> tuple[Node | None, str]:
     """([{name: proof}, found, sample], "") or (None, what could not be certified)."""
     (domain,) = statement.get("domain")
     named = {each.name: each for each in statements}
     try:
-        sample = sample_of(statement, statements, budget)
+        sample = sample_of(statement, statements, budget, roles)
         outside = _outside(
             outside_state(statement, statements),
             named,
@@ -69,13 +79,14 @@ def sharp_certificate(
             domain,
             dict(known),
             budget.part(OUTSIDE),
+            roles,
         )
     except Exhausted:
         sample = outside = None
     if outside is None or sample is None:
         return None, "no family of counterexamples outside the range"
     try:
-        inside, failure = proofs_inside(statement, statements, known, budget)
+        inside, failure = proofs_inside(statement, statements, known, budget, roles)
     except Exhausted:
         return None, "the budget ran out"
     return (None, failure) if inside is None else ([inside, outside, sample], "")
@@ -86,6 +97,7 @@ def proofs_inside(
     statements: Sequence[checker.Statement],
     known: Mapping[str, checker.Statement],
     budget: Budget,
+    roles: Roles,
 ) -> tuple[dict[str, Any] | None, str]:
     """({name: proof}, "") where the condition holds, or (None, which proof is missing)."""
     (domain,), (condition,) = statement.get("domain"), statement.get("holds")
@@ -95,7 +107,12 @@ def proofs_inside(
         for effort, part in ((1, min(FIRST, budget.left // 3)), (2, budget.left)):
             try:
                 proof = proof or search_proof(
-                    each, dict(known), budget.part(part), sharp=[domain, condition], effort=effort
+                    each,
+                    dict(known),
+                    budget.part(part),
+                    sharp=[domain, condition],
+                    effort=effort,
+                    roles=roles,
                 )
             except Exhausted:
                 if effort == 2:
@@ -131,7 +148,10 @@ def outside_state(
 
 
 def sample_of(
-    statement: checker.Statement, statements: Sequence[checker.Statement], budget: Budget
+    statement: checker.Statement,
+    statements: Sequence[checker.Statement],
+    budget: Budget,
+    roles: Roles,
 ) -> dict[str, str] | None:
     """A simple point of the domain."""
     (over,), (domain,) = statement.get("over"), statement.get("domain")
@@ -140,7 +160,7 @@ def sample_of(
         context.declare(parameter)
     condition = Condition.of(context, context.formula(domain))
     for assignment in Sampler(
-        budget, whole_parameters(over, statements), width=8, nodes=400
+        budget, whole_parameters(over, statements), width=8, nodes=400, roles=roles
     ).search(condition, over):
         return {name: str(fraction(assignment.values[name][0])) for name in over}
     return None
@@ -155,6 +175,7 @@ def _outside(
     domain: Any,
     known: dict[str, checker.Statement],
     budget: Budget,
+    roles: Roles,
 ) -> Node | None:
     base = {parameter: state.context.values[parameter]}
     failing = [k for k, verdict in enumerate(line.verdicts) if not verdict]
@@ -163,8 +184,8 @@ def _outside(
         return None if node is None else ["empty", node]
     whole = [name for name in sorted(named) if not any(verdicts[name][k] for k in failing)]
     for name in whole:
-        task = Task(named[name], "counterexample", base, known, budget, [domain])
-        found = cover(task, state, base_samples(state, budget), depth=4)
+        task = task_outside(named[name], base, known, budget, domain, roles)
+        found = cover(task, state, base_samples(state, budget, task.roles), depth=4)
         if found is not None:
             return found
     cut = _cut(line, failing, verdicts, parameter, domain)
@@ -177,11 +198,24 @@ def _outside(
             line.numbers,
             tuple(verdict or k not in piece for k, verdict in enumerate(line.verdicts)),
         )
-        found = _outside(branch, named, parameter, part, verdicts, domain, known, budget)
+        found = _outside(branch, named, parameter, part, verdicts, domain, known, budget, roles)
         if found is None:
             return None
         founds.append(found)
     return ["sign", text, *founds]
+
+
+def task_outside(
+    statement: checker.Statement,
+    base: dict[str, checker.Poly],
+    known: dict[str, checker.Statement],
+    budget: Budget,
+    domain: Any,
+    roles: Roles,
+) -> Task:
+    """The task of a family of counterexamples to a statement on a part of the domain."""
+    found = with_scales(roles, unfolded(statement, [domain]))
+    return Task(statement, "counterexample", base, known, budget, [domain], roles=found)
 
 
 def _cut(
@@ -249,11 +283,8 @@ def _derivative(number: AlgebraicNumber) -> Any:
 EVERYWHERE = 2_500_000  # units of work for proofs on the whole domain
 VERDICTS = 2_000_000  # units of work for the verdicts along the line
 NOWHERE = 300_000  # units of work for one family on the whole domain
-PROBES = (
-    fmpq(1, 2),
-    fmpq(1, 10),
-    fmpq(9, 10),
-)  # where a statement has to fail before a family on the whole domain is tried
+# Where a statement has to fail before a family on the whole domain is tried, in parts of its length
+PROBES = (fmpq(1, 2), fmpq(1, 10), fmpq(9, 10))
 Known = Mapping[str, checker.Statement]
 
 
@@ -278,6 +309,7 @@ def find_sharp_range(
     known: Known,
     budget: Budget,
     certify: bool = True,
+    roles: Roles = NO_ROLES,
 ) -> Range:
     """The set of one parameter on which all the statements hold, its ends, and a certificate for
     `checker.check_sharp`.
@@ -286,10 +318,12 @@ def find_sharp_range(
         checker.parse(str(domain)),
         Range(failure="the budget ran out before the verdicts were known"),
     )
+    roles = among(roles, {parameter: (domain,)})
     try:
-        violations = [Violation.of(s, tree, units=True) for s in statements]
+        violations = [Violation.of(s, tree, roles) for s in statements]
+        probes = probes_of(*ends_of(tree, parameter))
         probed = {
-            v.name: [v.absent(parameter, at, budget, QUICK) for at in PROBES] for v in violations
+            v.name: [v.absent(parameter, at, budget, QUICK) for at in probes] for v in violations
         }
         if certify:
             failing = [
@@ -301,9 +335,11 @@ def find_sharp_range(
                 verdict is False for verdicts in probed.values() for verdict in verdicts
             )
             simple = (
-                find_everywhere(statements, parameter, domain, name, known, budget)
+                find_everywhere(statements, parameter, domain, name, known, budget, roles)
                 if whole
-                else find_nowhere(statements, parameter, domain, name, known, budget, failing)
+                else find_nowhere(
+                    statements, parameter, domain, name, known, budget, failing, roles
+                )
             )
             if simple is not None:
                 return simple
@@ -312,7 +348,7 @@ def find_sharp_range(
             result = Range(stated, list(line.simplified().numbers), line=line)
             if certify:
                 result.certificate, result.failure = _certified(
-                    read(stated), statements, parameter, line, verdicts, known, budget
+                    read(stated), statements, parameter, line, verdicts, known, budget, roles
                 )
             if not result.failure:
                 return result
@@ -321,6 +357,28 @@ def find_sharp_range(
     except Exhausted:
         pass
     return result
+
+
+def among(roles: Roles, domains: Mapping[str, tuple[Formula, ...]]) -> Roles:
+    """The roles, with parameters of a range that they do not know among theirs."""
+    return replace(
+        roles,
+        domains={
+            **roles.domains,
+            **{name: said for name, said in domains.items() if name not in roles.domains},
+        },
+    )
+
+
+def probes_of(low: Fraction | None, high: Fraction | None) -> list[fmpq]:
+    """Three values between the ends of a domain; where it has no end, as if it were one long.
+
+    >>> [str(value) for value in probes_of(Fraction(2), None)]
+    ['5/2', '21/10', '29/10']
+    """
+    start = low if low is not None else high - 1 if high is not None else Fraction(0)
+    length = high - start if high is not None else Fraction(1)
+    return [exact(start) + exact(length) * part for part in PROBES]
 
 
 def stated_range(
@@ -351,6 +409,7 @@ def find_everywhere(
     name: str,
     known: Known,
     budget: Budget,
+    roles: Roles,
 ) -> Range | None:
     """The whole domain, where all statements are proved on it with a part of the work; None where
     they are not.
@@ -362,7 +421,14 @@ def find_everywhere(
     verdicts: Verdicts = {s.name: (True,) for s in statements}
     try:
         certificate, _ = _certified(
-            read(stated), statements, parameter, line, verdicts, known, budget.part(EVERYWHERE)
+            read(stated),
+            statements,
+            parameter,
+            line,
+            verdicts,
+            known,
+            budget.part(EVERYWHERE),
+            roles,
         )
     except Exhausted:
         return None
@@ -377,6 +443,7 @@ def find_nowhere(
     known: Known,
     budget: Budget,
     failing: Sequence[str],
+    roles: Roles,
 ) -> Range | None:
     """The empty range, where one family breaks a statement on the whole domain; None where a short
     search finds none.
@@ -395,6 +462,7 @@ def find_nowhere(
                 {s.name: (s is not one,) for s in statements},
                 known,
                 budget.part(NOWHERE),
+                roles,
             )
         except Exhausted:
             continue
@@ -408,6 +476,7 @@ def search_sharp(
     known: Known,
     statements: Mapping[str, checker.Statement],
     budget: Budget,
+    roles: Roles = NO_ROLES,
 ) -> list[Any] | None:
     """A certificate for a sharp range that is already stated, in one parameter, or None."""
     (names,), (over,), (domain,), (condition,) = (
@@ -420,12 +489,15 @@ def search_sharp(
     context.declare(over[0])
     claimed = Condition.of(context, context.formula(condition))
     own = candidate_numbers(claimed.polys, over[0])
+    roles = among(roles, {over[0]: ()})
     try:
         for line, verdicts in Lines(
-            [Violation.of(s, domain, units=True) for s in chosen], over[0], domain, budget, own
+            [Violation.of(s, domain, roles) for s in chosen], over[0], domain, budget, own
         ).guesses():
             if _agrees(line, claimed, over[0]):
-                return _certified(statement, chosen, over[0], line, verdicts, known, budget)[0]
+                return _certified(statement, chosen, over[0], line, verdicts, known, budget, roles)[
+                    0
+                ]
     except (Exhausted, Undecided):
         pass
     return None
@@ -444,9 +516,10 @@ def _certified(
     verdicts: Verdicts,
     known: Known,
     budget: Budget,
+    roles: Roles,
 ) -> tuple[list[Any] | None, str]:
     certificate, failure = sharp_certificate(
-        statement, statements, parameter, line, verdicts, known, budget
+        statement, statements, parameter, line, verdicts, known, budget, roles
     )
     named = {s.name: s for s in statements}
     if certificate is not None and not accepted(

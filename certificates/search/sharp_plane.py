@@ -21,20 +21,28 @@ from juggleproof.certificates.algebra.conditions import (
 )
 from juggleproof.certificates.algebra.numbers import sign
 from juggleproof.certificates.algebra.polynomials import relation_of
-from juggleproof.certificates.language import Formula, SharpRange, conjunction, disjunction
+from juggleproof.certificates.language import (
+    NO_ROLES,
+    Formula,
+    Roles,
+    SharpRange,
+    conjunction,
+    disjunction,
+)
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
-from juggleproof.certificates.search.found_terms import Task
 from juggleproof.certificates.search.models import ask
 from juggleproof.certificates.search.ranges import Violation
 from juggleproof.certificates.search.samples import base_samples
 from juggleproof.certificates.search.sharp import (
     Known,
     Range,
+    among,
     outside_state,
     proofs_inside,
     read,
     sample_of,
+    task_outside,
     whole_parameters,
 )
 from juggleproof.certificates.search.terms import Sample
@@ -53,19 +61,21 @@ def find_sharp_region(
     name: str,
     known: Known,
     budget: Budget,
+    roles: Roles = NO_ROLES,
 ) -> Range:
     """The set of several parameters on which all the statements hold, as at most two relations of
     border polynomials to 0.
     """
     tree = checker.parse(str(domain))
+    roles = among(roles, dict.fromkeys(parameters, ()))
     state: checker.State = checker.State(checker.Context())
     for parameter in parameters:
         state.context.declare(parameter, parameter in whole_parameters(parameters, statements))
     state.assume(state.context.formula(tree))
     try:
-        violations = [Violation.of(s, tree, units=True) for s in statements]
+        violations = [Violation.of(s, tree, roles) for s in statements]
         polys = _borders(state, violations, parameters, budget)
-        samples = _samples(state, polys, parameters, budget)
+        samples = _samples(state, polys, parameters, budget, roles)
         verdicts = []
         for sample in samples:
             verdict = _verdict(violations, sample, budget)
@@ -77,7 +87,9 @@ def find_sharp_region(
             statement = SharpRange(
                 name, tuple(s.name for s in statements), tuple(parameters), domain, condition
             )
-            certificate, failure = _certified(read(statement), statements, samples, known, budget)
+            certificate, failure = _certified(
+                read(statement), statements, samples, known, budget, roles
+            )
             return Range(statement, [], certificate, failure)
     except Exhausted:
         return Range(failure="the budget ran out")
@@ -98,12 +110,16 @@ def _borders(
 
 
 def _samples(
-    state: checker.State, polys: Sequence[fmpq_mpoly], parameters: Sequence[str], budget: Budget
+    state: checker.State,
+    polys: Sequence[fmpq_mpoly],
+    parameters: Sequence[str],
+    budget: Budget,
+    roles: Roles,
 ) -> list[Sample]:
     """Points of the domain on both sides of the borders, and on them where a border is linear in a
     parameter.
     """
-    found = base_samples(state, budget, 24)
+    found = base_samples(state, budget, roles, 24)
     inside = [
         Condition.of(
             state.context,
@@ -180,8 +196,9 @@ def _certified(
     samples: Sequence[Sample],
     known: Mapping[str, Any],
     budget: Budget,
+    roles: Roles,
 ) -> tuple[list[Any] | None, str]:
-    inside, failure = proofs_inside(statement, statements, known, budget)
+    inside, failure = proofs_inside(statement, statements, known, budget, roles)
     if inside is None:
         return None, failure
     state = outside_state(statement, statements)
@@ -190,15 +207,11 @@ def _certified(
     node = search_closing(state, dict(known), budget, 1)
     outside: list[Any] | None = None if node is None else ["empty", node]
     for each in statements if outside is None else ():
-        outside = cover(
-            Task(each, "counterexample", base, dict(known), budget, [domain]),
-            state,
-            base_samples(state, budget),
-            depth=3,
-        )
+        task = task_outside(each, base, dict(known), budget, domain, roles)
+        outside = cover(task, state, base_samples(state, budget, task.roles), depth=3)
         if outside is not None:
             break
-    sample = sample_of(statement, statements, budget)
+    sample = sample_of(statement, statements, budget, roles)
     if outside is None or sample is None:
         return None, "no family of counterexamples outside the range"
     certificate = [inside, outside, sample]

@@ -9,16 +9,14 @@ from flint import fmpq, fmpq_mpoly
 
 from juggleproof.certificates.algebra.conditions import (
     Condition,
-    Tree,
     coefficients_in,
     constant_of,
     places,
     replace,
     valued,
 )
+from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.search.candidates import (
-    PARAMETERS,
-    UNITS,
     favourites,
     solutions,
     trials,
@@ -33,6 +31,7 @@ from juggleproof.certificates.search.terms import (
     Sample,
     Trial,
     among,
+    atoms,
     between,
     insert,
     partly,
@@ -71,6 +70,7 @@ class TemplateSearch:
         hints: Mapping[str, Sequence[Quotient]] | None = None,
         margins: Sequence[fmpq_mpoly] = (),
         borders: Sequence[fmpq_mpoly] | None = None,
+        roles: Roles = NO_ROLES,
     ) -> None:
         self.base, self.samples, self.budget, self.integers = (
             list(base),
@@ -78,6 +78,7 @@ class TemplateSearch:
             budget,
             integers,
         )
+        self.roles = roles
         self.nodes, self.hints, self.margins = nodes, dict(hints or {}), list(margins)
         self.given: dict[
             tuple[int, str], dict[str, fmpq]
@@ -87,7 +88,9 @@ class TemplateSearch:
         self.slight = [
             Quotient(margin * c, margin**0) for margin in self.margins[:5] for c in BESIDE
         ]
-        small = [(m, k) for m in self.margins if not ring_names(m) & PARAMETERS for k in (4, 20)]
+        small = [
+            (m, k) for m in self.margins if roles.parameter not in ring_names(m) for k in (4, 20)
+        ]
         self.small = [Quotient(m * sign, m + k) for m, k in small for sign in (1, -1)]
         self.borders = borders  # where these are given, they are tried first
         self.least = len(self.samples) if least is None else least
@@ -151,14 +154,14 @@ class TemplateSearch:
                 if root is None
                 else Partial(partial.make, partial.sampled, partial.steps, [*partial.roots, root])
             )
-            mark = () if more else value.mark()
-            if mark in tried or not self._plausible(widened, rows, value, more, values):
+            key = () if more else value.key()
+            if key in tried or not self._plausible(widened, rows, value, more, values):
                 continue
             if more is not None:
                 value = value.plus(more)
-                mark = value.mark()
-            if mark not in tried:
-                tried.add(mark)
+                key = value.key()
+            if key not in tried:
+                tried.add(key)
                 yield from self._descend(self._with(widened, name, value.top, value.bottom), rest)
 
     def _plausible(
@@ -193,21 +196,21 @@ class TemplateSearch:
 
     def _points(self, partial: Partial) -> list[Point]:
         """The samples with the values of the adjoined roots, as points of the ring."""
-        mark = tuple(map(id, partial.roots))
+        key = tuple(map(id, partial.roots))
         if (
-            mark not in self.points
+            key not in self.points
         ):  # the roots are kept with their points, so that their ids stay theirs
-            self.points[mark] = (
+            self.points[key] = (
                 partial.roots,
                 [Point.of(self.ring, self._given(partial, sample)) for sample in self.samples],
             )
-        return self.points[mark][1]
+        return self.points[key][1]
 
     def _shift(self, more: Quotient, k: int) -> fmpq | None:
-        mark = id(more), k
-        if mark not in self.shifts:
-            self.shifts[mark] = more.at(self.samples[k])
-        return self.shifts[mark]
+        key = id(more), k
+        if key not in self.shifts:
+            self.shifts[key] = more.at(self.samples[k])
+        return self.shifts[key]
 
     def _with(self, partial: Partial, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> Partial:
         def make() -> Condition:
@@ -307,35 +310,35 @@ class TemplateSearch:
         """The sample with the values of the adjoined roots there."""
         if not partial.roots:
             return sample
-        mark = id(sample), "; ".join(str(root.poly) for root in partial.roots)
-        if mark not in self.given:
+        key = id(sample), "; ".join(str(root.poly) for root in partial.roots)
+        if key not in self.given:
             self.budget.spend(100)
-            self.given[mark] = {**sample, **root_values(partial.roots, sample)}
-        return self.given[mark]
+            self.given[key] = {**sample, **root_values(partial.roots, sample)}
+        return self.given[key]
 
     # ------------------------------------------------ candidates
 
     def _candidates(self, partial: Partial, name: str, rest: Sequence[str]) -> Iterator[Candidate]:
         """Quotients to try for an unknown, made only as far as they are asked for."""
         one = self.ring.constant(1)
-        if name in UNITS:
+        if self.roles.is_scale(name):
             yield Quotient(one, one), None, None
             return
-        plain = list(self.hints.get(name, ()))
+        simple = list(self.hints.get(name, ()))
         likely = [
             Quotient(self.ring.constant(v), one)
-            for v in favourites(name, name in self.integers)[:8]
+            for v in favourites(name, name in self.integers, self.roles)[:8]
         ]
         if name in self.integers:
             gens = [self.ring.gen(places(self.ring)[n]) for n in self.base if n in self.integers]
             whole = [Quotient(gen + shift, one) for shift in (0, 1, -1) for gen in gens]
             yield from (
-                (q, None, None) for q in [*plain, *likely, *self._constants(partial, name), *whole]
+                (q, None, None) for q in [*simple, *likely, *self._constants(partial, name), *whole]
             )
             return
         lines, roots = self._lines(partial, name, rest)
-        plain += [*likely[:3], *lines] if self.borders is None else [*lines, *likely[:3]]
-        yield from ((q, None, None) for q in plain)
+        simple += [*likely[:3], *lines] if self.borders is None else [*lines, *likely[:3]]
+        yield from ((q, None, None) for q in simple)
         parts = (fmpq(1), fmpq(1, 2), fmpq(1, 10), fmpq(1, 100))
         yield from (
             (Quotient(margin * part, one), None, None) for margin in self.margins for part in parts
@@ -347,9 +350,9 @@ class TemplateSearch:
         yield from ((q, None, None) for q in [*likely[3:], *self._constants(partial, name)])
         yield from ((q, None, None) for q in between(lines))
         yield from ((q, None, root) for q, root in roots)
-        near = [*((q, None) for q in lines[:4]), *roots[:4]]
+        nearby = [*((q, None) for q in lines[:4]), *roots[:4]]
         for more in (self.small, self.slight):
-            yield from ((q, shift, root) for q, root in near for shift in more)
+            yield from ((q, shift, root) for q, root in nearby for shift in more)
 
     def _constants(self, partial: Partial, name: str) -> list[Quotient]:
         """Numbers that serve at the middle sample or at the first and the last."""
@@ -365,11 +368,11 @@ class TemplateSearch:
             if condition.variables() == {name}:
                 values = [
                     v
-                    for v in solutions(condition, name, name in self.integers, 2, False)
+                    for v in solutions(condition, name, name in self.integers, 2, False, self.roles)
                     if isinstance(v, fmpq)
                 ]
             else:
-                values = trials(condition, name, name in self.integers, 2)
+                values = trials(condition, name, name in self.integers, 2, self.roles)
             found += [v for v in values if v not in found]
         return [Quotient(self.ring.constant(v), self.ring.constant(1)) for v in found]
 
@@ -494,10 +497,10 @@ class CornerSearch(TemplateSearch):
         if not unknowns:
             yield from super()._descend(partial, unknowns)
             return
-        unit = next((name for name in unknowns if name in UNITS), None)
-        if unit is not None:
+        scale = next((name for name in unknowns if self.roles.is_scale(name)), None)
+        if scale is not None:
             one = partial.condition.ring.constant(1)
-            yield from self._follow(partial, unknowns, chosen, [(unit, Quotient(one, one), None)])
+            yield from self._follow(partial, unknowns, chosen, [(scale, Quotient(one, one), None)])
             return
         forced = next(
             (
@@ -592,14 +595,3 @@ class CornerSearch(TemplateSearch):
         if any(valued(parts[1], self._given(partial, sample)) == 0 for sample in self.samples):
             return []
         return [(name, Quotient.reduced(-parts[0], parts[1]), None)]
-
-
-def atoms(tree: Tree) -> Iterator[tuple[int, str]]:
-    """The relations of a tree, each as (number of its polynomial, relation)."""
-    if isinstance(tree, bool):
-        return
-    if isinstance(tree[0], int):
-        yield tree
-    else:
-        for part in tree[1]:
-            yield from atoms(part)

@@ -83,7 +83,7 @@ class Quotient:
             self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom
         )
 
-    def mark(self) -> tuple[Any, ...]:
+    def key(self) -> tuple[Any, ...]:
         """The same for the same quotient, and but by an unlikely chance no other's."""
         point = MARKS[: len(places(self.top.context()))]
         top, bottom = self.top(*point), self.bottom(*point)
@@ -417,3 +417,14 @@ class Partial:
     def condition(self) -> Condition:
         """The condition on base and unknowns."""
         return self.make()
+
+
+def atoms(tree: Tree) -> Iterator[tuple[int, str]]:
+    """The relations of a tree, each as (number of its polynomial, relation)."""
+    if isinstance(tree, bool):
+        return
+    if isinstance(tree[0], int):
+        yield tree
+    else:
+        for part in tree[1]:
+            yield from atoms(part)

@@ -14,7 +14,6 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import claim
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -29,6 +28,7 @@ from juggleproof.proofs.paper.names import (
     b,
     ball_at,
     beta,
+    claim,
     collide,
     derived,
     encoded,

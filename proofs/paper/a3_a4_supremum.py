@@ -12,7 +12,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Readings, claim
+from juggleproof.proofs.claims import Argument, Assertion, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -23,6 +23,7 @@ from juggleproof.proofs.paper.names import (
     at,
     b,
     beta,
+    claim,
     derived,
     energy,
     eps,

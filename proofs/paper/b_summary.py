@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from juggleproof.certificates.language import Formula, Statement, different, equal, iff, reals, term
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings, claim
+from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
 from juggleproof.proofs.paper.names import (
     B1_ZERO,
     B2,
@@ -18,6 +18,7 @@ from juggleproof.proofs.paper.names import (
     b,
     ball_at,
     beta,
+    claim,
     collide,
     derived,
     energy,

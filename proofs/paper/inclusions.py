@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from juggleproof.certificates.language import Statement, equal, iff, term
-from juggleproof.proofs.claims import Assertion, Readings, claim
+from juggleproof.proofs.claims import Assertion, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -23,6 +23,7 @@ from juggleproof.proofs.paper.names import (
     always,
     at,
     b,
+    claim,
     collision_time,
     derived,
     e_1,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
 from functools import cache, partial
 from typing import Any
 
@@ -18,7 +20,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs import forms
+from juggleproof.proofs import claims, forms
 from juggleproof.proofs.encoding import from_sympy
 from juggleproof.proofs.forms import Vocabulary
 from juggleproof.proofs.reading.evaluation import Environment, relate
@@ -107,19 +109,19 @@ STANDING = Vocabulary(
     givens={"r": (r > 0,), "g": (g > 0,)},
     abbreviations={"T": derived("period")},
     roots={"s": 2 * (1 + alpha)},
+    sample={"alpha": Fraction(3, 11), "r": Fraction(1), "g": Fraction(1)},
+    domains={"alpha": (alpha > 0, alpha < 1), "K": (K >= 1,), "eps": (eps > 0,)},
+    scales=frozenset({"r", "g"}),
+    reads=lambda: paper_names(),
 )
+claim = partial(claims.claim, vocabulary=STANDING)
 always = partial(forms.always, vocabulary=STANDING)
 exists_some = partial(forms.exists_some, vocabulary=STANDING)
 is_maximum = partial(forms.is_maximum, vocabulary=STANDING)
 is_supremum = partial(forms.is_supremum, vocabulary=STANDING)
 same_set = partial(forms.same_set, vocabulary=STANDING)
-WITH_INTEGER_K = Vocabulary(
-    ORDER,
-    STANDING.ranges,
-    {**STANDING.givens, "K": (K >= 1,)},
-    STANDING.abbreviations,
-    STANDING.roots,
-    frozenset({"K"}),
+WITH_INTEGER_K = replace(
+    STANDING, givens={**STANDING.givens, "K": (K >= 1,)}, integers=frozenset({"K"})
 )
 
 
@@ -273,6 +275,11 @@ POINTS = {
     r"\overline b_0": (r"\overline\beta_0", r"\dot{\overline\beta}_0"),
 }
 PAPER = Environment(NAMES, points=POINTS, state=r"\overline b")
+
+
+def paper_names() -> Environment:
+    """The names in which the paper's prints are read."""
+    return PAPER
 
 
 # -------------------------------------------------------------------------------------------------

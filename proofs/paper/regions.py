@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from juggleproof.certificates.language import (
@@ -19,10 +20,8 @@ from juggleproof.certificates.language import (
 )
 from juggleproof.proofs import forms
 from juggleproof.proofs.claims import Assertion, Readings
-from juggleproof.proofs.forms import Vocabulary
 from juggleproof.proofs.paper.names import (
     B1,
-    ORDER,
     PAPER,
     STANDING,
     H,
@@ -50,13 +49,10 @@ from juggleproof.proofs.reading.values import Region, Vector
 
 beta0, v0, u, tau_w, dE_sup, n, m, j = reals("beta0 v0 u tau_w dE_sup n m j")
 b_0 = Vector((beta0, v0))
-WITH_INTEGERS = Vocabulary(
-    ORDER,
-    STANDING.ranges,
-    STANDING.givens,
-    STANDING.abbreviations,
-    {**STANDING.roots, "u": 2 * energy(b_0)},
-    frozenset({"n", "m", "j"}),
+WITH_INTEGERS = replace(
+    STANDING,
+    roots={**STANDING.roots, "u": 2 * energy(b_0)},
+    integers=frozenset({"n", "m", "j"}),
 )
 always_counting = partial(forms.always, vocabulary=WITH_INTEGERS)
 exists_counting = partial(forms.exists_some, vocabulary=WITH_INTEGERS)

@@ -14,7 +14,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Assertion, Readings, claim
+from juggleproof.proofs.claims import Assertion, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
@@ -31,6 +31,7 @@ from juggleproof.proofs.paper.names import (
     b,
     ball_at,
     beta,
+    claim,
     collide,
     collision_time,
     derived,

@@ -14,7 +14,6 @@ from juggleproof.certificates.language import (
     real,
     reals,
 )
-from juggleproof.proofs.claims import claim
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -30,6 +29,7 @@ from juggleproof.proofs.paper.names import (
     b,
     ball_at,
     beta,
+    claim,
     collide,
     collision_time,
     derived,

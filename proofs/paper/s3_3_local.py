@@ -13,7 +13,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings, claim
+from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -26,6 +26,7 @@ from juggleproof.proofs.paper.names import (
     b,
     ball_at,
     beta,
+    claim,
     collide,
     collision_time,
     derived,

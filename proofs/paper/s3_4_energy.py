@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from juggleproof.certificates.language import Statement, equal, reals
-from juggleproof.proofs.claims import claim
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -13,6 +12,7 @@ from juggleproof.proofs.paper.names import (
     always,
     b,
     ball_at,
+    claim,
     derived,
     energy,
     f1,

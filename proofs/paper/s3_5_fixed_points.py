@@ -23,7 +23,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Readings, claim
+from juggleproof.proofs.claims import Argument, Assertion, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -38,6 +38,7 @@ from juggleproof.proofs.paper.names import (
     b,
     ball_at,
     beta,
+    claim,
     collide,
     derived,
     equals,

@@ -14,7 +14,7 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Assertion, Readings, claim
+from juggleproof.proofs.claims import Assertion, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -26,6 +26,7 @@ from juggleproof.proofs.paper.names import (
     b,
     ball_at,
     beta,
+    claim,
     collision_time,
     derived,
     energy,

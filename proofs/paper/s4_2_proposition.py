@@ -7,7 +7,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from juggleproof.certificates.language import Formula, Statement, different, equal, real
-from juggleproof.proofs.claims import Assertion, Following, Readings, claim
+from juggleproof.proofs.claims import Assertion, Following, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -20,6 +20,7 @@ from juggleproof.proofs.paper.names import (
     always,
     b,
     ball_at,
+    claim,
     derived,
     energy,
     exists_some,

@@ -12,7 +12,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings, claim
+from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -22,6 +22,7 @@ from juggleproof.proofs.paper.names import (
     alpha,
     always,
     b,
+    claim,
     collision_time,
     derived,
     e_1,

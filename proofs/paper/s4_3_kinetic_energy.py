@@ -14,7 +14,7 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings, claim
+from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -23,6 +23,7 @@ from juggleproof.proofs.paper.names import (
     always,
     at,
     b,
+    claim,
     derived,
     e_1,
     eps,

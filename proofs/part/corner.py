@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any, NamedTuple
 
 from juggleproof.certificates.language import (
@@ -19,7 +20,7 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.certificates.search.closing import Hints
-from juggleproof.proofs.claims import claim
+from juggleproof.proofs import claims
 from juggleproof.proofs.forms import Vocabulary, always
 from juggleproof.proofs.paper.names import derived
 
@@ -57,6 +58,7 @@ BODY = (B1 > 0, DEFINITE)
 DIRECTION = equal(sigma, 1) | equal(sigma, -1)
 SLIDES = sigma * S0 >= 0
 NO_JAM = CLOSING > 0
+claim = partial(claims.claim, vocabulary=Vocabulary(scales=frozenset()))  # no unit is set to 1
 APPROACH = C0 < 0
 FRICTION = mu >= 0
 RESTITUTION = (e >= 0, e <= 1)

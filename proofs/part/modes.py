@@ -20,7 +20,6 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.claims import claim
 from juggleproof.proofs.forms import always, exists_some
 from juggleproof.proofs.part.corner import (
     APPROACH,
@@ -48,6 +47,7 @@ from juggleproof.proofs.part.corner import (
     P_x,
     P_y,
     S,
+    claim,
     conditions_of,
     e,
     mu,

@@ -9,7 +9,14 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import escape
 
 from juggleproof.proofs.register import FIELDS, Change
-from juggleproof.proofs.reports.results import COLUMNS, Result, Results, results_of, writable
+from juggleproof.proofs.reports.results import (
+    COLUMNS,
+    OWN_COLUMNS,
+    Result,
+    Results,
+    results_of,
+    writable,
+)
 
 # -------------------------------------------------------------------------------------------------
 # A badge for a page: what the verdicts say in a few words, as an SVG of our own that loads
@@ -204,7 +211,7 @@ def markdown(contents: Any) -> str:
     page.add(
         _table(
             [
-                COLUMNS,
+                OWN_COLUMNS if results.own else COLUMNS,
                 *(
                     (
                         one.id,

@@ -43,6 +43,7 @@ from juggleproof.proofs.run import (
     paper_claims,
     results_for,
 )
+from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
 # All that reports tell, gathered once: claims with verdicts, derivations and statements; the
@@ -257,10 +258,10 @@ def _shown(name: str, text: str, outcome: str, certificate: Any, votes: Sequence
 def _rules(
     store: Store, checked: Mapping[str, str], votes: Mapping[str, Sequence[Any]]
 ) -> tuple[Rule, ...]:
-    if tree.THEOREM not in store.texts:
+    if THEOREM not in store.texts:
         return ()
     rules, told = tree.rules_of(store), []
-    for name in tree.with_all_below(tree.THEOREM, rules):
+    for name in tree.with_all_below(THEOREM, rules):
         certificate, outcome = (
             store.certificate(name, store.texts[name]),
             checked.get(name, "rejected"),

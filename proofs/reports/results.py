@@ -17,6 +17,7 @@ from juggleproof.proofs.reports.tables import plain
 # The table of results, as rows of text and as it is drawn on a terminal.
 
 COLUMNS = ("claim", "place", "verdict", "settled by", "sharp range of alpha")
+OWN_COLUMNS = (*COLUMNS[:-1], "sharp range")  # of claims of one's own, whose cells name parameters
 COLOURS = {
     "holds": "green",
     "misprint": "yellow",
@@ -56,10 +57,20 @@ def settled_by(judgement: Judgement) -> str:
     return ", ".join(parts) or "no statement"
 
 
-def sharp_range(judgement: Judgement) -> str:
-    """The sharp range, or each reading's."""
+NO_RANGE, NO_OWN_RANGE = NO_RANGES = ("no alpha", "none")
+
+
+def is_of_paper(claim: Claim) -> bool:
+    """Whether a claim is the paper's, and not of one's own."""
+    return claim.source.startswith("juggleproof.proofs.")
+
+
+def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
+    """The sharp range, or each reading's; that there is none, for a claim of one's own without the
+    name of the paper's parameter.
+    """
     if not judgement.sharp:
-        return "no alpha"
+        return NO_RANGE if claim is None or is_of_paper(claim) else NO_OWN_RANGE
     shown = [
         (f"{prefix.rstrip('.')}: " if prefix else "") + one["text"]
         for prefix, one in judgement.sharp.items()
@@ -90,7 +101,7 @@ def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple
             f"{claim.section} {claim.place}".strip(),
             verdict_text(claim, judgement),
             settled_by(judgement),
-            sharp_range(judgement),
+            sharp_range(judgement, claim),
         )
         for claim, judgement in zip(claims, judgements)
     ]
@@ -100,10 +111,11 @@ def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Any)
     """Draws the table on a terminal; plain columns, one row a line, where there is none."""
     from rich.table import Table
 
+    columns = COLUMNS if any(map(is_of_paper, claims)) else OWN_COLUMNS
     if not console.is_terminal:
-        print(plain([COLUMNS, *rows(claims, judgements)]))
+        print(plain([columns, *rows(claims, judgements)]))
         return
-    table = Table(*COLUMNS, header_style="bold")
+    table = Table(*columns, header_style="bold")
     for row, judgement in zip(rows(claims, judgements), judgements):
         colour = COLOURS[judgement.verdict.word]
         table.add_row(
@@ -165,7 +177,6 @@ if TYPE_CHECKING:
 
 OUTCOMES = ("certified", "refuted", "unknown", "rejected")
 PROVED = "theorem: proved "
-NO_RANGE = "no alpha"
 NO_VALUES = "every value: the negation is certified"
 Entries = Mapping[str, Mapping[str, Any]]
 
@@ -209,7 +220,10 @@ class Result:
     def registered(self) -> dict[str, Any]:
         """What the register keeps of it."""
         return registered(
-            self.verdict, self.detail, self.correction, "" if self.sharp == NO_RANGE else self.sharp
+            self.verdict,
+            self.detail,
+            self.correction,
+            "" if self.sharp in NO_RANGES else self.sharp,
         )
 
     def sharp_by_reading(self) -> dict[str, str]:
@@ -217,7 +231,7 @@ class Result:
         only.
         """
         parts = re.split(r"(?:^|; )([\w.\-]+): ", self.sharp)
-        if self.sharp == NO_RANGE:
+        if self.sharp in NO_RANGES:
             return {}
         return dict(zip(parts[1::2], parts[2::2])) if len(parts) > 1 else {"": self.sharp}
 
@@ -388,7 +402,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         judged.verdict.detail,
         verdict_text(claim, judged),
         settled_by(judged),
-        sharp_range(judged),
+        sharp_range(judged, claim),
         judged.correction,
         (),
         "",

@@ -3,3 +3,7 @@ premises the checker writes.
 """
 
 SECTIONS = ("definition", "stability", "orbits")
+THEOREM = "theorem-in-units/exactly"
+SENTENCE = (
+    "for 0 < alpha < 1, e_1 is stable and attracts every state of H if and only if alpha < 1/3"
+)

@@ -26,10 +26,9 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.certificates.search.closing import Hints
-from juggleproof.proofs.claims import claim
 from juggleproof.proofs.encoding import from_sympy
 from juggleproof.proofs.paper import names
-from juggleproof.proofs.paper.names import H, alpha, always, b, derived, g, r, w, x
+from juggleproof.proofs.paper.names import H, alpha, always, b, claim, derived, g, r, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.symbolic.algebra import lowest_terms
 from juggleproof.symbolic.energy import normal_margin

@@ -23,7 +23,6 @@ from juggleproof.certificates.language import (
 )
 from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs import forms
-from juggleproof.proofs.claims import claim
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -32,6 +31,7 @@ from juggleproof.proofs.paper.names import (
     alpha,
     at,
     b,
+    claim,
     derived,
     energy,
     equals,

@@ -16,8 +16,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.claims import claim
-from juggleproof.proofs.paper.names import R, alpha, always, at, b, derived, equals, s, w, x
+from juggleproof.proofs.paper.names import R, alpha, always, at, b, claim, derived, equals, s, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,

@@ -380,7 +380,7 @@ def test_rejects_the_body_of_a_claim_from_its_record_alone() -> None:
     record = dict.fromkeys(
         ("id", "section", "place", "says", "printed", "as_it_stands", "repeats", "source"), ""
     )
-    claim = claim_of({**record, "parameters": ["alpha"], "nearby": True})
+    claim = claim_of({**record, "parameters": ["alpha"], "domains": [], "nearby": True})
     with pytest.raises(loading.Forgotten):
         claim.body()
     assert claim.nearby is not None

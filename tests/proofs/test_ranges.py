@@ -10,7 +10,7 @@ from flint import fmpq_poly
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import real_roots
-from juggleproof.certificates.language import Statement, conjunction, real, reals
+from juggleproof.certificates.language import Roles, Statement, conjunction, real, reals
 from juggleproof.certificates.search.ranges import Line
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import read, speaks_of_range
@@ -19,6 +19,7 @@ from juggleproof.proofs.ranges import search_sharp_range, told
 
 alpha, K, n, k, x = reals("alpha K n k x")
 WHOLE = (("range", alpha > 0), ("range", alpha < 1))
+ROLES = Roles({"alpha": (alpha > 0, alpha < 1)})
 BUDGET = 6_000_000
 CEILING = Statement(
     "round/up",
@@ -32,7 +33,7 @@ CEILING = Statement(
 
 def sought(*statements, over=("alpha",)):
     """(the display, the sharp statement, its certificate, the statements by name)."""
-    found = search_sharp_range("round/sharp", statements, over, {}, BUDGET)
+    found = search_sharp_range("round/sharp", statements, over, {}, BUDGET, ROLES)
     assert found is not None
     sharp, certificate, shown = found
     return (
@@ -50,7 +51,9 @@ def test_rounding_up_holds_where_nothing_is_rounded():
 
 
 def test_rounding_up_fails_without_the_condition():
-    sharp, certificate, _ = search_sharp_range("round/sharp", [CEILING], ("alpha",), {}, BUDGET)
+    sharp, certificate, _ = search_sharp_range(
+        "round/sharp", [CEILING], ("alpha",), {}, BUDGET, ROLES
+    )
     everywhere = replace(sharp, condition=alpha > 0)
     with pytest.raises(checker.Rejected):
         checker.settle(
@@ -94,9 +97,9 @@ def test_end_points_are_told_under_their_names_in_the_statement():
     second = real_roots(fmpq_poly([-1, 10, -20, 10]))[1]
     poly = 10 * alpha**3 - 20 * alpha**2 + 10 * alpha - 1
     numbers = (("c1", poly, Fraction(0), Fraction(1, 2)), ("c2", poly, Fraction(1, 2), Fraction(1)))
-    assert told(Line((second,), (False, False, True)), "alpha", numbers).startswith(
-        "c2 < alpha < 1; c2 = 0."
-    )
+    assert told(
+        Line((second,), (False, False, True)), "alpha", numbers, (("0", "<"), ("1", "<"))
+    ).startswith("c2 < alpha < 1; c2 = 0.")
 
 
 def test_what_holds_on_the_whole_range_is_left_out():
@@ -119,6 +122,8 @@ def test_a_range_among_the_givens_counts():
         ("given", real("alpha") < 1),
         ("given", real("alpha") >= 0),
     )
-    assert speaks_of_range(Statement("a/b", ("alpha",), (low, high), show=alpha < 2))
-    assert not speaks_of_range(Statement("a/b", ("alpha",), (none,), show=alpha < 2))
-    assert not speaks_of_range(Statement("a/b", ("x",), (("given", x > 0),), show=conjunction([])))
+    assert speaks_of_range(Statement("a/b", ("alpha",), (low, high), show=alpha < 2), ROLES.domains)
+    assert not speaks_of_range(Statement("a/b", ("alpha",), (none,), show=alpha < 2), ROLES.domains)
+    assert not speaks_of_range(
+        Statement("a/b", ("x",), (("given", x > 0),), show=conjunction([])), ROLES.domains
+    )

@@ -1,7 +1,21 @@
 """Statements that the tests of this folder share, with short ways to read them."""
 
+from typing import Any
+
 from juggleproof.certificates import checker
+from juggleproof.certificates.search.points import search_found
 from juggleproof.certificates.work import Budget
+
+
+def search_points(statement: checker.Statement, units: Budget, effort: int = 0) -> tuple[Any, Any]:
+    """(a point that meets the premises, a counterexample), each as the checker accepts it, or
+    None.
+    """
+    state: checker.State = checker.State(checker.Context())
+    counterexample = search_found(statement, state, "counterexample", {}, {}, units, effort=effort)
+    if counterexample is not None:
+        return counterexample[:4], counterexample
+    return search_found(statement, state, "point", {}, {}, units, effort=effort), None
 
 
 def read(text: str) -> checker.Statement:

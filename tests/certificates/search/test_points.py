@@ -3,9 +3,9 @@
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.points import search_found, search_points
+from juggleproof.certificates.search.points import search_found
 from juggleproof.certificates.work import accepted
-from tests.certificates.search.cases import UNIT, budget, read
+from tests.certificates.search.cases import UNIT, budget, read, search_points
 
 # -------------------------------------------------------------------------------------------------
 # Points and counterexamples: simple, exact, and accepted by the checker's own functions.
@@ -81,7 +81,7 @@ show x < 0""",
 def test_refuted(case):
     text, effort = REFUTED[case]
     statement = read(text)
-    point, counterexample = search_points(statement, {}, budget(), effort)
+    point, counterexample = search_points(statement, budget(), effort)
     named = {statement.name: statement}
     assert accepted(
         checker.find,
@@ -122,27 +122,27 @@ show 1 < 2""",
 @pytest.mark.parametrize("effort", [0, 1])
 def test_true_statements_have_points_and_no_counterexample(case, effort):
     text, values = TRUE[case]
-    point, counterexample = search_points(read(text), {}, budget(), effort)
+    point, counterexample = search_points(read(text), budget(), effort)
     assert counterexample is None
     assert point[2] == values
 
 
 def test_a_single_point_is_found_by_wider_samples():
     statement = read("statement t/point\nforall x y\ngiven x^2 + (y - 1/3)^2 <= 0\nshow x = 0")
-    point, counterexample = search_points(statement, {}, budget(), 1)
+    point, counterexample = search_points(statement, budget(), 1)
     assert (point[2], counterexample) == ({"x": "0", "y": "1/3"}, None)
 
 
 def test_nothing_meets_contradictory_premises():
     statement = read("statement t/void\nforall x\ngiven x > 1 and x < 1/2\nshow x = 0")
-    assert search_points(statement, {}, budget(), 1) == (None, None)
+    assert search_points(statement, budget(), 1) == (None, None)
 
 
 def test_the_counterexample_is_the_one_a_reader_would_take():
     statement = read(
         f"statement t/simple\nforall alpha r x\n{UNIT}\ngiven r > 0 and x >= 0\nshow alpha*x <= r"
     )
-    _, counterexample = search_points(statement, {}, budget())
+    _, counterexample = search_points(statement, budget())
     assert counterexample[2] == {"alpha": "1/2", "r": "1", "x": "3"}
 
 
