@@ -20,7 +20,7 @@ from pathlib import Path
 from juggleproof.benchmarks.peers import CVC5, Clock, has_cvc5, z3_command
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
-from juggleproof.proofs.command.certify import draw, summary
+from juggleproof.proofs.reports.problems import draw, summary
 from juggleproof.proofs.smtlib.answering import Answered, answer_files
 
 FOLDER = Path(__file__).parent / "problems"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
@@ -19,6 +19,8 @@ from juggleproof.certificates.language import (
     SharpRange,
     Statement,
 )
+from juggleproof.proofs.reading import meaning
+from juggleproof.proofs.reading.evaluation import Environment
 
 # -------------------------------------------------------------------------------------------------
 # Claims: an assertion with its place and print, and the formal reading that is judged.
@@ -100,6 +102,7 @@ class Claim:
     repeats: str = ""
     parameters: tuple[str, ...] = ("alpha",)
     derived: Callable[[], Any] | None = None
+    names: Environment | None = None
     nearby: tuple[str, Callable[[], Any]] | None = None
     hints: Mapping[str, Any] = field(default_factory=dict)
     source: str = ""
@@ -128,9 +131,7 @@ class Claim:
 
     def read_print(self, latex: str = "") -> Any:
         """The print, or another LaTeX text, as the reader reads it."""
-        from juggleproof.proofs.reading.meaning import read
-
-        return read(latex or self.printed)
+        return meaning.read(latex or self.printed)
 
 
 def as_body(returned: Any, claim_id: str) -> Body:
@@ -212,16 +213,17 @@ def claim(
     repeats: str = "",
     parameters: Sequence[str] = ("alpha",),
     derived: Callable[[], Any] | None = None,
+    names: Environment | None = None,
     nearby: tuple[str, Callable[[], Any]] | None = None,
     hints: Mapping[str, Any] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription
-    has where it mangles the print. `derived` gives the true right-hand side, and `nearby` a true
-    assertion near a false one, with its text: both are tried as corrections where no change of one
-    mark mends the print.  Raises ClaimError for a duplicate name, an empty docstring, or a name
-    that is not letters, digits, - and dots.
+    has where it mangles the print. `derived` gives the true right-hand side (`names` are those in
+    which the printed one is read), and `nearby` a true assertion near a false one, with its text:
+    both are tried as corrections where no change of one mark mends the print.  Raises ClaimError
+    for a duplicate name, an empty docstring, or a name that is not letters, digits, - and dots.
     """
 
     def register(read: Callable[..., Any]) -> Callable[..., Any]:
@@ -243,6 +245,7 @@ def claim(
             repeats,
             tuple(parameters),
             derived,
+            names,
             nearby,
             dict(hints or {}),
             f"{read.__module__}.{read.__qualname__}",
@@ -271,6 +274,18 @@ def claims_of(load: Callable[[], object]) -> list[Claim]:
         return list(_registry)
     finally:
         _registry[:] = held
+
+
+def claim_named(text: str, known: Collection[str]) -> str:
+    """The name of the claim that is meant, where the paper's number of an equation is given; else
+    the text itself.
+
+    >>> [claim_named(text, ["eq-37"]) for text in ("eq-37", "37", "(37)", "eq 37", "38")]
+    ['eq-37', 'eq-37', 'eq-37', 'eq-37', '38']
+    """
+    number = re.fullmatch(r"(?:eq(?:uation)?\.?[ -]?)?\(?(\d+[a-z]?)\)?", text.strip())
+    name = f"eq-{number[1]}" if number else text
+    return name if text not in known and name in known else text
 
 
 # -------------------------------------------------------------------------------------------------

@@ -13,6 +13,8 @@ from typing import BinaryIO
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
+from juggleproof.proofs.reports.ci import as_junit, markdown
+from juggleproof.proofs.reports.contents import as_json
 from juggleproof.proofs.reports.results import Results
 
 # -------------------------------------------------------------------------------------------------
@@ -92,16 +94,10 @@ def write(options: argparse.Namespace, results: Results, seconds: Mapping[str, f
 
 def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
     if option == "json":
-        from juggleproof.proofs.reports.contents import as_json
-
         return as_json(results)
     if option == "junit":
-        from juggleproof.proofs.reports.ci import as_junit
-
         return as_junit(results)
     if option == "markdown":
-        from juggleproof.proofs.reports.ci import markdown
-
         return markdown(results).encode()
     return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()
 

@@ -348,6 +348,7 @@ def supremum_by_the_velocity(printed: Printed) -> Statement:
     "A.3.2",
     "line 710",
     derived=lambda: term(derived("delta_E_sup")),
+    names=PAPER,
     printed=PRINTED_SUPREMUM,
 )
 def supremum_by_alpha(printed: Printed) -> Statement:

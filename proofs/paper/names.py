@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 from juggleproof import symbolic
@@ -19,7 +19,9 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs import forms
-from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.derivations import Origin, made_by
+from juggleproof.proofs.derivations import derived as derived
+from juggleproof.proofs.derivations import encoded as encoded
 from juggleproof.proofs.forms import Vocabulary
 from juggleproof.proofs.reading.evaluation import Environment, relate
 from juggleproof.proofs.reading.meaning import Meaning, Printed
@@ -45,60 +47,6 @@ from juggleproof.proofs.reading.values import (
 alpha, beta, v, r, g, t, T, K, eps, s = reals("alpha beta v r g t T K eps s")
 x, w = reals("x w")
 b = Vector((beta, v))
-
-
-derivations_used: list[tuple[str, tuple[Any, ...]]] = []
-
-
-def derived(name: str, *arguments: Any) -> Any:
-    """A derived expression of `symbolic` by its function's name: a term, or a vector or matrix of
-    terms.
-    """
-    derivations_used.append((name, arguments))
-    return _derived(name, *arguments)
-
-
-@cache
-def _derived(name: str, *arguments: Any) -> Any:
-    return encoded(getattr(symbolic, name)(*arguments))
-
-
-def rows_of(name: str, arguments: tuple[Any, ...] = ()) -> tuple[tuple[str, ...], ...]:
-    """The entries of a derivation's result by rows, in the language of statements."""
-    value = _derived(name, *arguments)
-    rows = (
-        value.rows
-        if isinstance(value, Matrix)
-        else [value.entries]
-        if isinstance(value, Vector)
-        else [[value]]
-    )
-    return tuple(tuple(map(str, row)) for row in rows)
-
-
-def encoded(value: Any) -> Any:
-    """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
-    alpha is named s.
-    """
-    from sympy import MatrixBase
-
-    if isinstance(value, MatrixBase):
-        if value.shape[1] == 1:
-            return Vector(tuple(_term(entry) for entry in value))
-        return Matrix(
-            tuple(
-                tuple(_term(value[i, j]) for j in range(value.shape[1]))
-                for i in range(value.shape[0])
-            )
-        )
-    return _term(value)
-
-
-def _term(expression: Any) -> Term:
-    return from_sympy(
-        expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
-    )
-
 
 ORDER = ("alpha", "r", "g", "K", "n", "eps", "beta", "v", "beta0", "v0", "x", "w", "t", "tau")
 STANDING = Vocabulary(
@@ -185,6 +133,7 @@ def collide(table: Vector) -> StateFunction:
         image = encoded(
             symbolic.collide(sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:]))
         )
+        image = made_by(Origin("impact_map"), image)
         values = dict(
             zip(
                 (str(name) for name in names),
@@ -221,16 +170,6 @@ def equals(left: Vector | Matrix, right: Vector | Matrix) -> Formula:
     return relate(left, "=", right)
 
 
-CONSTANTS = {  # names of prints that stand for what `symbolic` derives
-    r"R_\alpha": "restitution_matrix",
-    r"\xi_1": "xi_1",
-    r"\epsilon_1": "epsilon_1",
-    r"e_1": "e_1",
-    r"E_{max}": "E_max",
-    r"\Delta E_{max}": "delta_E_max",
-    r"r_0": "launch_state",
-    r"T": "period",
-}
 NAMES: dict[str, Any] = {
     r"\alpha": alpha,
     r"\gamma": g,

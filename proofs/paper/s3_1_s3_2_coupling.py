@@ -323,6 +323,7 @@ def collision_equation_in_components(printed: Printed) -> list[Statement]:
         r" - \dot{\overline{\beta}}}"
     ),
     derived=lambda: derived("collision_time"),
+    names=PAPER,
 )
 def time_to_collision(printed: Printed) -> Statement:
     """While the ball's speed differs from the table's launch speed, both are at one height at tau_c

@@ -167,6 +167,7 @@ def fixed_point_by_the_inverse(printed: Printed) -> Statement:
     printed=r"e_1 = -\frac{1 - \alpha}{1 + \alpha} A_{-\xi_1} r_0",
     as_it_stands=r"= -\frac{1 - \alpha}{1 + \alpha} A_{-\xi_1} r_0",
     derived=lambda: derived("e_1"),
+    names=PAPER,
 )
 def fixed_point_as_a_shifted_launch(printed: Printed) -> Statement:
     """The fixed point is the table's launch state flown back for the time in the index, shrunk and

@@ -1,4 +1,4 @@
-"""The file of records: its key tells every source apart, and what is not whole, or cannot be
+"""The file of kept figures: its key tells every source apart, and what is not whole, or cannot be
 written, is let be.
 """
 

@@ -17,8 +17,8 @@ from judged import content
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reading.edits import mutations
-from juggleproof.proofs.run import paper_claims
 
 REVIEWED = Path(__file__).with_name("changes_that_mean_the_same.tsv")
 
