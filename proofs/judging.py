@@ -15,12 +15,15 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
     AnyStatement,
     ClaimError,
+    Formula,
     Iterates,
     MapRule,
     SharpRange,
     Statement,
+    disjunction,
 )
 from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
+from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_found
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.vote import Vote, cast_votes, compare
@@ -43,7 +46,6 @@ from juggleproof.proofs.correcting import Candidate, candidates
 from juggleproof.proofs.forms import (
     has_whole_range,
     read,
-    refuse_what_says_nothing,
     speaks_of_range,
 )
 from juggleproof.proofs.ranges import search_sharp_range
@@ -166,6 +168,48 @@ def settle_by_rules(
             held = one.verdict.word == "holds"
             text = range_of_rule(one.rests_on[-1], texts) if held else NOT_FOUND
             one.sharp[""] = Sharp(text, one.rests_on)
+
+
+def refuse_what_says_nothing(
+    statement: Statement, outcome: str, known: dict[str, checker.Statement], budget: int
+) -> None:
+    """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep
+    a denominator from vanishing.
+    """
+
+    def settles(part: Statement, outcome: str) -> bool:
+        try:
+            return outcome in search_certificate(
+                read(part.text(), part.name), known, Budget(budget)
+            )
+        except Exhausted:
+            return False
+
+    for index, (keyword, said) in enumerate(statement.lines):
+        if keyword == "have" and isinstance(said, Formula):
+            before = Statement(
+                statement.name, statement.forall, statement.lines[:index], said, statement.integer
+            )
+            if settles(before, "refuted"):
+                raise ClaimError(
+                    f"{statement.name}: division by what may vanish ({said} does not follow); "
+                    "add a given that keeps it from 0"
+                )
+    if outcome == "refuted":
+        return
+    impossible = Statement(
+        statement.name, statement.forall, statement.lines, disjunction([]), statement.integer
+    )
+    story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
+    try:
+        impossible_for_all = search_closing(story.state(), known, Budget(budget)) is not None
+    except Exhausted:
+        impossible_for_all = False
+    if impossible_for_all:
+        raise ClaimError(
+            f"{statement.name}: its hypotheses contradict one another, so it would say nothing;"
+            " drop or mend a given"
+        )
 
 
 class Judge:

@@ -18,12 +18,14 @@ from rich.progress import Progress as Bar
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, canonical, write_file
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.command import outputs
+from juggleproof.proofs.command.outputs import fault_of
 from juggleproof.proofs.judging import DEFAULT_BUDGET, Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, load_register, write_register
 from juggleproof.proofs.reports import pages, problems
 from juggleproof.proofs.reports import results as table
+from juggleproof.proofs.reports.ci import as_junit, markdown
+from juggleproof.proofs.reports.contents import as_json
 from juggleproof.proofs.reports.results import Results, results_of_run
 from juggleproof.proofs.reports.tree import theorem_of_run
 from juggleproof.proofs.run import Options, Progress, claims_of_files, no_progress, run, start, stop
@@ -43,7 +45,7 @@ def certify(options: argparse.Namespace, register: Path = PATH) -> int:
     """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where
     every claim holds), else 1.
     """
-    outputs.refuse_unwritable(options)
+    refuse_unwritable(options)
     before = None if options.files else load_register(register)
     console = Console(highlight=False)
     claims = claims_of_files(options.files) if options.files else paper_claims()
@@ -69,7 +71,7 @@ def certify(options: argparse.Namespace, register: Path = PATH) -> int:
         print(f"{'accepted ' if accepts else 'differs from the register '} {change}")
     if before is not None and accepts:
         _accept(results, before, options, register)
-    outputs.write(options, results, done.seconds)
+    write_outputs(options, results, done.seconds)
     return results.exit
 
 
@@ -122,6 +124,53 @@ def _accept(
 
 
 # -------------------------------------------------------------------------------------------------
+# The files that it writes beside the store: refused before the run where they could not be written
+# after it.
+
+OUTPUTS = ("json", "junit", "markdown", "timings")
+
+
+def refuse_unwritable(options: argparse.Namespace) -> None:
+    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
+    be written, or would overwrite another.
+    """
+    taken = {path.resolve(): f"the claims of {path}" for path in options.files}
+    for option, path in _asked(options).items():
+        fault = fault_of(path) or (
+            f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else ""
+        )
+        if fault:
+            raise ClaimError(f"--{option} {path}: {fault}; name another file")
+        taken[path.resolve()] = f"what --{option} writes"
+
+
+def _asked(options: argparse.Namespace) -> dict[str, Path]:
+    return {
+        option: getattr(options, option)
+        for option in OUTPUTS
+        if getattr(options, option) is not None
+    }
+
+
+def write_outputs(
+    options: argparse.Namespace, results: Results, seconds: Mapping[str, float]
+) -> None:
+    """Writes each file that was asked for."""
+    for option, path in _asked(options).items():
+        write_file(path, _content(option, results, seconds))
+
+
+def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
+    if option == "json":
+        return as_json(results)
+    if option == "junit":
+        return as_junit(results)
+    if option == "markdown":
+        return markdown(results).encode()
+    return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()
+
+
+# -------------------------------------------------------------------------------------------------
 # `juggleproof certify FILE.smt2 ...`: answers every problem of the scripts, and shows what settles
 # each.
 
@@ -145,7 +194,7 @@ def certify_problems(options: argparse.Namespace) -> int:
     for option in NOT_FOR_SCRIPTS:
         if getattr(options, option):
             raise ClaimError(f"--{option}: not for scripts of SMT-LIB; leave it out")
-    outputs.refuse_unwritable(options)
+    refuse_unwritable(options)
     answered = _answered(options)
     problems.draw(answered, Console(highlight=False))
     for one in answered:

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
+import sympy
+
 from juggleproof import symbolic
 from juggleproof.certificates.language import (
     Formula,
@@ -127,8 +129,6 @@ def collide(table: Vector) -> StateFunction:
     """C_y: the derived change of the ball's state at an impact with a table in the state y."""
 
     def after(ball: Vector) -> Vector:
-        import sympy
-
         names = sympy.symbols("ball_height ball_speed table_height table_speed")
         image = encoded(
             symbolic.collide(sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:]))
