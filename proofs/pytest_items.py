@@ -15,8 +15,7 @@ from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, load_register
 from juggleproof.proofs.reports.ci import failing, fails_at
-from juggleproof.proofs.reports.results import Results, results_of_run
-from juggleproof.proofs.reports.tree import theorem_of_run
+from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, claims_of_files, refuse_duplicates, run
 
 NAME = "juggleproof"

@@ -26,8 +26,7 @@ from juggleproof.proofs.reports import pages, problems
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.ci import as_junit, markdown
 from juggleproof.proofs.reports.contents import as_json
-from juggleproof.proofs.reports.results import Results, results_of_run
-from juggleproof.proofs.reports.tree import theorem_of_run
+from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, Progress, claims_of_files, no_progress, run, start, stop
 from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
 

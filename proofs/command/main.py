@@ -17,7 +17,7 @@ from juggleproof.proofs.command.simulate_options import add_simulate
 
 MODULES = {
     "certify": "juggleproof.proofs.command.certify",
-    "check": "juggleproof.proofs.command.show",
+    "check": "juggleproof.proofs.command.check",
     "list": "juggleproof.proofs.command.show",
     "explain": "juggleproof.proofs.command.explain",
     "errata": "juggleproof.proofs.command.show",

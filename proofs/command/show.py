@@ -1,4 +1,4 @@
-"""`juggleproof list`, `errata`, `check` and `export`."""
+"""`juggleproof list`, `errata` and `export`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
 from juggleproof.proofs.reports.contents import gather
 from juggleproof.proofs.reports.tex import equation
-from juggleproof.proofs.reports.tree import theorem_line
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof list` and `errata`: what is stored, told without searching again.
@@ -26,8 +25,6 @@ from juggleproof.proofs.reports.tree import theorem_line
 
 def command(parsed: argparse.Namespace) -> int:
     """Runs one of these commands; returns its exit code."""
-    if parsed.command == "check":
-        return check(parsed.folder)
     if parsed.command == "export":
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "list":
@@ -43,31 +40,6 @@ def list_claims() -> int:
         verdict = register.get(claim.id, {}).get("verdict", "not judged")
         print(f"{claim.id:32} {claim.section + ' ' + claim.place:24} {verdict:12} {claim.says}")
     return 0
-
-
-# -------------------------------------------------------------------------------------------------
-# `juggleproof check`: the bare checker over a folder, and what its results mean for the
-# theorem.
-
-
-def check(folder: Path | None) -> int:
-    """Prints what the checker rejects, the counts of outcomes, and one line for the theorem; 0
-    where nothing is rejected, else 1.
-
-    Raises ClaimError, one line, where the folder cannot be read.
-    """
-    where = folder or DEFAULT
-    try:
-        results = checker.check_folder(str(where))
-    except checker.Rejected as reason:
-        raise ClaimError(
-            f"{where}: {reason}; name a folder that `juggleproof certify` wrote"
-        ) from None
-    code = checker.report(results)
-    line = theorem_line(Store(where), {name: outcome for name, outcome, _ in results})
-    if line:
-        print(line)
-    return int(code)
 
 
 # -------------------------------------------------------------------------------------------------

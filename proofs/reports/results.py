@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import Store
 from juggleproof.proofs.claims import (
     VERDICTS,
     Argument,
@@ -25,6 +26,8 @@ from juggleproof.proofs.judging import Judgement
 from juggleproof.proofs.register import Change, differences, load_register, registered
 from juggleproof.proofs.reports.errata import counterexample, group_of, what_is_wrong
 from juggleproof.proofs.reports.tables import plain
+from juggleproof.proofs.reports.tree import theorem_line
+from juggleproof.proofs.run import Run
 
 # -------------------------------------------------------------------------------------------------
 # The table of results, as rows of text and as it is drawn on a terminal.
@@ -299,6 +302,12 @@ class Results:
     def change_of(self) -> dict[str, Change]:
         """The changes by claim."""
         return {change.claim: change for change in self.changes}
+
+
+def theorem_of_run(done: Run) -> str:
+    """The line about the theorem after a run, with the votes that were cast in it."""
+    votes = {name: cast for one in done.judgements for name, cast in one.votes.items()}
+    return theorem_line(Store(done.store), done.outcomes, votes)
 
 
 def results_of_run(

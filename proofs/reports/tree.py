@@ -11,7 +11,6 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, rests_on
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.vote import Vote
-from juggleproof.proofs.run import Run
 
 THEOREM = "theorem-in-units/exactly"
 
@@ -80,12 +79,6 @@ def theorem_line(
         )
         + "\n         `make coq` proves the same from the definition of the map alone"
     )
-
-
-def theorem_of_run(done: Run) -> str:
-    """The line about the theorem after a run, with the votes that were cast in it."""
-    votes = {name: cast for one in done.judgements for name, cast in one.votes.items()}
-    return theorem_line(Store(done.store), done.outcomes, votes)
 
 
 def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premises: bool) -> None:

@@ -15,8 +15,7 @@ from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.contents import Contents, gather
-from juggleproof.proofs.reports.results import Results, results_of_run
-from juggleproof.proofs.reports.tree import theorem_of_run
+from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, Run, claims_of_file, run
 
 HEAD = (
