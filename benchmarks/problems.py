@@ -21,7 +21,7 @@ from juggleproof.benchmarks.peers import CVC5, has_cvc5, z3_command
 from juggleproof.benchmarks.processes import Clock
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
-from juggleproof.proofs.command.certify import draw, summary
+from juggleproof.proofs.reports.problems import draw, summary
 from juggleproof.proofs.smtlib.answering import Answered, answer_files
 from juggleproof.proofs.smtlib.script import Problem
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Union
@@ -32,17 +32,28 @@ class ClaimError(ValueError):
 class Term:
     """A rational expression over named reals, kept as it was written.
 
+    `origins` says which derivations made it; it is no part of equality or hash.
+
     >>> x, w = reals("x w")
     >>> str((x - w) / 2 + x**2 * Fraction(1, 3))
     '(x - w)/2 + x^2*(1/3)'
     """
 
-    __slots__ = ("op", "args", "_hash", "_names")
+    __slots__ = ("op", "args", "origins", "_hash", "_names")
 
-    def __init__(self, op: str, *args: Any) -> None:
-        self.op, self.args = op, args
+    def __init__(self, op: str, *args: Any, origins: tuple[Hashable, ...] = ()) -> None:
+        self.op, self.args, self.origins = op, args, origins
         self._hash = hash((op, args))
         self._names: frozenset[str] | None = None
+
+    def made_by(self, *origins: Hashable) -> Term:
+        """The same term, made by these as well.
+
+        >>> real("x").made_by("f").origins, real("x").made_by("f") == real("x")
+        (('f',), True)
+        """
+        joined = tuple(dict.fromkeys((*self.origins, *origins)))
+        return self if joined == self.origins else Term(self.op, *self.args, origins=joined)
 
     def __hash__(self) -> int:
         return self._hash
@@ -55,7 +66,7 @@ class Term:
         )
 
     def __reduce__(self) -> tuple[Any, ...]:  # a hash of another process would not do
-        return Term, (self.op, *self.args)
+        return Term, (self.op, *self.args), (None, {"origins": self.origins})
 
     def __bool__(self) -> bool:
         raise ClaimError(
@@ -325,6 +336,8 @@ def transform(thing: Any, leaf: Callable[[Term], Term], done: dict[Any, Any] | N
                     for p in thing.args
                 ),
             )
+        if isinstance(thing, Term) and thing.origins:  # it is still what the derivation made
+            result = result.made_by(*thing.origins)
         done[id(thing)] = result
     return done[id(thing)]
 
@@ -344,6 +357,29 @@ def substitute(thing: Any, values: Mapping[str, Number]) -> Any:
 def names_in(thing: Any) -> set[str]:
     """The names of the variables that occur."""
     return set(_names_of(thing))
+
+
+def origins_in(*things: object) -> Iterator[Hashable]:
+    """What made the terms in these terms, formulas, statements and sequences of such, from the
+    outside in and from left to right; what made several is told several times.
+
+    >>> x, w = reals("x w")
+    >>> list(origins_in([x < w.made_by("f"), x**2]))
+    ['f']
+    """
+    for thing in things:
+        if isinstance(thing, Term):
+            yield from thing.origins
+        if isinstance(thing, (Term, Formula)):
+            yield from origins_in(*thing.args)
+        elif isinstance(thing, Statement):
+            yield from origins_in(thing.lines, thing.within, thing.show)
+        elif isinstance(thing, Iterates):
+            yield from origins_in(thing.images, thing.powers)
+        elif isinstance(thing, MapRule):
+            yield from origins_in(thing.made_of)
+        elif isinstance(thing, (tuple, list)):
+            yield from origins_in(*thing)
 
 
 def _names_of(thing: Any) -> frozenset[str]:
@@ -501,7 +537,7 @@ class Iterates:
 @dataclass(frozen=True)
 class MapRule:
     """What holds of every orbit of a map, by a rule of the checker that writes its own premises:
-    the lines as (keyword, text).
+    the lines as (keyword, text), and the terms and formulas that the texts are written from.
 
     >>> over = (("over", "a"), ("domain", "a > 0"))
     >>> map = (("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))
@@ -516,6 +552,7 @@ class MapRule:
 
     name: str
     rows: tuple[tuple[str, str], ...]
+    made_of: tuple[Term | Formula, ...] = field(default=(), compare=False)
 
     def text(self) -> str:
         """The statement as the checker reads it."""

@@ -13,6 +13,9 @@ from typing import Any, Union
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.judging import DEFAULT_BUDGET
+from juggleproof.proofs.run import Options, claims_of_file, run
+from juggleproof.proofs.smtlib.answering import BUDGET, answer_files, in_script
 
 What = Union[str, Path, Sequence[Claim]]
 
@@ -67,22 +70,21 @@ def certify(
         path = Path(what)
         if path.suffix == ".smt2":
             return _problems(path, executor, budget, store)
-        return _claims([path], (), executor, budget, store, routes)
+        folder = store or path.with_suffix(".certificates")
+        return _claims(claims_of_file(path), executor, budget, folder, routes)
     claims = list(what)
     if not claims or not all(isinstance(one, Claim) for one in claims):
         raise ClaimError(
             f"{what!r}: neither a path nor claims; give FILE.py, FILE.smt2 or what `claims_of`"
             " returns"
         )
-    with tempfile.TemporaryDirectory() as folder:
-        return _claims([], claims, executor, budget, store or Path(folder), routes)
+    with tempfile.TemporaryDirectory() as kept:
+        return _claims(claims, executor, budget, store or Path(kept), routes)
 
 
 def _problems(
     path: Path, executor: Executor | None, budget: int, store: Path | None
 ) -> list[Result]:
-    from juggleproof.proofs.smtlib.answering import BUDGET, answer_files, in_script
-
     results = []
     for one in answer_files([path], budget=budget or BUDGET, store=store, executor=executor):
         if one.rejected:
@@ -102,21 +104,14 @@ def _problems(
 
 
 def _claims(
-    files: Sequence[Path],
     claims: Sequence[Claim],
     executor: Executor | None,
     budget: int,
-    store: Path | None,
+    store: Path,
     routes: Sequence[str],
 ) -> list[Result]:
-    from juggleproof.proofs.command.certify import run
-    from juggleproof.proofs.command.main import build_parser
-
-    options = build_parser().parse_args(
-        ["certify", "--jobs", "1", "--routes", ",".join(routes), "--", *map(str, files)]
-    )
-    options.store, options.budget = store, budget
-    done = run(options, executor=executor, given=claims)
+    options = Options(store, tuple(routes), budget or DEFAULT_BUDGET, jobs=1)
+    done = run(claims, options, executor=executor)
     if done.rejected:
         raise ClaimError("{}: rejected by the checker: {}".format(*done.rejected[0]))
     return [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
@@ -21,6 +21,7 @@ from juggleproof.certificates.language import (
     Statement,
 )
 from juggleproof.proofs.forms import PLAIN, Vocabulary, domains_of
+from juggleproof.proofs.reading import meaning
 
 # -------------------------------------------------------------------------------------------------
 # Claims: an assertion with its place and print, and the formal reading that is judged.
@@ -146,9 +147,7 @@ class Claim:
 
     def read_print(self, latex: str = "") -> Any:
         """The print, or another LaTeX text, as the reader reads it."""
-        from juggleproof.proofs.reading.meaning import read
-
-        return read(latex or self.printed)
+        return meaning.read(latex or self.printed)
 
 
 def as_body(returned: Any, claim_id: str) -> Body:
@@ -293,6 +292,18 @@ def claims_of(load: Callable[[], object]) -> list[Claim]:
         return list(_registry)
     finally:
         _registry[:] = held
+
+
+def claim_named(text: str, known: Collection[str]) -> str:
+    """The name of the claim that is meant, where the paper's number of an equation is given; else
+    the text itself.
+
+    >>> [claim_named(text, ["eq-37"]) for text in ("eq-37", "37", "(37)", "eq 37", "38")]
+    ['eq-37', 'eq-37', 'eq-37', 'eq-37', '38']
+    """
+    number = re.fullmatch(r"(?:eq(?:uation)?\.?[ -]?)?\(?(\d+[a-z]?)\)?", text.strip())
+    name = f"eq-{number[1]}" if number else text
+    return name if text not in known and name in known else text
 
 
 # -------------------------------------------------------------------------------------------------

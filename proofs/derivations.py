@@ -1,23 +1,95 @@
-"""What a claim rests on in `symbolic`: each derivation that it uses, with what this says of itself,
-its result, and what it is made from.
+"""Derived expressions as terms that say what made them; what a claim rests on in `symbolic`: each
+derivation that its statements contain, with what this says of itself, its result, and what it is
+made from.
 """
 
 from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cache
 from types import CodeType
-from typing import Any
+from typing import Any, NamedTuple
+
+from sympy import ImmutableMatrix, MatrixBase
 
 from juggleproof import symbolic
-from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.claims import Body, Claim
+from juggleproof.certificates.language import Formula, Term, origins_in, real, term
+from juggleproof.proofs.claims import Body, assertions
+from juggleproof.proofs.encoding import from_sympy, paper_form
+from juggleproof.proofs.reading.values import Matrix, Vector
 
 Rows = tuple[tuple[str, ...], ...]
+
+
+class Origin(NamedTuple):
+    """What made a term: a function of `symbolic` by its name, and its arguments."""
+
+    function: str
+    arguments: tuple[Any, ...] = ()
+
+
+def derived(name: str, *arguments: Any) -> Any:
+    """A derived expression of `symbolic` by its function's name: a term, or a vector or matrix of
+    terms, each of which says what made it.
+
+    >>> str(derived("E_max")), derived("E_max").origins
+    ('r^2*(alpha + 1)^2/(2*(alpha - 1)^2)', (Origin(function='E_max', arguments=()),))
+    """
+    return _derived(Origin(name, arguments))
+
+
+@cache
+def _derived(origin: Origin) -> Any:
+    return made_by(origin, encoded(_result(origin)))
+
+
+def _result(origin: Origin) -> Any:
+    """What the function comes to; several expressions as a column, and an extremum as the state to
+    which it belongs.
+    """
+    value = getattr(symbolic, origin.function)(*origin.arguments)
+    if hasattr(value, "attained"):
+        return value.state
+    return ImmutableMatrix(value) if isinstance(value, tuple) else value
+
+
+def made_by(origin: Origin, thing: Any) -> Any:
+    """The same term, formula, vector or matrix, each of whose entries or sides says that this made
+    it.
+    """
+    if isinstance(thing, Term):
+        return thing.made_by(origin)
+    if isinstance(thing, Formula):
+        return Formula(thing.op, *(made_by(origin, part) for part in thing.args))
+    if isinstance(thing, Vector):
+        return Vector(tuple(made_by(origin, term(entry)) for entry in thing.entries))
+    return Matrix(tuple(tuple(made_by(origin, term(one)) for one in row) for row in thing.rows))
+
+
+def encoded(value: Any) -> Any:
+    """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
+    alpha is named s.
+    """
+    if isinstance(value, MatrixBase):
+        if value.shape[1] == 1:
+            return Vector(tuple(_term(entry) for entry in value))
+        return Matrix(
+            tuple(
+                tuple(_term(value[i, j]) for j in range(value.shape[1]))
+                for i in range(value.shape[0])
+            )
+        )
+    return _term(value)
+
+
+def _term(expression: Any) -> Term:
+    s = real("s")
+    return from_sympy(
+        expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
+    )
 
 
 @dataclass(frozen=True)
@@ -53,47 +125,28 @@ class Derivation:
         ).rstrip(".")
         return said + (f", for {arguments}" if arguments else "")
 
-    def data(self) -> dict[str, Any]:
-        """The derivation as plain data."""
-        return asdict(self)
-
-
-def kept_derivations(record: Mapping[str, Any]) -> tuple[list[Derivation], list[Derivation]]:
-    """From a claim's record: the derivations that it uses, and all that these are made from."""
-    known = [derivation_of(data) for data in record["behind"]]
-    by_name = {one.function: one for one in known}
-    return [by_name[name] for name in record["derivations"]], known
-
-
-def derivation_of(data: Mapping[str, Any]) -> Derivation:
-    """The derivation from its data, also where this came back from a file."""
-    rows, shown = (tuple(tuple(map(str, row)) for row in data[kind]) for kind in ("rows", "shown"))
-    return Derivation(
-        str(data["function"]), str(data["said"]), rows, shown, tuple(map(str, data["uses"]))
-    )
-
 
 @cache
-def derivation(name: str, arguments: tuple[Any, ...] = ()) -> Derivation:
-    """The derivation of this name in `symbolic`, worked out.
+def derivation(origin: Origin) -> Derivation:
+    """The derivation behind an origin, worked out.
 
-    >>> derivation("launch_state").line
+    >>> derivation(Origin("launch_state")).line
     'symbolic.launch_state: The table as it leaves the ground: r_0 = (0, r) (section 3.1). (0, r)'
     """
-    from juggleproof.proofs.encoding import paper_form
-    from juggleproof.proofs.paper.names import rows_of
-
-    value = getattr(symbolic, name)(*arguments)
-    rows = rows_of(name, arguments)
-    entries = [
-        str(paper_form(entry)) for entry in (value if hasattr(value, "shape") else [value])
-    ]  # by rows
-    width = value.shape[1] if getattr(value, "shape", (1, 1))[1] > 1 else len(entries)
-    manner = tuple(tuple(entries[start : start + width]) for start in range(0, len(entries), width))
+    name, arguments = origin
+    value = _result(origin)
+    entries = list(value) if isinstance(value, MatrixBase) else [value]  # by rows
+    width = value.shape[1] if isinstance(value, MatrixBase) and value.shape[1] > 1 else len(entries)
+    starts = range(0, len(entries), width)
+    terms, manner = [map(str, map(_term, entries)), map(str, map(paper_form, entries))]
+    rows, shown = (
+        tuple(listed[start : start + width] for start in starts)
+        for listed in (tuple(terms), tuple(manner))
+    )
     summary = (inspect.getdoc(getattr(symbolic, name)) or "").partition("\n\n")[0]
     said = " ".join(summary.split())
-    shown = f"({', '.join(map(str, arguments))})" if arguments else ""
-    return Derivation(name + shown, said, rows, manner, made_from(name))
+    given = f"({', '.join(map(str, arguments))})" if arguments else ""
+    return Derivation(name + given, said, rows, shown, made_from(name))
 
 
 @cache
@@ -148,7 +201,7 @@ def _is_derivation(function: Any, name: str) -> bool:
 def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
     """All that the derivations are made from, themselves included, each after what it is made from.
 
-    >>> [one.function for one in behind([derivation("total_energy")])]
+    >>> [one.function for one in behind([derivation(Origin("total_energy"))])]
     ['acceleration', 'total_energy']
     """
     ordered: dict[str, Derivation] = {}
@@ -156,7 +209,7 @@ def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
     def visit(one: Derivation) -> None:
         for name in one.uses:
             if name not in ordered:
-                visit(derivation(name))
+                visit(derivation(Origin(name)))
         ordered.setdefault(one.function, one)
 
     for one in derivations:
@@ -164,43 +217,15 @@ def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
     return list(ordered.values())
 
 
-def body_and_derivations(claim: Claim) -> tuple[Body, list[Derivation]]:
-    """What the claim asserts, and each derivation used: the constants that its print names, then
-    what its reading asks for.
+def derivations_of(body: Body) -> list[Derivation]:
+    """The derived expressions that the statements of a body contain, each once, in the order in
+    which they stand there.
 
-    Raises ClaimError, naming the claim, for whatever the function of a claim outside of this
-    package raises.
+    >>> from juggleproof.proofs.claims import Assertion
+    >>> from juggleproof.proofs.forms import always
+    >>> body = Assertion((always(derived("E_max") > 0),))
+    >>> [one.function for one in derivations_of(body)]
+    ['E_max']
     """
-    if not claim.source.startswith(
-        ("juggleproof.proofs.paper.", "juggleproof.proofs.theorem.", "juggleproof.proofs.part.")
-    ):
-        try:
-            return claim.body(), []
-        except (checker.Rejected, ClaimError):
-            raise
-        except Exception as problem:
-            raise ClaimError(
-                f"{claim.id} raises {type(problem).__name__}: {problem}; mend its function"
-            ) from problem
-    from juggleproof.proofs.paper import names
-
-    names.derivations_used.clear()
-    body = claim.body()
-    used = dict.fromkeys([*((name, ()) for name in _constants_in(claim)), *names.derivations_used])
-    return body, [derivation(name, arguments) for name, arguments in used]
-
-
-def _constants_in(claim: Claim) -> list[str]:
-    """The derivations behind the constants that the print names."""
-    from juggleproof.proofs.paper.names import CONSTANTS
-    from juggleproof.proofs.reading.parser import parse_name
-
-    if not claim.printed:
-        return []
-    printed = set()
-    for name in claim.read_print().names:
-        try:
-            printed.add(parse_name(name))
-        except ClaimError:  # a name with a place for an argument is no constant
-            continue
-    return [derivation for latex, derivation in CONSTANTS.items() if parse_name(latex) in printed]
+    origins = origins_in([assertion.parts for _, assertion in assertions(body)])
+    return [derivation(one) for one in dict.fromkeys(origins) if isinstance(one, Origin)]

@@ -11,23 +11,20 @@ from functools import cache
 from typing import Any
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import (
-    NO_ROLES,
     ClaimError,
     Formula,
     Line,
     Number,
-    Roles,
     Statement,
     Term,
-    disjunction,
     equal,
     names_in,
     real,
     substitute,
     term,
 )
-from juggleproof.certificates.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
 # The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes
@@ -48,7 +45,8 @@ class Vocabulary:
     `domains` has the parameters over which sharp ranges are sought, the first one first, each with
     what is assumed of it alone; `scales` the positive variables that a change of units makes 1,
     which homogeneity tells where it is None; `sample` a point at which signs of denominators are
-    guessed; `reads` gives the environment in which a print is read that is to be corrected.
+    guessed; `reads` gives the environment in which a print is read that is to be corrected, and
+    `defines` the definitions of the statement file.
     """
 
     order: tuple[str, ...] = ()
@@ -61,6 +59,7 @@ class Vocabulary:
     domains: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
     scales: frozenset[str] | None = None
     reads: Callable[[], Any] | None = None
+    defines: Callable[[], Sequence[Definition]] | None = None
 
 
 PLAIN = Vocabulary()
@@ -429,64 +428,13 @@ def same_set(
 
 
 # -------------------------------------------------------------------------------------------------
-# What the hypotheses of a statement say: nothing, where they contradict one another; the domain of
-# a parameter, or a part of it.
+# What the hypotheses of a statement say: the domain of a parameter, or a part of it.
 
 
 def read(text: str, name: str) -> checker.Statement:
     """The statement as the checker reads it."""
     statement: checker.Statement = checker.read_statements(text)[name]
     return statement
-
-
-def refuse_what_says_nothing(
-    statement: Statement,
-    outcome: str,
-    known: dict[str, checker.Statement],
-    budget: int,
-    roles: Roles = NO_ROLES,
-) -> None:
-    """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep
-    a denominator from vanishing.
-    """
-    from juggleproof.certificates.search.certificate import search_certificate
-    from juggleproof.certificates.search.closing import search_closing
-
-    def settles(part: Statement, outcome: str) -> bool:
-        try:
-            return outcome in search_certificate(
-                read(part.text(), part.name), known, Budget(budget), roles=roles
-            )
-        except Exhausted:
-            return False
-
-    for index, (keyword, said) in enumerate(statement.lines):
-        if keyword == "have" and isinstance(said, Formula):
-            before = Statement(
-                statement.name, statement.forall, statement.lines[:index], said, statement.integer
-            )
-            if settles(before, "refuted"):
-                raise ClaimError(
-                    f"{statement.name}: division by what may vanish ({said} does not follow); "
-                    "add a given that keeps it from 0"
-                )
-    if outcome == "refuted":
-        return
-    impossible = Statement(
-        statement.name, statement.forall, statement.lines, disjunction([]), statement.integer
-    )
-    story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
-    try:
-        impossible_for_all = (
-            search_closing(checker.state_of(story), known, Budget(budget)) is not None
-        )
-    except Exhausted:
-        impossible_for_all = False
-    if impossible_for_all:
-        raise ClaimError(
-            f"{statement.name}: its hypotheses contradict one another, so it would say nothing;"
-            " drop or mend a given"
-        )
 
 
 def domains_of(

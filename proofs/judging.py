@@ -16,15 +16,21 @@ from juggleproof.certificates.language import (
     NO_ROLES,
     AnyStatement,
     ClaimError,
+    Formula,
     Iterates,
     MapRule,
     Roles,
     SharpRange,
     Statement,
+    disjunction,
 )
+from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
+from juggleproof.certificates.search.closing import search_closing
+from juggleproof.certificates.search.points import search_found
 from juggleproof.certificates.store import Store
+from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.vote import Vote, compare
-from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.claims import (
     Argument,
     Assertion,
@@ -33,21 +39,22 @@ from juggleproof.proofs.claims import (
     Following,
     Readings,
     Verdict,
+    as_body,
     assertions,
     named_statements,
     outcome_of,
     verdict_of,
 )
-from juggleproof.proofs.derivations import Derivation, behind, body_and_derivations
+from juggleproof.proofs.correcting import Candidate, candidates
 from juggleproof.proofs.forms import (
     has_whole_range,
     read,
-    refuse_what_says_nothing,
     speaks_of_range,
 )
-from juggleproof.proofs.kept import record_of
+from juggleproof.proofs.ranges import search_sharp_range
 from juggleproof.proofs.rules import range_of_rule, whole_text
 
+ROUTES = ("exact", "z3", "boxes")
 DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
@@ -56,23 +63,23 @@ SHARP = 3  # a sharp range takes many proofs and families, each with this part o
 
 
 @dataclass(frozen=True)
-class Options:
-    """How to judge: which routes vote, how much counted work a statement may take, and what an
-    earlier run found.
+class Resources:
+    """What a claim is judged with: which routes vote, how much counted work a statement may take,
+    and what an earlier run found.
 
     `checked` is what the checker said of the stored statements, by name, when it read the whole
     store at the start of this run.
     """
 
-    routes: tuple[str, ...] = ("exact", "z3", "boxes")
+    routes: tuple[str, ...] = ROUTES
     budget: int = DEFAULT_BUDGET
     store: Store | None = None
     findings: Mapping[str, Any] = field(default_factory=dict)
     lemmas: Mapping[str, str] = field(default_factory=dict)
     checked: Mapping[str, str] = field(default_factory=dict)
 
-    def only(self, claim: Claim) -> Options:
-        """What these options say of one claim, with the stored certificates read, so that no folder
+    def only(self, claim: Claim) -> Resources:
+        """What these are for one claim, with the stored certificates read, so that no folder
         is needed.
         """
         used = {claim.id, *(name.split("/")[0] for name in claim.hints.get("uses", ()))}
@@ -91,6 +98,18 @@ class Options:
         )
 
 
+@dataclass(frozen=True)
+class Sharp:
+    """A sharp range of the parameters: as text, and the statements that settle it.
+
+    Where the search found none, `tried` says for what: the same search is not made again.
+    """
+
+    text: str
+    by: tuple[str, ...] = ()
+    tried: str = ""
+
+
 @dataclass
 class Judgement:
     """Everything found about one claim; plain data, so that it passes between processes."""
@@ -100,10 +119,9 @@ class Judgement:
     certificates: dict[str, Any] = field(default_factory=dict)
     outcomes: dict[str, str] = field(default_factory=dict)
     votes: dict[str, Sequence[Vote]] = field(default_factory=dict)
-    sharp: dict[str, dict[str, Any]] = field(default_factory=dict)
+    sharp: dict[str, Sharp] = field(default_factory=dict)  # by the prefix of an assertion
     verdict: Verdict = field(default_factory=lambda: Verdict("unknown"))
     correction: dict[str, Any] | None = None
-    corrected_as: dict[str, Any] | None = None
     recorded: dict[str, Any] = field(default_factory=dict)
     rests_on: tuple[str, ...] = ()  # map rules, as a rule of other claims
     by_rules: Verdict = field(
@@ -112,14 +130,11 @@ class Judgement:
     follows: bool = False
     roles: Roles = NO_ROLES
     reused: int = 0
-    record: Any = None
 
     def finding(self) -> dict[str, Any]:
         """What a later run may try first: the correction and the votes."""
-        data: dict[str, Any] = {
-            "sharp": {prefix: one["text"] for prefix, one in self.sharp.items()}
-        }
-        tried = {prefix: one["tried"] for prefix, one in self.sharp.items() if "tried" in one}
+        data: dict[str, Any] = {"sharp": {prefix: one.text for prefix, one in self.sharp.items()}}
+        tried = {prefix: one.tried for prefix, one in self.sharp.items() if one.tried}
         if tried:
             data["not found"] = tried
         if self.correction:
@@ -129,14 +144,14 @@ class Judgement:
         return data
 
 
-def judge(claim: Claim, options: Options) -> Judgement:
+def judge(claim: Claim, resources: Resources) -> Judgement:
     """The judgement on one claim.
 
     Raises ClaimError, one line that names the claim, where it cannot be stated; Disagreement where
     a route contradicts the checker.
     """
     try:
-        return Judge(claim, options).run()
+        return Judge(claim, resources).run()
     except (checker.Rejected, ClaimError) as problem:
         text = str(problem)
         raise ClaimError(
@@ -144,21 +159,88 @@ def judge(claim: Claim, options: Options) -> Judgement:
         ) from None
 
 
+def settle_by_rules(
+    judgements: Sequence[Judgement], outcomes: Mapping[str, str], texts: Mapping[str, str]
+) -> None:
+    """Gives each judgement that rests on map rules its verdict and range, now that the outcomes of
+    all statements are known.
+    """
+    for one in judgements:
+        if one.rests_on and all(outcomes.get(name) == "certified" for name in one.rests_on):
+            one.verdict = one.by_rules
+        if one.follows:
+            held = one.verdict.word == "holds"
+            text = range_of_rule(one.rests_on[-1], texts) if held else NOT_FOUND
+            one.sharp[""] = Sharp(text, one.rests_on)
+
+
+def refuse_what_says_nothing(
+    statement: Statement,
+    outcome: str,
+    known: dict[str, checker.Statement],
+    budget: int,
+    roles: Roles = NO_ROLES,
+) -> None:
+    """Raises ClaimError where the hypotheses of a statement contradict one another, or do not keep
+    a denominator from vanishing.
+    """
+
+    def settles(part: Statement, outcome: str) -> bool:
+        try:
+            return outcome in search_certificate(
+                read(part.text(), part.name), known, Budget(budget), roles=roles
+            )
+        except Exhausted:
+            return False
+
+    for index, (keyword, said) in enumerate(statement.lines):
+        if keyword == "have" and isinstance(said, Formula):
+            before = Statement(
+                statement.name, statement.forall, statement.lines[:index], said, statement.integer
+            )
+            if settles(before, "refuted"):
+                raise ClaimError(
+                    f"{statement.name}: division by what may vanish ({said} does not follow); "
+                    "add a given that keeps it from 0"
+                )
+    if outcome == "refuted":
+        return
+    impossible = Statement(
+        statement.name, statement.forall, statement.lines, disjunction([]), statement.integer
+    )
+    story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
+    try:
+        impossible_for_all = (
+            search_closing(checker.state_of(story), known, Budget(budget)) is not None
+        )
+    except Exhausted:
+        impossible_for_all = False
+    if impossible_for_all:
+        raise ClaimError(
+            f"{statement.name}: its hypotheses contradict one another, so it would say nothing;"
+            " drop or mend a given"
+        )
+
+
 class Judge:
     """One claim on its way to a judgement."""
 
-    def __init__(self, claim: Claim, options: Options) -> None:
-        self.claim, self.options, self.found = claim, options, Judgement(claim.id)
+    def __init__(self, claim: Claim, resources: Resources) -> None:
+        self.claim, self.resources, self.found = claim, resources, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
-        self.derivations: list[Derivation] = []
         self.is_trial = False
+
+    @property
+    def finding(self) -> Mapping[str, Any]:
+        """What an earlier run found about the claim."""
+        return self.resources.findings.get(self.claim.id) or {}
 
     def run(self) -> Judgement:
         claim, found = self.claim, self.found
         for name in (
             name for name in claim.hints.get("uses", ()) if name.split("/")[0] != claim.id
         ):
-            self.known[name] = read(self.options.lemmas[name], name)
+            self.known[name] = read(self.resources.lemmas[name], name)
         body = self.body()
         found.roles = claim.roles(
             [
@@ -185,31 +267,28 @@ class Judge:
             found.by_rules = verdict_of(
                 claim.id, body, {**found.outcomes, **dict.fromkeys(body.rests_on, "certified")}
             )
-        for prefix, assertion in assertions(body):
-            if (
-                not found.follows
-            ):  # what stands beside a conclusion of map rules has no range of its own
-                self.find_sharp_range(prefix, assertion)
-        self.record(body)
+        if not found.follows:  # what stands beside a conclusion of map rules has no range
+            for prefix, assertion in assertions(body):
+                sharp = self.find_sharp_range(prefix, assertion)
+                if sharp is not None:
+                    found.sharp[prefix] = sharp
         return found
 
-    def record(self, body: Body) -> None:
-        """Notes what a later run can know the claim again by."""
-        record = record_of(
-            self.claim, body, self.found.statements, self.found.votes, self.found.correction
-        )
-        if record:
-            used = [one.function for one in self.derivations]
-            self.found.record = {
-                **record,
-                "derivations": used,
-                "behind": [one.data() for one in behind(self.derivations)],
-            }
-
     def body(self) -> Body:
-        """What the claim asserts; the derivations that it uses are noted."""
-        body, self.derivations = body_and_derivations(self.claim)
-        return body
+        """What the claim asserts.
+
+        Raises ClaimError for whatever the function of a claim outside of this package raises.
+        """
+        try:
+            return self.claim.body()
+        except (checker.Rejected, ClaimError):
+            raise
+        except Exception as problem:
+            if self.claim.source.startswith("juggleproof."):
+                raise
+            raise ClaimError(
+                f"{self.claim.id} raises {type(problem).__name__}: {problem}; mend its function"
+            ) from problem
 
     def settle_all(self, prefix: str, assertion: Assertion) -> None:
         for statement in named_statements(self.claim.id, prefix, assertion):
@@ -220,7 +299,7 @@ class Judge:
         search.
         """
         name, text = statement.name, statement.text()
-        certificate = self.options.store.certificate(name, text) if self.options.store else None
+        certificate = self.resources.store.certificate(name, text) if self.resources.store else None
         outcome = self.stored_outcome(name, text, certificate)
         self.found.reused += outcome != "rejected"
         if outcome == "rejected":
@@ -249,19 +328,19 @@ class Judge:
         """
         if certificate is None:
             return "rejected"
-        stored = self.options.store.texts if self.options.store else {}
+        stored = self.resources.store.texts if self.resources.store else {}
         as_stored = all(
             stored.get(one.name) == one.text() for one in self.known.values()
         )  # else what it rests on is not what was read there
-        outcome = self.options.checked.get(name, "rejected") if as_stored else "rejected"
+        outcome = self.resources.checked.get(name, "rejected") if as_stored else "rejected"
         return outcome if outcome != "rejected" else self.check(read(text, name), certificate)
 
     def votes(self, name: str, text: str, outcome: str) -> Sequence[Vote]:
         """One vote a route; a vote that an earlier run recorded on this very text, with these
         tools, is not cast again.
         """
-        routes = [route for route in self.options.routes if route != "exact"]
-        earlier = (self.options.findings.get(self.claim.id) or {}).get("votes", {}).get(name)
+        routes = [route for route in self.resources.routes if route != "exact"]
+        earlier = self.finding.get("votes", {}).get(name)
         if (
             earlier
             and earlier.get("on") == _voted_on(text)
@@ -275,7 +354,7 @@ class Judge:
             compare(name, outcome, recorded)
             self.found.recorded[name] = earlier
             return recorded
-        cast = self.cast(name, text, outcome, routes) if routes else ()
+        cast = cast_votes(read(text, name), outcome, routes, None) if routes else ()
         if set(routes) == {"z3", "boxes"}:
             self.found.recorded[name] = {
                 "on": _voted_on(text),
@@ -286,38 +365,24 @@ class Judge:
             }
         return cast
 
-    def cast(self, name: str, text: str, outcome: str, routes: Sequence[str]) -> Sequence[Vote]:
-        from juggleproof.certificates.votes.casting import cast_votes  # loads FLINT and Z3
-
-        return cast_votes(read(text, name), outcome, routes)
-
     def search(self, statement: AnyStatement, parsed: checker.Statement, confirm: bool) -> Any:
+        hints, budget = self.claim.hints, self.resources.budget
         if isinstance(statement, (Iterates, MapRule)):
-            from juggleproof.certificates.search.certificate import search_map_rule
-
-            return search_map_rule(
-                parsed, self.known, self.options.budget, self.claim.hints.get("premises")
-            )
-        from juggleproof.certificates.search.certificate import search_certificate
-
+            return search_map_rule(parsed, self.known, budget, hints.get("premises"))
         try:
             found = search_certificate(
                 parsed,
                 self.known,
-                Budget(self.options.budget),
-                self.claim.hints.get("search"),
+                Budget(budget),
+                hints.get("search"),
                 confirm,
                 roles=self.found.roles,
             )
         except Exhausted:
-            found = {"unknown": f"the budget of {self.options.budget} units ran out"}
+            found = {"unknown": f"the budget of {budget} units ran out"}
         if "certified" not in found and isinstance(statement, Statement) and not self.is_trial:
             refuse_what_says_nothing(
-                statement,
-                next(iter(found)),
-                self.known,
-                self.options.budget // TRIAL,
-                self.found.roles,
+                statement, next(iter(found)), self.known, budget // TRIAL, self.found.roles
             )
         return found
 
@@ -333,49 +398,123 @@ class Judge:
     # -------------------------------------------------------------- corrections
 
     def correct(self) -> None:
-        """The first candidate print that the same claim certifies; an earlier finding is tried
-        first.
+        """Keeps the first correction that is certified: a candidate print, or the true assertion
+        nearby; what an earlier run found is tried first, of whichever kind.
         """
-        from juggleproof.proofs.correcting import correct
+        remembered = self.finding.get("correction")
+        is_nearby = remembered is not None and remembered["kind"] == "nearby"
+        if is_nearby and self.nearby_is_certified():
+            return
+        first = None if remembered is None else (remembered["kind"], remembered["text"])
+        for candidate in candidates(self.claim, first) if self.claim.printed else ():
+            if self.candidate_is_certified(candidate):
+                self.found.correction = {
+                    "kind": candidate.kind,
+                    "change": candidate.change,
+                    "text": candidate.text,
+                    "possible transcription error": candidate.possible_transcription_error,
+                }
+                return
+        if not is_nearby:
+            self.nearby_is_certified()
 
-        correct(self)
+    def nearby_is_certified(self) -> bool:
+        """Whether the claim names a true assertion nearby that is certified; if so it is the
+        correction.
+        """
+        if self.claim.nearby is None:
+            return False
+        text, state = self.claim.nearby
+        if not self.correction_is_certified(as_body(state(), self.claim.id)):
+            return False
+        self.found.correction = {
+            "kind": "nearby",
+            "change": "a true assertion nearby",
+            "text": text,
+            "possible transcription error": False,
+        }
+        return True
+
+    def candidate_is_certified(self, candidate: Candidate) -> bool:
+        """Whether the claim, read with this print, is certified; if so its statements are kept as
+        ID/corrected...
+        """
+        try:
+            return self.correction_is_certified(self.claim.body(candidate.printed))
+        except (ClaimError, checker.Rejected):
+            return False
+
+    def correction_is_certified(self, body: Body) -> bool:
+        """Whether every statement of a corrected body is certified; if so they are kept."""
+        try:
+            statements = [
+                _renamed(part, f"{self.claim.id}/corrected.{part.name.split('/')[1]}")
+                for prefix, assertion in assertions(body)
+                for part in named_statements("x", prefix, assertion)
+            ]
+            if not all(map(self.is_stored_certified, statements)) and any(
+                self.is_refuted_by_sampling(read(part.text(), part.name)) for part in statements
+            ):
+                return False
+        except (ClaimError, checker.Rejected):
+            return False
+        trial = self.trial()
+        try:
+            if any(trial.settle(part) != "certified" for part in statements):
+                return False
+        except ClaimError:  # it contradicts itself, or divides by what may vanish
+            return False
+        found, tried = self.found, trial.found
+        found.statements += tried.statements
+        found.certificates.update(tried.certificates)
+        found.outcomes.update(tried.outcomes)
+        for name, text in tried.statements:
+            found.votes[name] = self.votes(name, text, tried.outcomes[name])
+        found.reused += tried.reused
+        return True
+
+    def is_stored_certified(self, statement: AnyStatement) -> bool:
+        """Whether the store holds this very statement, and the checker accepted its proof there: no
+        point can then refute it.
+        """
+        store, name = self.resources.store, statement.name
+        return (
+            store is not None
+            and store.texts.get(name) == statement.text()
+            and self.resources.checked.get(name) == "certified"
+        )
 
     def trial(self) -> Judge:
         """A judge of the same claim that settles what may correct it, with less work."""
         trial = Judge(
             self.claim,
-            replace(self.options, routes=("exact",), budget=self.options.budget // TRIAL),
+            replace(self.resources, routes=("exact",), budget=self.resources.budget // TRIAL),
         )
         trial.known, trial.is_trial, trial.found.roles = self.known, True, self.found.roles
         return trial
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
-        from juggleproof.certificates.search.points import search_found
-        from juggleproof.certificates.work import unfolded
-
         if parsed.kind != "universal":
             return False
         unfolded(parsed)
         start: checker.State = checker.State(checker.Context())
-        return (
-            search_found(
-                parsed,
-                start,
-                "counterexample",
-                {},
-                self.known,
-                Budget(QUICK_BUDGET),
-                effort=0,
-                roles=self.found.roles,
-            )
-            is not None
+        found = search_found(
+            parsed,
+            start,
+            "counterexample",
+            {},
+            self.known,
+            Budget(QUICK_BUDGET),
+            effort=0,
+            roles=self.found.roles,
         )
+        return found is not None
 
     # -------------------------------------------------------------- sharp ranges
 
-    def find_sharp_range(self, prefix: str, assertion: Assertion) -> None:
+    def find_sharp_range(self, prefix: str, assertion: Assertion) -> Sharp | None:
         """The set of parameters in the whole domain on which the assertion holds, settled on both
-        sides by the checker.
+        sides by the checker; None where it is about no range, or is open itself.
 
         Statements that are certified with the whole domain as their range hold on all of it: the
         others decide.
@@ -383,106 +522,82 @@ class Judge:
         roles = self.found.roles
         sought = self.claim.over(roles)
         domains = {name: roles.domains.get(name, ()) for name in sought or (roles.parameter,)}
-        rules = [
-            part.name
-            for part in named_statements(self.claim.id, prefix, assertion)
-            if isinstance(part, MapRule)
-        ]
+        named = named_statements(self.claim.id, prefix, assertion)
+        outcomes = self.found.outcomes
+        rules = [part.name for part in named if isinstance(part, MapRule)]
         if rules:
-            text = (
-                range_of_rule(rules[-1], dict(self.found.statements), roles)
-                if self.found.outcomes[rules[-1]] == "certified"
-                else ""
-            )
-            if text:
-                self.found.sharp[prefix] = {"text": text, "by": rules[-1:]}
-            return
-        parts = [
-            part
-            for part in named_statements(self.claim.id, prefix, assertion)
-            if isinstance(part, Statement)
-        ]
+            return self.sharp_range_of_rule(rules[-1])
+        parts = [part for part in named if isinstance(part, Statement)]
         ranged = [part for part in parts if speaks_of_range(part, domains)]
-        if (
-            not ranged
-            or outcome_of(self.claim.id, prefix, assertion, self.found.outcomes) == "unknown"
-        ):
-            return
-        always_false = [
-            part.name
-            for part in parts
-            if part not in ranged and self.found.outcomes[part.name] == "refuted"
-        ]
+        if not ranged or outcome_of(self.claim.id, prefix, assertion, outcomes) == "unknown":
+            return None
+        always_false = tuple(
+            part.name for part in parts if part not in ranged and outcomes[part.name] == "refuted"
+        )
         if always_false:  # refuted whatever the parameters are
-            self.found.sharp[prefix] = {"text": "nowhere", "by": always_false}
-            return
+            return Sharp("nowhere", always_false)
         open_parts = [
             part
             for part in ranged
-            if not (
-                has_whole_range(part, domains) and self.found.outcomes[part.name] == "certified"
-            )
+            if not (has_whole_range(part, domains) and outcomes[part.name] == "certified")
         ]
-        everywhere = [part.name for part in ranged if part not in open_parts]
+        everywhere = tuple(part.name for part in ranged if part not in open_parts)
         if not open_parts:
-            self.found.sharp[prefix] = {"text": whole_text(roles), "by": everywhere}
-            return
+            return Sharp(whole_text(roles), everywhere)
         over = tuple(name for name in sought if all(name in part.forall for part in open_parts))
         if not over:
-            return
-        name = f"{self.claim.id}/{prefix}sharp"
-        stored = self.options.store.texts.get(name) if self.options.store else None
-        if stored is not None and stored.splitlines()[1] == "sharp " + " ".join(
-            part.name for part in open_parts
-        ):
-            certificate = (
-                self.options.store.certificate(name, stored) if self.options.store else None
-            )
-            remembered = (
-                (self.options.findings.get(self.claim.id) or {}).get("sharp", {}).get(prefix)
-            )
-            if (
-                remembered
-                and self.sharp_outcome(name, stored, certificate, open_parts) == "certified"
-            ):
-                self.keep(name, stored, certificate, "certified")
-                self.found.sharp[prefix] = {"text": remembered, "by": [name, *everywhere]}
-                self.found.reused += 1
-                return
-        tried = _voted_on(
-            f"{self.options.budget}\n" + "\n".join(part.text() for part in open_parts)
+            return None
+        found = self.stored_sharp_range(prefix, open_parts) or self.new_sharp_range(
+            prefix, open_parts, over
         )
-        remembered = (
-            (self.options.findings.get(self.claim.id) or {}).get("not found", {}).get(prefix)
-        )
-        if remembered == tried:
-            self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
-            return
-        result = self.search_sharp(name, open_parts, over)
+        return replace(found, by=(*found.by, *everywhere)) if found.by else found
+
+    def sharp_range_of_rule(self, name: str) -> Sharp | None:
+        """The range for which the conclusion of a map rule of this claim is proved."""
+        if self.found.outcomes[name] != "certified":
+            return None
+        text = range_of_rule(name, dict(self.found.statements), self.found.roles)
+        return Sharp(text, (name,)) if text else None
+
+    def stored_sharp_range(self, prefix: str, parts: Sequence[Statement]) -> Sharp | None:
+        """The stored sharp range of these statements, if the checker accepts it."""
+        name, store = f"{self.claim.id}/{prefix}sharp", self.resources.store
+        text = store.texts.get(name) if store else None
+        remembered = self.finding.get("sharp", {}).get(prefix)
+        if store is None or text is None or not remembered:
+            return None
+        if text.splitlines()[1] != "sharp " + " ".join(part.name for part in parts):
+            return None
+        certificate = store.certificate(name, text)
+        if self.sharp_outcome(name, text, certificate, parts) != "certified":
+            return None
+        self.keep(name, text, certificate, "certified")
+        self.found.reused += 1
+        return Sharp(remembered, (name,))
+
+    def new_sharp_range(
+        self, prefix: str, parts: Sequence[Statement], over: Sequence[str]
+    ) -> Sharp:
+        """The sharp range of these statements by a search, unless the same one failed in an earlier
+        run.
+        """
+        name, budget = f"{self.claim.id}/{prefix}sharp", self.resources.budget
+        tried = _voted_on(f"{budget}\n" + "\n".join(part.text() for part in parts))
+        if self.finding.get("not found", {}).get(prefix) == tried:
+            return Sharp(NOT_FOUND, tried=tried)
+        result = search_sharp_range(name, parts, over, self.known, SHARP * budget, self.found.roles)
         if result is None:
-            self.found.sharp[prefix] = {"text": NOT_FOUND, "by": [], "tried": tried}
-            return
-        sharp, found, shown = result
-        certificate = {"certified": found}
-        earlier = {part.name: read(part.text(), part.name) for part in open_parts}
+            return Sharp(NOT_FOUND, tried=tried)
+        sharp, proof, shown = result
+        certificate = {"certified": proof}
+        earlier = {part.name: read(part.text(), part.name) for part in parts}
         outcome, reason = checker.check_one(
             read(sharp.text(), name), certificate, self.known, earlier
         )
-        if outcome == "certified":
-            self.keep(name, sharp.text(), certificate, outcome)
-            self.found.sharp[prefix] = {"text": shown, "by": [name, *everywhere]}
-        else:
-            self.found.sharp[prefix] = {"text": f"not found ({reason})", "by": []}
-
-    def search_sharp(
-        self, name: str, ranged: Sequence[Statement], over: Sequence[str]
-    ) -> tuple[SharpRange, Any, str] | None:
-        """The sharp range with its certificate and how it is told, if the search finds one."""
-        from juggleproof.proofs.ranges import search_sharp_range
-
-        return search_sharp_range(
-            name, ranged, over, self.known, SHARP * self.options.budget, self.found.roles
-        )
+        if outcome != "certified":
+            return Sharp(f"{NOT_FOUND} ({reason})")
+        self.keep(name, sharp.text(), certificate, outcome)
+        return Sharp(shown, (name,))
 
     def sharp_outcome(
         self, name: str, stored: str, certificate: Any, ranged: Sequence[Statement]
@@ -490,8 +605,8 @@ class Judge:
         """What the checker said of a stored sharp range; it is asked again where a statement that
         is ranged over is not as stored.
         """
-        texts = self.options.store.texts if self.options.store else {}
-        if self.options.checked.get(name) == "certified" and all(
+        texts = self.resources.store.texts if self.resources.store else {}
+        if self.resources.checked.get(name) == "certified" and all(
             texts.get(part.name) == part.text() for part in ranged
         ):
             return "certified"
@@ -503,6 +618,12 @@ class Judge:
                 {one.name: read(one.text(), one.name) for one in ranged},
             )[0]
         )
+
+
+def _renamed(statement: AnyStatement, name: str) -> AnyStatement:
+    if isinstance(statement, SharpRange):
+        raise ClaimError("a sharp range cannot be renamed")
+    return replace(statement, name=name)
 
 
 @cache

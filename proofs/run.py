@@ -1,46 +1,252 @@
-"""Many claims over processes: load, judge, check, store, register."""
+"""Many claims over processes: load, judge, have the checker read what is stored."""
 
 from __future__ import annotations
 
 import gc
-import hashlib
 import importlib.util
+import json
+import os
 import signal
 import sys
+import textwrap
 import threading
 import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence, Set
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
-from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
-from time import perf_counter
 from typing import Any, TypeVar
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import AnyStatement, ClaimError, SharpRange, Statement
-from juggleproof.certificates.store import CERTIFICATES, STATEMENTS, Store
-from juggleproof.proofs import kept
+from juggleproof.certificates.definitions import Definition
+from juggleproof.certificates.language import ClaimError, SharpRange
+from juggleproof.certificates.store import (
+    CERTIFICATES,
+    STATEMENTS,
+    Store,
+    canonical,
+    statement_file,
+    write_file,
+    write_store,
+)
 from juggleproof.proofs.claims import (
-    Body,
     Claim,
     Said,
     assertions,
+    claim_named,
     claims_in,
     claims_of,
     named_statements,
 )
-from juggleproof.proofs.judging import Judge, Judgement, Options, judge
-from juggleproof.proofs.kept import Forgotten, body_of, claim_of, stored_as
-from juggleproof.proofs.paper import modules_of_claims
+from juggleproof.proofs.judging import (
+    DEFAULT_BUDGET,
+    ROUTES,
+    Judgement,
+    Resources,
+    judge,
+    settle_by_rules,
+)
+
+FINDINGS = "findings"
+WIDTH = 96  # of a comment in the statement file
+TITLE = (
+    "Every statement that the claims come to; certificates/checker reads this file and believes"
+    " nothing else."
+)
+Progress = Callable[[Claim, Judgement], None]
+
+# -------------------------------------------------------------------------------------------------
+# A run: judge every claim, store what was found, let the checker read the whole store.
+
+
+@dataclass(frozen=True)
+class Options:
+    """How claims are judged: the folder of their statements and certificates, by which routes, with
+    how much counted work for each statement, in how many processes (0: one a core), whether stored
+    certificates are ignored, and which claims (none: all).
+
+    Raises ClaimError, one line, for routes that are unknown or lack the exact one.
+    """
+
+    store: Path
+    routes: tuple[str, ...] = ROUTES
+    budget: int = DEFAULT_BUDGET
+    jobs: int = 0
+    fresh: bool = False
+    only: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if "exact" not in self.routes or not set(self.routes) <= set(ROUTES):
+            raise ClaimError(
+                f"--routes {','.join(self.routes)}: choose from {', '.join(ROUTES)}; exact is"
+                " always among them, since only a certificate certifies"
+            )
+
+    @property
+    def processes(self) -> int:
+        """The number of processes, at least 1."""
+        return self.jobs if self.jobs > 0 else os.cpu_count() or 1
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a run came to: the claims and the judgements on them, the seconds they took, and what
+    the checker says of each stored statement.
+    """
+
+    claims: Sequence[Claim]
+    judgements: Sequence[Judgement]
+    seconds: Mapping[str, float]
+    checked: Checked
+    store: Path
+
+    @property
+    def outcomes(self) -> dict[str, str]:
+        """The checker's outcome of every stored statement, by name."""
+        return {name: outcome for name, outcome, _ in self.checked}
+
+    @property
+    def rejected(self) -> list[tuple[str, str]]:
+        """The stored statements that the checker rejects, with its reasons."""
+        return [(name, reason) for name, outcome, reason in self.checked if outcome == "rejected"]
+
+
+def no_progress(claim: Claim, judgement: Judgement) -> None:
+    """Tells nobody."""
+
+
+def run(
+    claims: Sequence[Claim],
+    options: Options,
+    progress: Progress = no_progress,
+    executor: Executor | None = None,
+) -> Run:
+    """Judges the claims, stores what was found, and has the checker read all that is stored.
+
+    `progress` hears of each judgement as it is ready; an executor judges in place of processes of
+    our own.  Claims that `options.only` leaves out keep what is stored of them.
+
+    Raises ClaimError, one line, for two claims of one name, a name that no claim bears, and the
+    first claim in order that cannot be stated.
+    """
+    done = judge_stored(claims, options, progress, executor)
+    changed = _write(options.store, claims, done)
+    checked = done.checked
+    if changed or not checked:
+        checked = checker.check_folder(str(options.store))
+    settled = replace(done, checked=checked)
+    settle_by_rules(done.judgements, settled.outcomes, Store(options.store).texts)
+    return settled
+
+
+def judge_stored(
+    claims: Sequence[Claim],
+    options: Options,
+    progress: Progress = no_progress,
+    executor: Executor | None = None,
+) -> Run:
+    """The same without writing anything: `checked` is what the checker says of the store as it is,
+    and what waits for map rules of other claims is not settled.
+    """
+    refuse_duplicates(claims)
+    chosen, jobs = _selected(claims, options.only), options.processes
+    with Reading(options.store, jobs, nothing=options.fresh) as reading:
+        resources = Resources(
+            options.routes,
+            options.budget,
+            Store(Path(os.devnull) if options.fresh else options.store),
+            {} if options.fresh else findings_in(options.store),
+            lemmas(claims, chosen),
+        )
+        resources = replace(resources, checked=reading.outcomes())
+    judgements, seconds = judge_all(chosen, resources, jobs, progress, executor)
+    return Run(chosen, judgements, seconds, reading.results, options.store)
+
+
+def refuse_duplicates(claims: Sequence[Claim]) -> None:
+    """Raises ClaimError where two claims have one name."""
+    seen: set[str] = set()
+    for claim in claims:
+        if claim.id in seen:
+            raise ClaimError(f"{claim.id} is the name of two claims; rename one")
+        seen.add(claim.id)
+
+
+def _selected(claims: Sequence[Claim], only: Sequence[str]) -> Sequence[Claim]:
+    if not only:
+        return claims
+    known = [claim.id for claim in claims]
+    wanted = [claim_named(text, known) for text in only]
+    missing = set(wanted) - set(known)
+    if missing:
+        raise ClaimError(
+            f"--only {sorted(missing)[0]}: no such claim; `juggleproof list` names them"
+        )
+    return [claim for claim in claims if claim.id in wanted]
+
+
+def findings_in(folder: Path) -> dict[str, Any]:
+    """What an earlier run found about each claim, to be tried first; nothing where the file cannot
+    be read.
+    """
+    try:
+        data = json.loads((folder / FINDINGS).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return data if isinstance(data, dict) else {}
+
+
+def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:
+    """The definitions of the statement file, as the first vocabulary that has some says."""
+    sources = [one.vocabulary.defines for one in claims if one.vocabulary.defines is not None]
+    return sources[0]() if sources else ()
+
+
+def heading(claim: Claim) -> str:
+    """What stands above the statements of a claim: its id and place, its print, its sentence."""
+    place = " ".join(part for part in (claim.section, claim.place) if part)
+    lines = [f"{claim.id}: {place}" if place else claim.id]
+    lines += [f"    {line.strip()}" for line in claim.printed.splitlines()]
+    return "\n".join([*lines, *textwrap.wrap(claim.says, WIDTH)])
+
+
+def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
+    """Writes statements, certificates and findings; claims that were not selected keep what is
+    stored of them.  Returns the files changed.
+    """
+    store, fresh = Store(folder), {judgement.id: judgement for judgement in done.judgements}
+    chapters: list[tuple[str, Sequence[str]]] = []
+    certificates: dict[str, Mapping[str, Any]] = {}
+    findings = findings_in(folder)
+    for claim in everything:
+        if claim.id in fresh:
+            judgement = fresh[claim.id]
+            chapters.append((heading(claim), [text for _, text in judgement.statements]))
+            if judgement.statements:
+                certificates[claim.id] = judgement.certificates
+            findings[claim.id] = judgement.finding()
+        else:
+            held = {
+                name: store.texts[name] for name in store.texts if name.split("/")[0] == claim.id
+            }
+            chapters.append((heading(claim), list(held.values())))
+            if held:
+                certificates[claim.id] = {
+                    name: store.certificate(name, text) for name, text in held.items()
+                }
+    findings = {claim.id: findings[claim.id] for claim in everything if claim.id in findings}
+    text = statement_file(TITLE, chapters, _definitions(everything), store.texts)
+    changed = write_store(folder, text, certificates)
+    return changed + write_file(folder / FINDINGS, canonical(findings))
+
 
 # -------------------------------------------------------------------------------------------------
 # The checker's reading of a whole stored folder, in processes of its own while claims are stated;
 # every run reads everything.
 
-Results = list[tuple[str, str, str]]
+Checked = list[tuple[str, str, str]]  # name, outcome, reason
 
 
 class Reading:
@@ -53,7 +259,7 @@ class Reading:
     def __init__(self, folder: Path, jobs: int, nothing: bool = False) -> None:
         self.folder, self.jobs = folder, jobs
         self.nothing = nothing or not (folder / STATEMENTS).exists()
-        self.results: Results = []
+        self.results: Checked = []
         self._processes: list[tuple[Any, Any]] = []
 
     def __enter__(self) -> Reading:
@@ -78,7 +284,7 @@ class Reading:
             self.results = self._by_shares() or _read(self.folder)
         return {name: outcome for name, outcome, _ in self.results}
 
-    def _by_shares(self) -> Results:
+    def _by_shares(self) -> Checked:
         """The results of all shares, if every outcome that one of them assumed is the one that
         another found; else none.
 
@@ -108,50 +314,6 @@ class Reading:
         ]
 
 
-def results_for(folder: Path, jobs: int) -> Results:
-    """What the checker says of a folder: kept from an earlier reading of these very files by this
-    very checker, or found out now.
-    """
-    key = _key(folder)
-    records = kept.load(key) if key else []
-    try:
-        if records:
-            return [(str(one["name"]), str(one["outcome"]), str(one["reason"])) for one in records]
-    except KeyError:
-        pass
-    with Reading(folder, jobs) as reading:
-        reading.outcomes()
-    keep_results(folder, reading.results)
-    return reading.results
-
-
-def keep_results(folder: Path, results: Results) -> None:
-    """Keeps what the checker said of the files that are now in the folder."""
-    key = _key(folder)
-    if key and results:
-        kept.keep(
-            key,
-            [
-                {"name": name, "outcome": outcome, "reason": reason}
-                for name, outcome, reason in results
-            ],
-        )
-
-
-def _key(folder: Path) -> str:
-    if kept.folder() is None or not folder.is_dir():
-        return ""
-    said = hashlib.sha256(sys.version.encode())
-    for path in [
-        *sorted(Path(str(checker.__file__)).parent.glob("*.py")),
-        *(path for path in (folder / STATEMENTS, folder / CERTIFICATES) if path.exists()),
-    ]:
-        content = path.read_bytes()
-        said.update(f"\n{path.name} {len(content)}\n".encode())
-        said.update(content)
-    return "read-" + said.hexdigest()
-
-
 def shares(folder: Path, count: int) -> list[Set[str]]:
     """The claims of a folder in `count` shares of about the same size on disk."""
     sizes: dict[str, int] = {}
@@ -171,7 +333,7 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
     return [*found]
 
 
-def check_share(folder: Path, share: Set[str]) -> tuple[Results, dict[str, str], dict[str, str]]:
+def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str], dict[str, str]]:
     """What `check_folder` says where outcomes outside the share are assumed to be what their
     certificates claim; with what was found, and assumed.
     """
@@ -193,9 +355,9 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Results, dict[str, str],
     return _read(folder, check_own), found, assumed
 
 
-def _read(folder: Path, check: Any = checker.check_one) -> Results:
+def _read(folder: Path, check: Any = checker.check_one) -> Checked:
     try:
-        results: Results = checker.check_folder(str(folder), check)
+        results: Checked = checker.check_folder(str(folder), check)
         return results
     except checker.Rejected:
         return []
@@ -208,12 +370,7 @@ def _send(folder: Path, share: Set[str], sender: Any) -> None:
 
 
 # -------------------------------------------------------------------------------------------------
-# Loads claims: the paper's, or those of a user's own file.
-
-
-def paper_claims() -> list[Claim]:
-    """The claims of the paper in its order."""
-    return claims_in(modules_of_claims())
+# Loads the claims of a user's own file.
 
 
 def claims_of_file(path: Path) -> list[Claim]:
@@ -252,6 +409,11 @@ def claims_of_file(path: Path) -> list[Claim]:
     return claims
 
 
+def claims_of_files(paths: Sequence[Path]) -> list[Claim]:
+    """The claims of Python files, in order."""
+    return [claim for path in paths for claim in claims_of_file(path)]
+
+
 def _line_in(path: Path) -> int:
     """The last line of the file on the stack of the error at hand."""
     frames = traceback.extract_tb(sys.exc_info()[2])
@@ -265,7 +427,7 @@ def _line_in(path: Path) -> int:
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
-_work: tuple[Sequence[Claim], Options] | None = None
+_work: tuple[Sequence[Claim], Resources] | None = None
 _alone = (
     threading.Lock()
 )  # the checker counts its work in one place: threads of one process take turns
@@ -316,26 +478,24 @@ def spread(
 
 @dataclass(frozen=True)
 class Sent:
-    """A claim as it goes to another process: one of the paper by its name, another by what it
-    asserts; with what its judge is told.
+    """A claim as it goes to another process: one of this package by its module and name, another by
+    what it asserts; with what it is judged with.
     """
 
-    claim: str | Claim
-    options: Options
+    claim: tuple[str, str] | Claim
+    resources: Resources
 
 
-@cache
-def _by_name() -> dict[str, Claim]:
-    return {claim.id: claim for claim in paper_claims()}
+def _loaded(module: str, name: str) -> Claim:
+    return next(claim for claim in claims_in([module]) if claim.id == name)
 
 
 def judge_sent(sent: Sent) -> tuple[Judgement, float]:
     """The judgement on a claim that was sent, and the seconds it took."""
     with _alone:
         began = time.perf_counter()
-        judgement = judge(
-            _by_name()[sent.claim] if isinstance(sent.claim, str) else sent.claim, sent.options
-        )
+        claim = sent.claim if isinstance(sent.claim, Claim) else _loaded(*sent.claim)
+        judgement = judge(claim, sent.resources)
         return judgement, time.perf_counter() - began
 
 
@@ -345,23 +505,23 @@ def one_at_a_time(work: Callable[[Item], Result], item: Item) -> Result:
         return work(item)
 
 
-def sent(claim: Claim, options: Options) -> Sent:
-    """A claim, with what its judge needs of the options, as data that can be pickled."""
+def sent(claim: Claim, resources: Resources) -> Sent:
+    """A claim, with what it is judged with, as data that can be pickled."""
     if claim.source.startswith("juggleproof.proofs."):
-        return Sent(claim.id, options.only(claim))
+        return Sent((claim.source.rpartition(".")[0], claim.id), resources.only(claim))
     if claim.printed or claim.derived or claim.nearby:
         raise ClaimError(
             f"{claim.id} has a print to be corrected, which only this process can do; certify it"
             " without an executor"
         )
-    return Sent(replace(claim, read=Said(claim.body(), claim.where)), options.only(claim))
+    return Sent(replace(claim, read=Said(claim.body(), claim.where)), resources.only(claim))
 
 
 def judge_all(
     claims: Sequence[Claim],
-    options: Options,
+    resources: Resources,
     jobs: int,
-    progress: Callable[[Claim, Judgement], None],
+    progress: Progress = no_progress,
     executor: Executor | None = None,
 ) -> tuple[list[Judgement], dict[str, float]]:
     """The judgements on all claims in order, and the seconds that each took; by an executor where
@@ -379,11 +539,11 @@ def judge_all(
         return [
             judgement
             for judgement, _ in spread(
-                judge_sent, [sent(claim, options) for claim in claims], executor, take
+                judge_sent, [sent(claim, resources) for claim in claims], executor, take
             )
         ], seconds
     global _work
-    _work = (claims, options)
+    _work = (claims, resources)
     everything = range(len(claims))
     if jobs <= 1 or len(claims) == 1:
         return [judgement for judgement, _ in spread(_judge_one, everything, None, take)], seconds
@@ -424,157 +584,3 @@ def lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, st
                     if not isinstance(part, SharpRange):
                         texts[part.name] = part.text()
     return {name: texts[name] for name in used if name in texts}
-
-
-# -------------------------------------------------------------------------------------------------
-# Judges a claim again from its record and the store: nothing is stated, searched or voted on anew;
-# where that would be needed, it gives up.
-
-NOT_AS_KEPT = (
-    Forgotten,
-    KeyError,
-    IndexError,
-    TypeError,
-    ValueError,
-    AttributeError,
-    RecursionError,
-)
-Judged = tuple[list[Judgement], dict[str, float]]
-
-
-class Records:
-    """The records of the paper's claims that were kept by an earlier run of the same sources at
-    this budget; none without a budget.
-    """
-
-    def __init__(self, budget: int | None, read: bool = True) -> None:
-        self.budget, self.by_claim, self.claims = (
-            budget,
-            dict[str, Mapping[str, Any]](),
-            list[Claim](),
-        )
-        self.key = "" if budget is None or kept.folder() is None else kept.key(budget)
-        if self.key and read:
-            loaded = kept.load(self.key)
-            try:
-                self.claims = [claim_of(record) for record in loaded]
-                self.by_claim = {claim.id: record for claim, record in zip(self.claims, loaded)}
-            except NOT_AS_KEPT:
-                self.claims = []
-
-    def keep(self, judgements: Sequence[Judgement], count: int) -> None:
-        """Keeps the records of a whole run, unless they are kept already or the sources changed
-        meanwhile.
-        """
-        records = [judgement.record for judgement in judgements]
-        if (
-            self.key
-            and len(records) == count
-            and all(records)
-            and records != list(self.by_claim.values())
-            and self.key == kept.key(self.budget)
-        ):
-            kept.keep(self.key, records)
-
-
-def judge_with_records(
-    claims: Sequence[Claim],
-    options: Options,
-    records: Records,
-    judge_rest: Callable[[Sequence[Claim], Options], Judged],
-) -> Judged:
-    """The judgements on the claims in order: again by their records where these agree with the
-    store, else from their sources.
-    """
-    stored: dict[str, set[str]] = {}
-    for name in options.store.texts if options.store else ():
-        stored.setdefault(name.split("/")[0], set()).add(name)
-    found: dict[str, Judgement] = {}
-    seconds: dict[str, float] = {}
-    for claim in claims if records.claims else ():
-        began = perf_counter()
-        try:
-            found[claim.id] = judge_again(
-                records.by_claim[claim.id], options, stored.get(claim.id, set())
-            )
-        except NOT_AS_KEPT:
-            continue
-        seconds[claim.id] = perf_counter() - began
-    rest: Sequence[Claim] = [claim for claim in claims if claim.id not in found]
-    if rest and records.claims:
-        sources = {claim.id: claim for claim in paper_claims()}
-        rest = [sources[claim.id] for claim in rest]
-        options = replace(options, lemmas=lemmas(list(sources.values()), rest))
-    if rest:
-        judged, took = judge_rest(rest, options)
-        found.update((judgement.id, judgement) for judgement in judged)
-        seconds.update(took)
-    return [found[claim.id] for claim in claims], seconds
-
-
-def judge_again(record: Mapping[str, Any], options: Options, names: set[str]) -> Judgement:
-    """The judgement on the claim of a record, by its stored statements, which have these names, and
-    what the checker said of them in this run.
-
-    Raises Forgotten where the stored statements are not exactly the ones that the record knows, or
-    one of them is not settled.
-    """
-    if options.store is None:
-        raise Forgotten
-    found = _Again(record, options, options.store).run()
-    if {name for name, _ in found.statements} != names:
-        raise Forgotten
-    return found
-
-
-class _Again(Judge):
-    def __init__(self, record: Mapping[str, Any], options: Options, store: Store) -> None:
-        super().__init__(claim_of(record), options)
-        self.known_by, self.store = record, store
-
-    def body(self) -> Body:
-        return body_of(self.known_by, self.store.texts)
-
-    def record(self, body: Body) -> None:
-        self.found.record = self.known_by
-
-    def stored_outcome(self, name: str, text: str, certificate: Any) -> str:
-        outcome = self.options.checked.get(name, "rejected")
-        if certificate is None or outcome == "rejected":
-            raise Forgotten
-        return outcome
-
-    def cast(self, name: str, text: str, outcome: str, routes: Sequence[str]) -> Any:
-        raise Forgotten
-
-    def search(self, statement: AnyStatement, parsed: Any, confirm: bool) -> Any:
-        raise Forgotten
-
-    def correct(self) -> None:
-        """The correction that the record knows, if the checker certified every statement of it and
-        an earlier run found it too.
-        """
-        remembered = (self.options.findings.get(self.claim.id) or {}).get("correction")
-        if remembered != self.known_by["correction"] or bool(remembered) != bool(
-            self.known_by["corrected"]
-        ):
-            raise Forgotten
-        for name, marked, kind in self.known_by["corrected"]:
-            if (
-                name not in self.store.texts
-                or self.settle(stored_as(name, self.store.texts[name], marked, kind)) != "certified"
-            ):
-                raise Forgotten
-        self.found.correction = remembered
-
-    def search_sharp(
-        self, name: str, ranged: Sequence[Statement], over: Sequence[str]
-    ) -> tuple[SharpRange, Any, str] | None:
-        raise Forgotten
-
-    def sharp_outcome(
-        self, name: str, text: str, certificate: Any, ranged: Sequence[Statement]
-    ) -> str:
-        if self.options.checked.get(name) != "certified":
-            raise Forgotten
-        return "certified"

@@ -1,4 +1,4 @@
-"""The suite neither reads nor writes the user's kept records, unless a test asks for a folder of
+"""The suite neither reads nor writes the user's kept figures, unless a test asks for a folder of
 its own; kernels are compiled once for all tests; Ctrl-C is heard, also where the shell that started
 the suite ignores it.
 """

@@ -12,6 +12,14 @@ from pathlib import Path
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.bounds import BUDGET, enclose_minimum, refuse_other_files
 
+
+def command(parsed: argparse.Namespace) -> int:
+    """Runs `bound` or `bench`; returns its exit code."""
+    if parsed.command == "bench":
+        return bench(parsed)
+    return bound(parsed.polynomial, parsed.box, parsed.width, parsed.budget, parsed.output)
+
+
 # -------------------------------------------------------------------------------------------------
 # `juggleproof bench`: speed against error, in one table and plot a question; the engines are in
 # `benchmarks`, which only a checkout has.

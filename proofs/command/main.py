@@ -8,13 +8,25 @@ import os
 import re
 import sys
 from collections.abc import Sequence
-from importlib import metadata
+from importlib import import_module, metadata
 from pathlib import Path
 from typing import Any, NoReturn
 
+from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.simulate_options import add_simulate
 
-ROUTES = ("exact", "z3", "boxes")
+MODULES = {
+    "certify": "juggleproof.proofs.command.certify",
+    "check": "juggleproof.proofs.command.check",
+    "list": "juggleproof.proofs.command.show",
+    "explain": "juggleproof.proofs.command.explain",
+    "errata": "juggleproof.proofs.command.show",
+    "bound": "juggleproof.proofs.command.bound",
+    "export": "juggleproof.proofs.command.show",
+    "report": "juggleproof.proofs.command.report",
+    "simulate": "juggleproof.proofs.command.simulate",
+    "bench": "juggleproof.proofs.command.bound",
+}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -72,11 +84,11 @@ def build_parser() -> argparse.ArgumentParser:
     certify.add_argument(
         "--only", action="append", metavar="ID", help="only this claim (may be given several times)"
     )
-    certify.add_argument("--routes", default=",".join(ROUTES), help="exact,z3,boxes (default: all)")
+    certify.add_argument("--routes", default="exact,z3,boxes", help="exact,z3,boxes (default: all)")
     certify.add_argument(
         "--fresh",
         action="store_true",
-        help="state and search again, ignoring stored certificates and kept records",
+        help="state and search again, ignoring stored certificates",
     )
     certify.add_argument(
         "--jobs",
@@ -240,8 +252,6 @@ def run(arguments: Sequence[str] | None = None) -> int:
     ):
         given[1] = " " + given[1]  # a polynomial that begins with a minus, and no option
     parsed = build_parser().parse_args(given)
-    from juggleproof.certificates.language import ClaimError
-
     try:
         code = _dispatch(parsed)
         print(end="", flush=True)  # there may be no standard output to flush
@@ -277,83 +287,12 @@ def _leave_standard_output() -> None:
 
 
 def _dispatch(parsed: argparse.Namespace) -> int:
-    if parsed.command == "certify":
-        from juggleproof.proofs.command.certify import are_scripts, certify_problems
-
-        if are_scripts(parsed.files):
-            return certify_problems(parsed)
-        from juggleproof.proofs.command.certify import certify
-
-        return certify(parsed)
-    if parsed.command == "check":
-        from juggleproof.proofs.command.show import check
-
-        return check(parsed.folder)
+    """Loads the module of the command, and no other, and runs it."""
     if parsed.command == "bound":
-        os.environ.setdefault(
-            "OPENBLAS_NUM_THREADS", "1"
-        )  # before numpy: the matrices are small, and sums in one order repeat
-        from juggleproof.proofs.command.bound import bound
-
-        return bound(parsed.polynomial, parsed.box, parsed.width, parsed.budget, parsed.output)
-    if parsed.command == "export":
-        from juggleproof.proofs.command import show
-
-        writers = {
-            "coq": show.export_coq,
-            "smt2": show.export_smt2,
-            "latex": show.export_latex,
-        }
-        return writers[parsed.format](parsed.ids, parsed.output)
-    if parsed.command == "report":
-        from juggleproof.proofs.command.report import report
-
-        return report(parsed.format, parsed.output)
-    if parsed.command == "bench":
-        from juggleproof.proofs.command.bound import bench
-
-        return bench(parsed)
-    if parsed.command == "simulate":
-        from juggleproof.proofs.command.simulate import simulate
-
-        return simulate(parsed)
-    if parsed.command == "errata":
-        from juggleproof.proofs.reports.errata import errata
-
-        return errata()
-    from juggleproof.proofs.command import show
-
-    if parsed.command == "list":
-        return show.list_claims()
-    return _explain(parsed)
-
-
-def _explain(parsed: argparse.Namespace) -> int:
-    from juggleproof.certificates.language import ClaimError
-    from juggleproof.proofs.command import show
-
-    of_theorem = [
-        option
-        for option in ("alpha", "state", "bounds")
-        if getattr(parsed, option) not in (None, False)
-    ]
-    if of_theorem and parsed.id != "theorem":
-        raise ClaimError(f"--{of_theorem[0]} goes with `explain theorem` only")
-    if parsed.bounds:
-        if len(of_theorem) > 1 or parsed.premises:
-            raise ClaimError("--bounds stands alone; it has its own alphas and states")
-        from juggleproof.proofs.command.theorem import explain_bounds
-
-        return explain_bounds()
-    if of_theorem:
-        if len(of_theorem) < 2 or parsed.premises:
-            raise ClaimError(
-                "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
-            )
-        from juggleproof.proofs.command.theorem import explain_state
-
-        return explain_state(parsed.alpha, parsed.state)
-    return show.explain(parsed.id, with_premises=parsed.premises)
+        # before numpy: the matrices are small, and sums in one order repeat
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    code: int = import_module(MODULES[parsed.command]).command(parsed)
+    return code
 
 
 if __name__ == "__main__":

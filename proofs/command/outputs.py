@@ -1,47 +1,19 @@
-"""Files and progress."""
+"""Files that commands write, and progress on a terminal."""
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import write_file
-from juggleproof.proofs.reports.results import Results
 
 # -------------------------------------------------------------------------------------------------
-# The files that `certify` writes beside the store: refused before the run where they could not be
-# written after it.
-
-OPTIONS = ("json", "junit", "markdown", "timings")
-
-
-def refuse_unwritable(options: argparse.Namespace) -> None:
-    """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
-    be written, or would overwrite another.
-    """
-    taken = {path.resolve(): f"the claims of {path}" for path in options.files}
-    for option, path in _asked(options).items():
-        fault = fault_of(path) or (
-            f"would overwrite {taken[path.resolve()]}" if path.resolve() in taken else ""
-        )
-        if fault:
-            raise ClaimError(f"--{option} {path}: {fault}; name another file")
-        taken[path.resolve()] = f"what --{option} writes"
-
-
-def _asked(options: argparse.Namespace) -> dict[str, Path]:
-    return {
-        option: getattr(options, option)
-        for option in OPTIONS
-        if getattr(options, option) is not None
-    }
+# Files that are refused before a run where they could not be written after it.
 
 
 def fault_of(path: Path) -> str:
@@ -82,28 +54,6 @@ def written_aside(path: Path) -> Iterator[BinaryIO]:
         raise ClaimError(
             f"{path}: cannot be written ({error.strerror}); choose a folder that can be"
         ) from None
-
-
-def write(options: argparse.Namespace, results: Results, seconds: Mapping[str, float]) -> None:
-    """Writes each file that was asked for."""
-    for option, path in _asked(options).items():
-        write_file(path, _content(option, results, seconds))
-
-
-def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
-    if option == "json":
-        from juggleproof.proofs.reports.contents import as_json
-
-        return as_json(results)
-    if option == "junit":
-        from juggleproof.proofs.reports.ci import as_junit
-
-        return as_junit(results)
-    if option == "markdown":
-        from juggleproof.proofs.reports.ci import markdown
-
-        return markdown(results).encode()
-    return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()
 
 
 # -------------------------------------------------------------------------------------------------

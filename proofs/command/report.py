@@ -4,6 +4,7 @@ programs.
 
 from __future__ import annotations
 
+import argparse
 import importlib.util
 import sys
 from collections.abc import Callable, Mapping
@@ -11,10 +12,21 @@ from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
-from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.ci import badge, markdown
+from juggleproof.proofs.reports.contents import Contents, as_json, gather
+from juggleproof.proofs.reports.figures import saved
+from juggleproof.proofs.reports.page import FILE, build, pictures
+from juggleproof.proofs.reports.part import kept_results
+from juggleproof.proofs.reports.tex import compiled, files
+from juggleproof.scenes.figures import TABLE
 
 DEFAULT_FOLDER = Path("juggleproof-report")
 Files = Mapping[str, bytes]
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Writes the report that is asked for; returns the exit code."""
+    return report(parsed.format, parsed.output)
 
 
 def report(wanted: str, folder: Path | None) -> int:
@@ -49,16 +61,10 @@ def _refuse_what_is_no_folder(place: Path) -> None:
 
 
 def _html(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from juggleproof.proofs.reports.page import FILE, build, pictures
-    from juggleproof.proofs.reports.part import kept_results
-
     return {FILE: build(contents, pictures(contents) if _can_draw() else (), kept_results())}, []
 
 
 def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from juggleproof.proofs.reports.tex import files
-    from juggleproof.scenes.figures import TABLE
-
     return (
         files(
             contents,
@@ -76,32 +82,24 @@ def _latex(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 
 def _pdf(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from juggleproof.proofs.reports.tex import compiled
-
-    files = {**_latex(contents, place)[0], **_figures(contents)}
-    write_all(files, place)  # the sources stand, whatever becomes of the PDF
+    sources = {**_latex(contents, place)[0], **_figures(contents)}
+    write_all(sources, place)  # the sources stand, whatever becomes of the PDF
     made, faults = dict[str, bytes](), list[str]()
     for document in ("juggleproof", "juggleproof-twocolumn"):
-        made[f"{document}.pdf"], complaints = compiled(files, document)
+        made[f"{document}.pdf"], complaints = compiled(sources, document)
         faults += [f"{document}.tex: {one}" for one in complaints]
     return made, faults
 
 
 def _markdown(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from juggleproof.proofs.reports.ci import markdown
-
     return {"juggleproof.md": markdown(contents).encode()}, []
 
 
 def _json(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from juggleproof.proofs.reports.contents import as_json
-
     return {"juggleproof.json": as_json(contents)}, []
 
 
 def _badge(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from juggleproof.proofs.reports.ci import badge
-
     return {"juggleproof.svg": badge(contents)}, []
 
 
@@ -109,8 +107,6 @@ def _figures(contents: Contents) -> dict[str, bytes]:
     """The figures as PDF; none, which is said, where matplotlib is absent."""
     if not _can_draw():
         return {}
-    from juggleproof.proofs.reports.figures import saved
-
     return {f"figures/{slug}.pdf": content for slug, *_, content in saved(contents, "pdf")}
 
 
@@ -127,8 +123,6 @@ def _can_draw() -> bool:
 
 
 def _drawings(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    from juggleproof.proofs.reports.figures import saved
-
     return {
         f"figures/{slug}.{form}": content
         for form in ("svg", "pdf")

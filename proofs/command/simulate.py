@@ -46,7 +46,7 @@ LISTS: dict[str, tuple[str, ...]] = {
 }  # and what each takes
 
 
-def simulate(options: argparse.Namespace) -> int:
+def command(options: argparse.Namespace) -> int:
     """Runs a scene; 0, or 130 where it was interrupted.  Raises ClaimError, one line, for what
     cannot be carried out.
     """

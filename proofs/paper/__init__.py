@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from juggleproof.proofs import part, theorem
+from juggleproof.proofs.claims import Claim, claims_in
 
 SECTIONS = (
     "s2_models",
@@ -31,3 +32,8 @@ def modules_of_claims() -> list[str]:
         (part.__name__, part.SECTIONS),
     )
     return [f"{package}.{section}" for package, sections in packages for section in sections]
+
+
+def paper_claims() -> list[Claim]:
+    """The claims of the paper in its order."""
+    return claims_in(modules_of_claims())

@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
 from typing import Any
 
+import sympy
+
 from juggleproof import symbolic
+from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import (
     Formula,
     Number,
     Term,
     conjunction,
     equal,
+    names_in,
     real,
     reals,
     substitute,
     term,
 )
 from juggleproof.proofs import claims, forms
-from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.derivations import Origin, made_by
+from juggleproof.proofs.derivations import derived as derived
+from juggleproof.proofs.derivations import encoded as encoded
 from juggleproof.proofs.forms import Vocabulary
 from juggleproof.proofs.reading.evaluation import Environment, relate
 from juggleproof.proofs.reading.meaning import Meaning, Printed
@@ -48,60 +55,6 @@ alpha, beta, v, r, g, t, T, K, eps, s = reals("alpha beta v r g t T K eps s")
 x, w = reals("x w")
 b = Vector((beta, v))
 
-
-derivations_used: list[tuple[str, tuple[Any, ...]]] = []
-
-
-def derived(name: str, *arguments: Any) -> Any:
-    """A derived expression of `symbolic` by its function's name: a term, or a vector or matrix of
-    terms.
-    """
-    derivations_used.append((name, arguments))
-    return _derived(name, *arguments)
-
-
-@cache
-def _derived(name: str, *arguments: Any) -> Any:
-    return encoded(getattr(symbolic, name)(*arguments))
-
-
-def rows_of(name: str, arguments: tuple[Any, ...] = ()) -> tuple[tuple[str, ...], ...]:
-    """The entries of a derivation's result by rows, in the language of statements."""
-    value = _derived(name, *arguments)
-    rows = (
-        value.rows
-        if isinstance(value, Matrix)
-        else [value.entries]
-        if isinstance(value, Vector)
-        else [[value]]
-    )
-    return tuple(tuple(map(str, row)) for row in rows)
-
-
-def encoded(value: Any) -> Any:
-    """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
-    alpha is named s.
-    """
-    from sympy import MatrixBase
-
-    if isinstance(value, MatrixBase):
-        if value.shape[1] == 1:
-            return Vector(tuple(_term(entry) for entry in value))
-        return Matrix(
-            tuple(
-                tuple(_term(value[i, j]) for j in range(value.shape[1]))
-                for i in range(value.shape[0])
-            )
-        )
-    return _term(value)
-
-
-def _term(expression: Any) -> Term:
-    return from_sympy(
-        expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
-    )
-
-
 ORDER = ("alpha", "r", "g", "K", "n", "eps", "beta", "v", "beta0", "v0", "x", "w", "t", "tau")
 STANDING = Vocabulary(
     order=ORDER,
@@ -113,6 +66,7 @@ STANDING = Vocabulary(
     domains={"alpha": (alpha > 0, alpha < 1), "K": (K >= 1,), "eps": (eps > 0,)},
     scales=frozenset({"r", "g"}),
     reads=lambda: paper_names(),
+    defines=lambda: definitions(),
 )
 claim = partial(claims.claim, vocabulary=STANDING)
 always = partial(forms.always, vocabulary=STANDING)
@@ -181,12 +135,11 @@ def collide(table: Vector) -> StateFunction:
     """C_y: the derived change of the ball's state at an impact with a table in the state y."""
 
     def after(ball: Vector) -> Vector:
-        import sympy
-
         names = sympy.symbols("ball_height ball_speed table_height table_speed")
         image = encoded(
             symbolic.collide(sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:]))
         )
+        image = made_by(Origin("impact_map"), image)
         values = dict(
             zip(
                 (str(name) for name in names),
@@ -223,16 +176,6 @@ def equals(left: Vector | Matrix, right: Vector | Matrix) -> Formula:
     return relate(left, "=", right)
 
 
-CONSTANTS = {  # names of prints that stand for what `symbolic` derives
-    r"R_\alpha": "restitution_matrix",
-    r"\xi_1": "xi_1",
-    r"\epsilon_1": "epsilon_1",
-    r"e_1": "e_1",
-    r"E_{max}": "E_max",
-    r"\Delta E_{max}": "delta_E_max",
-    r"r_0": "launch_state",
-    r"T": "period",
-}
 NAMES: dict[str, Any] = {
     r"\alpha": alpha,
     r"\gamma": g,
@@ -355,3 +298,66 @@ def only_at(place: Vector, value: Any, factor: bool = False) -> StateFunction:
 def value_of(printed: Printed, environment: Environment) -> Any:
     """The value of a print that is an expression and states no relation."""
     return Meaning(environment).here(printed.tree)
+
+
+# -------------------------------------------------------------------------------------------------
+# The names that stand in the statement file for what the paper defines; each body is derived.
+
+STATE = ("beta", "v")
+
+# Name, function of `symbolic`, parameters of a term; a vector has a name for each entry as well.
+DERIVED: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("E", "total_energy", STATE),
+    ("dE1", "energy_change_1", STATE),
+    ("F", "flight_map", (*STATE, "t")),
+    ("f1", "f1", STATE),
+    ("f2", "f2", STATE),
+    ("e_1", "e_1", ()),
+    ("e_K", "fixed_point", ("K",)),
+    ("struck_e_K", "impact_fixed_point", ("K",)),
+    ("value_of_E_max", "E_max", ()),
+    ("value_of_dE_max", "delta_E_max", ()),
+    ("value_of_dE_sup", "delta_E_sup", ()),
+    ("collision_margin", "collision_margin", STATE),
+    ("region_margin", "region_margin", STATE),
+)
+REGIONS: tuple[tuple[str, Formula, str], ...] = (
+    ("in_R", R(b), "The region R, on or above the table."),
+    ("in_B1", B1(b), "On or above the table, and an impact comes within the period."),
+    ("in_B2", B2(b), "On or above the table, and no impact comes within the period."),
+)
+
+
+def definitions() -> tuple[Definition, ...]:
+    """The definitions in the order of the file: a later one may name an earlier one.
+
+    >>> print(definitions()[0].text())
+    define E(beta, v) over g := beta*g + v^2/2
+    """
+    return _definitions()
+
+
+@cache
+def _definitions() -> tuple[Definition, ...]:
+    made: list[Definition] = []
+    for name, function, parameters in DERIVED:
+        value = derived(function)
+        says = sentence(function)
+        if isinstance(value, Term):
+            made.append(Definition(name, parameters, value, says))
+            continue
+        entries = tuple(map(term, value.entries))
+        for part, entry in zip(STATE, entries):
+            own = tuple(one for one in parameters if one in names_in(entry))
+            made.append(Definition(f"{name}_{part}", own, entry, says))
+            says = ""
+        if parameters:
+            made.append(Definition(name, parameters, entries))
+    made += [Definition(name, STATE, formula, says) for name, formula, says in REGIONS]
+    return tuple(made)
+
+
+def sentence(function: str) -> str:
+    """What a function of `symbolic` says that it derives."""
+    said = inspect.getdoc(getattr(symbolic, function)) or ""
+    return " ".join(said.partition("\n\n")[0].split())

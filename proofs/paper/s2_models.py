@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from juggleproof import symbolic
 from juggleproof.certificates.language import (
     Formula,
     Statement,
@@ -35,7 +36,6 @@ from juggleproof.proofs.paper.names import (
     collide,
     collision_time,
     derived,
-    encoded,
     energy,
     equals,
     f1,
@@ -350,10 +350,8 @@ def relative_velocity_after_impact(printed: Printed) -> Statement:
     The velocities after the impact keep the momentum and part the bodies at alpha times the speed
     at which they met.
     """
-    from juggleproof import symbolic
-
     law, values, relative = pieces(printed, 3)
-    ball_speed, table_speed = (term(encoded(one)) for one in symbolic.speeds_after_impact())
+    ball_speed, table_speed = map(term, derived("speeds_after_impact"))
     names = reals("chi chi_dot chi_after chi_dot_after")
     before = relative.formula(PAPER.extended({"x": b, "y": table, r"\chi": Vector(names[:2])}))
     after = relative.formula(
@@ -404,8 +402,6 @@ def impact_on_a_massive_body(printed: Printed) -> list[Statement]:
     The massive body is slowed by at most (1 + alpha) m times the speed at which they met, m being
     the mass ratio.
     """
-    from juggleproof import symbolic
-
     here = PAPER.extended({"x": b, "y": table})
     whole, matrix = pieces(printed, 2)
     after = Vector(reals("after after_dot"))
@@ -416,7 +412,7 @@ def impact_on_a_massive_body(printed: Printed) -> list[Statement]:
         }
     )
     restitution = equal(speed(after) - u, -alpha * (v - u)) & equal(height(after), beta)
-    slowed = u - term(encoded(symbolic.speeds_after_impact()[1]))
+    slowed = u - term(derived("speeds_after_impact").component(2))
     return [
         always(whole.formula(by_print), given=[restitution], label="new-state"),
         always(matrix.formula(here), label="matrix"),
@@ -472,8 +468,6 @@ def next_state_by_impact_and_flight() -> list[Statement]:
     """The state just before the next impact comes of a rebound and a flight, and so does the one
     after it, steered anew.
     """
-    from juggleproof import symbolic
-
     u3, u4, again = reals("u3 u4 again")
     once = derived("controlled_step", symbolic.u, symbolic.t)
 

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+from sympy import Integer
+
 from juggleproof.certificates.language import (
     AnyStatement,
     ClaimError,
@@ -348,8 +350,6 @@ BOUND = term(derived("subharmonic_bound"))  # the real number that K_max rounds
 
 def threshold(count: int) -> Term:
     """The restitution from which on the fastest table can keep up flights of so many periods."""
-    from sympy import Integer
-
     return term(derived("restitution_threshold", Integer(count)))
 
 

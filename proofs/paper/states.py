@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from juggleproof import symbolic
 from juggleproof.certificates.language import (
     ClaimError,
     Formula,
@@ -48,7 +47,6 @@ from juggleproof.proofs.paper.names import (
     collision_time,
     derived,
     e_1,
-    encoded,
     energy,
     eps,
     equals,
@@ -94,7 +92,7 @@ def keeps_energy(state: Vector) -> Formula:
 
 def place(extremum: str) -> dict[str, Term]:
     """The state at which a derived extremum is attained."""
-    return dict(zip(("beta", "v"), encoded(getattr(symbolic, extremum)().state).entries))
+    return dict(zip(("beta", "v"), derived(extremum).entries))
 
 
 # The slopes of a quadratic function: for such a function the quotient of central differences is the

@@ -80,8 +80,6 @@ def conditions_of(mode: str) -> tuple[Formula, ...]:
     """When an impact is of a mode; where two modes meet, the conditions of both hold, and they
     agree (claim part-modes-agree).
     """
-    for name in CRITERIA:  # noted as what the claim rests on
-        derived(name)
     return _CONDITIONS[mode]
 
 

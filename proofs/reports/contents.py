@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import os
 import sys
 import tomllib
 from collections import Counter
@@ -17,32 +15,21 @@ from typing import Any
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, rests_on
 from juggleproof.certificates.store import DEFAULT, Store, canonical
-from juggleproof.proofs import rules as tree
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.command.certify import FINDINGS, entry
-from juggleproof.proofs.command.show import counterexample, reading_of
-from juggleproof.proofs.derivations import (
-    Derivation,
-    behind,
-    body_and_derivations,
-    kept_derivations,
+from juggleproof.proofs.derivations import Derivation, behind, derivations_of
+from juggleproof.proofs.judging import Judgement, settle_by_rules
+from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.register import (
+    PATH,
+    Change,
+    changes,
+    load_register,
+    registered,
 )
-from juggleproof.proofs.judging import DEFAULT_BUDGET, Judgement, Options
-from juggleproof.proofs.kept import body_of
-from juggleproof.proofs.register import PATH, Change, changes, load_register
-from juggleproof.proofs.reports import errata
+from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
-from juggleproof.proofs.reports.results import Result, Results, results_of
-from juggleproof.proofs.rules import settle_by_rules
-from juggleproof.proofs.run import (
-    NOT_AS_KEPT,
-    Records,
-    judge_all,
-    judge_with_records,
-    lemmas,
-    paper_claims,
-    results_for,
-)
+from juggleproof.proofs.reports.results import Result, Results, reading_of, results_of
+from juggleproof.proofs.run import Options, findings_in, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
@@ -53,7 +40,6 @@ from juggleproof.proofs.theorem import THEOREM
 # taken from the register.
 
 TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy")
-ROUTES = ("exact", "z3", "boxes")
 
 
 @dataclass(frozen=True)
@@ -132,40 +118,21 @@ def gather(register: Path = PATH) -> Contents:
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
-    registered = load_register(register)
-    store, jobs = Store(DEFAULT), os.cpu_count() or 1
-    results = results_for(DEFAULT, jobs)
-    checked = {name: outcome for name, outcome, _ in results}
-    records = Records(DEFAULT_BUDGET)
-    claims = records.claims or paper_claims()
-    findings = (
-        json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8"))
-        if (DEFAULT / FINDINGS).exists()
-        else {}
-    )
-    options = Options(
-        ROUTES,
-        DEFAULT_BUDGET,
-        store,
-        findings,
-        {} if records.claims else lemmas(claims, claims),
-        checked,
-    )
-    judgements, _ = judge_with_records(
-        claims,
-        options,
-        records,
-        lambda rest, judged: judge_all(rest, judged, jobs, lambda *_: None),
-    )
-    records.keep(judgements, len(claims))
+    before, store = load_register(register), Store(DEFAULT)
+    done = judge_stored(paper_claims(), Options(DEFAULT))
+    judgements, checked = done.judgements, done.outcomes
     settle_by_rules(judgements, checked, store.texts)
+    findings = findings_in(DEFAULT)
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
-    by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(claims, judgements)}
+    by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(done.claims, judgements)}
     derived, told = dict[str, Derivation](), []
-    for claim, judgement in zip(claims, judgements):
-        steps, all_behind, reading = _derivations_and_reading(claim, records, store)
-        derived.update((one.function, one) for one in all_behind)
-        told.append(_entry(claim, judgement, by_id, findings, store, tuple(steps), reading))
+    for claim, judgement in zip(done.claims, judgements):
+        body = claim.body()
+        steps = derivations_of(body)
+        derived.update((one.function, one) for one in behind(steps))
+        told.append(
+            _entry(claim, judgement, by_id, findings, store, tuple(steps), reading_of(body))
+        )
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
         tuple(told),
@@ -175,7 +142,7 @@ def gather(register: Path = PATH) -> Contents:
         tree.theorem_line(store, checked, votes),
         _rules(store, checked, votes),
         tuple(derived.values()),
-        tuple(changes(registered, by_id, partial=False)),
+        tuple(changes(before, by_id, partial=False)),
         tool_versions(),
     )
 
@@ -191,19 +158,14 @@ def tool_versions() -> dict[str, str]:
     return found
 
 
-def _derivations_and_reading(
-    claim: Claim, records: Records, store: Store
-) -> tuple[Sequence[Derivation], Sequence[Derivation], str]:
-    try:
-        record = records.by_claim[claim.id]
-        body = body_of(record, store.texts)
-        return (*kept_derivations(record), reading_of(body))
-    except NOT_AS_KEPT:
-        source = (
-            next(one for one in paper_claims() if one.id == claim.id) if records.claims else claim
-        )
-        body, steps = body_and_derivations(source)
-        return steps, behind(steps), reading_of(body)
+def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
+    """What the register keeps of a judgement."""
+    return registered(
+        judgement.verdict.word,
+        judgement.verdict.detail,
+        judgement.correction,
+        table.sharp_range(judgement) if judgement.sharp else "",
+    )
 
 
 def _entry(
@@ -250,7 +212,7 @@ def _shown(name: str, text: str, outcome: str, certificate: Any, votes: Sequence
         text,
         outcome,
         certificate,
-        counterexample(refuted) if refuted else "",
+        errata.counterexample(refuted) if refuted else "",
         {vote.route: vote.answer for vote in votes},
     )
 

@@ -4,7 +4,6 @@ exact values at which the print fails.
 
 from __future__ import annotations
 
-import json
 import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,9 +12,9 @@ from typing import Any, NamedTuple
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.command.certify import FINDINGS
-from juggleproof.proofs.command.show import counterexample, kept_claims
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
+from juggleproof.proofs.run import findings_in
 
 ERRORS = ("misprint", "false", "gap")
 HEAD = """\
@@ -46,35 +45,29 @@ GROUPS = {
 WIDTH, SAYS_MORE = 124, 110  # characters of a formula that are still read at a glance
 
 
-def errata() -> int:
-    """Every claim that is not simply true, in groups; a heading with its number opens each."""
+def as_text() -> str:
+    """Every claim that is not simply true, in groups; a heading with its number opens each.
+
+    Raises ClaimError, one line, where no verdict is registered yet.
+    """
     register, store = load_register(), Store(DEFAULT)
     if not register:
         raise ClaimError(
             "no verdict is registered yet; `juggleproof certify --accept` registers them"
         )
-    findings = (
-        json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8"))
-        if (DEFAULT / FINDINGS).exists()
-        else {}
-    )
-    claims = kept_claims()
-    print(HEAD)
+    findings, claims = findings_in(DEFAULT), paper_claims()
+    lines = [HEAD]
     for group, title in GROUPS.items():
         found = [claim for claim in claims if group_of(claim, register, findings) == group]
-        print(f"{title} ({len(found)})\n")
+        lines.append(f"{title} ({len(found)})\n")
         for claim in found:
-            print("\n".join(entry_of(claim, register, findings.get(claim.id, {}), store)) + "\n")
+            lines += [*entry_of(claim, register, findings.get(claim.id, {}), store), ""]
     names = restored(claims, register)
-    print(
-        textwrap.fill(
-            f"Mangled in the transcription, and true as restored ({len(names)}):"
-            f" {', '.join(names) or 'none'}",
-            WIDTH,
-            break_on_hyphens=False,
-        )
+    mangled = (
+        f"Mangled in the transcription, and true as restored ({len(names)}):"
+        f" {', '.join(names) or 'none'}"
     )
-    return 0
+    return "\n".join([*lines, textwrap.fill(mangled, WIDTH, break_on_hyphens=False)])
 
 
 def group_of(
@@ -254,6 +247,18 @@ def _roots_named(correction: Mapping[str, Any], claim: Claim, store: Store) -> I
             rf"\b{name}\b", correction["text"]
         ):
             yield line.removeprefix("root ")
+
+
+def counterexample(found: Any) -> str:
+    """The values of a counterexample as text."""
+    if found[0] == "sign":
+        return f"a family by the sign of {found[1]}"
+    values = ", ".join(f"{name} = {value}" for name, value in found[2].items())
+    adjoined = "".join(
+        f" where {entry[0]} is a root of {entry[1]} between {entry[2]} and {entry[3]}"
+        for entry in found[1]
+    )
+    return values + adjoined
 
 
 def _counterexamples(claim: Claim, store: Store) -> list[str]:

@@ -6,7 +6,6 @@ All of it is made from the register and the store, and depends on nothing else.
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping
@@ -16,12 +15,12 @@ from typing import Any
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.command.certify import FINDINGS
-from juggleproof.proofs.command.show import kept_claims
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
 from juggleproof.proofs.reports import tex_words as words
 from juggleproof.proofs.reports.latex import latex_of
+from juggleproof.proofs.run import findings_in
 
 ROOT = Path(__file__).resolve().parents[2]
 END = "<!-- end of what is generated -->"
@@ -42,7 +41,7 @@ def summary() -> str:
 
 def results() -> str:
     """The summary, then one row a claim: claim, place, verdict, how it was settled, sharp range."""
-    register, store, findings = load_register(), Store(DEFAULT), _findings()
+    register, store, findings = load_register(), Store(DEFAULT), findings_in(DEFAULT)
     outcomes = _outcomes(store)
     lines = [
         *summary().splitlines(),
@@ -50,7 +49,7 @@ def results() -> str:
         "| claim | place | verdict | settled by | sharp range of alpha |",
         "| --- | --- | --- | --- | --- |",
     ]
-    for claim in kept_claims():
+    for claim in paper_claims():
         entry = register.get(claim.id)
         if entry is None:
             continue
@@ -72,10 +71,9 @@ def results() -> str:
 
 def printed_wrongly() -> str:
     """Every claim that is not simply true, in the groups of `juggleproof errata`, prints and
-    corrections as LaTeX.
-    """
-    register, store, findings = load_register(), Store(DEFAULT), _findings()
-    claims, lines = kept_claims(), list[str]()
+    corrections as LaTeX."""
+    register, store, findings = load_register(), Store(DEFAULT), findings_in(DEFAULT)
+    claims, lines = paper_claims(), list[str]()
     for group, title in errata.GROUPS.items():
         members = [one for one in claims if errata.group_of(one, register, findings) == group]
         lines += [f"## {title} ({len(members)})", ""]
@@ -140,11 +138,6 @@ def _outcomes(store: Store) -> dict[str, Counter[str]]:
         )
         found.setdefault(name.split("/")[0], Counter())[word] += 1
     return found
-
-
-def _findings() -> dict[str, Any]:
-    path = DEFAULT / FINDINGS
-    return dict(json.loads(path.read_text(encoding="utf-8"))) if path.exists() else {}
 
 
 PAGES: Mapping[str, Callable[[], str]] = {

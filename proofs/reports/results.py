@@ -6,12 +6,28 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from juggleproof.proofs.claims import VERDICTS, Claim
+from rich.console import Console
+from rich.table import Table
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import Store
+from juggleproof.proofs.claims import (
+    VERDICTS,
+    Argument,
+    Assertion,
+    Body,
+    Claim,
+    Following,
+    Readings,
+)
 from juggleproof.proofs.judging import Judgement
-from juggleproof.proofs.register import Change, differences, registered
+from juggleproof.proofs.register import Change, differences, load_register, registered
+from juggleproof.proofs.reports.errata import counterexample, group_of, what_is_wrong
 from juggleproof.proofs.reports.tables import plain
+from juggleproof.proofs.reports.tree import theorem_line
+from juggleproof.proofs.run import Run
 
 # -------------------------------------------------------------------------------------------------
 # The table of results, as rows of text and as it is drawn on a terminal.
@@ -72,10 +88,31 @@ def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
     if not judgement.sharp:
         return NO_RANGE if claim is None or is_of_paper(claim) else NO_OWN_RANGE
     shown = [
-        (f"{prefix.rstrip('.')}: " if prefix else "") + one["text"]
+        (f"{prefix.rstrip('.')}: " if prefix else "") + one.text
         for prefix, one in judgement.sharp.items()
     ]
     return "; ".join(dict.fromkeys(shown))
+
+
+def reading_of(body: Body) -> str:
+    """How the statements of a body make up the claim, in a few words."""
+    if isinstance(body, Assertion):
+        return (
+            f"all {len(body.parts)} statements hold"
+            if len(body.parts) > 1
+            else "the statement holds"
+        )
+    if isinstance(body, Readings):
+        return "can be read as " + ", or as ".join(body.of)
+    if isinstance(body, Following):
+        return "the conclusion of " + ", ".join(body.rests_on)
+    if isinstance(body, Argument):
+        return (
+            "argued from "
+            + ", ".join(body.steps)
+            + (f"; rescued by {body.rescue}" if body.rescue else "")
+        )
+    raise ClaimError("a body of unknown kind")
 
 
 def verdict_text(claim: Claim, judgement: Judgement) -> str:
@@ -107,10 +144,8 @@ def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple
     ]
 
 
-def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Any) -> None:
+def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Console) -> None:
     """Draws the table on a terminal; plain columns, one row a line, where there is none."""
-    from rich.table import Table
-
     columns = COLUMNS if any(map(is_of_paper, claims)) else OWN_COLUMNS
     if not console.is_terminal:
         print(plain([columns, *rows(claims, judgements)]))
@@ -170,10 +205,6 @@ def summary(judgements: Sequence[Judgement]) -> str:
 #
 # It is gathered from a run in hand (`certify`, pytest) or from the contents of a report, and is the
 # same for both.
-
-if TYPE_CHECKING:
-    from juggleproof.proofs.claims import Claim
-    from juggleproof.proofs.judging import Judgement
 
 OUTCOMES = ("certified", "refuted", "unknown", "rejected")
 PROVED = "theorem: proved "
@@ -287,6 +318,12 @@ class Results:
         return {change.claim: change for change in self.changes}
 
 
+def theorem_of_run(done: Run) -> str:
+    """The line about the theorem after a run, with the votes that were cast in it."""
+    votes = {name: cast for one in done.judgements for name, cast in one.votes.items()}
+    return theorem_line(Store(done.store), done.outcomes, votes)
+
+
 def results_of_run(
     claims: Sequence[Claim],
     judgements: Sequence[Judgement],
@@ -298,8 +335,6 @@ def results_of_run(
     accepted: bool = False,
 ) -> Results:
     """The results of a run in hand; without a register they are about the user's own claims."""
-    from juggleproof.proofs.reports.errata import group_of, what_is_wrong
-
     findings = {one.id: one.finding() for one in judgements}
     found = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
     entries = {**(register or {}), **{one.id: one.registered() for one in found}}
@@ -337,8 +372,6 @@ def results_of(contents: Any, register: Entries | None = None) -> Results:
     if isinstance(contents, Results):
         return contents
     if register is None:
-        from juggleproof.proofs.register import load_register
-
         register = load_register()
     found = [
         Result(
@@ -374,8 +407,6 @@ def results_of(contents: Any, register: Entries | None = None) -> Results:
 
 
 def _result(claim: Claim, judged: Judgement) -> Result:
-    from juggleproof.proofs.command.show import counterexample
-
     def at(name: str) -> str:
         certificate = judged.certificates[name]
         return counterexample(certificate["refuted"]) if judged.outcomes[name] == "refuted" else ""

@@ -26,13 +26,11 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.certificates.search.closing import Hints
+from juggleproof.proofs.derivations import Origin, made_by
 from juggleproof.proofs.encoding import from_sympy
-from juggleproof.proofs.paper import names
 from juggleproof.proofs.paper.names import H, alpha, always, b, claim, derived, g, r, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.symbolic.algebra import lowest_terms
-from juggleproof.symbolic.energy import normal_margin
-from juggleproof.symbolic.mechanics import collision_margin
 
 # -------------------------------------------------------------------------------------------------
 # Derived SymPy expressions as texts that the checker reads: one fraction, what is added before
@@ -45,8 +43,11 @@ def tidied(name: str, **values: int) -> Vector:
     >>> print(*tidied("e_1"))
     4*alpha*r^2/(g*(alpha + 1)^2) (alpha*r - r)/(alpha + 1)
     """
-    names.derivations_used.append((name, ()))
-    return Vector(tuple(tidy(entry) for entry in getattr(symbolic, name)().subs(values)))
+    column: Vector = made_by(
+        Origin(name),
+        Vector(tuple(tidy(entry) for entry in getattr(symbolic, name)().subs(values))),
+    )
+    return column
 
 
 def written(expression: Expr) -> str:
@@ -145,7 +146,9 @@ BELOW_A_THIRD = (alpha > 0) & (3 * alpha < 1) & (1 + alpha > 0)
 FROM_A_THIRD = (3 * alpha >= 1) & (alpha < 1) & (1 + alpha > 0)
 
 SPACE = term(0) <= x
-IMPACT: Formula = positive(normal_margin())  # inequality (7)
+IMPACT: Formula = made_by(
+    Origin("normal_margin"), positive(symbolic.normal_margin())
+)  # inequality (7)
 PIECES = ((IMPACT, tidied("normal_f1")), (opposite(IMPACT), tidied("normal_f2")))
 FIXED: Vector = tidied("normal_e_1")
 OTHER: Vector = tidied(
@@ -358,7 +361,7 @@ class Setting:
 
 
 NORMAL = Setting((alpha,), (), (x, w), SPACE, PIECES, FIXED, OTHER, Vector((x, w)), (1, 1))
-STRIKES_HERE = positive(collision_margin())
+STRIKES_HERE: Formula = made_by(Origin("collision_margin"), positive(symbolic.collision_margin()))
 PHYSICAL = Setting(
     parameters=(alpha, r, g),
     positive=(r > 0, g > 0),
@@ -392,25 +395,37 @@ def the_map(name: str, setting: Setting, of_alpha: Formula = WHOLE) -> MapRule:
             ("space", str(setting.space)),
             *pieces,
         ),
+        _terms(setting.space, setting.pieces),
     )
 
 
-def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[str, str]]:
-    return [("root", f"{name} = sqrt({setting.here(under)})") for name, under in roots]
+def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[str, Term]]:
+    return [(name, setting.here(under)) for name, under in roots]
+
+
+def _terms(*things: Any) -> tuple[Term | Formula, ...]:
+    """The terms and formulas in these things and in sequences of such."""
+    return tuple(
+        one
+        for thing in things
+        for one in ((thing,) if isinstance(thing, (Term, Formula)) else _terms(*thing))
+    )
 
 
 def descends(name: str, of: str, setting: Setting, of_alpha: Formula, descent: Descent) -> MapRule:
     """Every orbit is led to the last stage by the fall of the rank."""
-    stages = [("stage", str(setting.here(stage))) for stage in descent.stages]
+    stages = [setting.here(stage) for stage in descent.stages]
+    rank, roots = setting.here(descent.rank), _roots(descent.roots, setting)
     return MapRule(
         name,
         (
             ("map", of),
             ("domain", setting.domain(of_alpha)),
-            *_roots(descent.roots, setting),
-            ("rank", str(setting.here(descent.rank))),
-            *stages,
+            *(("root", f"{name} = sqrt({under})") for name, under in roots),
+            ("rank", str(rank)),
+            *(("stage", str(stage)) for stage in stages),
         ),
+        _terms([under for _, under in roots], rank, stages),
     )
 
 
@@ -422,18 +437,20 @@ def contracts(
         unit if weight == term(1) else weight if unit == 1 else weight * unit
         for weight, unit in zip(contraction.weights, setting.units)
     ]
+    on = setting.here(contraction.on)
     return MapRule(
         name,
         (
             ("map", of),
             ("domain", setting.domain(of_alpha)),
-            ("on", str(setting.here(contraction.on))),
+            ("on", str(on)),
             ("point", listed(setting.fixed)),
             ("weights", listed(weights)),
             ("rate", str(contraction.rate)),
             ("radius", str(contraction.radius)),
             ("size", str(contraction.size)),
         ),
+        _terms(on, setting.fixed, [*map(term, weights)]),
     )
 
 
@@ -453,6 +470,7 @@ def escapes(name: str, of: str, setting: Setting, of_alpha: Formula) -> MapRule:
             ("start", listed(setting.other)),
             ("word", "1 2"),
         ),
+        _terms(setting.fixed, setting.other),
     )
 
 

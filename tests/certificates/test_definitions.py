@@ -22,7 +22,7 @@ from juggleproof.certificates.definitions import (
 )
 from juggleproof.certificates.language import ClaimError, Term, reals
 from juggleproof.certificates.store import DEFAULT, STATEMENTS, Store, WrittenOut, statement_file
-from juggleproof.proofs.paper.definitions import definitions
+from juggleproof.proofs.paper.names import definitions
 
 a, b, g, x, y = reals("a b g x y")
 E = Definition("E", ("x", "y"), g * x + y**2 / 2)

@@ -163,16 +163,16 @@ def test_rejects_claim_of_a_file_with_a_name_of_the_paper(inner: pytest.Pytester
 COUNTING = """
 from juggleproof.proofs import register
 from pathlib import Path
-from juggleproof.proofs.command import certify
 
 register.PATH = Path(__file__).with_name("register.json")
-judged, run = [], certify.run
+from juggleproof.proofs import pytest_items
+judged, run = [], pytest_items.run
 
 def counted(*arguments):
     judged.append(arguments)
     return run(*arguments)
 
-certify.run = counted
+pytest_items.run = counted
 
 def pytest_sessionfinish():
     print(f"judged {len(judged)} times")

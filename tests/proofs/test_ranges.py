@@ -14,7 +14,7 @@ from juggleproof.certificates.language import Roles, Statement, conjunction, rea
 from juggleproof.certificates.search.ranges import Line
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import read, speaks_of_range
-from juggleproof.proofs.judging import Options, judge
+from juggleproof.proofs.judging import Resources, Sharp, judge
 from juggleproof.proofs.ranges import search_sharp_range, told
 
 alpha, K, n, k, x = reals("alpha K n k x")
@@ -108,11 +108,8 @@ def test_what_holds_on_the_whole_range_is_left_out():
     claim = Claim(
         "left-out", "", "", "one part holds for every alpha", lambda: Assertion((sure, third))
     )
-    judgement = judge(claim, Options(routes=("exact",)))
-    assert judgement.sharp[""] == {
-        "text": "0 < alpha <= 1/3",
-        "by": ["left-out/sharp", "left-out/sure"],
-    }
+    judgement = judge(claim, Resources(routes=("exact",)))
+    assert judgement.sharp[""] == Sharp("0 < alpha <= 1/3", ("left-out/sharp", "left-out/sure"))
     assert "sharp left-out/third" in dict(judgement.statements)["left-out/sharp"].splitlines()
 
 

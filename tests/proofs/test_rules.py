@@ -79,7 +79,7 @@ def test_no_claim_is_left_out_where_its_file_was_loaded_before() -> None:
                 sys.executable,
                 "-c",
                 (
-                    f"{before}from juggleproof.proofs.run import paper_claims\n"
+                    f"{before}from juggleproof.proofs.paper import paper_claims\n"
                     "print(*(one.id for one in"
                     " paper_claims()))"
                 ),

@@ -26,8 +26,8 @@ from juggleproof.certificates.search.scales import with_scales
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import Vocabulary, always, domains_of
 from juggleproof.proofs.judging import Judgement, Options, judge
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import STANDING
-from juggleproof.proofs.run import paper_claims
 
 ROOT = Path(__file__).resolve().parents[2]
 ENGINE = [

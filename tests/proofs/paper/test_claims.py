@@ -12,11 +12,11 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import VERDICTS
-from juggleproof.proofs.command import show
+from juggleproof.proofs.command import explain
 from juggleproof.proofs.ledger.ledger import check_claims, load_ledger
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import changes, load_register
 from juggleproof.proofs.reports import pages
-from juggleproof.proofs.run import paper_claims
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -98,6 +98,6 @@ def test_every_kind_of_claim_is_explained_holds(capsys: pytest.CaptureFixture[st
         *paper_claims()[::20],
         *(c for c in paper_claims() if c.id in ("eq-10", "eq-37", "sA.3.2-sup3")),
     ]:
-        assert show.explain(claim.id) == 0
+        assert explain.explain(claim.id) == 0
         told = capsys.readouterr().out
         assert claim.id in told and "verdict" in told and "Term(" not in told, claim.id

@@ -12,9 +12,9 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, Statement
 from juggleproof.proofs.claims import Claim, assertions, named_statements
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reading.edits import mutations
 from juggleproof.proofs.reading.meaning import read
-from juggleproof.proofs.run import paper_claims
 
 # -------------------------------------------------------------------------------------------------
 # The judged content of a claim: its statements as formulas over polynomials, apart from how they

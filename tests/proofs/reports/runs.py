@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates.store import DEFAULT
-from juggleproof.proofs.command.certify import Run, run
-from juggleproof.proofs.command.main import build_parser
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.contents import Contents, gather
 from juggleproof.proofs.reports.page import Picture, build, pictures
-from juggleproof.proofs.reports.results import Results, results_of_run
+from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
+from juggleproof.proofs.run import Options, Run, claims_of_file, run
 
 # -------------------------------------------------------------------------------------------------
 # Runs whose reports are tested: of the paper, of files with every kind of verdict, and made up
@@ -49,19 +49,17 @@ def file_with(folder: Path, names: tuple[str, ...], says: str = "It says so.") -
     return path
 
 
-def options(*arguments: str) -> Any:
-    return build_parser().parse_args(["certify", "--jobs", "1", *arguments])
-
-
 def own(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Results:
-    return _results(run(options(str(file_with(folder, names, says)))), None)
+    path = file_with(folder, names, says)
+    options = Options(path.with_suffix(".certificates"), jobs=1)
+    return _results(run(claims_of_file(path), options), None)
 
 
 @cache
 def paper_run() -> Run:
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(DEFAULT, Path(folder) / "store")
-        return run(options("--store", str(Path(folder) / "store")))
+        return run(paper_claims(), Options(Path(folder) / "store", jobs=1))
 
 
 @cache
@@ -78,7 +76,7 @@ def _results(done: Run, register: Mapping[str, Mapping[str, Any]] | None, **more
         done.claims,
         done.judgements,
         register,
-        theorem=done.theorem,
+        theorem="" if register is None else theorem_of_run(done),
         rejected=more.pop("rejected", done.rejected),
         **more,
     )

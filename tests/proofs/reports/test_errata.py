@@ -10,10 +10,10 @@ import re
 import pytest
 
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.command.certify import FINDINGS
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
-from juggleproof.proofs.run import paper_claims
+from juggleproof.proofs.run import FINDINGS
 
 TITLES = list(errata.GROUPS.values())
 
@@ -21,12 +21,8 @@ TITLES = list(errata.GROUPS.values())
 @pytest.fixture(scope="module")
 def told() -> dict[str, dict[str, str]]:
     """The entries by group and claim, as they are printed."""
-    with pytest.MonkeyPatch.context() as patch:
-        lines: list[str] = []
-        patch.setattr("builtins.print", lambda text: lines.append(text))
-        assert errata.errata() == 0
     groups: dict[str, dict[str, str]] = {}
-    for block in "\n".join(lines).split("\n\n"):
+    for block in errata.as_text().split("\n\n"):
         heading = re.fullmatch(r"(.*) \((\d+)\)", block.strip())
         if heading and heading[1] in TITLES:
             groups[heading[1]] = {}
@@ -143,4 +139,4 @@ def test_what_is_wrong_is_told_in_words(
 def test_rejects_errata_without_a_register(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(errata, "load_register", dict)
     with pytest.raises(errata.ClaimError, match="no verdict is registered yet"):
-        errata.errata()
+        errata.as_text()

@@ -19,6 +19,9 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.api import certify
+from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.run import Options
+from juggleproof.proofs.run import run as judged
 from juggleproof.proofs.smtlib.answering import Question, answer, answer_files, settled
 from juggleproof.proofs.smtlib.script import problems_of_file
 from tests.proofs.smtlib.evaluating import truth
@@ -213,9 +216,6 @@ def stored(folder: Path) -> dict[str, bytes]:
 
 def everything(folder: Path, executor: Executor | None) -> dict[str, bytes]:
     """What is stored of claims, of a script, and of a claim of the paper, with this executor."""
-    from juggleproof.proofs.command.certify import run as judged
-    from juggleproof.proofs.command.main import build_parser
-
     folder.mkdir()
     (folder / "claims.py").write_text(CLAIMS, encoding="utf-8")
     assert [one.answer for one in certify(folder / "claims.py", executor)] == ["holds", "false"]
@@ -226,21 +226,8 @@ def everything(folder: Path, executor: Executor | None) -> dict[str, bytes]:
         "sat",
         "unsat",
     ]
-    options = build_parser().parse_args(
-        [
-            "certify",
-            "--jobs",
-            "1",
-            "--routes",
-            "exact",
-            "--only",
-            "eq-10",
-            "--fresh",
-            "--store",
-            str(folder / "paper"),
-        ]
-    )
-    judged(options, executor=executor)
+    options = Options(folder / "paper", ("exact",), jobs=1, fresh=True, only=("eq-10",))
+    judged(paper_claims(), options, executor=executor)
     return {
         f"{part}/{name}": content
         for part in ("claims.certificates", "mine.certificates", "paper")

@@ -1,0 +1,102 @@
+"""`juggleproof explain ID`: one claim whole, or the theorem at one state."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.claims import Claim, claim_named
+from juggleproof.proofs.command.theorem import explain_bounds, explain_state
+from juggleproof.proofs.derivations import derivations_of
+from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.errata import counterexample
+from juggleproof.proofs.reports.results import reading_of
+from juggleproof.proofs.reports.tree import print_tree
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Explains a claim, or with options of its own the theorem; 0."""
+    of_theorem = [
+        option
+        for option in ("alpha", "state", "bounds")
+        if getattr(parsed, option) not in (None, False)
+    ]
+    if of_theorem and parsed.id != "theorem":
+        raise ClaimError(f"--{of_theorem[0]} goes with `explain theorem` only")
+    if parsed.bounds:
+        if len(of_theorem) > 1 or parsed.premises:
+            raise ClaimError("--bounds stands alone; it has its own alphas and states")
+        return explain_bounds()
+    if of_theorem:
+        if len(of_theorem) < 2 or parsed.premises:
+            raise ClaimError(
+                "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
+            )
+        return explain_state(parsed.alpha, parsed.state)
+    return explain(parsed.id, with_premises=parsed.premises)
+
+
+def explain(claim_id: str, with_premises: bool = False) -> int:
+    """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
+    sharp range, verdict; the tree of its rules.
+    """
+    claims = {claim.id: claim for claim in paper_claims()}
+    claim_id = claim_named(claim_id, claims)
+    if claim_id not in claims:
+        near = [name for name in claims if claim_id in name][:5]
+        raise ClaimError(
+            f"{claim_id}: no such claim"
+            + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them")
+        )
+    claim, store = claims[claim_id], Store(DEFAULT)
+    body = claim.body()
+    print(f"{claim.id}   section {claim.section} {claim.place}")
+    print(f"  {claim.says}")
+    _print_of(claim)
+    for one in derivations_of(body):
+        print(f"derived     {one.line}")
+    print(f"reading     {reading_of(body)}")
+    for name, text in store.texts.items():
+        if name.split("/")[0] == claim_id:
+            _statement(name, text, store)
+    entry = load_register().get(claim_id, {})
+    print(f"sharp range {entry.get('sharp', 'none: the claim has no range of alpha to settle')}")
+    if "correction" in entry:
+        print(f"correction  {entry['correction']}")
+    print(
+        f"verdict     {entry.get('verdict', 'not judged')}"
+        + (f"; {entry['detail']}" if "detail" in entry else "")
+    )
+    print_tree(claim_id, getattr(body, "rests_on", ()), store, with_premises)
+    return 0
+
+
+def _print_of(claim: Claim) -> None:
+    if claim.as_it_stands:
+        print(f"stands      {claim.as_it_stands}")
+        print(f"restored    {claim.printed}")
+    elif claim.printed:
+        print(f"printed     {claim.printed}")
+    if claim.repeats:
+        print(f"repeats     {claim.repeats}")
+
+
+def _statement(name: str, text: str, store: Store) -> None:
+    certificate = store.certificate(name, text)
+    print()
+    for line in text.splitlines():
+        print(f"    {line}")
+    if not isinstance(certificate, dict):
+        print("    -> no certificate is stored")
+    elif "unknown" in certificate:
+        print(f"    -> unknown: {certificate['unknown']}")
+    elif "refuted" in certificate:
+        print(f"    -> refuted at {counterexample(certificate['refuted'])}")
+    else:
+        shown = json.dumps(certificate["certified"], separators=(",", ":"))
+        if len(shown) >= 400:
+            shown = f"{shown[:400]}... ({len(shown)} characters)"
+        print(f"    -> certified by {shown}")

@@ -1,0 +1,147 @@
+"""How the conclusion of a map rule rests on other rules, and on premises that the checker writes:
+down to the inequalities.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError, rests_on
+from juggleproof.certificates.store import Store
+from juggleproof.certificates.votes.vote import Vote
+
+THEOREM = "theorem-in-units/exactly"
+
+
+def rules_of(store: Store) -> dict[str, Any]:
+    """The stored statements under map rules, by name."""
+    texts = [
+        text
+        for text in store.texts.values()
+        if not text.split("\n")[1].startswith(("forall ", "sharp "))
+    ]
+    statements = checker.read_statements("\n\n".join(texts))
+    return {
+        name: one
+        for name, one in statements.items()
+        if one.kind in checker.ORBIT_RULES and one.kind != "iterates"
+    }
+
+
+def with_all_below(name: str, rules: Mapping[str, Any]) -> list[str]:
+    """The rule and all rules that it rests on, each once, those that rest on others first."""
+    found = [name]
+    for one in found:
+        found += [inner for inner in rests_on(rules[one]) if inner not in found]
+    return found
+
+
+def theorem_line(
+    store: Store, outcomes: Mapping[str, str], votes: Mapping[str, Sequence[Vote]] | None = None
+) -> str:
+    """One line for the theorem: proved, resting on how many statements, and under which rules; or
+    where its proof is lost.
+
+    Empty where the store does not hold it.
+    """
+    if THEOREM not in store.texts:
+        return ""
+    rules = rules_of(store)
+    names = with_all_below(THEOREM, rules)
+    used = set().union(*(lemmas(store.certificate(name, store.texts[name])) for name in names))
+    told = [
+        vote
+        for name, cast in (votes or {}).items()
+        if name.rpartition(".")[0] in names
+        for vote in cast
+    ]
+    decided = [
+        f"{route} {sum(vote.answer == 'holds' for vote in told if vote.route == route)}"
+        for route in ("z3", "boxes")
+        if told
+    ]
+    lost = [name for name in [*sorted(used), *reversed(names)] if outcomes.get(name) != "certified"]
+    if lost:
+        return f"theorem: NOT proved; {lost[0]} is not certified, and {THEOREM} rests on it"
+    count = sum(len(checker.premises_of(rules[name], rules)) for name in names)
+    kinds = ", ".join(dict.fromkeys(rules[name].kind for name in reversed(names)))
+    return (
+        "theorem: proved by exact certificates: for 0 < alpha < 1, e_1 is stable and attracts"
+        f" every state of H if and only if alpha < 1/3;\n         {THEOREM} rests on"
+        f" {len(names) + len(used)} statements with {count} premises, under the checker's rules"
+        f" {kinds}"
+        + (
+            f";\n         votes for the premises: {', '.join(decided)} of {count}"
+            if decided
+            else ""
+        )
+        + "\n         `make coq` proves the same from the definition of the map alone"
+    )
+
+
+def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premises: bool) -> None:
+    """Prints, for each conclusion that no other of the claim's rules rests on, what it rests on.
+
+    Raises ClaimError where premises are asked for and the claim neither is a map rule nor rests on
+    one.
+    """
+    rules = rules_of(store)
+    roots = [
+        *(name for name in rules if name.split("/")[0] == claim_id),
+        *(name for name in resting if name in rules),
+    ]
+    if not roots:
+        if with_premises:
+            raise ClaimError(
+                f"{claim_id} has no map rules, so that no premises are written; its statements are"
+                " all there is"
+            )
+        return
+    roots = [name for name in roots if not any(name in rests_on(rules[other]) for other in roots)]
+    print(
+        "\nrests on    each rule, its premises as the checker writes them, and the rules that it"
+        " names"
+    )
+    shown: dict[str, Mapping[str, Any]] = {}
+    for name in roots:
+        _branch(name, 1, rules, store, shown)
+    count = sum(map(len, shown.values()))
+    print(
+        f"  {len(shown)} rules, {count} premises, each an inequality or identity of polynomials"
+        + ("" if with_premises else " (--premises prints their texts)")
+    )
+    for premises in shown.values() if with_premises else ():
+        for premise in premises.values():
+            print("\n    " + premise.text().replace("\n", "\n    "))
+
+
+def _branch(
+    name: str,
+    depth: int,
+    rules: Mapping[str, Any],
+    store: Store,
+    shown: dict[str, Mapping[str, Any]],
+) -> None:
+    if name in shown:
+        print(f"{'  ' * depth}{name} (above)")
+        return
+    shown[name] = premises = checker.premises_of(rules[name], rules)
+    used = sorted(lemmas(store.certificate(name, store.texts[name])))
+    print(
+        f"{'  ' * depth}{name}: {len(premises)} premises: {' '.join(premises)}"
+        + (f"; by {', '.join(used)}" if used else "")
+    )
+    for inner in rests_on(rules[name]):
+        _branch(inner, depth + 1, rules, store, shown)
+
+
+def lemmas(certificate: Any) -> set[str]:
+    """The earlier statements that a certificate uses."""
+    if isinstance(certificate, Mapping):
+        return set().union(*map(lemmas, certificate.values()))
+    if not isinstance(certificate, list):
+        return set()
+    own = {certificate[1]} if len(certificate) == 5 and certificate[0] == "use" else set()
+    return own.union(*map(lemmas, certificate))
