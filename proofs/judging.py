@@ -170,7 +170,7 @@ def settle_by_rules(
             one.verdict = one.by_rules
         if one.follows:
             held = one.verdict.word == "holds"
-            text = range_of_rule(one.rests_on[-1], texts) if held else NOT_FOUND
+            text = range_of_rule(one.rests_on[-1], texts, one.roles) if held else NOT_FOUND
             one.sharp[""] = Sharp(text, one.rests_on)
 
 

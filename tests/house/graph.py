@@ -38,20 +38,24 @@ def names_in(tree: ast.AST) -> Iterator[str]:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+            begin = "." * node.level + (node.module or "")
+            yield from (f"{begin}.{alias.name}" for alias in node.names)
 
 
 def loaded_by_name(path: Path) -> Iterator[str]:
     """What `import_module` may load: its literal, or a beginning with each string of the file after
-    it, up to a colon (as in "module:function").
+    it, up to a colon (as in "module:function"); and the files of a lazy package.
     """
     tree = tree_of(path)
+    package = module_of(path.with_name("__init__.py"))
     words = {
         node.value.partition(":")[0]
         for node in ast.walk(tree)
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
     for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and called(node) == "lazy_names":
+            yield from (package + word for word in words if word.startswith("."))
         if not (isinstance(node, ast.Call) and called(node) == "import_module" and node.args):
             continue
         argument = node.args[0]
@@ -83,7 +87,9 @@ def graph() -> Graph:
     paths = {module_of(path): path for package in PACKAGES for path in files(package)}
     found = {}
     for module, path in paths.items():
-        named = {*names_in(tree_of(path)), *loaded_by_name(path)}
+        here = module_of(path.with_name("__init__.py"))
+        absolute = (here + name if name[0] == "." else name for name in names_in(tree_of(path)))
+        named = {*absolute, *loaded_by_name(path)}
         ends = {name if name in paths else name.rpartition(".")[0] for name in named}
         found[module] = frozenset((ends & set(paths)) - {module})
     return found
