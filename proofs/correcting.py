@@ -277,9 +277,9 @@ def _nearby_is_certified(judge: Judge) -> bool:
     """Whether the claim names a true assertion nearby that is certified; if so it is the
     correction.
     """
-    if judge.claim.nearby is None:
+    if judge.claim.true_nearby is None:
         return False
-    text, state = judge.claim.nearby
+    text, state = judge.claim.true_nearby
     if not _certifies_body(judge, as_body(state(), judge.claim.id)):
         return False
     judge.found.correction = {

@@ -162,7 +162,7 @@ class Judge:
         found.verdict = verdict_of(claim.id, body, found.outcomes)
         if (
             found.verdict.word == "false"
-            and (claim.printed or claim.nearby)
+            and (claim.printed or claim.true_nearby)
             and isinstance(body, (Assertion, Readings))
         ):
             self.correct()

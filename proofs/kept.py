@@ -213,7 +213,7 @@ def record_of(
     return {
         **{name: getattr(claim, name) for name in TOLD},
         "parameters": list(claim.parameters),
-        "nearby": claim.nearby is not None,
+        "nearby": claim.true_nearby is not None,
         "body": _plain(body, named),
         "correction": dict(correction) if correction else None,
         "corrected": corrected,
@@ -252,7 +252,7 @@ def claim_of(record: Mapping[str, Any]) -> Claim:
         **told,
         read=read,
         parameters=tuple(map(_text, record["parameters"])),
-        nearby=("", read) if record["nearby"] else None,
+        true_nearby=("", read) if record["nearby"] else None,
     )
 
 

@@ -353,7 +353,7 @@ def sent(claim: Claim, options: Options) -> Sent:
     """A claim, with what its judge needs of the options, as data that can be pickled."""
     if claim.source.startswith("juggleproof.proofs."):
         return Sent(claim.id, options.only(claim))
-    if claim.printed or claim.derived or claim.nearby:
+    if claim.printed or claim.derived or claim.true_nearby:
         raise ClaimError(
             f"{claim.id} has a print to be corrected, which only this process can do; certify it"
             " without an executor"

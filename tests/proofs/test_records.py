@@ -225,9 +225,9 @@ def test_rejects_the_body_of_a_claim_from_its_record_alone() -> None:
     claim = claim_of({**record, "parameters": ["alpha"], "nearby": True})
     with pytest.raises(loading.Forgotten):
         claim.body()
-    assert claim.nearby is not None
+    assert claim.true_nearby is not None
     with pytest.raises(loading.Forgotten):
-        claim.nearby[1]()
+        claim.true_nearby[1]()
 
 
 def test_a_store_that_a_run_changes_is_checked_again_holds(
