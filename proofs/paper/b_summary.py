@@ -1,4 +1,4 @@
-"""Appendix B."""
+"""Appendix B: the regions, maps, points and names of the paper, summed up."""
 
 from __future__ import annotations
 
@@ -267,8 +267,8 @@ def line_by_its_height(printed: Printed) -> Statement:
 
 
 # -------------------------------------------------------------------------------------------------
-# Appendices B.3 to B.6: the maps, the fixed point, the zero energy change boundary and the
-# boundary of R, summed up.
+# Appendices B.3 to B.6: the maps, the fixed point, the zero energy change boundary and the boundary
+# of R, summed up.
 
 u, y, lift, tau, greatest, gain, margin = reals("u y lift tau greatest gain margin")
 

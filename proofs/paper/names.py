@@ -1,4 +1,6 @@
-"""The paper's names and what happens in a period."""
+"""The paper's names: what they stand for in statements, what prints mean by them, and what happens
+within a period.
+"""
 
 from __future__ import annotations
 
@@ -33,13 +35,12 @@ from juggleproof.proofs.reading.values import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# The paper's names: what stands for what in statements, what is assumed where nothing is said,
-# and what prints mean.
+# The paper's names: what stands for what in statements, what is assumed where nothing is said, and
+# what prints mean.
 #
 # Physical units: alpha restitution; r the table's launch speed \dot\rho_0; g gravity \gamma; beta,
-# v
-# height and velocity of the ball when the table is at its lowest; T = 2 r/g.  Normal form: x =
-# beta/(r T), w = 1 - v/r.  Where nothing is said, 0 < alpha < 1 and r, g > 0. Formulas come from
+# v height and velocity of the ball when the table is at its lowest; T = 2 r/g. Normal form: x =
+# beta/(r T), w = 1 - v/r. Where nothing is said, 0 < alpha < 1 and r, g > 0. Formulas come from
 # `symbolic`, which derives them; none is typed here.
 
 alpha, beta, v, r, g, t, T, K, eps, s = reals("alpha beta v r g t T K eps s")

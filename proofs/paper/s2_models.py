@@ -1,4 +1,6 @@
-"""Section 2."""
+"""Section 2: the regions of the plane, free flight, the impact of two point masses, and the ball
+from one impact to the next.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Section 3.3."""
+"""Section 3.3: the map of a period with an impact, its fixed point e_1, and its neighbourhood."""
 
 from __future__ import annotations
 

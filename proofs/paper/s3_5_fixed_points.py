@@ -1,4 +1,6 @@
-"""Section 3.5."""
+"""Section 3.5: fixed points of the composites of the map, for which periods they exist, and whether
+they are stable.
+"""
 
 from __future__ import annotations
 

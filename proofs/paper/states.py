@@ -1,4 +1,6 @@
-"""Regions, orbits and slopes that several sections speak of."""
+"""Terms and regions that several sections speak of: impacts and their energy, orbits from bounce to
+bounce, motion relative to e_1.
+"""
 
 from __future__ import annotations
 
@@ -284,8 +286,8 @@ def is_the_map(printed: Printed) -> Readings:
 
 
 # -------------------------------------------------------------------------------------------------
-# Motion relative to e_1: the coordinates z = b - e_1, the kinetic energy K in them, and the
-# states where it is small.
+# Motion relative to e_1: the coordinates z = b - e_1, the kinetic energy K in them, and the states
+# where it is small.
 #
 # K is a function here, the kinetic energy of section 4.3, and not the integer K of section 3.5.
 
@@ -437,8 +439,8 @@ AROUND_E1 = Environment(
 
 
 # -------------------------------------------------------------------------------------------------
-# What the paper says in several places, in one formal reading: what B1 and B2 are, the line
-# between them, and the table's period.
+# What the paper says in several places, in one formal reading: what B1 and B2 are, the line between
+# them, and the table's period.
 
 flown = real("flown")  # a time since the launch of the table
 LANDS = equal(height(table_at(flown)), 0)

@@ -1,5 +1,5 @@
-"""The five modes of a corner's impact: each impulse is that of a walk by Coulomb's and
-Poisson's.
+"""The five modes of a corner's impact: the impulse of each by Coulomb's and Poisson's laws, the
+energy, and that they cover every impact and agree.
 """
 
 from __future__ import annotations
@@ -65,12 +65,11 @@ from juggleproof.symbolic import MODES
 # The five modes of a corner's impact: each impulse is that of a walk by Coulomb's and Poisson's
 # laws, and what it guarantees.
 #
-# A walk through impulse space grows the impulse from 0.  While the corner slides, friction is mu
+# A walk through impulse space grows the impulse from 0. While the corner slides, friction is mu
 # times the normal impulse and opposes the sliding; where it has stopped, friction holds it if it
-# can.
-# Compression is greatest where C = 0; the impact ends at 1 + e times the normal impulse of that
-# moment.  Velocities are linear on each piece of a walk, so what holds at the ends of a piece holds
-# all along it.
+# can. Compression is greatest where C = 0; the impact ends at 1 + e times the normal impulse of
+# that moment. Velocities are linear on each piece of a walk, so what holds at the ends of a piece
+# holds all along it.
 
 STOP, MOST, END = (
     Impulse(*reals("x_stop y_stop")),

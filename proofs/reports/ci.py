@@ -1,4 +1,4 @@
-"""JUnit, Markdown, badge."""
+"""Results for CI: a badge, a JUnit report, and the Markdown of a job's summary."""
 
 from __future__ import annotations
 
@@ -52,8 +52,7 @@ def told(results: Results) -> tuple[str, str]:
 # skipped.
 #
 # Of the paper a verdict is a failure where it differs from the register, whatever it is; of a file
-# of
-# one's own where the claim does not hold. What is unknown, and what the checker rejects, is an
+# of one's own where the claim does not hold. What is unknown, and what the checker rejects, is an
 # error.
 
 
@@ -161,8 +160,7 @@ def fails_at(one: Result) -> list[str]:
 # under GitHub's limit of a megabyte.
 #
 # What is not known comes first, then what the checker rejects, what changed since the register,
-# what
-# is wrong and how it is mended.
+# what is wrong and how it is mended.
 
 LIMIT = 1_000_000  # bytes; GitHub refuses a summary above 1024 * 1024
 LONGEST = 2_000  # characters of one text

@@ -1,4 +1,6 @@
-"""The part scene in reports."""
+"""The part-orienting scene in reports: the tables that `simulate part` prints, and results that are
+kept for the page.
+"""
 
 from __future__ import annotations
 
@@ -122,8 +124,7 @@ def point(one: Point) -> str:
 # records of runs while the sources are the same.
 #
 # They are simulated, not proved; a report never computes them, so that it needs neither numba nor
-# the
-# time.
+# the time.
 
 if TYPE_CHECKING:
     from juggleproof.scenes.part.onsets import Table

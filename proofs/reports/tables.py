@@ -1,4 +1,4 @@
-"""Columns and numbers as text."""
+"""Tables as plain columns or on a terminal, and exact numbers as users write and read them."""
 
 from __future__ import annotations
 

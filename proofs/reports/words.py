@@ -1,4 +1,4 @@
-"""Statements in words."""
+"""Sentences and statements in words and LaTeX, and the intervals that sharp ranges tell."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ from juggleproof.proofs.reports.latex import GLYPHS, glyph, is_bracketed, latex_
 # and LaTeX.
 #
 # What is a formula is told by its words: names of the notation, numerals beside signs, and what
-# joins
-# them.  The rest stays text.
+# joins them. The rest stays text.
 
 # Names of sentences that no statement has: regions, maps, and quantities with marks that the
 # statement language lacks.

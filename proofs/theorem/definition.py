@@ -1,4 +1,6 @@
-"""Map, rank, stages, rates."""
+"""The definition of the theorem: the map in normal form, what is chosen to prove it, and the
+statements under the checker's map rules that come of it.
+"""
 
 from __future__ import annotations
 
@@ -36,8 +38,8 @@ from juggleproof.symbolic.energy import normal_margin
 from juggleproof.symbolic.mechanics import collision_margin
 
 # -------------------------------------------------------------------------------------------------
-# Derived SymPy expressions as texts that the checker reads: one fraction, what is added before
-# what is taken away.
+# Derived SymPy expressions as texts that the checker reads: one fraction, what is added before what
+# is taken away.
 
 
 def tidied(name: str, **values: int) -> Vector:
@@ -133,10 +135,9 @@ def _sum(parts: Sequence[Term]) -> Term:
 # The map in normal form, and what is chosen to prove the theorem about it: rank, stages and
 # contraction.
 #
-# x is the height in units of r T, w = 1 - v/r the closing speed in units of r.  Map, fixed points
-# and
-# energies are derived; rank, stages, weights, rates and radii are choices that the premises of the
-# checker's rules have to confirm.
+# x is the height in units of r T, w = 1 - v/r the closing speed in units of r. Map, fixed points
+# and energies are derived; rank, stages, weights, rates and radii are choices that the premises of
+# the checker's rules have to confirm.
 
 u, e_x, e_w = reals("u e_x e_w")
 WHOLE = (
