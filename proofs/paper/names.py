@@ -198,6 +198,8 @@ def collide(table: Vector) -> StateFunction:
     return StateFunction(after)
 
 
+# The paper's regions: H; B1 and B2 of (7), by whether the collision comes before the period ends;
+# the parts of B1 whose impact gains, loses or keeps energy; R of section 4.1.
 H = Region(lambda state: term(state.component(1)) >= 0)
 STRIKES = Region(lambda state: at(derived("collision_margin") > 0, state))
 B1 = H & STRIKES

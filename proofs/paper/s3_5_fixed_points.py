@@ -62,6 +62,7 @@ from juggleproof.proofs.paper.states import (
     always_integer,
     b_0,
     comes_back,
+    composite,
     cycle,
     eigenvalue_of,
     exists_integer,
@@ -69,6 +70,7 @@ from juggleproof.proofs.paper.states import (
     from_threshold_on,
     function_of,
     next_state_is,
+    power_of_flight,
     relations_of,
     strikes_from,
     struck,
@@ -440,16 +442,6 @@ def no_restitution_is_left_out(printed: Printed) -> Statement:
 # Section 3.5.3: the Jacobian of the composites, and the stability of their fixed points.
 
 n, p, q, size, lift = reals("n p q size lift")
-
-
-def composite(count: Number, state: Vector) -> Vector:
-    """The state after all but one of so many periods of flight, and one with an impact."""
-    return vector(f1(vector(flights(term(count) - 1)(state))))
-
-
-def power_of_flight(time: Term, count: Number) -> Matrix:
-    """A_t to this power, which is A of so many times t, as the statement `powers` has it."""
-    return flight_matrix(term(count) * time)
 
 
 def is_jacobian(value: Any, count: Number, label: str) -> Statement:

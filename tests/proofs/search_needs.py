@@ -137,8 +137,9 @@ def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, 
                 return NEEDED, "", refutation
         except Exhausted:
             continue
-    refutation = refuted_among(plain, list(special(text, one)), budget // 8)
-    return (NEEDED if refutation else UNDECIDED), "", refutation
+    if refutation := refuted_among(plain, list(special(text, one)), budget // 8):
+        return NEEDED, "", refutation
+    return (NOT_NEEDED if is_not_needed(text, one, budget) else UNDECIDED), "", None
 
 
 def is_not_needed(text: str, one: Hypothesis, budget: int = BUDGET) -> bool:
