@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import (
@@ -33,6 +33,9 @@ from juggleproof.proofs.reading.values import (
     StateFunction,
     Vector,
 )
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 # -------------------------------------------------------------------------------------------------
 # The paper's names: what stands for what in statements, what is assumed where nothing is said, and
@@ -95,7 +98,7 @@ def encoded(value: Any) -> Any:
     return _term(value)
 
 
-def _term(expression: Any) -> Term:
+def _term(expression: Expr) -> Term:
     return from_sympy(
         expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
     )
@@ -296,14 +299,14 @@ def table_at(time: Number, start: Vector | None = None) -> Vector:
     return vector(flight(time)(r_0 if start is None else start))
 
 
-def vector(value: Any) -> Vector:
+def vector(value: object) -> Vector:
     """The value itself, which has to be a state."""
     if not isinstance(value, Vector):
         raise ShapeError("a state was expected")
     return value
 
 
-def as_region(value: Any) -> Region:
+def as_region(value: object) -> Region:
     """The value itself, which has to be a region."""
     if not isinstance(value, Region):
         raise ShapeError("a region was expected")

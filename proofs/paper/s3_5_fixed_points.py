@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -444,7 +443,7 @@ def no_restitution_is_left_out(printed: Printed) -> Statement:
 n, p, q, size, lift = reals("n p q size lift")
 
 
-def is_jacobian(value: Any, count: Number, label: str) -> Statement:
+def is_jacobian(value: object, count: Number, label: str) -> Statement:
     """The matrix takes the difference of any two states to the difference of their images under the
     composite.
     """

@@ -141,7 +141,7 @@ def a_product_of_two_numbers_and_a_square_is_not_negative() -> Statement:
     return always(p * q * d**2 >= 0, given=[p >= 0, q >= 0])
 
 
-def told(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
+def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
     """The hints of a claim: these products, each of two numbers that are not negative and what is
     squared.
     """

@@ -52,8 +52,8 @@ from juggleproof.proofs.part.corner import (
     e,
     mu,
     of,
+    products_hint,
     sigma,
-    told,
     velocity_after,
     words,
     work_of,
@@ -95,7 +95,7 @@ IMPACTS: dict[
     "reversed-in-restitution": (DIRECTION, NO_JAM, APPROACH),
 }
 # What is gained backwards: the speed times what impulse is left, part by part.
-BACKWARDS = told(
+BACKWARDS = products_hint(
     [(BACK, -(1 + e) * PAST_COMPRESSION, 1), (BACK, e * sigma * S0 * (B2 - mu * sigma * B3), 1)]
 )
 
@@ -256,7 +256,7 @@ def sticking_in_compression_gains_no_energy() -> Statement:
     "part",
     "sticking in restitution",
     parameters=(),
-    hints=told(
+    hints=products_hint(
         [
             (1, 1, PAST_COMPRESSION),
             (1, 1, C0 * STOPPING),
@@ -281,7 +281,7 @@ def sticking_in_restitution_gains_no_energy() -> Statement:
     "part",
     "reversed in compression",
     parameters=(),
-    hints=told(
+    hints=products_hint(
         [
             (mu, 2 * STOPPING + BACK, sigma * S0 * CLOSING_BACK),
             (mu, BACK, LEFT),
@@ -303,7 +303,7 @@ def sliding_back_in_compression_gains_no_energy() -> Statement:
     "part",
     "reversed in restitution",
     parameters=(),
-    hints=told(
+    hints=products_hint(
         [
             (LOST, CLOSING, C0 * STOPPING),
             (mu, STOPPING + 2 * BACK, PAST_RESTITUTION),

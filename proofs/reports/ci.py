@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Mapping
-from typing import Any
 from xml.etree import ElementTree
 
 from juggleproof.proofs.register import FIELDS, Change
+from juggleproof.proofs.reports.contents import Contents
 from juggleproof.proofs.reports.results import COLUMNS, Result, Results, results_of, writable
 
 # -------------------------------------------------------------------------------------------------
@@ -18,16 +18,16 @@ LABEL = "juggleproof"
 GOOD, BAD = "brightgreen", "red"
 
 
-def badge(contents: Any) -> bytes:
+def badge(contents: Contents | Results) -> bytes:
     """The badge in the schema of shields.io's endpoint (https://shields.io/badges/endpoint-badge),
     the same bytes for the same verdicts.
     """
-    message, color = told(results_of(contents))
+    message, color = message_of(results_of(contents))
     shown = {"schemaVersion": 1, "label": LABEL, "message": message, "color": color}
     return (json.dumps(shown) + "\n").encode()
 
 
-def told(results: Results) -> tuple[str, str]:
+def message_of(results: Results) -> tuple[str, str]:
     """The message and its colour: red where the theorem is not proved, something is unknown or
     rejected, or a verdict is not as registered.
     """
@@ -56,7 +56,7 @@ def told(results: Results) -> tuple[str, str]:
 # error.
 
 
-def as_junit(contents: Any) -> bytes:
+def as_junit(contents: Contents | Results) -> bytes:
     """The report as XML, without times."""
     results = results_of(contents)
     changes = results.change_of()
@@ -173,7 +173,7 @@ GROUPS = {
 }
 
 
-def markdown(contents: Any) -> str:
+def markdown(contents: Contents | Results) -> str:
     """The summary of a run or of a report's contents."""
     results = results_of(contents)
     page = _Page()

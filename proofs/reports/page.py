@@ -127,7 +127,7 @@ def _false_there(text: str) -> str:
     )
 
 
-def certificate_text(certificate: Any) -> str:
+def certificate_text(certificate: object) -> str:
     """A certificate as it is stored; empty where there is none."""
     return json.dumps(certificate, separators=(",", ":"), ensure_ascii=True) if certificate else ""
 
