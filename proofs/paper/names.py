@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import (
@@ -127,7 +127,10 @@ WITH_INTEGER_K = Vocabulary(
 )
 
 
-def at(thing: Any, place: Vector | Mapping[str, Number]) -> Any:
+Placed = TypeVar("Placed", Term, Formula, Vector)
+
+
+def at(thing: Placed, place: Vector | Mapping[str, Number]) -> Placed:
     """A term, formula or vector of the state (beta, v), at another state or with other values."""
     values = (
         dict(zip(("beta", "v"), (term(entry) for entry in place.entries)))
@@ -136,7 +139,8 @@ def at(thing: Any, place: Vector | Mapping[str, Number]) -> Any:
     )
     if isinstance(thing, Vector):
         return Vector(tuple(substitute(term(entry), values) for entry in thing.entries))
-    return substitute(thing, values)
+    placed: Placed = substitute(thing, values)
+    return placed
 
 
 def function(name: str) -> StateFunction:

@@ -31,7 +31,7 @@ from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs.claims import claim
 from juggleproof.proofs.encoding import from_sympy
 from juggleproof.proofs.paper import names
-from juggleproof.proofs.paper.names import H, alpha, always, b, derived, g, r, w, x
+from juggleproof.proofs.paper.names import H, Placed, alpha, always, at, b, derived, g, r, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.symbolic.algebra import lowest_terms
 from juggleproof.symbolic.energy import normal_margin
@@ -348,9 +348,9 @@ class Setting:
     place: Vector
     units: tuple[Number, Number]
 
-    def here(self, thing: Any) -> Any:
+    def here(self, thing: Placed) -> Placed:
         """A term or formula of the normal form in these coordinates."""
-        return substitute(thing, dict(zip(("x", "w"), (term(entry) for entry in self.place))))
+        return at(thing, dict(zip(("x", "w"), (term(entry) for entry in self.place))))
 
     def domain(self, of_alpha: Formula) -> str:
         """The range of alpha with what is assumed of the other parameters."""

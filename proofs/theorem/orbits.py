@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -31,6 +30,7 @@ from juggleproof.proofs.paper.names import (
     B2,
     PAPER,
     STANDING,
+    Placed,
     alpha,
     at,
     b,
@@ -465,10 +465,9 @@ TWO_COUNTS = replace(STANDING, integers=frozenset({"m", "n"}))
 always_counted = partial(forms.always, vocabulary=TWO_COUNTS)
 
 
-def in_units(energy: object) -> Term:
+def in_units(energy: Term) -> Term:
     """An energy in units of r^2."""
-    scaled: Term = at(energy, {"r": 1})
-    return scaled
+    return at(energy, {"r": 1})
 
 
 LEVEL_OF_R = in_units(LEVEL)  # the energy up to which R reaches
@@ -503,7 +502,7 @@ def written(coefficients: Sequence[int]) -> Term:
     return total
 
 
-def at_state(thing: Any, state: Vector) -> Any:
+def at_state(thing: Placed, state: Vector) -> Placed:
     """A term or formula of (x, w) at this state."""
     return at(thing, {"x": term(state.entries[0]), "w": term(state.entries[1])})
 

@@ -5,7 +5,6 @@ Proposition 1.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -19,7 +18,7 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs.claims import claim
-from juggleproof.proofs.paper.names import R, alpha, always, at, b, derived, equals, s, w, x
+from juggleproof.proofs.paper.names import Placed, R, alpha, always, at, b, derived, equals, s, w, x
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
@@ -134,9 +133,9 @@ HEIGHT, CLOSING = term(FIXED.entries[0]), term(FIXED.entries[1])
 STAGE_1, STAGE_2 = TO_THE_POINT.stages[:2]
 
 
-def state_after(image: Vector, thing: Any) -> Any:
+def state_after(image: Vector, thing: Placed) -> Placed:
     """A term or formula of the state, at the image of the state."""
-    return substitute(thing, dict(zip(("x", "w"), map(term, image.entries))))
+    return at(thing, dict(zip(("x", "w"), map(term, image.entries))))
 
 
 def line(
