@@ -50,13 +50,13 @@ class Readings:
 class Argument:
     """Steps, each with its label, that are said to give the conclusion.
 
-    If a step fails, the conclusion stands by its own certificate, by the claim `rescue`, or by the
-    map rules that it `rests_on`.
+    If a step fails, the conclusion stands by its own certificate, by the claim `proved_by`, or by
+    the map rules that it `rests_on`.
     """
 
     steps: Mapping[str, Assertion]
     conclusion: Assertion | None = None
-    rescue: str = ""
+    proved_by: str = ""
     rests_on: tuple[str, ...] = ()
 
 
@@ -103,7 +103,7 @@ class Claim:
     repeats: str = ""
     parameters: tuple[str, ...] | None = None
     derived: Callable[[], Any] | None = None
-    nearby: tuple[str, Callable[[], Any]] | None = None
+    true_nearby: tuple[str, Callable[[], Any]] | None = None
     hints: Mapping[str, Any] = field(default_factory=dict)
     source: str = ""
     vocabulary: Vocabulary = PLAIN
@@ -229,17 +229,17 @@ def claim(
     repeats: str = "",
     parameters: Sequence[str] | None = None,
     derived: Callable[[], Any] | None = None,
-    nearby: tuple[str, Callable[[], Any]] | None = None,
+    true_nearby: tuple[str, Callable[[], Any]] | None = None,
     hints: Mapping[str, Any] | None = None,
     vocabulary: Vocabulary = PLAIN,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription
-    has where it mangles the print. `derived` gives the true right-hand side, and `nearby` a true
-    assertion near a false one, with its text: both are tried as corrections where no change of one
-    mark mends the print.  `parameters` are the variables that sharp ranges are sought over, none
-    where it is empty; without it the vocabulary tells them, else `forms.domains_of`.  Raises
+    has where it mangles the print. `derived` gives the true right-hand side, and `true_nearby` a
+    true assertion near a false one, with its text: both are tried as corrections where no change of
+    one mark mends the print.  `parameters` are the variables that sharp ranges are sought over,
+    none where it is empty; without it the vocabulary tells them, else `forms.domains_of`.  Raises
     ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, -
     and dots.
     """
@@ -263,7 +263,7 @@ def claim(
             repeats,
             None if parameters is None else tuple(parameters),
             derived,
-            nearby,
+            true_nearby,
             dict(hints or {}),
             f"{read.__module__}.{read.__qualname__}",
             vocabulary,
@@ -404,8 +404,8 @@ def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str)
             "conclusion certified"
             if conclusion == "holds"
             else (
-                f"conclusion by {body.rescue}"
-                if body.rescue
+                f"conclusion by {body.proved_by}"
+                if body.proved_by
                 else (
                     f"conclusion by {', '.join(body.rests_on)}"
                     if rules == "holds"
@@ -416,4 +416,6 @@ def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str)
         return Verdict("gap", f"step {', '.join(broken)} is false; {stands}")
     if "unknown" in (*steps.values(), conclusion):
         return Verdict("unknown")
-    return Verdict("holds") if conclusion or body.rescue else Verdict("unknown", "conclusion open")
+    return (
+        Verdict("holds") if conclusion or body.proved_by else Verdict("unknown", "conclusion open")
+    )

@@ -255,7 +255,7 @@ class Judge:
         found.verdict = verdict_of(claim.id, body, found.outcomes)
         if (
             found.verdict.word == "false"
-            and (claim.printed or claim.nearby)
+            and (claim.printed or claim.true_nearby)
             and isinstance(body, (Assertion, Readings))
         ):
             self.correct()
@@ -422,9 +422,9 @@ class Judge:
         """Whether the claim names a true assertion nearby that is certified; if so it is the
         correction.
         """
-        if self.claim.nearby is None:
+        if self.claim.true_nearby is None:
             return False
-        text, state = self.claim.nearby
+        text, state = self.claim.true_nearby
         if not self.correction_is_certified(as_body(state(), self.claim.id)):
             return False
         self.found.correction = {

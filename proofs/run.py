@@ -509,7 +509,7 @@ def sent(claim: Claim, resources: Resources) -> Sent:
     """A claim, with what it is judged with, as data that can be pickled."""
     if claim.source.startswith("juggleproof.proofs."):
         return Sent((claim.source.rpartition(".")[0], claim.id), resources.only(claim))
-    if claim.printed or claim.derived or claim.nearby:
+    if claim.printed or claim.derived or claim.true_nearby:
         raise ClaimError(
             f"{claim.id} has a print to be corrected, which only this process can do; certify it"
             " without an executor"

@@ -100,7 +100,7 @@ def _json(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 
 def _badge(contents: Contents, place: Path) -> tuple[Files, list[str]]:
-    return {"juggleproof.svg": badge(contents)}, []
+    return {"juggleproof-badge.json": badge(contents)}, []
 
 
 def _figures(contents: Contents) -> dict[str, bytes]:

@@ -1,3 +1,6 @@
 """The ledger: what the paper prints, item by item, and the claim or the reason that settles each
 item.
+
+    ledger    the reasons, the list of items rebuilt from the paper, and the ledger checked
+    rows.tsv  the items in order
 """

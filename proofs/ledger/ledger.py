@@ -1,4 +1,6 @@
-"""The paper item by item."""
+"""The paper item by item: the reasons for which an item needs no claim, the list of items rebuilt
+from the paper, and the ledger read and checked.
+"""
 
 from __future__ import annotations
 
@@ -85,12 +87,10 @@ UNPRINTED = {
 # the appendices.
 #
 # An item is a display, an inline formula or a piece of prose: a sentence, a sentence of a footnote,
-# a
-# caption, a table row.  A sentence that a display, a page turn or a footnote interrupts gives one
+# a caption, a table row. A sentence that a display, a page turn or a footnote interrupts gives one
 # item for each of its pieces, and mathematics that the transcription left without dollar signs
-# stays
-# in its sentence.  Lines that hold nothing but an equation number or a stray mark of punctuation
-# belong to the display before them and are no items.
+# stays in its sentence. Lines that hold nothing but an equation number or a stray mark of
+# punctuation belong to the display before them and are no items.
 #
 # The list keeps a line number and a digest of each item, never its words:
 #
@@ -245,8 +245,8 @@ if __name__ == "__main__":
 
 
 # -------------------------------------------------------------------------------------------------
-# Load the ledger; check that claims that exist, or a reason from the closed list, settle every
-# item in order.
+# Load the ledger; check that claims that exist, or a reason from the closed list, settle every item
+# in order.
 
 ROWS = Path(__file__).with_name("rows.tsv")
 COLUMNS = ("key", "line", "kind", "digest", "claims", "reason")

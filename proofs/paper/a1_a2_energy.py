@@ -1,4 +1,6 @@
-"""Appendix A.1, A.2."""
+"""Appendices A.1 and A.2: the greatest energy that impacts sustain, and the slopes and the maximum
+of the energy change of an impact.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Appendix A.3, A.4."""
+"""Appendices A.3 and A.4: the supremum of the energy change outside the region R, where it lies,
+and how many impacts lead into R.
+"""
 
 from __future__ import annotations
 

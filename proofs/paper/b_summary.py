@@ -1,4 +1,4 @@
-"""Appendix B."""
+"""Appendix B: the regions, maps, points and names of the paper, summed up."""
 
 from __future__ import annotations
 
@@ -154,7 +154,7 @@ def period_follows_from_the_equation(printed: Printed) -> Argument:
     return Argument(
         {"so-that": Assertion((step,))},
         conclusion=Assertion((is_the_period(period),)),
-        rescue="s3.1-T",
+        proved_by="s3.1-T",
     )
 
 
@@ -197,7 +197,7 @@ def b1_strikes_in_less_than_a_period() -> Readings:
     "sB.2-B1",
     "B.2",
     "line 754",
-    nearby=NEAR_B1,
+    true_nearby=NEAR_B1,
     printed=r"\mathcal{B}_1 := \{ \overline{b} \in \mathcal{H} \mid \tau_c < T \}",
     as_it_stands=r"\beta_1 := \{ \overline{b} \in \mathcal{A} \mid \tau_c < T \}",
 )
@@ -221,7 +221,7 @@ def b2_strikes_in_a_period_at_least() -> Readings:
     "sB.2-B2",
     "B.2",
     "line 758",
-    nearby=NEAR_B2,
+    true_nearby=NEAR_B2,
     printed=r"\mathcal{B}_2 := \{ \overline{b} \in \mathcal{H} \mid \tau_c \ge T \}",
     as_it_stands=r"\beta_2 := \{ \overline{b} \in \mathcal{A} \mid \tau_c \ge T \}",
     repeats="s2.2.1-B2",
@@ -268,8 +268,8 @@ def line_by_its_height(printed: Printed) -> Statement:
 
 
 # -------------------------------------------------------------------------------------------------
-# Appendices B.3 to B.6: the maps, the fixed point, the zero energy change boundary and the
-# boundary of R, summed up.
+# Appendices B.3 to B.6: the maps, the fixed point, the zero energy change boundary and the boundary
+# of R, summed up.
 
 u, y, lift, tau, greatest, gain, margin = reals("u y lift tau greatest gain margin")
 
@@ -561,7 +561,7 @@ def kinetic_energy_in_the_table(printed: Printed) -> Statement:
     return always(printed.formula(PAPER.extended({"K": moving})))
 
 
-@claim("sB.7-B1", "B.7", "line 854", nearby=NEAR_B1, printed=r"\tau_c < T", repeats="sB.2-B1")
+@claim("sB.7-B1", "B.7", "line 854", true_nearby=NEAR_B1, printed=r"\tau_c < T", repeats="sB.2-B1")
 def b1_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is less than one period
     are the region B1 of (7).
@@ -569,7 +569,9 @@ def b1_in_the_table(printed: Printed) -> Statement:
     return tells_b1(printed.formula(PAPER))
 
 
-@claim("sB.7-B2", "B.7", "line 855", nearby=NEAR_B2, printed=r"\tau_c \ge T", repeats="s2.2.1-B2")
+@claim(
+    "sB.7-B2", "B.7", "line 855", true_nearby=NEAR_B2, printed=r"\tau_c \ge T", repeats="s2.2.1-B2"
+)
 def b2_in_the_table(printed: Printed) -> Statement:
     """Where the time to collision is defined, the states of H at which it is one period or more are
     what B1 leaves of H.

@@ -1,4 +1,6 @@
-"""The paper's names and what happens in a period."""
+"""The paper's names: what they stand for in statements, what prints mean by them, and what happens
+within a period.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import sympy
 
@@ -41,14 +43,16 @@ from juggleproof.proofs.reading.values import (
     Vector,
 )
 
+if TYPE_CHECKING:
+    pass
+
 # -------------------------------------------------------------------------------------------------
-# The paper's names: what stands for what in statements, what is assumed where nothing is said,
-# and what prints mean.
+# The paper's names: what stands for what in statements, what is assumed where nothing is said, and
+# what prints mean.
 #
 # Physical units: alpha restitution; r the table's launch speed \dot\rho_0; g gravity \gamma; beta,
-# v
-# height and velocity of the ball when the table is at its lowest; T = 2 r/g.  Normal form: x =
-# beta/(r T), w = 1 - v/r.  Where nothing is said, 0 < alpha < 1 and r, g > 0. Formulas come from
+# v height and velocity of the ball when the table is at its lowest; T = 2 r/g. Normal form: x =
+# beta/(r T), w = 1 - v/r. Where nothing is said, 0 < alpha < 1 and r, g > 0. Formulas come from
 # `symbolic`, which derives them; none is typed here.
 
 alpha, beta, v, r, g, t, T, K, eps, s = reals("alpha beta v r g t T K eps s")
@@ -79,7 +83,10 @@ WITH_INTEGER_K = replace(
 )
 
 
-def at(thing: Any, place: Vector | Mapping[str, Number]) -> Any:
+Placed = TypeVar("Placed", Term, Formula, Vector)
+
+
+def at(thing: Placed, place: Vector | Mapping[str, Number]) -> Placed:
     """A term, formula or vector of the state (beta, v), at another state or with other values."""
     values = (
         dict(zip(("beta", "v"), (term(entry) for entry in place.entries)))
@@ -88,7 +95,8 @@ def at(thing: Any, place: Vector | Mapping[str, Number]) -> Any:
     )
     if isinstance(thing, Vector):
         return Vector(tuple(substitute(term(entry), values) for entry in thing.entries))
-    return substitute(thing, values)
+    placed: Placed = substitute(thing, values)
+    return placed
 
 
 def function(name: str) -> StateFunction:
@@ -152,6 +160,8 @@ def collide(table: Vector) -> StateFunction:
     return StateFunction(after)
 
 
+# The paper's regions: H; B1 and B2 of (7), by whether the collision comes before the period ends;
+# the parts of B1 whose impact gains, loses or keeps energy; R of section 4.1.
 H = Region(lambda state: term(state.component(1)) >= 0)
 STRIKES = Region(lambda state: at(derived("collision_margin") > 0, state))
 B1 = H & STRIKES
@@ -243,14 +253,14 @@ def table_at(time: Number, start: Vector | None = None) -> Vector:
     return vector(flight(time)(r_0 if start is None else start))
 
 
-def vector(value: Any) -> Vector:
+def vector(value: object) -> Vector:
     """The value itself, which has to be a state."""
     if not isinstance(value, Vector):
         raise ShapeError("a state was expected")
     return value
 
 
-def as_region(value: Any) -> Region:
+def as_region(value: object) -> Region:
     """The value itself, which has to be a region."""
     if not isinstance(value, Region):
         raise ShapeError("a region was expected")

@@ -57,8 +57,11 @@ WITH_INTEGERS = replace(
 always_counting = partial(forms.always, vocabulary=WITH_INTEGERS)
 exists_counting = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
 
+# Where E > E_max + Delta E_max; the states of H and of B1 there.
 BEYOND_R = Region(lambda state: at(derived("region_margin"), state) < 0)
 OUTSIDE, B1_OUTSIDE = H & BEYOND_R, B1 & BEYOND_R
+# B1 with the line between B1 and B2; where E = E_max + Delta E_max; its state in B1
+# at height 0.
 CLOSED_B1 = H & Region(lambda state: at(derived("collision_margin"), state) >= 0)
 ON_R = Region(lambda state: equal(at(derived("region_margin"), state), 0))
 CORNER = B1 & ON_R & Region(lambda state: equal(state.component(1), 0))
@@ -66,9 +69,11 @@ change, least = (
     term(impact_energy_change(b)),
     term(impact_energy_change(b_0)),
 )  # the least loss is that at the corner b_0
+# What Delta E_sup is: the energy change at the state b_0 that is the corner.
 SUPREMAL = [CORNER(b_0), equal(dE_sup, least)]
 ATTRACTION = ("theorem-region/enters",)  # from some period on, every orbit is in R
-LEVEL: Term = derived("region_energy")
+LEVEL: Term = derived("region_energy")  # E_max + Delta E_max, the energy on the edge of R
+# The meanings of prints in which tau_w and the root of the energy are unknowns.
 NAMED = PAPER.extended({r"\sqrt{2E(\overline b_0)}": u, r"\tau_w": tau_w})
 PRINTED_SUPREMUM = (
     r"\Delta E_{sup} = [-\frac{1+\alpha}{1-\alpha} + 1 + \alpha - \sqrt{2(1+\alpha)}"

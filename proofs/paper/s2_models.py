@@ -1,4 +1,6 @@
-"""Section 2."""
+"""Section 2: the regions of the plane, free flight, the impact of two point masses, and the ball
+from one impact to the next.
+"""
 
 from __future__ import annotations
 
@@ -126,7 +128,7 @@ def b1_strikes_within_a_period() -> Readings:
     "s2.2.1-B2",
     "2.2.1",
     "line 125",
-    nearby=NEAR_B2,
+    true_nearby=NEAR_B2,
     printed=r"\mathcal{B}_2 = \mathcal{H} - \mathcal{B}_1, \quad T \le \tau_c",
     as_it_stands=r"\mathcal{H} - \mathcal{B}_1 \ (T \le \tau_c)",
 )

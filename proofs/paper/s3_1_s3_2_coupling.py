@@ -1,4 +1,6 @@
-"""Sections 3.1, 3.2."""
+"""Sections 3, 3.1 and 3.2: the table that bounces without loss, and the ball coupled to it up to
+the map of a period.
+"""
 
 from __future__ import annotations
 
@@ -205,9 +207,8 @@ def time_in_period_is_one_function(printed: Printed) -> list[Statement]:
 # Section 3.2: the ball coupled to the table, the time to collision, and the state after it.
 #
 # The time to collision stands for an unknown time t, told by what happens then: ball and table are
-# at
-# one height.  The map of (8) is told by what it is for: its value is the state that, flying freely,
-# is the ball's state just after the impact.
+# at one height. The map of (8) is told by what it is for: its value is the state that, flying
+# freely, is the ball's state just after the impact.
 
 d, rho, u = reals("d rho u")
 AT_TIME = PAPER.extended({r"\tau_c": only_at(b, t, factor=True)})

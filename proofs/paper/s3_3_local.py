@@ -1,4 +1,4 @@
-"""Section 3.3."""
+"""Section 3.3: the map of a period with an impact, its fixed point e_1, and its neighbourhood."""
 
 from __future__ import annotations
 
@@ -250,7 +250,7 @@ def positive_height_and_early_impact_give_b1() -> Argument:
             "inference": Assertion((always(B1(b), given=[different(v, r), beta > 0, early]),)),
         },
         conclusion=Assertion((always(B1(b), given=[FIXED]),)),
-        rescue="s3.3-e1-in-B1",
+        proved_by="s3.3-e1-in-B1",
     )
 
 
@@ -302,7 +302,7 @@ ON_THE_LINE = (
     "s3.3.1-B2",
     "3.3.1",
     "lines 315 to 317",
-    nearby=NEAR_B2,
+    true_nearby=NEAR_B2,
     repeats="s2.2.1-B2",
     printed=r"\mathcal{B}_2 = \mathcal{H} - \mathcal{B}_1, \quad T \le \tau_c(\overline{b})",
     as_it_stands=r"\beta_2 = \mathcal{A} - \beta_1, \quad T \leq \tau_c(\overline{b})",
@@ -329,7 +329,7 @@ def states_outside_b1_meet_the_table_late(printed: Printed) -> list[Statement]:
     "eq-11",
     "3.3.1",
     "(11)",
-    nearby=NEAR_B2,
+    true_nearby=NEAR_B2,
     repeats="s2.2.1-B2",
     printed=r"\mathcal{B}_2 := \{ \overline{b} \in \mathcal{H} \mid T \le \tau_c(\overline{b}) \}",
     as_it_stands=r"\beta_2 := \{ \overline{b} \in \mathcal{A} \mid T \le \tau_c(\overline{b}) \}",

@@ -1,10 +1,11 @@
-"""Section 3.5."""
+"""Section 3.5: fixed points of the composites of the map, for which periods they exist, and whether
+they are stable.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 from sympy import Integer
 
@@ -63,6 +64,7 @@ from juggleproof.proofs.paper.states import (
     always_integer,
     b_0,
     comes_back,
+    composite,
     cycle,
     eigenvalue_of,
     exists_integer,
@@ -70,6 +72,7 @@ from juggleproof.proofs.paper.states import (
     from_threshold_on,
     function_of,
     next_state_is,
+    power_of_flight,
     relations_of,
     strikes_from,
     struck,
@@ -441,17 +444,7 @@ def no_restitution_is_left_out(printed: Printed) -> Statement:
 n, p, q, size, lift = reals("n p q size lift")
 
 
-def composite(count: Number, state: Vector) -> Vector:
-    """The state after all but one of so many periods of flight, and one with an impact."""
-    return vector(f1(vector(flights(term(count) - 1)(state))))
-
-
-def power_of_flight(time: Term, count: Number) -> Matrix:
-    """A_t to this power, which is A of so many times t, as the statement `powers` has it."""
-    return flight_matrix(term(count) * time)
-
-
-def is_jacobian(value: Any, count: Number, label: str) -> Statement:
+def is_jacobian(value: object, count: Number, label: str) -> Statement:
     """The matrix takes the difference of any two states to the difference of their images under the
     composite.
     """

@@ -1,4 +1,6 @@
-"""Sections 4.3.2, 4.4."""
+"""Sections 4.3.2 and 4.4: the band around e_1 that the paper calls invariant, and what it
+attracts.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Regions, orbits and slopes that several sections speak of."""
+"""Terms and regions that several sections speak of: impacts and their energy, orbits from bounce to
+bounce, motion relative to e_1.
+"""
 
 from __future__ import annotations
 
@@ -78,9 +80,12 @@ from juggleproof.proofs.reading.values import Matrix, Region, StateFunction, Vec
 # Impacts that gain, keep or lose energy, the greatest energies that go with them, and how the
 # energy change varies (4.1, A.1 to A.3).
 
+# The states of B1 whose impact gains or keeps energy.
 NOT_LOSING = B1_PLUS | B1_ZERO
 E_max, dE_max = reals("E_max dE_max")
+# The meanings of prints in which both greatest energies are unknowns, said by what they are.
 UNKNOWN = PAPER.extended({r"E_{max}": E_max, r"\Delta E_{max}": dE_max})
+# What the unknowns are: Delta E_max of (23) and (37); and E_max of (34) as well.
 GREATEST_GAIN = equal(dE_max, derived("delta_E_max"))
 BOTH_BOUNDS = [equal(E_max, derived("E_max")), GREATEST_GAIN]
 
@@ -116,6 +121,7 @@ def with_slopes(environment: Environment, state: Vector = b) -> Environment:
     )
 
 
+# The meanings of prints in which the derivatives of Delta_1 E and R are unknowns as well.
 STEEP = with_slopes(UNKNOWN)
 
 
@@ -142,6 +148,7 @@ def are_slopes(*slopes: Term, state: Vector = b) -> Formula:
 WITH_INTEGERS = replace(WITH_INTEGER_K, integers=frozenset({"K", "n", "k"}))
 b_0 = Vector(reals("beta0 v0"))  # another state
 image = Vector(reals("beta1 v1"))  # what becomes of the state b within a period
+# The states of H whose derived time to collision is a period at least.
 MEETS_LATE = Region(lambda state: H(state) & (term(collision_time(state)) >= T))
 always_integer = partial(forms.always, vocabulary=WITH_INTEGERS)  # for all integers K >= 1, n and k
 exists_integer = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
@@ -175,6 +182,16 @@ def flights(count: Number) -> StateFunction:
 def cycle(count: Number, start: Vector = b) -> Vector:
     """The state after this number of periods, of which the first has an impact."""
     return vector(flights(term(count) - 1)(vector(f1(start))))
+
+
+def composite(count: Number, state: Vector) -> Vector:
+    """The state after all but one of so many periods of flight, and one with an impact."""
+    return vector(f1(vector(flights(term(count) - 1)(state))))
+
+
+def power_of_flight(time: Term, count: Number) -> Matrix:
+    """A_t to this power, which is A of so many times t, as the statement `powers` has it."""
+    return flight_matrix(term(count) * time)
 
 
 def comes_back(count: Number, start: Vector = b) -> Formula:
@@ -282,8 +299,8 @@ def is_the_map(printed: Printed) -> Readings:
 
 
 # -------------------------------------------------------------------------------------------------
-# Motion relative to e_1: the coordinates z = b - e_1, the kinetic energy K in them, and the
-# states where it is small.
+# Motion relative to e_1: the coordinates z = b - e_1, the kinetic energy K in them, and the states
+# where it is small.
 #
 # K is a function here, the kinetic energy of section 4.3, and not the integer K of section 3.5.
 
@@ -341,6 +358,7 @@ def is_narrow(size: Term) -> tuple[Formula, ...]:
     return leaves_R_at(c), from_e_1(on_the_line(c)) > size
 
 
+# The band of size eps is narrow.
 NEAR = is_narrow(eps)
 
 
@@ -398,10 +416,13 @@ def boundary_of_band(size: Term) -> Region:
     return Region(holds)
 
 
+# The boundary of R as printed: where E = E_max + Delta E_max, and the edge of H.
 BOUNDARY_OF_R = R & Region(
     lambda state: equal(at(derived("region_margin"), state), 0) | equal(height(state), 0)
 )
 
+# The meanings of prints about z = b - e_1; about the step from z_k to z_{k+1}; and about the band
+# around e_1, the next state being an unknown.
 AT_Z = Environment(
     {**NAMES, r"K": kinetic_energy, r"z": z, r"b": b, r"u_2'": Matrix(((0, 1),))}, state=r"z"
 )
@@ -435,8 +456,8 @@ AROUND_E1 = Environment(
 
 
 # -------------------------------------------------------------------------------------------------
-# What the paper says in several places, in one formal reading: what B1 and B2 are, the line
-# between them, and the table's period.
+# What the paper says in several places, in one formal reading: what B1 and B2 are, the line between
+# them, and the table's period.
 
 flown = real("flown")  # a time since the launch of the table
 LANDS = equal(height(table_at(flown)), 0)
@@ -543,6 +564,7 @@ def b2_by_time_while_closing() -> list[Statement]:
     ]
 
 
+# True assertions near the printed ones about B1 and B2, with their text.
 NEAR_B1 = (r"\tau_c < T \text{ and } \dot{\overline\beta} < \dot\rho_0", b1_by_time_while_closing)
 NEAR_B2 = (
     r"T \le \tau_c \text{ or } \dot{\overline\beta} \ge \dot\rho_0",

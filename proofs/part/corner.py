@@ -1,4 +1,6 @@
-"""What the claims about a corner's impact have in common: names, hypotheses, the five modes and."""
+"""The impact of a corner: names, hypotheses, the five modes and their conditions, and what an
+impulse does.
+"""
 
 from __future__ import annotations
 
@@ -29,8 +31,7 @@ from juggleproof.proofs.paper.names import derived
 # their conditions.
 #
 # A corner strikes the table with C0 < 0; sigma, 1 or -1, is the direction in which it slides, of
-# either sign where it does not (S0 = 0).  Of the body only B1, B2 and B3 matter; for every corner
-# of
+# either sign where it does not (S0 = 0). Of the body only B1, B2 and B3 matter; for every corner of
 # every body B1 > 0 and B1 B2 > B3^2 (claim part-corner).
 
 B1, B2, B3, S0, C0, e, mu, sigma = reals("B1 B2 B3 S0 C0 e mu sigma")
@@ -140,7 +141,7 @@ def a_product_of_two_numbers_and_a_square_is_not_negative() -> Statement:
     return always(p * q * d**2 >= 0, given=[p >= 0, q >= 0])
 
 
-def told(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
+def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
     """The hints of a claim: these products, each of two numbers that are not negative and what is
     squared.
     """
@@ -152,8 +153,7 @@ def told(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
 
 
 # -------------------------------------------------------------------------------------------------
-# What an impulse at a corner does, and which corners a rectangle has: the numbers B1, B2 and
-# B3.
+# What an impulse at a corner does, and which corners a rectangle has: the numbers B1, B2 and B3.
 
 x_c, y_c, J, h, k, mu = reals("x_c y_c J h k mu")
 c_x, c_y, omega, P_x, P_y = reals("c_x c_y omega P_x P_y")

@@ -1,5 +1,5 @@
-"""The five modes of a corner's impact: each impulse is that of a walk by Coulomb's and
-Poisson's.
+"""The five modes of a corner's impact: the impulse of each by Coulomb's and Poisson's laws, the
+energy, and that they cover every impact and agree.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ from juggleproof.proofs.part.corner import (
     e,
     mu,
     of,
+    products_hint,
     sigma,
-    told,
     velocity_after,
     words,
     work_of,
@@ -65,12 +65,11 @@ from juggleproof.symbolic import MODES
 # The five modes of a corner's impact: each impulse is that of a walk by Coulomb's and Poisson's
 # laws, and what it guarantees.
 #
-# A walk through impulse space grows the impulse from 0.  While the corner slides, friction is mu
+# A walk through impulse space grows the impulse from 0. While the corner slides, friction is mu
 # times the normal impulse and opposes the sliding; where it has stopped, friction holds it if it
-# can.
-# Compression is greatest where C = 0; the impact ends at 1 + e times the normal impulse of that
-# moment.  Velocities are linear on each piece of a walk, so what holds at the ends of a piece holds
-# all along it.
+# can. Compression is greatest where C = 0; the impact ends at 1 + e times the normal impulse of
+# that moment. Velocities are linear on each piece of a walk, so what holds at the ends of a piece
+# holds all along it.
 
 STOP, MOST, END = (
     Impulse(*reals("x_stop y_stop")),
@@ -96,7 +95,7 @@ IMPACTS: dict[
     "reversed-in-restitution": (DIRECTION, NO_JAM, APPROACH),
 }
 # What is gained backwards: the speed times what impulse is left, part by part.
-BACKWARDS = told(
+BACKWARDS = products_hint(
     [(BACK, -(1 + e) * PAST_COMPRESSION, 1), (BACK, e * sigma * S0 * (B2 - mu * sigma * B3), 1)]
 )
 
@@ -257,7 +256,7 @@ def sticking_in_compression_gains_no_energy() -> Statement:
     "part",
     "sticking in restitution",
     parameters=(),
-    hints=told(
+    hints=products_hint(
         [
             (1, 1, PAST_COMPRESSION),
             (1, 1, C0 * STOPPING),
@@ -282,7 +281,7 @@ def sticking_in_restitution_gains_no_energy() -> Statement:
     "part",
     "reversed in compression",
     parameters=(),
-    hints=told(
+    hints=products_hint(
         [
             (mu, 2 * STOPPING + BACK, sigma * S0 * CLOSING_BACK),
             (mu, BACK, LEFT),
@@ -304,7 +303,7 @@ def sliding_back_in_compression_gains_no_energy() -> Statement:
     "part",
     "reversed in restitution",
     parameters=(),
-    hints=told(
+    hints=products_hint(
         [
             (LOST, CLOSING, C0 * STOPPING),
             (mu, STOPPING + 2 * BACK, PAST_RESTITUTION),

@@ -1,4 +1,6 @@
-"""One mark changed."""
+"""Changes of a print at its tokens: every single one, for mutation tests, and the plausible ones,
+in which a correction is sought.
+"""
 
 from __future__ import annotations
 
@@ -172,8 +174,7 @@ class Edits:
 # seek a correction.
 #
 # Left out, because they say the same: := for = and \equiv, \subset for \subseteq, \bar for
-# \overline,
-# layout, spacing, fonts, TeX's own braces.
+# \overline, layout, spacing, fonts, TeX's own braces.
 
 Change = tuple[str, str]  # what was changed, and the print that comes of it
 

@@ -1,4 +1,6 @@
-"""Values of a tree in an environment."""
+"""What the names of a print mean, and the values of its terms and relations in such an
+environment.
+"""
 
 from __future__ import annotations
 
@@ -50,9 +52,9 @@ from juggleproof.proofs.reading.values import (
 #
 #     Environment(
 #         {r"\alpha": alpha, r"\dot\rho_0": r, r"\overline\beta": beta, r"\dot{\overline\beta}": v,
-#          r"A_{\cdot}": lambda t: Matrix(((1, t), (0, 1))),      # A_T, A_{-\xi_1}: a family by its
-#          subscript r"F^{\cdot}": flow,                                    # F^t is flow(t), a
-#          function of states r"E": StateFunction(energy), r"\mathcal{B}_1": Region(in_B1),
+#          r"A_{\cdot}": lambda t: Matrix(((1, t), (0, 1))),  # A_T, A_{-\xi_1}: a family
+#          r"F^{\cdot}": flow,  # F^t is flow(t), a function of states
+#          r"E": StateFunction(energy), r"\mathcal{B}_1": Region(in_B1),
 #          r"\sqrt{\cdot}": adjoin_root, r"\Delta_1 E": StateFunction(gain)},
 #         points={r"\overline b": (r"\overline\beta", r"\dot{\overline\beta}")},
 #         state=r"\overline b",
@@ -60,7 +62,7 @@ from juggleproof.proofs.reading.values import (
 #
 # `points` says which names are the components of a state, so that a set {b | ..} can be asked about
 # any state; `state` is the present one, which stands in where a print leaves the argument of a
-# function out.  A key may be any expression (`\Delta E_{max}`, `\sqrt{2(1+\alpha)}`, `E(t)`):
+# function out. A key may be any expression (`\Delta E_{max}`, `\sqrt{2(1+\alpha)}`, `E(t)`):
 # wherever the print says the same, the key's value is meant, before its pieces are looked at.
 
 _key = lru_cache(maxsize=4096)(parse_name)
@@ -138,9 +140,8 @@ def _exact(latex: str, value: Any) -> Any:
 # application.
 #
 # A factor that is a function is applied to the bracket that follows it; everything else is a
-# product.
-# A `StateFunction` may be marked as a factor before a scalar, so that \tau_c(\overline b) and
-# \tau_c(\dot{\overline\beta} - \dot\rho_0) both say what the paper says.
+# product. A `StateFunction` may be marked as a factor before a scalar, so that \tau_c(\overline b)
+# and \tau_c(\dot{\overline\beta} - \dot\rho_0) both say what the paper says.
 
 Value = Any  # a scalar, Vector, Matrix, callable, Region, Formula or one of the notions
 _MISSING = object()
@@ -378,8 +379,7 @@ def _bracket(tree: Tree) -> t.Group | None:
 # The formula that `left sign right` states, for values of every kind.
 #
 # A definition := and an identity \equiv state equality; vectors are equal entry by entry, regions
-# at
-# the present state, a list of cases case by case; a restricted function is spoken of inside its
+# at the present state, a list of cases case by case; a restricted function is spoken of inside its
 # region only; \subset allows equality.
 
 EQUALITIES = frozenset(("=", ":=", r"\equiv"))

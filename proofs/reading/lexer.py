@@ -1,4 +1,6 @@
-"""Tokens."""
+"""The tokens of a print, the commands that it may use, and the error that an unreadable one
+causes.
+"""
 
 from __future__ import annotations
 
@@ -149,8 +151,8 @@ KNOWN = (
 
 
 # -------------------------------------------------------------------------------------------------
-# LaTeX to tokens with their positions; spacing, fonts and layout are dropped, an unknown command
-# is refused.
+# LaTeX to tokens with their positions; spacing, fonts and layout are dropped, an unknown command is
+# refused.
 #
 # A line end counts as a join where the next line goes on with a relation or an infix operator (a
 # leading minus goes on), and otherwise separates two parts of a display.

@@ -1,4 +1,4 @@
-"""Tree -> formula; the print that a claim receives."""
+"""What a print states in an environment, and the print as a claim receives it."""
 
 from __future__ import annotations
 

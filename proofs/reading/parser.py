@@ -1,4 +1,6 @@
-"""Tokens -> tree."""
+"""The tokens of a print as a tree, by a Pratt parser: names, scripts and tables first, then factors
+and formulas.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Vectors, matrices, regions, functions."""
+"""The values of a print: scalars, vectors, matrices, functions of a state and regions, with their
+arithmetic.
+"""
 
 from __future__ import annotations
 
@@ -334,8 +336,7 @@ class LimitValue:
 
 
 # -------------------------------------------------------------------------------------------------
-# Sums, products and powers of values of any kind; what does not fit is refused with what was
-# tried.
+# Sums, products and powers of values of any kind; what does not fit is refused with what was tried.
 
 
 def kind_of(value: Any) -> str:

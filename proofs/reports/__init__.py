@@ -1,3 +1,19 @@
 """Reports: the regenerated appendix, the theorem with its proof, errata and figures, from the
 claims and the derivations.
+
+    tables     tables as columns, and exact numbers
+    results    the results of a run as rows and data
+    errata     what the paper prints wrongly
+    contents   what reports show, gathered once, and JSON
+    latex      names, terms and formulas as LaTeX
+    words      sentences and statements in words and LaTeX
+    mathml     LaTeX as MathML
+    markup     sentences, statements and the proof tree as markup
+    page       the HTML page
+    tex_words  what the LaTeX templates call
+    tex        the LaTeX report and the PDF
+    figures    the figures
+    part       the part-orienting scene
+    ci         the badge, JUnit and Markdown
+    pages      the generated pages of docs
 """

@@ -1,14 +1,14 @@
-"""JUnit, Markdown, badge."""
+"""Results for CI: a badge, a JUnit report, and the Markdown of a job's summary."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable, Mapping
-from typing import Any
 from xml.etree import ElementTree
-from xml.sax.saxutils import escape
 
 from juggleproof.proofs.register import FIELDS, Change
+from juggleproof.proofs.reports.contents import Contents
 from juggleproof.proofs.reports.results import (
     COLUMNS,
     OWN_COLUMNS,
@@ -19,37 +19,23 @@ from juggleproof.proofs.reports.results import (
 )
 
 # -------------------------------------------------------------------------------------------------
-# A badge for a page: what the verdicts say in a few words, as an SVG of our own that loads
-# nothing.
+# A badge for a page: what the verdicts say in a few words, as the JSON that shields.io draws.
 
 LABEL = "juggleproof"
-GOOD, BAD, NAME = "#1a7f37", "#b42318", "#3b4148"  # white on each of them has a contrast above 6
-NARROW, WIDE = "fijlrt,.: 1", "mwMWNOD%"
-PAD = 8
+GOOD, BAD = "brightgreen", "red"
 
 
-def badge(contents: Any) -> bytes:
-    """The badge as SVG, the same bytes for the same verdicts."""
-    text, colour = told(results_of(contents))
-    left, right = _width(LABEL) + 2 * PAD, _width(text) + 2 * PAD
-    title = escape(f"{LABEL}: {text}", {'"': "&quot;"})
-    return f"""\
-<svg xmlns="http://www.w3.org/2000/svg" width="{left + right}" height="20" \
-viewBox="0 0 {left + right} 20" role="img" aria-label="{title}">
-<title>{title}</title>
-<rect width="{left + right}" height="20" rx="3" fill="{NAME}"/>
-<path d="M{left} 0h{right - 3}a3 3 0 0 1 3 3v14a3 3 0 0 1-3 3h-{right - 3}z" fill="{colour}"/>
-<g fill="#fff" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11">
-<text x="{PAD}" y="14" textLength="{left - 2 * PAD}" lengthAdjust="spacingAndGlyphs">{LABEL}</text>
-<text x="{left + PAD}" y="14" textLength="{right - 2 * PAD}" \
-lengthAdjust="spacingAndGlyphs">{escape(text)}</text>
-</g>
-</svg>
-""".encode()
+def badge(contents: Contents | Results) -> bytes:
+    """The badge in the schema of shields.io's endpoint (https://shields.io/badges/endpoint-badge),
+    the same bytes for the same verdicts.
+    """
+    message, color = message_of(results_of(contents))
+    shown = {"schemaVersion": 1, "label": LABEL, "message": message, "color": color}
+    return (json.dumps(shown) + "\n").encode()
 
 
-def told(results: Results) -> tuple[str, str]:
-    """The words and the colour: red where the theorem is not proved, something is unknown or
+def message_of(results: Results) -> tuple[str, str]:
+    """The message and its colour: red where the theorem is not proved, something is unknown or
     rejected, or a verdict is not as registered.
     """
     count, unknown = len(results.claims), results.verdicts()["unknown"]
@@ -68,22 +54,16 @@ def told(results: Results) -> tuple[str, str]:
     return ", ".join(words), BAD if results.exit or unknown or not results.is_proved else GOOD
 
 
-def _width(text: str) -> int:
-    """About the width of the text in Verdana of 11 pixels; the text is set to this very width."""
-    return round(sum(4.2 if c in NARROW else 9.2 if c in WIDE else 6.8 for c in text))
-
-
 # -------------------------------------------------------------------------------------------------
 # The results as a JUnit report, which CI systems show: one test case a claim, and nothing is ever
 # skipped.
 #
 # Of the paper a verdict is a failure where it differs from the register, whatever it is; of a file
-# of
-# one's own where the claim does not hold. What is unknown, and what the checker rejects, is an
+# of one's own where the claim does not hold. What is unknown, and what the checker rejects, is an
 # error.
 
 
-def as_junit(contents: Any) -> bytes:
+def as_junit(contents: Contents | Results) -> bytes:
     """The report as XML, without times."""
     results = results_of(contents)
     changes = results.change_of()
@@ -187,8 +167,7 @@ def fails_at(one: Result) -> list[str]:
 # under GitHub's limit of a megabyte.
 #
 # What is not known comes first, then what the checker rejects, what changed since the register,
-# what
-# is wrong and how it is mended.
+# what is wrong and how it is mended.
 
 LIMIT = 1_000_000  # bytes; GitHub refuses a summary above 1024 * 1024
 LONGEST = 2_000  # characters of one text
@@ -201,7 +180,7 @@ GROUPS = {
 }
 
 
-def markdown(contents: Any) -> str:
+def markdown(contents: Contents | Results) -> str:
     """The summary of a run or of a report's contents."""
     results = results_of(contents)
     page = _Page()

@@ -5,7 +5,7 @@ the trap with what they show.
 from __future__ import annotations
 
 from base64 import b64decode, b64encode
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from juggleproof.certificates.language import ClaimError, Formula, Term
 from juggleproof.proofs import kept as cache
@@ -15,6 +15,7 @@ from juggleproof.scenes.figures import TABLE, Entry
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from sympy import Expr
 
 FORMS = ("svg", "pdf")
 
@@ -82,7 +83,7 @@ def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
     return [Saved(*said(one), kept[one.slug]) for one in TABLE]
 
 
-def _kept(records: list[dict[str, Any]]) -> dict[str, bytes]:
+def _kept(records: list[dict[str, str]]) -> dict[str, bytes]:
     try:
         return {record["slug"]: b64decode(record["data"], validate=True) for record in records}
     except (KeyError, TypeError, ValueError):
@@ -95,7 +96,7 @@ def _file(figure: Figure, slug: str, form: str) -> bytes:
     return drawing.svg(figure, slug) if form == "svg" else drawing.pdf(figure)
 
 
-def what_the_trap_shows() -> tuple[Any, tuple[Any, Any], list[tuple[Any, bool]]]:
+def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, bool]]]:
     """The rank, the root that it is written with and its square, and the margins of the trap, as
     the theorem's definition has them.
     """
@@ -110,7 +111,7 @@ def what_the_trap_shows() -> tuple[Any, tuple[Any, Any], list[tuple[Any, bool]]]
     )
 
 
-def margin(relation: Formula) -> tuple[Any, bool]:
+def margin(relation: Formula) -> tuple[Expr, bool]:
     """What is positive where a strict relation holds, or not negative where one that is not strict
     does; and whether it is strict.
     """
@@ -120,7 +121,7 @@ def margin(relation: Formula) -> tuple[Any, bool]:
     return to_sympy(more) - to_sympy(less), relation.op in ("<", ">")
 
 
-def to_sympy(expression: Term) -> Any:
+def to_sympy(expression: Term) -> Expr:
     """The SymPy expression of a term.
 
     >>> from juggleproof.certificates.language import reals

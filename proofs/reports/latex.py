@@ -1,4 +1,6 @@
-"""Terms as LaTeX."""
+"""Names, terms and formulas of statements as LaTeX in the paper's notation, and the macros for
+it.
+"""
 
 from __future__ import annotations
 
@@ -110,8 +112,8 @@ def glyph(name: str) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Terms and formulas of the statement language as LaTeX, in the paper's notation and with terms
-# and factors in the paper's order.
+# Terms and formulas of the statement language as LaTeX, in the paper's notation and with terms and
+# factors in the paper's order.
 #
 # What is printed is read from the text of the statement itself; sums and products are reordered,
 # signs drawn together, and nothing else is changed.
@@ -444,8 +446,8 @@ def _flat_product(node: ast.AST, inverted: bool = False) -> list[tuple[ast.AST, 
 
 
 # -------------------------------------------------------------------------------------------------
-# The notation macros of the LaTeX reports, one for each of the paper's accented names and
-# regions: an author changes them in one place.
+# The notation macros of the LaTeX reports, one for each of the paper's accented names and regions:
+# an author changes them in one place.
 
 PREFIX = "jug"
 # macro, what it stands for, the ways in which prints and formulas write it

@@ -1,4 +1,4 @@
-"""Sentences, statements, trees as markup."""
+"""Sentences, statements and values, and the picture of a proof tree, as markup of the page."""
 
 from __future__ import annotations
 
@@ -278,8 +278,7 @@ def chained(parts: Sequence[str]) -> list[str]:
 #
 # The layout is a small layered drawing: a node's layer is the longest way down to it; a line that
 # passes a layer takes a place in it; the order in a layer follows the neighbours' middles; places
-# are
-# moved towards the neighbours as far as the order allows.  Same nodes, same bytes.
+# are moved towards the neighbours as far as the order allows. Same nodes, same bytes.
 
 LETTER, LINE, CHIP, PAD, GAP, RISE = 7.0, 18, 24, 10, 28, 44
 THROUGH = 12.0  # the width of a line that passes a layer

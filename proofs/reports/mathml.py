@@ -1,183 +1,98 @@
-"""MathML (or latex2mathml)."""
+"""LaTeX of the paper and of `latex_of` as MathML Core, which browsers draw without a script; what
+is not known is an error, never left out.
+
+latex2mathml converts. It draws a command that it does not know as text, passes over environments
+and comments, and takes words apart into letters: so a formula may have only what is listed here,
+is spelled as latex2mathml draws it right, and its operators are then set as MathML Core needs it.
+"""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from functools import cache
-from html import escape
+from html import escape, unescape
+from xml.etree.ElementTree import Element, tostring
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.reports.contents import needed
 
 # -------------------------------------------------------------------------------------------------
-# The LaTeX commands that prints and `latex_of` use, and what each is in MathML.
+# What a formula may have.
 
-GREEK = {
-    "alpha": "α",
-    "beta": "β",
-    "gamma": "γ",
-    "delta": "δ",
-    "epsilon": "ϵ",
-    "varepsilon": "ε",
-    "eta": "η",
-    "theta": "θ",
-    "kappa": "κ",
-    "lambda": "λ",
-    "mu": "μ",
-    "nu": "ν",
-    "xi": "ξ",
-    "pi": "π",
-    "rho": "ρ",
-    "sigma": "σ",
-    "tau": "τ",
-    "phi": "ϕ",
-    "chi": "χ",
-    "psi": "ψ",
-    "omega": "ω",
-}
-UPRIGHT = {  # capitals that TeX sets upright
-    "Gamma": "Γ",
-    "Delta": "Δ",
-    "Theta": "Θ",
-    "Lambda": "Λ",
-    "Xi": "Ξ",
-    "Pi": "Π",
-    "Sigma": "Σ",
-    "Phi": "Φ",
-    "Psi": "Ψ",
-    "Omega": "Ω",
-    "infty": "∞",
-    "partial": "∂",
-    "emptyset": "∅",
-}
-OPERATORS = {
-    "le": "≤",
-    "leq": "≤",
-    "ge": "≥",
-    "geq": "≥",
-    "ne": "≠",
-    "neq": "≠",
-    "equiv": "≡",
-    "approx": "≈",
-    "lt": "<",
-    "gt": ">",
-    "coloneq": "≔",
-    "in": "∈",
-    "notin": "∉",
-    "subset": "⊂",
-    "subseteq": "⊆",
-    "cap": "∩",
-    "cup": "∪",
-    "setminus": "∖",
-    "cdot": "⋅",
-    "times": "×",
-    "circ": "∘",
-    "pm": "±",
-    "mid": "∣",
-    "to": "→",
-    "mapsto": "↦",
-    "colon": ":",
-    "land": "∧",
-    "lor": "∨",
-    "lnot": "¬",
-    "neg": "¬",
-    "implies": "⟹",
-    "iff": "⟺",
-    "forall": "∀",
-    "exists": "∃",
-    "dots": "…",
-    "ldots": "…",
-}
-CHARACTERS = {
-    "+": "+",
-    "-": "−",
-    "=": "=",
-    "<": "<",
-    ">": ">",
-    ",": ",",
-    ";": ";",
-    ":": ":",
-    "!": "!",
-    ".": ".",
-    "*": "∗",
-}
-PREFIX = frozenset("+−±")  # signs that are written closer where nothing stands before them
-FENCES = {
-    "(": "(",
-    ")": ")",
-    "[": "[",
-    "]": "]",
-    "|": "|",
-    r"\{": "{",
-    r"\}": "}",
-    r"\lfloor": "⌊",
-    r"\rfloor": "⌋",
-    r"\lceil": "⌈",
-    r"\rceil": "⌉",
-    r"\langle": "⟨",
-    r"\rangle": "⟩",
-    r"\mid": "|",
-    r"\lvert": "|",
-    r"\rvert": "|",
-    ".": "",
-}
-SPACES = {
-    ",": "0.167em",
-    ":": "0.222em",
-    ";": "0.278em",
-    " ": "0.25em",
-    "quad": "1em",
-    "qquad": "2em",
-}
-ACCENTS = {
-    "overline": "‾",
-    "bar": "‾",
-    "dot": "˙",
-    "ddot": "¨",
-    "hat": "^",
-    "tilde": "~",
-    "vec": "→",
-}
-LIMITS = frozenset({"lim", "max", "min", "sup", "inf"})
-FUNCTIONS = frozenset({"det", "sin", "cos", "exp", "log", "ln"})
-SIZES = frozenset({"big", "Big", "bigl", "bigr", "bigm", "Bigl", "Bigr", "Bigm"})
-ALPHABETS = {  # where the letter A would stand in Unicode, and the letters that stand elsewhere
-    "mathcal": (
-        0x1D49C,
-        {"B": "ℬ", "E": "ℰ", "F": "ℱ", "H": "ℋ", "I": "ℐ", "L": "ℒ", "M": "ℳ", "R": "ℛ"},
-    ),
-    "mathbb": (0x1D538, {"C": "ℂ", "H": "ℍ", "N": "ℕ", "P": "ℙ", "Q": "ℚ", "R": "ℝ", "Z": "ℤ"}),
-    "mathbf": (0x1D400, {}),
-}
-MATRICES = {
-    "bmatrix": ("[", "]"),
-    "pmatrix": ("(", ")"),
-    "matrix": ("", ""),
-    "array": ("", ""),
-    "cases": ("{", ""),
-}
-LAYERS = frozenset({"split", "aligned", "gathered"})  # environments that only part lines
-
-
-# -------------------------------------------------------------------------------------------------
-# LaTeX of the paper and of `latex_of` as MathML Core, which browsers draw without a script; what
-# is not known is an error, never left out.
-#
-# A small reader of our own: it knows exactly the commands in `symbols`, takes a tenth of the time
-# of
-# a general converter, and settles what such converters leave to be mended: lines parted outside of
-# tables become a table; an alignment mark there means nothing; `:=` is one sign; words keep a space
-# on either side; bars and dots are accents; a sign after an operator is a prefix.
-
-TOKEN = re.compile(
-    r"\\(?:begin|end)\s*\{\w+\*?\}|\\(?:text|mathrm|mathit|operatorname|mbox)\s*\{[^{}]*\}|\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|:=|\S"
+COMMANDS = frozenset(
+    r"""
+    alpha beta gamma delta epsilon varepsilon eta theta kappa lambda mu nu xi pi rho sigma tau phi
+    chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega infty partial emptyset
+    le leq ge geq ne neq equiv approx lt gt in notin subset subseteq cap cup setminus cdot times
+    circ pm mid to mapsto colon coloneq land lor lnot neg implies iff forall exists dots ldots
+    { } lfloor rfloor lceil rceil langle rangle lvert rvert , : ; quad qquad \
+    overline bar dot ddot hat tilde vec lim max min sup inf det sin cos exp log ln
+    frac sqrt left middle right mathcal mathbb mathrm mathit text begin end
+    """.split()
 )
-CLOSING = frozenset({")", "]", "!", "|", r"\}", r"\rfloor", r"\rceil"})
-ENDS = frozenset({"", "}", "&", r"\\", r"\right", r"\middle"})
+ENVIRONMENTS = frozenset({"bmatrix", "pmatrix", "matrix", "array", "cases"})
+FENCES = frozenset("()[]|.") | frozenset(
+    r"\{ \} \mid \lfloor \rfloor \lceil \rceil \langle \rangle \lvert \rvert".split()
+)
+TOKEN = re.compile(r"\\(?:begin|end|text)\{[^{}]*\}|\\[A-Za-z]+|\\.|.", re.DOTALL)
+SIGNS = frozenset("+-=<>,;:!.*/|()[]{}_^&' ")
+
+
+def _checked(latex: str) -> list[str]:
+    """The tokens of a formula; raises ValueError where one is unknown or a bracket stays open."""
+    tokens: list[str] = TOKEN.findall(latex)
+    braces, environments = 0, list[str]()
+    for before, token in zip(["", *tokens], tokens):
+        command, name = token, ""
+        if token.startswith((r"\begin", r"\end", r"\text")):
+            command, _, name = token.removesuffix("}").partition("{")
+        if token[0] == "\\" and (
+            command[1:] not in COMMANDS
+            or command in (r"\begin", r"\end")
+            and name not in ENVIRONMENTS
+            or token == r"\text"
+        ):
+            raise ValueError(f"{token} is not known")
+        if token[0] != "\\" and not (token.isascii() and token.isalnum() or token in SIGNS):
+            raise ValueError(f"{token} has no meaning there")
+        if before in (r"\left", r"\middle", r"\right") and token not in FENCES:
+            raise ValueError(f"{token} is no bracket")
+        if command == r"\begin":
+            environments.append(name)
+        if command == r"\end" and (not environments or environments.pop() != name):
+            raise ValueError(f"{token} without its beginning")
+        braces += (token == "{") - (token == "}")
+        if braces < 0:
+            raise ValueError("} without its beginning")
+    if braces or environments:
+        raise ValueError("it ends too early")
+    return tokens
+
+
+# -------------------------------------------------------------------------------------------------
+# How it is spelled for latex2mathml, and how its markup is set.
+
+SPELLED = (
+    (re.compile(r":="), r"\\coloneq "),
+    (re.compile(r"\\text\{\s*([^{}]*?)\s*\}"), r"\\text{ \1 }"),  # words keep their distance
+    (re.compile(r"\\mathrm\{([^{}]+)\}"), r"\\text{\1}"),  # a word is one element
+    (re.compile(r"\\mathit\{([^{}]+)\}"), r"\\textit{\1}"),
+    (re.compile(r"([_^])\{\\(lim|max|min|sup|inf)\}"), r"\1{\\text{\2}}"),
+    (re.compile(r"\\(lim|max|min|sup|inf)\s*_"), r"\\\1\\limits_"),
+    (re.compile(r"(\\begin\{[bp]matrix\}.*?\\end\{[bp]matrix\})"), r"{\1}"),
+)
+OPERATORS = frozenset(":¬′⟹⟺⌊⌋⌈⌉⟨⟩±⧵…")  # which latex2mathml takes for names
+NAMES = frozenset("∂∞∅")  # and these for operators
+UPRIGHT = frozenset("ΓΔΘΛΞΠΣΦΨΩ∂∞∅")  # set upright by TeX
+PREFIX = frozenset("+−±")  # written closer to what follows where no operand stands before them
+CLOSING = frozenset(")]}|!⌋⌉⟩′")
+CHILDREN = {"mfrac": 2, "msup": 2, "msub": 2, "msubsup": 3, "mover": 2, "munder": 2}
 
 
 @cache
 def mathml(latex: str, block: bool = False) -> str:
-    r"""The formula as one <math> element, its LaTeX beside it as alternative text.
+    r"""The formula as one <math> element, with its LaTeX as alternative text.
 
     Raises ClaimError, one line, where any of it is not known.
 
@@ -185,260 +100,79 @@ def mathml(latex: str, block: bool = False) -> str:
     '<math alttext="x_1 &lt; -2"><msub><mi>x</mi><mn>1</mn></msub><mo>&lt;</mo><mo
     form="prefix">−</mo><mn>2</mn></math>'
     """
-    said = " ".join(latex.split())
+    source = " ".join(latex.split())
+    converter = needed("latex2mathml.converter").Converter()
     try:
-        inner = _Reader(said).lines()
-    except (KeyError, IndexError, ValueError) as problem:
-        raise ClaimError(
-            f"{said!r} cannot be shown as MathML:"
-            f" {problem.args[0] if problem.args else 'it ends too early'}"
-        ) from None
-    return f'<math{_display(block)} alttext="{escape(said)}">{inner}</math>'
+        row: Element = converter.convert_to_element(_spelled(_checked(source)))[0]
+        _set(row)
+    except Exception as problem:  # latex2mathml's errors have no common class
+        reason = str(problem) or type(problem).__name__
+        raise ClaimError(f"{source!r} cannot be shown as MathML: {reason}") from None
+    display = ' display="block"' if block else ""
+    inner = "".join(tostring(one, "unicode", short_empty_elements=False) for one in row)
+    return f'<math{display} alttext="{escape(source)}">{inner}</math>'
 
 
-def _display(block: bool) -> str:
-    return ' display="block"' if block else ""
+def _spelled(tokens: list[str]) -> str:
+    """The formula as latex2mathml draws it right: one table where it has several lines.
 
-
-class _Reader:
-    """Reads tokens from left to right; every method returns markup and leaves `at` behind what it
-    read.
+    Outside of an environment a mark of alignment means nothing, and a line's end at the end too.
     """
-
-    def __init__(self, latex: str) -> None:
-        self.tokens: list[str] = [*TOKEN.findall(latex), ""]
-        self.at = 0
-
-    @property
-    def next(self) -> str:
-        return self.tokens[self.at]
-
-    def take(self, wanted: str = "") -> str:
-        token = self.tokens[self.at]
-        if wanted and token != wanted:
-            raise ValueError(f"{wanted} is missing before {token or 'its end'}")
-        self.at += 1
-        return token
-
-    def lines(self) -> str:
-        """A whole print: one row, or a table of several."""
-        found = [self.row()]
-        while self.next:
-            # A mark of alignment outside of a table has no meaning.
-            if self.take() not in (r"\\", "&"):
-                raise ValueError(f"{self.tokens[self.at - 1]} without its beginning")
-            if self.tokens[self.at - 1] == "&":
-                found[-1] += self.row()
-            else:
-                found.append(self.row())
-        found = [row for row in found if row]
-        if not found:
-            raise ValueError("there is nothing in it")
-        if len(found) == 1:
-            return found[0]
-        return (
-            '<mtable class="lines" displaystyle="true">'
-            + "".join(f"<mtr><mtd>{row}</mtd></mtr>" for row in found)
-            + "</mtable>"
-        )
-
-    def row(self) -> str:
-        """What stands side by side, up to the end of a group, cell, line or print."""
-        parts: list[str] = []
-        follows = False  # whether something stands before that a sign could join
-        while self.next not in ENDS and not self.next.startswith(r"\end"):
-            token = self.next
-            part = self.scripted(follows)
-            parts.append(part)
-            if not part.startswith("<mspace"):
-                follows = not part.startswith(("<mo>", "<mo ")) or token in CLOSING
-        return "".join(parts)
-
-    def scripted(self, follows: bool) -> str:
-        """One thing with what stands below and above it."""
-        limits = self.next[1:] in LIMITS
-        base = self.atom(follows)
-        below = above = ""
-        while self.next in ("_", "^", "'"):
-            sign = self.take()
-            if sign == "_":
-                below = below + self.argument()
-            elif sign == "^":
-                above = above + self.argument()
-            else:
-                above = "<mo>′</mo>" + above
-        if above.startswith("<mo>′") and above != "<mo>′</mo>":
-            above = f"<mrow>{above}</mrow>"
-        if below and limits:
-            return f"<munder>{base}{below}</munder>"
-        if below and above:
-            return f"<msubsup>{base}{below}{above}</msubsup>"
-        if below or above:
-            tag = "msub" if below else "msup"
-            return f"<{tag}>{base}{below or above}</{tag}>"
-        return base
-
-    def argument(self) -> str:
-        """One element: a group in braces, or a single thing."""
-        if self.next != "{":
-            return self.atom(False)
-        return self.group()
-
-    def group(self) -> str:
-        self.take("{")
-        row = self.row()
-        self.take("}")
-        if row[4:-5] in LIMITS:
-            return f"<mi>{row[4:-5]}</mi>"
-        return row if _is_one(row) else f"<mrow>{row}</mrow>"
-
-    def atom(self, follows: bool) -> str:
-        token = self.take()
-        if token == "{":
-            self.at -= 1
-            return self.group()
-        if token.isalpha():
-            return f"<mi>{token}</mi>"
-        if token[0].isdigit():
-            return f"<mn>{token}</mn>"
-        if token in FENCES and token not in (".", r"\mid"):
-            return f'<mo stretchy="false">{FENCES[token]}</mo>'
-        if token == "/":
-            return '<mo lspace="0" rspace="0">/</mo>'
-        if token == ":=":
-            return "<mo>≔</mo>"
-        if token in CHARACTERS:
-            return self.operator(CHARACTERS[token], follows)
-        if token[0] != "\\" or len(token) == 1:
-            raise ValueError(f"{token} has no meaning there")
-        return self.command(token[1:], follows)
-
-    def operator(self, sign: str, follows: bool) -> str:
-        form = PREFIXED if sign in PREFIX and not follows else ""
-        return f"<mo{form}>{escape(sign, quote=False)}</mo>"
-
-    def command(self, name: str, follows: bool) -> str:
-        if name in GREEK:
-            return f"<mi>{GREEK[name]}</mi>"
-        if name in UPRIGHT:
-            return f'<mi mathvariant="normal">{UPRIGHT[name]}</mi>'
-        if name in OPERATORS:
-            return self.operator(OPERATORS[name], follows)
-        if name in SPACES:
-            return f'<mspace width="{SPACES[name]}"></mspace>'
-        if name in LIMITS | FUNCTIONS:
-            return f"<mo>{name}</mo>" if name in LIMITS else f"<mi>{name}</mi>"
-        if name in ACCENTS:
-            return f'<mover accent="true">{self.argument()}<mo>{ACCENTS[name]}</mo></mover>'
-        if name == "frac":
-            return f"<mfrac>{self.argument()}{self.argument()}</mfrac>"
-        if name == "sqrt":
-            return f"<msqrt>{self.argument()}</msqrt>"
-        if name in SIZES:
-            return f'<mo minsize="1.2em" maxsize="1.2em">{FENCES[self.take()]}</mo>'
-        if name in ALPHABETS:
-            return self.letter(name)
-        if name == "left":
-            return self.fenced()
-        return self.words(name)
-
-    def letter(self, alphabet: str) -> str:
-        start, elsewhere = ALPHABETS[alphabet]
-        self.take("{")
-        letter = self.take()
-        self.take("}")
-        if len(letter) != 1 or not letter.isascii() or not letter.isalpha():
-            raise ValueError(f"{letter} is no letter of {alphabet}")
-        capital = ord(letter) - ord("A") if letter.isupper() else ord(letter) - ord("a") + 26
-        return f"<mi>{elsewhere.get(letter) or chr(start + capital)}</mi>"
-
-    def words(self, name: str) -> str:
-        kind, brace, said = name.partition("{")
-        kind, said = kind.strip(), said.removesuffix("}")
-        if brace and kind == "begin":
-            return self.environment(said)
-        if brace and kind in ("text", "mbox"):
-            words = escape(" ".join(said.split()), quote=False)
-            return f"<mtext>{KEPT_SPACE}{words}{KEPT_SPACE}</mtext>"
-        if brace and kind in ("mathrm", "mathit", "operatorname"):
-            variant = (
-                ' class="italic"'
-                if kind == "mathit"
-                else ' mathvariant="normal"'
-                if len(said) == 1
-                else ""
-            )
-            return f"<mi{variant}>{escape(said.strip(), quote=False)}</mi>"
-        raise ValueError(f"\\{name} is not known")
-
-    def fenced(self) -> str:
-        """What stands between \\left and \\right, with fences as tall as it is."""
-        shown = _fence(self.take(), "prefix") + self.row()
-        while self.next == r"\middle":
-            self.take()
-            shown += f'<mo stretchy="true">{FENCES[self.take()]}</mo>' + self.row()
-        self.take(r"\right")
-        return f"<mrow>{shown}{_fence(self.take(), 'postfix')}</mrow>"
-
-    def environment(self, name: str) -> str:
-        if name in LAYERS:
-            inner = self.lines_until(rf"\end{{{name}}}")
-            return (
-                "".join(inner) if len(inner) == 1 else _table([[cell] for cell in inner], "lines")
-            )
-        before, after = MATRICES[name]
-        if name == "array":
-            self.take("{")
-            while self.take() != "}":
-                pass
-        cells: list[list[str]] = [[self.row()]]
-        while self.next in ("&", r"\\"):
-            if self.take() == "&":
-                cells[-1].append(self.row())
-            else:
-                cells.append([self.row()])
-        self.take(rf"\end{{{name}}}")
-        shown = _table(
-            [row for row in cells if any(row)], "cases" if name in ("cases", "array") else ""
-        )
-        opened, closed = (
-            f'<mo form="{form}">{sign}</mo>' if sign else ""
-            for form, sign in (("prefix", before), ("postfix", after))
-        )
-        return f"<mrow>{opened}{shown}{closed}</mrow>"
-
-    def lines_until(self, end: str) -> list[str]:
-        found = [self.row()]
-        while self.next != end:
-            if self.take() == "&":
-                found[-1] += self.row()
-            else:
-                found.append(self.row())
-        self.take(end)
-        return [line for line in found if line]
+    lines, depth = [""], 0
+    for token in tokens:
+        depth += token.startswith(r"\begin") - token.startswith(r"\end")
+        if token == r"\\" and not depth:
+            lines.append("")
+        elif token != "&" or depth:
+            lines[-1] += token
+    lines = [line for line in lines if line.strip()]
+    if not lines:
+        raise ValueError("there is nothing in it")
+    latex = lines[0]
+    if len(lines) > 1:
+        latex = r"\displaylines{" + r"\\".join(lines) + "}"
+    for pattern, spelled in SPELLED:
+        latex = pattern.sub(spelled, latex)
+    return latex
 
 
-PREFIXED = ' form="prefix"'
-KEPT_SPACE = "\u00a0"  # a space that is kept
+def _set(element: Element) -> None:
+    """Sets an element and all in it as MathML Core needs it; raises ValueError where an element
+    lacks a part.
+    """
+    element.text = text = unescape(element.text or "")
+    if element.tag == "mi" and text in OPERATORS:
+        element.tag = "mo"
+    elif element.tag == "mo" and text in NAMES:
+        element.tag = "mi"
+    if element.tag == "mi" and text in UPRIGHT:
+        element.set("mathvariant", "normal")
+    if element.tag == "mi" and not (text.isalpha() or text in NAMES):
+        raise ValueError(f"{text or 'a script'} has no meaning there")
+    if element.get("mathvariant", "normal") not in ("normal", "italic"):
+        raise ValueError(f"{text} is no letter of this alphabet")
+    if text == "/":
+        element.attrib.update(lspace="0", rspace="0")
+    for fence in [child for child in element if child.tag == "mo" and not child.text]:
+        element.remove(fence)  # what \left. and \right. leave
+    if len(element) != CHILDREN.get(element.tag, len(element)):
+        raise ValueError("it ends too early")
+    for at, child in enumerate(element):
+        _set(child)
+        if child.tag == "mrow" and len(child) == 1:
+            element[at] = child[0]
+    if element.tag == "mover":  # nothing but accents is put above
+        element.set("accent", "true")
+        element[1].text = (element[1].text or "").translate({ord("―"): "‾", ord("¯"): "‾"})
+    for row in [[child] for child in element] if element.tag in CHILDREN else [element]:
+        _set_prefixes(row)
 
 
-def _fence(token: str, form: str) -> str:
-    sign = FENCES[token]
-    return f'<mo stretchy="true" form="{form}">{sign}</mo>' if sign else ""
-
-
-def _table(cells: list[list[str]], kind: str) -> str:
-    rows = "".join(
-        "<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in cells
-    )
-    return f'<mtable class="{kind}">{rows}</mtable>' if kind else f"<mtable>{rows}</mtable>"
-
-
-def _is_one(row: str) -> bool:
-    """Whether the markup is exactly one element, told by its depth."""
-    depth = 0
-    for match in re.finditer(r"<(/?)\w+[^>]*>", row):
-        depth += -1 if match.group(1) else 1
-        if not depth:
-            return match.end() == len(row)
-    return False
+def _set_prefixes(row: Iterable[Element]) -> None:
+    """Marks each sign before which no operand stands."""
+    follows = False
+    for child in row:
+        if child.tag == "mo" and child.text in PREFIX and not follows:
+            child.set("form", "prefix")
+        if child.tag != "mspace":
+            follows = child.tag != "mo" or child.text in CLOSING

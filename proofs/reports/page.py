@@ -1,4 +1,4 @@
-"""The page."""
+"""The report as one HTML page: what its templates show, and the page that they make."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from juggleproof.proofs.reports.mathml import mathml
 from juggleproof.proofs.reports.part import HEADS, Results
 
 # -------------------------------------------------------------------------------------------------
-# What the page shows of the contents: words, marks and links for the templates, which hold no
-# logic of their own.
+# What the page shows of the contents: words, marks and links for the templates, which hold no logic
+# of their own.
 
 # characters: a longer certificate is shown in the theorem's tree only, and else told where it
 # stands
@@ -127,7 +127,7 @@ def _false_there(text: str) -> str:
     )
 
 
-def certificate_text(certificate: Any) -> str:
+def certificate_text(certificate: object) -> str:
     """A certificate as it is stored; empty where there is none."""
     return json.dumps(certificate, separators=(",", ":"), ensure_ascii=True) if certificate else ""
 

@@ -1,4 +1,6 @@
-"""The part scene in reports."""
+"""The part-orienting scene in reports: the tables that `simulate part` prints, and results that are
+kept for the page.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from juggleproof.proofs import kept
 from juggleproof.proofs.reports.tables import draw
@@ -15,6 +17,9 @@ from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import Run
 from juggleproof.scenes.part.onsets import Point, Row, Table, assumptions, discrepancies, misfit
 from juggleproof.scenes.part.setting import Scene
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 # -------------------------------------------------------------------------------------------------
 # What `juggleproof simulate part` prints.
@@ -34,7 +39,7 @@ RULES = (
 )
 
 
-def _console() -> Any:
+def _console() -> Console:
     from rich.console import Console
 
     return Console(highlight=False)
@@ -122,8 +127,7 @@ def point(one: Point) -> str:
 # records of runs while the sources are the same.
 #
 # They are simulated, not proved; a report never computes them, so that it needs neither numba nor
-# the
-# time.
+# the time.
 
 if TYPE_CHECKING:
     from juggleproof.scenes.part.onsets import Table

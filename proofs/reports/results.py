@@ -110,7 +110,7 @@ def reading_of(body: Body) -> str:
         return (
             "argued from "
             + ", ".join(body.steps)
-            + (f"; rescued by {body.rescue}" if body.rescue else "")
+            + (f"; rescued by {body.proved_by}" if body.proved_by else "")
         )
     raise ClaimError("a body of unknown kind")
 

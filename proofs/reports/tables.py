@@ -1,4 +1,4 @@
-"""Columns and numbers as text."""
+"""Tables as plain columns or on a terminal, and exact numbers as users write and read them."""
 
 from __future__ import annotations
 
@@ -6,9 +6,12 @@ import argparse
 import re
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates.language import ClaimError
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 # -------------------------------------------------------------------------------------------------
 # A table as plain columns, one row a line, or drawn on a terminal.
@@ -27,7 +30,7 @@ def plain(rows: Sequence[Sequence[str]]) -> str:
     )
 
 
-def draw(heads: Sequence[str], rows: Sequence[Sequence[str]], console: Any) -> None:
+def draw(heads: Sequence[str], rows: Sequence[Sequence[str]], console: Console) -> None:
     """Draws the table on a terminal; plain columns where there is none."""
     if not console.is_terminal:
         print(plain([heads, *rows]))

@@ -1,4 +1,4 @@
-"""LaTeX fragments and PDF."""
+"""The report in LaTeX: fragments and documents, single equations, and the PDF."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Statements in words."""
+"""Sentences and statements in words and LaTeX, and the intervals that sharp ranges tell."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates import checker
 from juggleproof.proofs.reports.latex import GLYPHS, glyph, is_bracketed, latex_of
@@ -17,8 +17,7 @@ from juggleproof.proofs.reports.latex import GLYPHS, glyph, is_bracketed, latex_
 # and LaTeX.
 #
 # What is a formula is told by its words: names of the notation, numerals beside signs, and what
-# joins
-# them.  The rest stays text.
+# joins them. The rest stays text.
 
 # Names of sentences that no statement has: regions, maps, and quantities with marks that the
 # statement language lacks.
@@ -287,6 +286,7 @@ def _numeral(word: str) -> str:
 # Sharp ranges of alpha, read from the text that tells them into intervals that can be drawn.
 
 if TYPE_CHECKING:
+    from juggleproof.proofs.reports.contents import Entry
     from juggleproof.scenes.figures.ours import Interval, Row
 
 WITHOUT_ALPHA = "no alpha"
@@ -298,7 +298,7 @@ _BETWEEN = re.compile(r"(.+?) (<=?) alpha (<=?) (.+)")
 _WHOLE_NUMBER = re.compile(r"(.*) for a whole number ([A-Za-z]\w*)")
 
 
-def rows(entries: Iterable[Any]) -> list[Row]:
+def rows(entries: Iterable[Entry]) -> list[Row]:
     """A row for each range of each claim that speaks of alpha; entries as `contents` gathers
     them.
     """
@@ -310,7 +310,7 @@ def rows(entries: Iterable[Any]) -> list[Row]:
     ]
 
 
-def without_alpha(entries: Iterable[Any]) -> int:
+def without_alpha(entries: Iterable[Entry]) -> int:
     """The number of claims in which alpha does not occur."""
     return sum(entry.sharp == WITHOUT_ALPHA for entry in entries)
 

@@ -1,5 +1,12 @@
 """The theorem, that e_1 is globally asymptotically stable exactly for alpha < 1/3, as claims whose
 premises the checker writes.
+
+    definition     the map, rank, stages and rates, and the statements that come of them
+    stability      the rules, the written proof, alpha = 1/3, and Proposition 1
+    orbits         flights, where stability ends, and bounds that come near the worst case
+    quantities     what is certified of one state, in exact numbers
+    coq            the texts of the definition for Coq, and Statements.v
+    coq_templates  the parts of Statements.v without data
 """
 
 SECTIONS = ("definition", "stability", "orbits")

@@ -1,4 +1,6 @@
-"""Statements.v."""
+"""The Coq statements of the theorem: the texts of its definition as Coq terms, and Statements.v,
+which `python -m juggleproof.proofs.theorem.coq` writes.
+"""
 
 from __future__ import annotations
 
@@ -377,8 +379,8 @@ def piecewise(scope: Scope, name: str, pieces: Sequence[Piece]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Writes proofs/coq/Statements.v from the table of the theorem:
-# `python -m juggleproof.proofs.theorem.coq`.
+# Writes proofs/coq/Statements.v from the table of the theorem: `python -m
+# juggleproof.proofs.theorem.coq`.
 
 COQ = Path(__file__).resolve().parents[1] / "coq"
 

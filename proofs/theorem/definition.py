@@ -1,4 +1,6 @@
-"""Map, rank, stages, rates."""
+"""The definition of the theorem: the map in normal form, what is chosen to prove it, and the
+statements under the checker's map rules that come of it.
+"""
 
 from __future__ import annotations
 
@@ -28,13 +30,26 @@ from juggleproof.certificates.language import (
 from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs.derivations import Origin, made_by
 from juggleproof.proofs.encoding import from_sympy
-from juggleproof.proofs.paper.names import H, alpha, always, b, claim, derived, g, r, w, x
+from juggleproof.proofs.paper.names import (
+    H,
+    Placed,
+    alpha,
+    always,
+    at,
+    b,
+    claim,
+    derived,
+    g,
+    r,
+    w,
+    x,
+)
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.symbolic.algebra import lowest_terms
 
 # -------------------------------------------------------------------------------------------------
-# Derived SymPy expressions as texts that the checker reads: one fraction, what is added before
-# what is taken away.
+# Derived SymPy expressions as texts that the checker reads: one fraction, what is added before what
+# is taken away.
 
 
 def tidied(name: str, **values: int) -> Vector:
@@ -133,10 +148,9 @@ def _sum(parts: Sequence[Term]) -> Term:
 # The map in normal form, and what is chosen to prove the theorem about it: rank, stages and
 # contraction.
 #
-# x is the height in units of r T, w = 1 - v/r the closing speed in units of r.  Map, fixed points
-# and
-# energies are derived; rank, stages, weights, rates and radii are choices that the premises of the
-# checker's rules have to confirm.
+# x is the height in units of r T, w = 1 - v/r the closing speed in units of r. Map, fixed points
+# and energies are derived; rank, stages, weights, rates and radii are choices that the premises of
+# the checker's rules have to confirm.
 
 u, e_x, e_w = reals("u e_x e_w")
 WHOLE = (
@@ -349,9 +363,9 @@ class Setting:
     place: Vector
     units: tuple[Number, Number]
 
-    def here(self, thing: Any) -> Any:
+    def here(self, thing: Placed) -> Placed:
         """A term or formula of the normal form in these coordinates."""
-        return substitute(thing, dict(zip(("x", "w"), (term(entry) for entry in self.place))))
+        return at(thing, dict(zip(("x", "w"), (term(entry) for entry in self.place))))
 
     def domain(self, of_alpha: Formula) -> str:
         """The range of alpha with what is assumed of the other parameters."""

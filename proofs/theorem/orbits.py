@@ -1,4 +1,6 @@
-"""Orbits, flights, bounds."""
+"""Claims on orbits: exact orbits, flights, where stability ends, and how near the bounds come to
+the worst case.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -28,6 +29,7 @@ from juggleproof.proofs.paper.names import (
     B2,
     PAPER,
     STANDING,
+    Placed,
     alpha,
     at,
     b,
@@ -180,16 +182,15 @@ def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
 
 
 # -------------------------------------------------------------------------------------------------
-# Argument B: from flight to flight.  Why the bound is 1/3, and the repair closest to section 4.3
-# of the paper.
+# Argument B: from flight to flight. Why the bound is 1/3, and the repair closest to section 4.3 of
+# the paper.
 #
 # A flight begins with an impact at the state (x, w) and lasts K periods, to the impact at (x', w').
 # Since x' >= 0, a long flight needs a high closing speed, and leaves a low one: the next flight
-# lasts
-# J periods with J - 1 <= alpha (K + 1).  For alpha < 1/3 flights grow shorter until all last one
-# period.  The closing speeds at the impacts approach that of e_1 by the factor kappa = alpha (1 + 3
-# alpha)/(1 - alpha) at least, which is less than 1 exactly for alpha < 1/3: so the relative kinetic
-# energy falls from impact to impact, which the paper claims of every period.
+# lasts J periods with J - 1 <= alpha (K + 1). For alpha < 1/3 flights grow shorter until all last
+# one period. The closing speeds at the impacts approach that of e_1 by the factor kappa = alpha (1
+# + 3 alpha)/(1 - alpha) at least, which is less than 1 exactly for alpha < 1/3: so the relative
+# kinetic energy falls from impact to impact, which the paper claims of every period.
 
 HERE = Vector((x, w))
 K, J, n, d = reals("K J n d")
@@ -274,7 +275,7 @@ def speeds_at_impacts_approach_that_of_the_fixed_point() -> list[AnyStatement]:
 # exceeds.
 #
 # At alpha = (K - 1)/(K + 1), K >= 2, the orbit of e_K meets the table just at a bounce, one period
-# before its impact.  However little the ball starts higher, it strikes a period early, and after K
+# before its impact. However little the ball starts higher, it strikes a period early, and after K
 # periods is far from where it started: e_K comes back after K periods, and is not stable.
 
 AT_THE_END = [alpha > 0, alpha < 1, equal(alpha * (K + 1), K - 1), K >= 2]
@@ -350,11 +351,9 @@ def orbits_of_little_energy_keep_to_it() -> list[AnyStatement]:
 # factor leads to the energies u <= W - 1.
 #
 # A ball thrown up from the ground with great u needs about u/(1 - alpha) periods to lose its
-# energy,
-# as each impact leaves alpha of its speed.  The factor (1 + alpha) W / (2 ((1 - alpha) W - 2))
-# comes
-# down to (1 + alpha)/(2 (1 - alpha)) as W grows, and the rank of that ball to u/(1 - alpha). From u
-# <= W - 1 the rank of the theorem leads on, which is at most 5 (W - 1)/2 there.
+# energy, as each impact leaves alpha of its speed. The factor (1 + alpha) W / (2 ((1 - alpha) W -
+# 2)) comes down to (1 + alpha)/(2 (1 - alpha)) as W grows, and the rank of that ball to u/(1 -
+# alpha). From u <= W - 1 the rank of the theorem leads on, which is at most 5 (W - 1)/2 there.
 
 W, after = reals("W after")
 FACTOR = (1 + alpha) * W / (2 * ((1 - alpha) * W - 2))
@@ -455,26 +454,20 @@ def orbits_in_the_trap_in_closed_form() -> list[AnyStatement]:
 # of A.3.2 prints it, in units of r^2.
 #
 # The bracket, (E - E_max - Delta E_max)/(-Delta E_sup), is at most n where u^2 <= 2 (level + n
-# loss),
-# u^2 being twice the energy.  With the derived loss, rounded up, it counts enough impacts.  With
-# the
-# printed loss it does exactly where `ENOUGH` holds, alpha <= 0.3645..: an impact from the ground
-# with
-# bracket 1 then leads into R, and one with more loses as much as is counted.  Beyond, such an
-# impact
-# leaves the ball outside of R, in all readings of time: its flight before took m > u - 1 periods,
-# the
-# next impact comes a period later at the earliest, and u < m + 1 is all of (26).
+# loss), u^2 being twice the energy. With the derived loss, rounded up, it counts enough impacts.
+# With the printed loss it does exactly where `ENOUGH` holds, alpha <= 0.3645..: an impact from the
+# ground with bracket 1 then leads into R, and one with more loses as much as is counted. Beyond,
+# such an impact leaves the ball outside of R, in all readings of time: its flight before took m > u
+# - 1 periods, the next impact comes a period later at the earliest, and u < m + 1 is all of (26).
 
 m, n = reals("m n")
 TWO_COUNTS = replace(STANDING, integers=frozenset({"m", "n"}))
 always_counted = partial(forms.always, vocabulary=TWO_COUNTS)
 
 
-def in_units(energy: object) -> Term:
+def in_units(energy: Term) -> Term:
     """An energy in units of r^2."""
-    scaled: Term = at(energy, {"r": 1})
-    return scaled
+    return at(energy, {"r": 1})
 
 
 LEVEL_OF_R = in_units(LEVEL)  # the energy up to which R reaches
@@ -509,7 +502,7 @@ def written(coefficients: Sequence[int]) -> Term:
     return total
 
 
-def at_state(thing: Any, state: Vector) -> Any:
+def at_state(thing: Placed, state: Vector) -> Placed:
     """A term or formula of (x, w) at this state."""
     return at(thing, {"x": term(state.entries[0]), "w": term(state.entries[1])})
 

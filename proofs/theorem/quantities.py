@@ -1,4 +1,6 @@
-"""Certified numbers beside orbits."""
+"""What the theorem certifies of one state, in exact numbers, and its bounds beside the worst of
+stated orbits.
+"""
 
 from __future__ import annotations
 
@@ -45,10 +47,9 @@ from juggleproof.proofs.theorem.stability import EXCEPTIONS, FACTOR, OTHERS, THI
 # What the theorem certifies of one state, in exact numbers: steps into the trap and to within 1 of
 # e_1, and distances from there on.
 #
-# By the rule `descends` the k-th stage is reached at every integer N >= rank + k - 1.  By
+# By the rule `descends` the k-th stage is reached at every integer N >= rank + k - 1. By
 # `theorem-sharper`, for any W, the energies u <= W - 1 are reached at every integer N >= a rank
-# with
-# a smaller factor, and from there the theorem's rank is at most 5 (W - 1)/2.
+# with a smaller factor, and from there the theorem's rank is at most 5 (W - 1)/2.
 
 TO_TRAP, TO_CORE = (
     TO_THE_POINT.stages.index(stage) for stage in (TRAP, CORE)
@@ -168,11 +169,9 @@ def is_nearby(state: State) -> bool:
 # The paper's bounds and ours beside the worst of a stated finite set of exact orbits.
 #
 # The set, for one alpha and one u (u^2 twice the energy in units of r^2): the flights that end with
-# closing speed w = u - 1 + j/8, j = 1 .. 16, each from its first state.  j = 16 strikes on the
-# ground
-# at u, as if thrown up from the ground.  Times are in periods; a flight that has all the energy of
-# u
-# lasts u periods, which is tau_w of (25).
+# closing speed w = u - 1 + j/8, j = 1 .. 16, each from its first state. j = 16 strikes on the
+# ground at u, as if thrown up from the ground. Times are in periods; a flight that has all the
+# energy of u lasts u periods, which is tau_w of (25).
 
 PHASES = 16
 

@@ -1,9 +1,10 @@
-"""The theorem and its written proof."""
+"""Claims of the theorem: the rules, the steps of its written proof, alpha = 1/3, and
+Proposition 1.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -16,7 +17,20 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.paper.names import R, alpha, always, at, b, claim, derived, equals, s, w, x
+from juggleproof.proofs.paper.names import (
+    Placed,
+    R,
+    alpha,
+    always,
+    at,
+    b,
+    claim,
+    derived,
+    equals,
+    s,
+    w,
+    x,
+)
 from juggleproof.proofs.reading.values import Vector
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
@@ -52,14 +66,13 @@ from juggleproof.proofs.theorem.definition import BELOW_A_THIRD as BELOW
 from juggleproof.proofs.theorem.definition import FROM_A_THIRD as FROM
 
 # -------------------------------------------------------------------------------------------------
-# The theorem in normal form and in the paper's units: e_1 is globally asymptotically stable
-# exactly for alpha < 1/3.
+# The theorem in normal form and in the paper's units: e_1 is globally asymptotically stable exactly
+# for alpha < 1/3.
 #
 # A. Outside of its stages the rank 2 u + (1 - w)/2 falls by 1 at least every period, u^2 being
-# twice
-# the energy; the stages lead into the trap, where every period has an impact and brings the state
-# closer to e_1.  Hence for every integer N >= rank + 3 the state after N + k periods is within (2
-# alpha)^k of e_1, in units of r T and r.  From alpha = 1/3 on the orbit of e_2, an impact and a
+# twice the energy; the stages lead into the trap, where every period has an impact and brings the
+# state closer to e_1. Hence for every integer N >= rank + 3 the state after N + k periods is within
+# (2 alpha)^k of e_1, in units of r T and r. From alpha = 1/3 on the orbit of e_2, an impact and a
 # flight by turns, never comes near e_1.
 
 
@@ -132,9 +145,9 @@ HEIGHT, CLOSING = term(FIXED.entries[0]), term(FIXED.entries[1])
 STAGE_1, STAGE_2 = TO_THE_POINT.stages[:2]
 
 
-def state_after(image: Vector, thing: Any) -> Any:
+def state_after(image: Vector, thing: Placed) -> Placed:
     """A term or formula of the state, at the image of the state."""
-    return substitute(thing, dict(zip(("x", "w"), map(term, image.entries))))
+    return at(thing, dict(zip(("x", "w"), map(term, image.entries))))
 
 
 def line(
@@ -284,10 +297,8 @@ def argument_a_line_by_line() -> list[Statement]:
 # At alpha = 1/3 the orbits that do not tend to e_1: three states and no others.
 #
 # (0, 3) and (1, 1) are the orbit of e_2, an impact and a flight by turns, and (0, -1) flies to it,
-# in
-# units of r T and r.  No other state leads to them, and from every other state the proof for alpha
-# <
-# 1/3 goes through: the stage after an impact holds (1, 1) on its border only.
+# in units of r T and r. No other state leads to them, and from every other state the proof for
+# alpha < 1/3 goes through: the stage after an impact holds (1, 1) on its border only.
 
 THIRD = equal(3 * alpha, 1) & (1 + alpha > 0)
 EXCEPTIONS = (Vector((0, 3)), Vector((1, 1)), Vector((0, -1)))
@@ -344,8 +355,7 @@ def three_states_do_not_tend_to_the_fixed_point() -> list[AnyStatement]:
 # Proposition 1 for every 0 < alpha < 1: each orbit enters the region R within a number of periods
 # that its energy tells, and stays there.
 #
-# Outside of R a rank falls by 1 at least every period.  It is (1 - w)/2, which a flight lowers by
-# 1,
+# Outside of R a rank falls by 1 at least every period. It is (1 - w)/2, which a flight lowers by 1,
 # and a multiple of the root u of the energy, which a flight keeps: what an impact takes from u
 # outweighs the rise of (1 - w)/2, as the factor is chosen, at the worst where the ball is on the
 # ground and w = 1 + s/(1 - alpha), s^2 = 2 (1 + alpha).

@@ -1,276 +1,52 @@
-"""The table of hypotheses, and the search that fills it."""
+"""The table of hypotheses: for each certified statement, what each of its hypotheses is for.
+
+    statement ID/part DIGEST
+    <TAB>hypothesis<TAB>need<TAB>why
+
+`needed`: why is an exact counterexample without it, to what is shown or to a `have` line;
+`licenses a division`: without it the statement cannot be read; `not needed` and `undecided`: why is
+a reason from REASONS.  It takes minutes: `python -m tests.proofs.paper.hypothesis_table` writes it
+to build/hypotheses.txt, and what tests expect of it, the counts and the undecided, beside this
+file.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import re
-import sys
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from functools import cache
-from itertools import islice
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.algebra.conditions import Condition, ring_of
 from juggleproof.certificates.language import reals
-from juggleproof.certificates.search.certificate import found, search_proof
-from juggleproof.certificates.search.points import as_found_point, assignments
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.certificates.votes.z3 import vote
-from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.paper import names, regions
 from juggleproof.proofs.paper import states as orbits
-
-# -------------------------------------------------------------------------------------------------
-# What a hypothesis of a certified statement is for, searched: none of this is believed, the checker
-# judges what it finds.
-#
-# A certified statement says P and H => S.  Without H it says P => S, that is, P and not H => S as
-# well.  So a counterexample to it meets P and not H, and a proof of P and not H => S shows that H
-# is not needed.
-
-NEEDED, LICENSES, NOT_NEEDED, UNDECIDED = "needed", "licenses a division", "not needed", "undecided"
-BUDGET = 2_000_000
-ATTEMPTS = (
-    (True, 0, 20),
-    (False, 1, 20),
-    (True, 1, 40),
-    (False, 2, 60),
-    (True, 2, 100),
-)  # (refutes, effort, percent of what is left)
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """One conjunct of a range or given line of a statement: its line, its place in the line, and
-    what it says.
-    """
-
-    row: int
-    part: int
-    keyword: str
-    said: str
-
-
-def conjuncts(said: str) -> list[str]:
-    """The parts of a conjunction, split where `and` stands outside all parentheses.
-
-    >>> conjuncts("x > 0 and (y > 0 and z > 0 or x = 1)"), conjuncts("x > 0 and y > 0 or z > 0")
-    (['x > 0', '(y > 0 and z > 0 or x = 1)'], ['x > 0 and y > 0 or z > 0'])
-    """
-    depth, parts, begin = 0, [], 0
-    for match in re.finditer(r"[()]| and | or ", said):
-        depth += {"(": 1, ")": -1}.get(match[0], 0)
-        if depth == 0 and match[0] == " or ":
-            return [said]
-        if depth == 0 and match[0] == " and ":
-            parts.append(said[begin : match.start()])
-            begin = match.end()
-    return [*parts, said[begin:]]
-
-
-def hypotheses(text: str) -> Iterator[Hypothesis]:
-    """Every conjunct of the range and given lines of a statement."""
-    for row, line in enumerate(text.splitlines()):
-        keyword, _, said = line.partition(" ")
-        if keyword in ("range", "given"):
-            for part, one in enumerate(conjuncts(said)):
-                yield Hypothesis(row, part, keyword, one)
-
-
-def without(text: str, one: Hypothesis, *instead: str) -> str:
-    """The statement without this hypothesis, or with others in its place."""
-    rows = text.splitlines()
-    parts = conjuncts(rows[one.row].partition(" ")[2])
-    parts[one.part : one.part + 1] = instead
-    rows[one.row : one.row + 1] = [f"{one.keyword} " + " and ".join(parts)] if parts else []
-    return "\n".join(rows)
-
-
-def obligations(text: str) -> Iterator[tuple[str, str]]:
-    """(what is to be shown, statement that shows it) for every have and root line: each follows
-    from what stands before it.
-    """
-    rows = text.splitlines()
-    for row, line in enumerate(rows):
-        keyword, _, said = line.partition(" ")
-        if keyword in ("have", "root"):
-            shown = said if keyword == "have" else re.sub(r".*? = sqrt\((.*)\)", r"\1 >= 0", said)
-            yield shown, "\n".join([*rows[:row], f"show {shown}"])
-
-
-def statement_of(text: str) -> checker.Statement:
-    """The one statement of a text, read and unfolded by the checker; raises Rejected where it
-    cannot be read.
-    """
-    (statement,) = checker.read_statements(text).values()
-    checker.Unfolding(statement, checker.Context())
-    return statement
-
-
-def is_refuted(text: str, refutation: Any) -> bool:
-    """Whether the checker accepts these exact values as a counterexample."""
-    return bool(
-        checker.check_one(statement_of(text), {"refuted": refutation}, {}, {})[0] == "refuted"
-    )
-
-
-def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, str, Any]:
-    """(need, what fails without the hypothesis if not what is shown, counterexample to that or a
-    reason).
-    """
-    plain = without(text, one)
-    try:
-        statement_of(plain)
-    except checker.Rejected as reason:
-        if "division" not in str(reason):
-            raise
-        return LICENSES, "", None
-    for shown, obligation in obligations(plain):
-        if len(obligation.splitlines()) > one.row and (
-            refutation := refuted_among(obligation, [negated_in(obligation, one)], budget // 8)
-        ):
-            return NEEDED, shown, refutation
-    opposite = statement_of(without(text, one, f"not ({one.said})"))
-    whole = Budget(budget)
-    for refutes, effort, share in ATTEMPTS:
-        try:
-            part = whole.part(whole.left * share // 100)
-            if not refutes:
-                if search_proof(opposite, {}, part, effort=effort) is not None:
-                    return NOT_NEEDED, "", None
-            elif (
-                refutation := found(opposite, "counterexample", {}, part, effort)
-            ) is not None and is_refuted(plain, refutation):
-                return NEEDED, "", refutation
-        except Exhausted:
-            continue
-    refutation = refuted_among(plain, list(special(text, one)), budget // 8)
-    return (NEEDED if refutation else UNDECIDED), "", refutation
-
-
-def is_not_needed(text: str, one: Hypothesis, budget: int = BUDGET) -> bool:
-    """Whether the search proves, and the checker accepts, that the statement holds where the
-    hypothesis fails as well.
-    """
-    opposite, whole = statement_of(without(text, one, f"not ({one.said})")), Budget(budget)
-    for refutes, effort, share in ATTEMPTS:
-        part = whole.part(whole.left * share // 100)
-        try:
-            if not refutes and search_proof(opposite, {}, part, effort=effort) is not None:
-                return True
-        except Exhausted:
-            continue
-    return False
-
-
-def negated_in(text: str, one: Hypothesis) -> str:
-    """A statement without the hypothesis, with its negation in its place."""
-    rows = text.splitlines()
-    return "\n".join([*rows[: one.row], f"{one.keyword} not ({one.said})", *rows[one.row :]])
-
-
-def special(text: str, one: Hypothesis) -> Iterator[str]:
-    """The statement with simple values in place of the hypothesis: for its own variable, for r and
-    g, and for alpha (2 + 2/8 is a square).
-    """
-    bound = re.fullmatch(r"(\w+) (?:<|<=|>|>=|!=) (\d+(?:/\d+)?)|(\d+) < (\w+)", one.said)
-    own = [f"not ({one.said})"]
-    if bound:
-        name, limit = bound[1] or bound[4], bound[2] or bound[3]
-        own = [f"{name} = {limit}{move}" for move in ("", " - 1", " + 1", " - 1/2", " - 3", " + 3")]
-    variables = text.split("\nforall ")[1].split("\n")[0].split()
-    units = [
-        f"{name} = 1" for name in ("r", "g") if name in variables and f"{name} > 0" != one.said
-    ]
-    for first in own:
-        for alpha in (
-            ("1/2", "1/4", "3/4", "1/8", "")
-            if "alpha" in variables and "alpha" not in one.said
-            else ("",)
-        ):
-            yield without(text, one, *([first, *units] + ([f"alpha = {alpha}"] if alpha else [])))
-
-
-def refuted_among(plain: str, narrowed: list[str], budget: int) -> Any:
-    """A counterexample to the statement among the points of its narrower forms, by samples and by
-    Z3's models.
-    """
-    for text in narrowed:
-        try:
-            answer = vote(statement_of(text))
-            points = [
-                f"given {name} = {value}"
-                for name, value in answer.model
-                if re.fullmatch(r"-?\d+(/\d+)?", value)
-            ]
-            forms = (
-                [with_givens(text, points)]
-                if answer.answer == "fails"
-                else [text]
-                if answer.answer == "unknown"
-                else []
-            )
-            for form in forms:
-                refutation = refuted_there(statement_of(plain), statement_of(form), Budget(budget))
-                if refutation is not None and is_refuted(plain, refutation):
-                    return refutation
-        except (checker.Rejected, Exhausted):
-            continue
-    return None
-
-
-def with_givens(text: str, givens: list[str]) -> str:
-    """The statement with more premises, after all of its own."""
-    rows = text.splitlines()
-    last = next(row for row, line in enumerate(rows) if line.startswith(("exists ", "show ")))
-    return "\n".join([*rows[:last], *givens, *rows[last:]])
-
-
-def refuted_there(plain: checker.Statement, narrow: checker.Statement, budget: Budget) -> Any:
-    """A counterexample to the plain statement at a point that meets the premises of the narrow one
-    and, without `exists`, breaks its goal.
-    """
-    story = checker.Unfolding(narrow, checker.Context())
-    parts = [*story.premises, *([] if narrow.get("exists") else [story.goal(False)])]
-    condition = Condition.of(story.context, checker.join("and", parts), ring_of(story.context))
-    names, integers = list(story.universal), frozenset(story.integers)
-    for effort in (0, 1):
-        for assignment in islice(assignments(condition, names, integers, budget, effort), 8):
-            refutation = as_found_point(
-                plain,
-                checker.State(checker.Context()),
-                assignment,
-                names,
-                "counterexample",
-                {},
-                budget,
-                None,
-                1,
-            )
-            if refutation is not None:
-                return refutation
-    return None
-
-
-# -------------------------------------------------------------------------------------------------
-# The table of hypotheses: for each certified statement, what each of its hypotheses is for.
-#
-#     statement ID/part DIGEST
-#     <TAB>hypothesis<TAB>need<TAB>why
-#
-# `needed`: why is an exact counterexample without it, to what is shown or to a `have` line;
-# `licenses a division`: without it the statement cannot be read; `not needed` and `undecided`: why
-# is a reason from REASONS.  `python -m tests.proofs.paper.hypothesis_table` writes it anew and
-# keeps what an unchanged statement has.
+from tests.proofs.paper.search_needs import (
+    LICENSES,
+    NEEDED,
+    UNDECIDED,
+    Hypothesis,
+    conjuncts,
+    hypotheses,
+    is_refuted,
+    obligations,
+    search_need,
+    statement_of,
+    without,
+)
 
 HERE = Path(__file__).resolve().parent
-TABLE, GIVEN_REASONS = HERE / "hypotheses.txt", HERE / "hypothesis_reasons.tsv"
+TABLE = HERE.parents[2] / "build" / "hypotheses.txt"
+GIVEN_REASONS = HERE / "hypothesis_reasons.tsv"
+COUNTS, OPEN = HERE / "hypothesis_counts.tsv", HERE / "hypotheses_undecided.tsv"
+SAMPLE = 24  # one claim in so many
 REASONS = {
     "standing": (
         "the range of a parameter of the paper, assumed of all its claims: 0 < alpha < 1, r > 0, g"
@@ -450,21 +226,10 @@ def is_meant(said: str, meant: str) -> bool:
 # ------------------------------------------------------------ the file
 
 
-def read_table(text: str) -> Table:
-    table: Table = {}
-    for line in text.splitlines():
-        if line.startswith("statement "):
-            _, name, mark = line.split()
-            table[name] = (mark, [])
-        elif line.startswith("\t"):
-            table[name][1].append(Row(*line[1:].split("\t")))
-    return table
-
-
 def write_table(table: Table) -> str:
     lines = [
         "# What each hypothesis of each certified statement is for; generated by"
-        " tests/proofs/paper/hypothesis_table.py."
+        " tests/proofs/hypothesis_table.py."
     ]
     lines += [f"# {word}: {meaning}." for word, meaning in REASONS.items()]
     for name, (mark, rows) in table.items():
@@ -501,16 +266,59 @@ def with_reasons(table: Table) -> Table:
     return new
 
 
-def renewed(old: Table, jobs: int = 2) -> Table:
-    """The table of the statements as they are stored now."""
-    texts = certified()
-    known = dict(old.values())
-    todo = {digest(text): (name, text) for name, text in texts.items() if digest(text) not in known}
+def searched_table(texts: Mapping[str, str], jobs: int | None = None) -> Table:
+    """The table of these statements, which are all those of their claims; statements that differ in
+    nothing but their name are searched once.
+    """
+    todo = {digest(text): (name, text) for name, text in texts.items()}
     with ProcessPoolExecutor(jobs, mp_context=get_context("fork")) as pool:
-        for (mark, (name, _)), rows in zip(todo.items(), pool.map(searched, todo.values())):
-            known[mark] = rows
-            print(name, sum(row.need == UNDECIDED for row in rows), file=sys.stderr, flush=True)
-    return with_reasons({name: (digest(text), known[digest(text)]) for name, text in texts.items()})
+        rows = dict(zip(todo, pool.map(searched, todo.values())))
+    return with_reasons({name: (digest(text), rows[digest(text)]) for name, text in texts.items()})
+
+
+def is_sampled(name: str) -> bool:
+    """Whether the statement is one of the sample, which depends on nothing but the claim's name."""
+    claim = name.partition("/")[0]
+    return int(hashlib.sha256(claim.encode()).hexdigest()[:8], 16) % SAMPLE == 0
+
+
+def counts(table: Table) -> Counter[tuple[str, str]]:
+    """How many hypotheses there are of each need and, where it is not known to be needed, of each
+    kind of reason.
+    """
+    return Counter(
+        (row.need, "" if row.need in (NEEDED, LICENSES) else row.why.partition(":")[0])
+        for _, rows in table.values()
+        for row in rows
+    )
+
+
+def undecided(table: Table) -> set[tuple[str, str]]:
+    """The hypotheses, with their statements, of which it is not known whether they are needed."""
+    return {
+        (name, row.said)
+        for name, (_, rows) in table.items()
+        for row in rows
+        if row.need == UNDECIDED
+    }
+
+
+def cells(path: Path) -> list[list[str]]:
+    """The rows of a file of cells that tabs separate, without its heading."""
+    return [line.split("\t") for line in path.read_text(encoding="utf-8").splitlines()[1:]]
+
+
+def write_expected(table: Table) -> None:
+    """Writes what tests expect: the counts of the whole and of the sample, and the undecided."""
+    every = counts(table)
+    sample = counts({name: rows for name, rows in table.items() if is_sampled(name)})
+    lines = ["need\treason\tall\tsample"]
+    lines += [
+        f"{need}\t{why}\t{n}\t{sample[need, why]}" for (need, why), n in sorted(every.items())
+    ]
+    COUNTS.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    lines = ["statement\thypothesis", *("\t".join(one) for one in sorted(undecided(table)))]
+    OPEN.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def checked(name: str, text: str, one: Hypothesis, row: Row) -> bool:
@@ -528,5 +336,12 @@ def checked(name: str, text: str, one: Hypothesis, row: Row) -> bool:
     return is_refuted(dict(obligations(plain))[fails] if fails else plain, refutation)
 
 
+def main() -> None:
+    table = searched_table(certified())
+    TABLE.parent.mkdir(exist_ok=True)
+    TABLE.write_text(write_table(table), encoding="utf-8")
+    write_expected(table)
+
+
 if __name__ == "__main__":
-    TABLE.write_text(write_table(renewed(read_table(TABLE.read_text()) if TABLE.exists() else {})))
+    main()

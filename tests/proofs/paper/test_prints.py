@@ -28,7 +28,7 @@ def content(claim: Claim, latex: str) -> list[Any]:
     Raises ClaimError where the print is refused and checker.Rejected where the statement is.
     """
     body = claim.body(read(latex))
-    found: list[Any] = [type(body).__name__, getattr(body, "rescue", "")]
+    found: list[Any] = [type(body).__name__, getattr(body, "proved_by", "")]
     for prefix, assertion in assertions(body):
         for part in named_statements(claim.id, prefix, assertion):
             statement = checker.read_statements(part.text())[part.name]

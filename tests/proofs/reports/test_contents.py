@@ -84,7 +84,7 @@ def test_report_and_run_write_the_same_document_holds() -> None:
     [
         ("json", "juggleproof.json", as_json),
         ("markdown", "juggleproof.md", lambda results: markdown(results).encode()),
-        ("badge", "juggleproof.svg", badge),
+        ("badge", "juggleproof-badge.json", badge),
     ],
 )
 def test_report_writes_what_a_run_would_holds(
