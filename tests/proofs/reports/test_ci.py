@@ -16,7 +16,6 @@ from juggleproof.proofs.reports.ci import (
     BAD,
     GOOD,
     LIMIT,
-    NAME,
     as_junit,
     badge,
     code,
@@ -347,12 +346,3 @@ def test_badge_is_red_where_something_is_wrong_holds(tmp_path: Path) -> None:
         said, is_green = read_badge(results)
         assert told in said and not is_green
     assert read_badge(own(tmp_path, HOLDS)) == ("1 of 1 holds, 0 unknown", True)
-
-
-@pytest.mark.parametrize("colour", [GOOD, BAD, NAME])
-def test_white_on_the_badge_is_legible_holds(colour: str) -> None:
-    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    red, green, blue = (
-        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts
-    )
-    assert 1.05 / (0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.05) >= 4.5
