@@ -4,15 +4,21 @@ is left half-written.
 
 from __future__ import annotations
 
+import io
 import os
 import shlex
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import pytest
+
+from juggleproof.proofs.command import main
 
 ROOT = Path(__file__).resolve().parents[3]
 HEAD = (
@@ -22,17 +28,37 @@ HEAD = (
 )
 
 
-def run(*arguments: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
-    return subprocess.run(
+class Done(NamedTuple):
+    """What a command came to: its exit code and what it wrote."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+def run(*arguments: str) -> Done:
+    """The command in this process, which has imported all that it needs already."""
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        try:
+            code: Any = main.run(arguments)
+        except SystemExit as ended:  # argparse rejects arguments so
+            code = ended.code
+    return Done(code, out.getvalue(), err.getvalue())
+
+
+def run_anew(*arguments: str) -> Done:
+    """The command in a process of its own, which has no search behind it."""
+    done = subprocess.run(
         [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
         capture_output=True,
         text=True,
-        cwd=cwd,
-        env=environment,
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"},
         timeout=240,
         check=False,
     )
+    return Done(done.returncode, done.stdout, done.stderr)
 
 
 def claim_file(folder: Path, body: str, name: str = "mine", more: str = "") -> Path:
@@ -44,13 +70,13 @@ def claim_file(folder: Path, body: str, name: str = "mine", more: str = "") -> P
     return path
 
 
-def certify(path: Path, *more: str) -> subprocess.CompletedProcess[str]:
+def certify(path: Path, *more: str, run: Callable[..., Done] = run) -> Done:
     return run("certify", str(path), "--routes", "exact", "--jobs", "1", *more)
 
 
 def test_true_claim_is_certified_holds(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
-    done = certify(path)
+    done = certify(path, run=run_anew)
     assert done.returncode == 0, done.stderr
     assert "1 holds" in done.stdout
     bare = subprocess.run(
@@ -149,10 +175,10 @@ def test_rejects_store_that_is_a_file(tmp_path: Path) -> None:
 
 def test_second_run_changes_no_byte_holds(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
-    certify(path)
+    certify(path, run=run_anew)
     folder = tmp_path / "mine.certificates"
     before = {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()}
-    certify(path)
+    certify(path, run=run_anew)
     assert {
         file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()
     } == before
@@ -169,7 +195,8 @@ def test_number_of_processes_changes_no_byte_holds(tmp_path: Path) -> None:
     outputs = []
     for jobs in ("1", "2"):
         store = tmp_path / jobs
-        done = run("certify", str(path), "--routes", "exact", "--jobs", jobs, "--store", str(store))
+        more = ("--routes", "exact", "--jobs", jobs, "--store", str(store))
+        done = run_anew("certify", str(path), *more)
         assert done.returncode == 0, done.stderr
         outputs.append(({file.name: file.read_bytes() for file in store.iterdir()}, done.stdout))
     assert outputs[0] == outputs[1]

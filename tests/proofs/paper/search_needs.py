@@ -16,10 +16,12 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import Condition, ring_of
+from juggleproof.certificates.language import Roles
 from juggleproof.certificates.search.certificate import found, search_proof
 from juggleproof.certificates.search.points import as_found_point, assignments
 from juggleproof.certificates.votes.z3 import vote
 from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.paper.names import STANDING
 
 NEEDED, LICENSES, NOT_NEEDED, UNDECIDED = "needed", "licenses a division", "not needed", "undecided"
 BUDGET = 2_000_000
@@ -107,11 +109,23 @@ def is_refuted(text: str, refutation: Any) -> bool:
     )
 
 
+def roles_without(one: Hypothesis) -> Roles:
+    """What the paper's variables stand for, but for a variable that the hypothesis alone bounds:
+    without r > 0, r is no scale that a change of units makes 1.
+    """
+    roles = Roles(STANDING.domains, STANDING.scales)
+    bounded = set(re.findall(r"[A-Za-z]\w*", one.said))
+    if len(bounded) > 1:
+        return roles
+    domains = {} if roles.parameter in bounded else roles.domains
+    return Roles(domains, (roles.scales or frozenset()) - bounded)
+
+
 def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, str, Any]:
     """(need, what fails without the hypothesis if not what is shown, counterexample to that or a
     reason).
     """
-    plain = without(text, one)
+    plain, roles = without(text, one), roles_without(one)
     try:
         statement_of(plain)
     except checker.Rejected as reason:
@@ -120,7 +134,9 @@ def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, 
         return LICENSES, "", None
     for shown, obligation in obligations(plain):
         if len(obligation.splitlines()) > one.row and (
-            refutation := refuted_among(obligation, [negated_in(obligation, one)], budget // 8)
+            refutation := refuted_among(
+                obligation, [negated_in(obligation, one)], roles, budget // 8
+            )
         ):
             return NEEDED, shown, refutation
     opposite = statement_of(without(text, one, f"not ({one.said})"))
@@ -129,15 +145,15 @@ def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, 
         try:
             part = whole.part(whole.left * share // 100)
             if not refutes:
-                if search_proof(opposite, {}, part, effort=effort) is not None:
+                if search_proof(opposite, {}, part, effort=effort, roles=roles) is not None:
                     return NOT_NEEDED, "", None
             elif (
-                refutation := found(opposite, "counterexample", {}, part, effort)
+                refutation := found(opposite, "counterexample", {}, part, effort, roles)
             ) is not None and is_refuted(plain, refutation):
                 return NEEDED, "", refutation
         except Exhausted:
             continue
-    if refutation := refuted_among(plain, list(special(text, one)), budget // 8):
+    if refutation := refuted_among(plain, list(special(text, one)), roles, budget // 8):
         return NEEDED, "", refutation
     return (NOT_NEEDED if is_not_needed(text, one, budget) else UNDECIDED), "", None
 
@@ -147,10 +163,11 @@ def is_not_needed(text: str, one: Hypothesis, budget: int = BUDGET) -> bool:
     hypothesis fails as well.
     """
     opposite, whole = statement_of(without(text, one, f"not ({one.said})")), Budget(budget)
+    roles = roles_without(one)
     for refutes, effort, share in ATTEMPTS:
         part = whole.part(whole.left * share // 100)
         try:
-            if not refutes and search_proof(opposite, {}, part, effort=effort) is not None:
+            if not refutes and search_proof(opposite, {}, part, effort=effort, roles=roles):
                 return True
         except Exhausted:
             continue
@@ -185,7 +202,7 @@ def special(text: str, one: Hypothesis) -> Iterator[str]:
             yield without(text, one, *([first, *units] + ([f"alpha = {alpha}"] if alpha else [])))
 
 
-def refuted_among(plain: str, narrowed: list[str], budget: int) -> Any:
+def refuted_among(plain: str, narrowed: list[str], roles: Roles, budget: int) -> Any:
     """A counterexample to the statement among the points of its narrower forms, by samples and by
     Z3's models.
     """
@@ -205,7 +222,9 @@ def refuted_among(plain: str, narrowed: list[str], budget: int) -> Any:
                 else []
             )
             for form in forms:
-                refutation = refuted_there(statement_of(plain), statement_of(form), Budget(budget))
+                refutation = refuted_there(
+                    statement_of(plain), statement_of(form), roles, Budget(budget)
+                )
                 if refutation is not None and is_refuted(plain, refutation):
                     return refutation
         except (checker.Rejected, Exhausted):
@@ -220,7 +239,9 @@ def with_givens(text: str, givens: list[str]) -> str:
     return "\n".join([*rows[:last], *givens, *rows[last:]])
 
 
-def refuted_there(plain: checker.Statement, narrow: checker.Statement, budget: Budget) -> Any:
+def refuted_there(
+    plain: checker.Statement, narrow: checker.Statement, roles: Roles, budget: Budget
+) -> Any:
     """A counterexample to the plain statement at a point that meets the premises of the narrow one
     and, without `exists`, breaks its goal.
     """
@@ -229,7 +250,8 @@ def refuted_there(plain: checker.Statement, narrow: checker.Statement, budget: B
     condition = Condition.of(story.context, checker.join("and", parts), ring_of(story.context))
     names, integers = list(story.universal), frozenset(story.integers)
     for effort in (0, 1):
-        for assignment in islice(assignments(condition, names, integers, budget, effort), 8):
+        some = assignments(condition, names, integers, budget, effort, roles=roles)
+        for assignment in islice(some, 8):
             refutation = as_found_point(
                 plain,
                 checker.State(checker.Context()),
