@@ -1,5 +1,18 @@
 """What the paper says, as claims; the command that derives, proves and checks them; and the
 language for claims of one's own.
+
+In reading order, each importing those before it only:
+
+- `reading`: a print's LaTeX becomes values and formulas.
+- `claims`, `forms`: an assertion with its place and print, the statements that it makes, its verdict.
+- `encoding`, `derivations`: SymPy expressions as terms that say what made them.
+- `correcting`, `rules`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
+- `judging`: one claim, stated, settled by the checker, corrected, with its sharp range.
+- `register`, `run`: the verdicts that stand; many claims over processes, and what is stored.
+- `bounds`, `kept`: certified enclosures of minima; figures kept between runs.
+- `paper`, `theorem`, `part`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
+- `reports`, `api`: what a run came to, in words, pages and data; the same from Python.
+- `command`, `pytest_plugin`, `pytest_items`: the command line; claims as test items.
 """
 
 from juggleproof.certificates.language import (
