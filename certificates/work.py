@@ -1,4 +1,4 @@
-"""Counted work: every search spends from a budget, so that it ends after the same work on every."""
+"""Counted work, and statements unfolded once: what all searches share."""
 
 from __future__ import annotations
 
@@ -83,8 +83,8 @@ def unfolded(statement: checker.Statement, sharp: list[Any] | None = None) -> ch
     changed.
 
     >>> text = "statement a/b\\nforall x\\ngiven x > 1\\nshow x > 0"
-    >>> story = unfolded(checker.read_statements(text)["a/b"])
-    >>> story.universal, len(story.premises)
+    >>> unfolding = unfolded(checker.read_statements(text)["a/b"])
+    >>> unfolding.universal, len(unfolding.premises)
     (['x'], 1)
     """
     key = (id(statement), *map(id, sharp or ()))

@@ -1,25 +1,18 @@
 """What the paper says, as claims; the command that derives, proves and checks them; and the
 language for claims of one's own.
 
-    encoding              SymPy expressions as terms
-    forms                 claims as statements: for all, there is, maximum, supremum
-    claims                a claim, its body and its verdict
-    reading               the reader of prints
-    paper, theorem, part  the claims, section by section
-    ledger                what the paper prints, item by item
-    derivations           what a claim rests on in `symbolic`
-    rules                 what follows from map rules
-    ranges                sharp ranges
-    correcting            the correction of a refuted print
-    judging               the verdict of one claim
-    kept                  what is kept between runs
-    register              the verdicts that stand
-    run                   many claims over processes
-    bounds                certified enclosures of minima
-    smtlib                problems in SMT-LIB
-    reports               reports of what was proved
-    api, pytest_plugin    certify from Python and in pytest
-    command               the command `juggleproof`
+In reading order, each importing those before it only:
+
+- `reading`: a print's LaTeX becomes values and formulas.
+- `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
+- `encoding`, `derivations`: SymPy expressions as terms that say what made them.
+- `correcting`, `rules`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
+- `judging`: one claim, stated, settled by the checker, corrected, with its sharp range.
+- `register`, `run`: the verdicts that stand; many claims over processes, and what is stored.
+- `bounds`, `kept`: certified enclosures of minima; figures kept between runs.
+- `paper`, `theorem`, `part`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
+- `reports`, `api`: what a run came to, in words, pages and data; the same from Python.
+- `command`, `pytest_plugin`, `pytest_items`: the command line; claims as test items.
 """
 
 from juggleproof.certificates.language import (

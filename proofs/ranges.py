@@ -101,10 +101,11 @@ def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
     """A range over several parameters as a person reads it: solved for the first, or its condition,
     or that it is everything or nothing.
 
-    >>> alpha, size = real("alpha"), real("eps")
-    >>> domain = (alpha > 0) & (size > 0)
-    >>> told_plainly(SharpRange("x/sharp", (), ("alpha", "eps"), domain, alpha**2 * size > 1))
-    'alpha^2*eps > 1'
+    >>> from juggleproof.certificates.language import reals
+    >>> a, size = reals("a eps")
+    >>> domain = (a > 0) & (size > 0)
+    >>> told_plainly(SharpRange("x/sharp", (), ("a", "eps"), domain, a**2 * size > 1))
+    'a^2*eps > 1'
     """
     text = str(statement.condition)
     plain = {

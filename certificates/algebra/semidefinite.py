@@ -23,6 +23,9 @@ from juggleproof.certificates.work import Budget
 # An infeasible primal-dual interior-point method (Helmberg, Rendl, Vanderbei and Wolkowicz 1996;
 # Kojima, Shindoh and Hara 1997). Its steps are counted, so that it ends after the same work
 # everywhere.
+#
+# Clarabel 0.11 was measured in its place: the same verdicts, 0.12 s against 0.67 s for 26 programs;
+# but it needs SciPy, 143 MB and 0.14 s a process, and its LAPACK too is the machine's.
 
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 DUAL_STEPS = 60

@@ -176,7 +176,7 @@ def found(
     known: dict[str, checker.Statement],
     budget: Budget,
     effort: int,
-    roles: Roles,
+    roles: Roles = NO_ROLES,
 ) -> list[Any] | None:
     """A point or counterexample of the statement."""
     return search_found(

@@ -1,5 +1,5 @@
-"""Points where a polynomial is small on a box, found in floating point: nothing here is
-believed,.
+"""A lower bound of a polynomial on a box with its proof, near the value at a point that is found in
+floating point.
 """
 
 from __future__ import annotations

@@ -182,8 +182,17 @@ class Block:
 
 
 class Products:
-    """Products of the same number of facts: what stands in each as rows of keys and values, one
-    after another.
+    """All products of n of the given facts, repetitions allowed, their terms one after another.
+
+    Shapes, for P products with T terms in all and F facts with S terms in all:
+
+    - `places` (P, n): the facts of every product, by their numbers among the given ones, ascending;
+    - `strict` (P,): whether a product is positive, not only not negative;
+    - `widths` (P,): how many terms each has; their sum is T;
+    - `at`, `keys`, `values` (T,): of every term its product, its monomial's key, its coefficient;
+    - `lengths`, `others`, `own_strict` (F,), `own_keys`, `own_values` (S,): the same of the facts.
+
+    Equal monomials of one product are left apart.
     """
 
     def __init__(self, problem: Problem, others: list[int], packing: Packing) -> None:
@@ -193,19 +202,18 @@ class Products:
         self.own_values = np.concatenate([np.zeros(0), *(values for _, values in rows)])
         self.own_strict = np.array([problem.facts[k].strict for k in others], dtype=bool)
         self.others = np.array(others, dtype=np.int64)
-        self.places = np.zeros(
-            (1, 0), np.int64
-        )  # the facts of every product, by their places among the others
+        self.places = np.zeros((1, 0), np.int64)  # one product, of no facts: it is 1
         self.strict: Mask = np.ones(1, dtype=bool)
         self.at, self.keys, self.values = np.zeros(1, np.int64), np.zeros(1, np.int64), np.ones(1)
         self.widths = np.ones(1, np.int64)
 
     @property
     def chosen(self) -> Keys:
-        """The facts of every product."""
+        """The facts of every product by their numbers in the problem, of the shape (P, n)."""
         return self.others[self.places]
 
     def _changed(self, places: Keys, strict: Mask, at: Keys, keys: Keys, values: Any) -> Products:
+        """Other products of the same facts."""
         new = object.__new__(Products)
         new.__dict__.update(self.__dict__)
         new.places, new.strict, new.at, new.keys, new.values = places, strict, at, keys, values
@@ -213,7 +221,11 @@ class Products:
         return new
 
     def times_facts(self) -> Products:
-        """The products with one fact more, each once."""
+        """The products with one fact more, each once: the new fact is none before the last one.
+
+        For every new product `old` and `fact` name its two parts; for every new term `at` names its
+        product, `here` the term of the old product and `there` that of the fact.
+        """
         last = self.places[:, -1] if self.places.shape[1] else np.zeros(len(self.places), np.int64)
         counts = len(self.others) - last
         old = np.repeat(np.arange(len(last)), counts)
@@ -221,7 +233,7 @@ class Products:
         lengths = self.lengths[fact]
         whole = self.widths[old] * lengths
         at, inner = np.repeat(np.arange(len(old)), whole), counted(whole)
-        here, there = np.divmod(inner, lengths[at])
+        here, there = np.divmod(inner, lengths[at])  # within the old product, and the fact
         here += (np.cumsum(self.widths) - self.widths)[old[at]]
         there += (np.cumsum(self.lengths) - self.lengths)[fact[at]]
         return self._changed(
@@ -233,7 +245,7 @@ class Products:
         )
 
     def only(self, kept: Mask) -> Products:
-        """Some of the products."""
+        """The products where `kept`, of the shape (P,), is true."""
         if kept.all():
             return self
         inside = kept[self.at]
@@ -247,7 +259,7 @@ class Products:
         )
 
     def times_row(self, row: Row) -> Products:
-        """All of the products times one polynomial."""
+        """All of the products times one polynomial, given as keys and coefficients."""
         at = np.repeat(self.at, len(row[0]))
         return self._changed(
             self.places,
@@ -259,7 +271,11 @@ class Products:
 
 
 def counted(counts: Keys) -> Keys:
-    """0, 1, .., c - 1 for every count c in turn."""
+    """0, 1, .., c - 1 for every count c in turn.
+
+    >>> counted(np.array([2, 0, 3])).tolist()
+    [0, 1, 0, 1, 2]
+    """
     return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 

@@ -31,9 +31,8 @@ class Program:
     """
 
     def __init__(self) -> None:
-        self.places: list[
-            Any
-        ] = []  # of every block, the columns, monomials and values of its entries
+        # of every block of columns an array each: the columns, monomials and values of its entries
+        self.places: list[Any] = []
         self.keys: list[Any] = []
         self.values: list[Any] = []
         self.strict: list[Any] = []  # an array for every block
@@ -44,8 +43,10 @@ class Program:
         self.columns = 0
 
     def add(self, places: Any, keys: Any, values: Any, strict: Any, costs: Any) -> None:
-        """Columns that may be used with positive coefficients; `places` counts them from the first
-        of these.
+        """n columns that may be used with positive coefficients, with N entries in all.
+
+        Shapes: `places` (the entry's column, counted from the first of these), `keys` (its
+        monomial) and `values` (N,); `strict` and `costs` (n,).
         """
         self._entries(places, keys, values)
         self.strict.append(strict)
@@ -54,8 +55,8 @@ class Program:
         self.columns += len(strict)
 
     def add_free(self, count: int, keys: Any, values: Any) -> None:
-        """Columns with the same number of entries that may be used with any coefficients; these
-        come last.
+        """`count` columns that may be used with any coefficients, with the same number of entries,
+        one column's after another's in `keys` and `values` (N,); these come last.
         """
         self._entries(np.repeat(np.arange(count), len(keys) // max(1, count)), keys, values)
         self.columns += count

@@ -31,12 +31,13 @@ from juggleproof.certificates.votes.spans import (
 
 
 def solve_equations(
-    names: tuple[str, ...], facts: Sequence[Atom]
+    names: tuple[str, ...], facts: Sequence[Atom], bounds: Sequence[Bounds] | None = None
 ) -> tuple[list[Atom], list[Step]] | None:
     """The facts without the variables that an equation among them gives, and the eliminations in
     order; None where the facts contradict each other.
 
-    Formula: lead * variable = rest with lead > 0 by other facts, which the facts left imply.
+    Formula: lead * variable = rest with lead > 0 by other facts, or on the box of the bounds, which
+    holds all points at which the facts hold.
     """
     equations = [(k, fact.poly) for k, fact in enumerate(facts) if fact.relation == "="]
     if not equations:
@@ -46,6 +47,9 @@ def solve_equations(
         for k, fact in enumerate(facts)
         if fact.relation in (">", "!=")
     ]
+    for _, poly in equations if bounds is not None else ():
+        for factor in _positive_factors(poly, intervals(bounds or ())):
+            signed.append(Signed(len(facts) + len(signed), factor, True))
     reduction = Reduction(Ring(names, Ordering.lex), equations, signed)
     if reduction.contradiction is not None:
         return None
@@ -60,14 +64,23 @@ def solve_equations(
     return list(dict.fromkeys(f for f in left if isinstance(f, Atom))), reduction.steps
 
 
+def _positive_factors(poly: fmpz_mpoly, box: Sequence[Interval]) -> Iterator[fmpz_mpoly]:
+    """The factors of leads of the equation, or their negatives, that are positive on the box."""
+    for i, degree in enumerate(poly.degrees()):
+        for factor, _ in poly.derivative(i).factor()[1] if degree == 1 else ():
+            for signed in (factor, -factor):
+                if upper_end(-signed, box) < ZERO:
+                    yield signed
+
+
 def reduce_factors(
     facts: Sequence[Atom], bounds: Sequence[Bounds] | None = None
 ) -> list[Atom] | None:
     """Facts that follow from the given ones and are simpler; None where they contradict each other.
 
     Formula: p = f q > 0 with f > 0 or f >= 0 among the facts (or on the box) gives q > 0; p = f q
-    >= 0 with f > 0 gives q >= 0; p = f^2 q > 0 gives q > 0.  Source: flint's factorization over the
-    integers.
+    >= 0 with f > 0 gives q >= 0; p = f^2 q > 0 gives q > 0; p = f q = 0 with f > 0 gives q = 0.
+    Source: flint's factorization over the integers.
     """
     current, box = list(dict.fromkeys(facts)), intervals(bounds) if bounds is not None else None
     for _ in range(4):
@@ -88,9 +101,13 @@ def reduce_factors(
 
 
 def _simplified(fact: Atom, signs: Sequence[Atom], box: Sequence[Interval] | None) -> Formula:
-    if fact.relation not in (">", ">="):
+    if fact.relation == "!=":
         return fact
     constant, factors = factorization(fact.poly)
+    if fact.relation == "=":
+        one = fact.poly.context().constant(1)
+        left = (f for f, _ in factors if not _known_sign(f, signs, box, "="))
+        return atom(prod(left, start=one), "=")
     if len(factors) == 1 and factors[0][1] == 1:
         return fact
     positive, kept = constant > 0, list[tuple[fmpz_mpoly, int]]()
@@ -276,7 +293,7 @@ def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:
     current, solved = list(facts), list[Step]()
     bounds: list[Bounds] | None = None
     for _ in range(2):
-        solution = solve_equations(names, current)
+        solution = solve_equations(names, current, bounds)
         reduced = reduce_factors(solution[0], bounds) if solution is not None else None
         if solution is None or reduced is None:
             return None

@@ -1,4 +1,4 @@
-"""A statement as questions."""
+"""A statement as the questions that decide it: formulas over the signs of integer polynomials."""
 
 from __future__ import annotations
 
@@ -23,8 +23,6 @@ from juggleproof.certificates.work import unfolded
 
 # -------------------------------------------------------------------------------------------------
 # Formulas over the signs of integer polynomials: what the routes decide.
-
-OPPOSITE = {">": "<=", ">=": "<", "=": "!=", "!=": "=", "<": ">=", "<=": ">"}
 
 
 @dataclass(frozen=True)

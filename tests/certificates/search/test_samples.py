@@ -88,7 +88,7 @@ def test_sums_of_quotients_have_the_sum_of_their_values(
     p, q = Quotient.reduced(top, 1 + other * other), Quotient.reduced(more, RING.constant(3))
     values = [one.within(point) for one in (p, q, p.plus(q))]
     assert None not in values and values[0] + values[1] == values[2]
-    assert p.mark() == Quotient.reduced(top * (2 + A), (1 + other * other) * (2 + A)).mark()
+    assert p.key() == Quotient.reduced(top * (2 + A), (1 + other * other) * (2 + A)).key()
 
 
 def test_z3_spends_the_same_however_many_questions_came_before() -> None:

@@ -278,6 +278,21 @@ def test_a_lead_that_other_facts_make_positive_is_divided_by() -> None:
     assert one.reduced(polynomial("v + a", "t v a")) is None  # no polynomial in t and a
 
 
+def test_a_lead_that_is_positive_on_the_box_is_divided_by() -> None:
+    one = region("a b", "given 0 < a and a < 1/3 and b*(a + 1)^2 = 4*a", "given b > 1/2")
+    assert one.used() == [0]
+    assert one.complete([F(1, 4), F(0)]) == [F(1, 4), F(16, 25)]
+
+
+def test_a_factor_of_an_equation_that_may_vanish_stays() -> None:
+    rows = ("forall x y", "given x >= 0", "given x^2 - 4 = 0", "given (x - 2)*y = 0")
+    found = facts(*rows)
+    inside = reduce_factors(found, bounding_box(found, 2))
+    assert inside is not None
+    assert [str(f) for f in inside] == ["x >= 0", "x - 2 = 0", "x*y - 2*y = 0"]
+    assert str((reduce_factors(found) or found)[1]) == "x^2 - 4 = 0"  # no box, no sign
+
+
 def test_without_its_sign_a_lead_is_not_divided_by() -> None:
     rows = ("given t*v = 1 - a^2", "given v >= 2", "given 0 < a and a < 1/2")
     found = goal("forall t v a", *rows, "given -1 <= t and t <= 1", "show 0 = 1")

@@ -101,3 +101,18 @@ def test_every_kind_of_claim_is_explained_holds(capsys: pytest.CaptureFixture[st
         assert explain.explain(claim.id) == 0
         told = capsys.readouterr().out
         assert claim.id in told and "verdict" in told and "Term(" not in told, claim.id
+
+
+@pytest.mark.parametrize("number", ["37", "(37)", "eq 37"])
+def test_a_claim_is_explained_by_the_papers_number_holds(
+    number: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert explain.explain(number) == 0
+    assert capsys.readouterr().out.startswith("eq-37   section A.2 (37)\n")
+
+
+def test_rejects_a_claim_that_is_not_there_with_what_may_be_meant() -> None:
+    with pytest.raises(ClaimError, match="sA.3.2-sup: no such claim; did you mean sA.3.2-sup1"):
+        explain.explain("sA.3.2-sup")
+    with pytest.raises(ClaimError, match="`juggleproof list` names them"):
+        explain.explain("(370)")

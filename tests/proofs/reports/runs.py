@@ -56,10 +56,12 @@ def own(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Resu
 
 
 @cache
-def paper_run() -> Run:
+def paper_run() -> tuple[Run, str]:
+    """A run on a copy of the store, and its line about the theorem."""
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(DEFAULT, Path(folder) / "store")
-        return run(paper_claims(), Options(Path(folder) / "store", jobs=1))
+        done = run(paper_claims(), Options(Path(folder) / "store", jobs=1))
+        return done, theorem_of_run(done)
 
 
 @cache
@@ -68,15 +70,21 @@ def contents() -> Contents:
 
 
 def paper(register: Mapping[str, Mapping[str, Any]] | None = None, **more: Any) -> Results:
-    return _results(paper_run(), load_register() if register is None else register, **more)
+    done, theorem = paper_run()
+    return _results(done, load_register() if register is None else register, theorem, **more)
 
 
-def _results(done: Run, register: Mapping[str, Mapping[str, Any]] | None, **more: Any) -> Results:
+def _results(
+    done: Run,
+    register: Mapping[str, Mapping[str, Any]] | None,
+    theorem: str = "",
+    **more: Any,
+) -> Results:
     return results_of_run(
         done.claims,
         done.judgements,
         register,
-        theorem="" if register is None else theorem_of_run(done),
+        theorem=theorem,
         rejected=more.pop("rejected", done.rejected),
         **more,
     )
