@@ -59,9 +59,9 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
     for one in derivations_of(body):
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(body)}")
-    for name, text in store.texts.items():
+    for name in store.texts:
         if name.split("/")[0] == claim_id:
-            _statement(name, text, store)
+            _statement(name, store.texts[name], store)
     entry = load_register().get(claim_id, {})
     print(f"sharp range {entry.get('sharp', 'none: the claim has no range of alpha to settle')}")
     if "correction" in entry:

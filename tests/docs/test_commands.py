@@ -21,7 +21,7 @@ from juggleproof.certificates.store import DEFAULT
 from tests.docs.pages import PAGES, ROOT, blocks, code, name
 
 PROGRAMS = {
-    "juggleproof": [sys.executable, "-m", "proofs.command.main"],
+    "juggleproof": [sys.executable, "-m", "juggleproof.proofs.command.main"],
     "python": [sys.executable],
     "pytest": [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"],
 }
@@ -42,6 +42,14 @@ SMALLER = {
 ELSEWHERE = {
     "make certify": (".ci/run", "make -s certify"),
     "make test": (".ci/run", "make test"),
+    "juggleproof certify": (".ci/run", "juggleproof certify --jobs"),
+    **{
+        f"juggleproof report --format {form} -o DIR": (
+            ".ci/run",
+            "for format in html latex markdown json badge figures pdf;",
+        )
+        for form in ("latex", "markdown", "json", "figures")
+    },
     "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
     "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
 }

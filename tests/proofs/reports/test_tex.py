@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command import report, show
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import gather
@@ -123,8 +124,10 @@ def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
 
 
 def test_rejects_an_equation_that_the_paper_does_not_print(
+    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
+    monkeypatch.setattr(show, "gather", contents)
     assert run(["export", "latex", "theorem"]) == 2
     assert "theorem has no printed formula" in capsys.readouterr().err
     assert run(["export", "latex", "no-such"]) == 2
@@ -178,6 +181,7 @@ def test_the_sources_are_written_where_latexmk_is_absent_holds(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
+    monkeypatch.setattr(report, "gather", contents)
     monkeypatch.setattr(shutil, "which", lambda name: None)
     assert run(["report", "--format", "pdf", "-o", str(tmp_path / "out")]) == 2
     assert (
