@@ -194,7 +194,7 @@ def _is_negative(expr: Term) -> bool:
     """Whether a sign comes first: that of a factor is written, and read, as that of the product."""
     while expr.op in ("*", "/"):
         expr = expr.args[0]
-    return expr.op == "neg"
+    return expr.op == "neg" or expr.op == "num" and expr.args[0] < 0
 
 
 def _opposite(expr: Term) -> Term:
@@ -202,6 +202,8 @@ def _opposite(expr: Term) -> Term:
     if expr.op == "neg":
         inner: Term = expr.args[0]
         return inner
+    if expr.op == "num":
+        return Term("num", -expr.args[0])
     return Term(expr.op, _opposite(expr.args[0]), expr.args[1])
 
 

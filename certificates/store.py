@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tempfile
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -70,6 +71,7 @@ def certificate_lines(certificates: Mapping[str, Any]) -> bytes:
     return b"".join(canonical([name, certificates[name]]) for name in sorted(certificates))
 
 
+UNPRINTABLE = re.compile(r"[^ -~]")
 IGNORED = ("#", "define ")  # lines of a block that are no part of its statement
 
 
@@ -180,8 +182,14 @@ def statement_file(
 
 
 def comment(text: str) -> str:
-    """The lines of a text, each a comment of the statement file."""
-    return "\n".join(f"# {line}".rstrip() for line in text.splitlines())
+    r"""The lines of a text, each a comment of the statement file, which is printable ASCII only.
+
+    >>> print(comment("alpha\u00b2\ndefine x := 1"))
+    # alpha\xb2
+    # define x := 1
+    """
+    lines = (ascii(line)[1:-1] if not line.isascii() else line for line in text.splitlines())
+    return "\n".join(f"# {re.sub(UNPRINTABLE, '?', line)}".rstrip() for line in lines)
 
 
 def write_store(

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.store import CERTIFICATES
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown, needed
 from juggleproof.proofs.reports.errata import GROUPS, said_there
@@ -90,7 +91,7 @@ def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) ->
         votes,
         text if whole or len(text) <= LONGEST else "",
         len(text),
-        f"certificates/store/{shown.name.partition('/')[0]}.json",
+        f"certificates/store/{CERTIFICATES}",
     )
 
 

@@ -20,8 +20,10 @@ from juggleproof.certificates.definitions import (
     shortened,
     term_of,
 )
-from juggleproof.certificates.language import ClaimError, Term, reals
+from juggleproof.certificates.language import ClaimError, Term, reals, term
 from juggleproof.certificates.store import DEFAULT, STATEMENTS, Store, WrittenOut, statement_file
+from juggleproof.proofs.claims import assertions, named_statements
+from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import definitions
 
 a, b, g, x, y = reals("a b g x y")
@@ -95,7 +97,7 @@ def test_other_lines_stay_as_they_are_holds(line: str) -> None:
 
 
 terms = st.recursive(
-    st.sampled_from([a, b, g, x, y]) | st.integers(0, 3).map(lambda n: n * (a - a + 1)),
+    st.sampled_from([a, b, g, x, y]) | st.fractions(-3, 3, max_denominator=4).map(term),
     lambda inner: st.one_of(
         st.tuples(inner, inner).map(lambda p: p[0] + p[1]),
         st.tuples(inner, inner).map(lambda p: p[0] - p[1]),
@@ -158,3 +160,16 @@ def test_statements_that_are_held_are_taken_as_they_stand_holds() -> None:
 def test_a_body_that_is_itself_shortened_holds() -> None:
     assert defining_lines(ALL)[-1] == "define inside(x, y) over g := x >= 0 and E(x, y) > 0"
     assert str(shortened(x >= 0, ALL)) == "x >= 0"
+
+
+def test_what_the_sources_write_is_what_the_store_holds_holds() -> None:
+    """To the letter: else a stored certificate would not be found again."""
+    texts = Store(DEFAULT).texts
+    written = [
+        part
+        for claim in paper_claims()
+        for prefix, assertion in assertions(claim.body())
+        for part in named_statements(claim.id, prefix, assertion)
+    ]
+    assert len(written) > 600
+    assert [part.name for part in written if texts[part.name] != part.text()] == []

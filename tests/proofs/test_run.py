@@ -121,7 +121,7 @@ def some(tmp_path: Path) -> Path:
     texts = [
         block
         for block in (DEFAULT / "statements.txt").read_text(encoding="utf-8").split("\n\n")
-        if block.startswith("statement s2.2.1")
+        if block.startswith("statement s2.2.1") or "\ndefine " in block
     ]
     (tmp_path / "some").mkdir()
     (tmp_path / "some" / "statements.txt").write_text("\n\n".join(texts) + "\n", encoding="utf-8")

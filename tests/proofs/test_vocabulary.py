@@ -25,7 +25,7 @@ from juggleproof.certificates.language import (
 from juggleproof.certificates.search.scales import with_scales
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import Vocabulary, always, domains_of
-from juggleproof.proofs.judging import Judgement, Options, judge
+from juggleproof.proofs.judging import Judgement, Resources, judge
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import STANDING
 
@@ -44,7 +44,7 @@ def judged(*statements: Statement, **said: Any) -> Judgement:
     """The judgement on a claim of one's own."""
     parts = [one.named(f"part-{k}") for k, one in enumerate(statements)]
     claim = Claim("own", "", "", "says", lambda: Assertion(tuple(parts)), **said)
-    return judge(claim, Options(routes=("exact",)))
+    return judge(claim, Resources(routes=("exact",)))
 
 
 def scales(show: Formula, given: Sequence[Formula], roles: Roles = NO_ROLES) -> set[str]:
@@ -69,7 +69,7 @@ def test_a_claim_has_one_sharp_range_however_it_is_spelled_holds(
         if among == "range lines"
         else always(parameter * other < 1, given=[*domain, *bounds])
     )
-    assert found.sharp[""]["text"] == f"0 < {parameter} <= 1/3"
+    assert found.sharp[""].text == f"0 < {parameter} <= 1/3"
     assert found.outcomes["own/sharp"] == "certified"
 
 
@@ -148,7 +148,7 @@ def test_a_claim_names_its_parameters_holds() -> None:
     both = [a > 3, a < 4, q > 2, q < 5]
     assert texts(always(a * q > 10, given=both), named=("q",)) == {"q": ["q > 2", "q < 5"]}
     found = judged(always(a * q > 10, given=both), parameters=("q",))
-    assert found.sharp[""]["text"] == "10/3 <= q < 5"
+    assert found.sharp[""].text == "10/3 <= q < 5"
 
 
 def test_no_range_is_sought_over_no_parameter_holds() -> None:
@@ -156,14 +156,14 @@ def test_no_range_is_sought_over_no_parameter_holds() -> None:
 
 
 def test_a_domain_without_an_end_holds() -> None:
-    assert judged(always(a * q > 10, in_range=[a > 1], given=[q > 2])).sharp[""]["text"] == "a >= 5"
+    assert judged(always(a * q > 10, in_range=[a > 1], given=[q > 2])).sharp[""].text == "a >= 5"
 
 
 def test_vocabulary_says_the_domain_holds() -> None:
     wide = Vocabulary(domains={"a": (a > 0, a < 1)}, scales=frozenset())
     part = always(3 * a < 1, in_range=[4 * a < 1, a > 0])
-    assert judged(part, vocabulary=wide).sharp[""]["text"] == "0 < a < 1/3"
-    assert judged(part).sharp[""]["text"] == "0 < a < 1/4"
+    assert judged(part, vocabulary=wide).sharp[""].text == "0 < a < 1/3"
+    assert judged(part).sharp[""].text == "0 < a < 1/4"
 
 
 def test_every_claim_of_the_paper_has_the_papers_parameter_holds() -> None:
@@ -209,10 +209,10 @@ def test_a_vocabulary_without_scales_is_asked_before_homogeneity_holds() -> None
 def test_range_fails_without_the_bounds_of_what_looks_like_a_unit() -> None:
     bounded = judged(always(a * r < 1, in_range=[a > 0, a < 1], given=[r > 2, r < 3]))
     free = judged(always(a * r < 1, in_range=[a > 0, a < 1], given=[r > 0]))
-    assert bounded.sharp[""]["text"] == "0 < a <= 1/3"
-    assert free.sharp[""]["text"] == "nowhere"
+    assert bounded.sharp[""].text == "0 < a <= 1/3"
+    assert free.sharp[""].text == "nowhere"
 
 
 def test_equation_with_a_scale_holds() -> None:
     found = judged(always(v <= r, in_range=[a > 0, a < 1], given=[r > 0, equal(v, 3 * a * r)]))
-    assert found.sharp[""]["text"] == "0 < a <= 1/3"
+    assert found.sharp[""].text == "0 < a <= 1/3"

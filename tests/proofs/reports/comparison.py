@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from hashlib import sha256
-from pathlib import Path
 from random import Random
 
+from juggleproof.certificates.store import DEFAULT, Store
 from tests.proofs.reports.latex_reader import read
 from tests.proofs.reports.nodes import (
     Formula,
@@ -29,7 +29,6 @@ from tests.proofs.reports.statement_text import evaluate_statement_text, read_st
 # -------------------------------------------------------------------------------------------------
 # The terms and formulas that the stored statements hold, each once: what reports print.
 
-STATEMENTS = Path(__file__).resolve().parents[3] / "certificates" / "store" / "statements.txt"
 SAYING = (
     "range given have with show domain holds space rank stage on rate radius size point weights"
     " start".split()
@@ -38,7 +37,7 @@ SAYING = (
 
 def texts() -> list[str]:
     found: dict[str, None] = {}
-    for line in STATEMENTS.read_text(encoding="utf-8").splitlines():
+    for line in "\n".join(Store(DEFAULT).texts.values()).splitlines():
         keyword, _, rest = line.strip().partition(" ")
         if keyword == "let":
             found[rest.split(" = ")[1]] = None
