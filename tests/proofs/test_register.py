@@ -7,7 +7,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,12 +16,25 @@ from xml.etree import ElementTree
 import pytest
 
 from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command import certify
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.register import PATH, Change, load_register
+from juggleproof.proofs.run import Options, Progress, Run
+from juggleproof.proofs.run import run as run_of_claims
 from tests.proofs.reports.runs import FALSE, HOLDS, file_with
 
 Certify = Callable[..., int]
+
+
+RUNS: dict[tuple[str, ...], Run] = {}
+
+
+def judged(claims: Sequence[Claim], options: Options, progress: Progress) -> Run:
+    """The run of these claims of the paper, judged once: it does not depend on the register."""
+    if options.only not in RUNS:
+        RUNS[options.only] = run_of_claims(claims, options, progress)
+    return RUNS[options.only]
 
 
 @pytest.fixture
@@ -34,6 +47,7 @@ def with_register(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[
             content if isinstance(content, str) else json.dumps(content), encoding="utf-8"
         )
         monkeypatch.setattr(certify, "certify", partial(certify.certify, register=register))
+        monkeypatch.setattr(certify, "run", judged)
         shutil.copytree(DEFAULT, tmp_path / "store")
         return lambda *more: run(
             ["certify", "--jobs", "1", "--store", str(tmp_path / "store"), *more]
