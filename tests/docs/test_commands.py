@@ -21,7 +21,7 @@ from juggleproof.certificates.store import DEFAULT
 from tests.docs.pages import PAGES, ROOT, blocks, code, name
 
 PROGRAMS = {
-    "juggleproof": [sys.executable, "-m", "proofs.command.main"],
+    "juggleproof": [sys.executable, "-m", "juggleproof.proofs.command.main"],
     "python": [sys.executable],
     "pytest": [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"],
 }
