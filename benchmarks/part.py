@@ -150,12 +150,10 @@ def plot(
     scattered: Sequence[tuple[int, float, float]],
 ) -> None:
     """Error against cost over tolerances, and scatter against the number of parts."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    matplotlib.rcParams["svg.hashsalt"] = "part"
     from matplotlib import pyplot
 
+    pyplot.switch_backend("Agg")
+    pyplot.rcParams["svg.hashsalt"] = "part"
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
     left.loglog(
         [cost for _, _, cost in errors], [error for _, error, _ in errors], "o-", color="#0072b2"

@@ -17,6 +17,8 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from rich.console import Console
+
 from juggleproof.benchmarks.peers import CVC5, has_cvc5, z3_command
 from juggleproof.benchmarks.processes import Clock
 from juggleproof.certificates.language import ClaimError
@@ -105,8 +107,6 @@ def peers() -> list[str]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the set as the options say."""
-    from rich.console import Console
-
     parser = argparse.ArgumentParser(prog="python -m juggleproof.benchmarks.problems")
     parser.add_argument("--accept", action="store_true")
     parser.add_argument("--votes", type=float, default=0.0, metavar="SECONDS")

@@ -4,7 +4,8 @@ seconds.  In reading order:
     answers    what a method is asked, and what it answers
     questions  the questions about energy, from the derived expressions
     orbits     orbits and ensembles as work
-    numerics   methods in interval arithmetic and in floating point
+    numerics   methods in interval arithmetic
+    floats     methods in floating point
     solvers    methods that ask Z3, cvc5, QEPCAD B or Coq
     methods    our method, and the table of all methods
     child      one method on one piece of work, in a process of its own

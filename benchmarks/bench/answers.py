@@ -1,5 +1,5 @@
-"""What a method is asked, a supremum on a box; what it answers; and a point where the supremum is
-nearly attained.
+"""What a method is asked: a supremum on a box, an orbit, an ensemble; what it answers; and a point
+where the supremum is nearly attained.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from typing import Any
 from juggleproof.certificates.search.small_boxes import Exponents, Terms, simple_points, value_at
 
 # -------------------------------------------------------------------------------------------------
-# Questions as plain data, which a process of its own can read without SymPy: the least upper bound
-# of a fraction of polynomials on a box.
+# Questions as plain data, which a process of its own can read without SymPy and NumPy: the least
+# upper bound of a fraction of polynomials on a box, orbits, and ensembles.
 
 
 @dataclass(frozen=True)
@@ -138,6 +138,24 @@ def horner(terms: Terms, names: Sequence[str], write: Callable[[Fraction], str])
         inside = horner(rest, names, write)
         parts.append(f"{names[0]}*{inside}" if inside.isalnum() else f"{names[0]}*({inside})")
     return " + ".join(parts)
+
+
+@dataclass(frozen=True)
+class Start:
+    """An orbit: restitution and starting state, in normal form."""
+
+    name: str
+    title: str
+    alpha: Fraction
+    x: Fraction
+    w: Fraction
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """Random states for one alpha, all followed for as many periods."""
+
+    alpha: Fraction = Fraction(3, 10)
 
 
 # -------------------------------------------------------------------------------------------------

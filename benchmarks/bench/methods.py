@@ -1,7 +1,7 @@
 """Our method, and the table of all methods: what each is worth, its code, and what it needs.
 
-Loading this file loads no library that a method may lack or that takes long: their code imports
-them where it runs.
+Loading this file loads no library that a method may lack or that takes long: a method loads its
+own with its first answer.
 """
 
 from __future__ import annotations
@@ -11,10 +11,11 @@ import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Literal
 
-from juggleproof.benchmarks.bench import numerics, orbits, solvers
+from juggleproof.benchmarks.bench import numerics, solvers
 from juggleproof.benchmarks.bench.answers import (
     SHARE,
     Answer,
@@ -113,6 +114,16 @@ class Method:
     peer: bool = False
 
 
+def later(place: str) -> Callable[[Any, Fraction], Any]:
+    """The function that stands at "file:name" of this folder; its file is loaded when it is
+    called.
+    """
+    file, _, name = place.partition(":")
+    return lambda work, size: getattr(import_module(f"juggleproof.benchmarks.bench.{file}"), name)(
+        work, size
+    )
+
+
 def has(module: str) -> Callable[[], bool]:
     """Whether a Python module is there, without loading it."""
     return lambda: find_spec(module) is not None
@@ -202,12 +213,12 @@ METHODS = {
             _qepcad,
             peer=True,
         ),
-        Method("sampling", "float sampling", "no proof", numerics.sampling),
+        Method("sampling", "float sampling", "no proof", later("floats:sampling")),
         Method(
             "scipy",
             "scipy.optimize",
             "no proof",
-            numerics.scipy_optimize,
+            later("floats:scipy_optimize"),
             SCIPY,
             has("scipy"),
         ),
@@ -216,22 +227,24 @@ METHODS = {
 ORBITS = {
     one.name: one
     for one in (
-        Method("exact", "exact rationals", "rigorous", orbits.exact),
+        Method("exact", "exact rationals", "rigorous", later("orbits:exact")),
         Method(
             "enclosed",
             "Arb balls",
             "rigorous",
-            orbits.enclosed,
+            later("orbits:enclosed"),
             "python-flint (pip install python-flint)",
             has("flint"),
         ),
-        Method("fast", "float64 with a proved bound", "rigorous", orbits.fast),
-        Method("mp", "mpmath, 50 digits", "no proof", orbits.mp),
-        Method("floats", "float64 alone", "no proof", orbits.floats),
+        Method("fast", "float64 with a proved bound", "rigorous", later("orbits:fast")),
+        Method("mp", "mpmath, 50 digits", "no proof", later("orbits:mp")),
+        Method("floats", "float64 alone", "no proof", later("orbits:floats")),
     )
 }
 ENSEMBLE = {
-    "ensemble": Method("ensemble", "float64 with proved bounds", "rigorous", orbits.ensemble)
+    "ensemble": Method(
+        "ensemble", "float64 with proved bounds", "rigorous", later("orbits:ensemble")
+    )
 }
 QUICK = ("bernstein", "arb", "z3", "z3-once", "sampling")
 GROWTH = ("bernstein", "arb", "mpmath", "z3-once")  # measured as the number of variables grows

@@ -1,28 +1,22 @@
-"""Methods that compute in floating point: boxes in Arb and in mpmath, and no proof at all."""
+"""Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps; rigorous,
+but nothing is left that one could check.
+
+A box is done where the excess is certainly >= 0, by its natural extension or by its mean-value
+form; a variable in which it is monotone is put to its end; else the axis is halved along which
+slope times side is largest.  Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis
+(2009).
+
+Each kind of number loads its library when it is first made: a first answer counts what it loads.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from juggleproof.benchmarks.bench.answers import SHARE, Answer, GaveUp, Problem, best_point
 from juggleproof.certificates.search.small_boxes import Terms
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-
-# -------------------------------------------------------------------------------------------------
-# Interval branch and bound, in Arb's balls and in mpmath's intervals, by the same steps; rigorous,
-# but nothing is left that one could check.
-#
-# A box is done where the excess is certainly >= 0, by its natural extension or by its mean-value
-# form; a variable in which it is monotone is put to its end; else the axis is halved along which
-# slope times side is largest.  Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis
-# (2009).
 
 BITS = 128
 Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put to an end
@@ -190,65 +184,3 @@ def arb_boxes(problem: Problem, width: Fraction) -> Answer:
 def mpmath_boxes(problem: Problem, width: Fraction) -> Answer:
     """Branch and bound in mpmath's intervals."""
     return _enclosed(Mpmath, problem, width)
-
-
-# -------------------------------------------------------------------------------------------------
-# Floating point without proof: random samples, and an optimiser of SciPy; their error is measured,
-# not known to them.
-
-MOST, AT_ONCE = 10**7, 10**5  # samples
-
-
-def sampling(problem: Problem, width: Fraction) -> Answer:
-    """The greatest of 1/width samples, 10^7 at most, uniform in the box from a fixed seed."""
-    import numpy as np
-
-    random, left, best = np.random.default_rng(1), min(max(int(1 / width), 100), MOST), -np.inf
-    low, high = (np.array([float(pair[k]) for pair in problem.box]) for k in (0, 1))
-    count = left
-    while left > 0:
-        points = low + (high - low) * random.random((min(left, AT_ONCE), len(low)))
-        best, left = (
-            max(best, float((values(problem.over, points) / values(problem.under, points)).max())),
-            left - len(points),
-        )
-    return Answer(Fraction(best), None, f"{count} samples")
-
-
-def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
-    """SciPy's differential evolution to this tolerance, from a fixed seed, polished."""
-    import numpy as np
-    from scipy.optimize import differential_evolution
-
-    from juggleproof.certificates.search.enclosing import FloatPolynomial
-
-    over, under = (
-        FloatPolynomial(terms, len(problem.box)) for terms in (problem.over, problem.under)
-    )
-
-    def loss(x: Array) -> float:
-        below = under(x)
-        return -over(x) / below if below > 0 else np.inf
-
-    found = differential_evolution(
-        loss,
-        [(float(low), float(high)) for low, high in problem.box],
-        tol=float(width),
-        atol=float(width),
-        seed=1,
-    )
-    return Answer(Fraction(-float(found.fun)), None, f"{found.nfev} values")
-
-
-def values(terms: Terms, points: Array) -> Array:
-    """The values of a polynomial at many points, an array of shape (points, variables)."""
-    import numpy as np
-
-    total = np.zeros(len(points))
-    for exponents, c in terms.items():
-        part = np.full(len(points), float(c))
-        for axis, e in enumerate(exponents):
-            for _ in range(e):
-                part *= points[:, axis]
-        total += part
-    return total

@@ -8,27 +8,20 @@ that computes it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from juggleproof.benchmarks.bench.answers import GaveUp, Strayed
+import numpy as np
+from flint import arb, ctx, fmpq
+from mpmath.libmp import to_rational
+
+from juggleproof.benchmarks.bench.answers import Ensemble, GaveUp, Start, Strayed
 from juggleproof.scenes import juggler
+from juggleproof.scenes.juggler.given import formulas
 
 STATE_STEPS, SEED = 100, 1
 BITS = 256  # of a distance, rounded up
 DIGITS = 50
-
-
-@dataclass(frozen=True)
-class Start:
-    """An orbit: restitution and starting state, in normal form."""
-
-    name: str
-    title: str
-    alpha: Fraction
-    x: Fraction
-    w: Fraction
 
 
 STARTS = {
@@ -63,8 +56,6 @@ def _followed(start: Start, arithmetic: str, steps: int, **more: Any) -> Any:
 
 def _away(start: Start, steps: int, x: Any, w: Any, bound: Any, note: str = "") -> Strayed:
     """How far (x, w), in rationals of python-flint, is from the exact state, in the sup norm."""
-    from flint import arb, ctx, fmpq
-
     true = _followed(start, "exact", steps).tracks[0].here
     distance = max(abs(x - true.x), abs(w - true.w))
     kept, ctx.prec = ctx.prec, BITS
@@ -91,8 +82,6 @@ def enclosed(start: Start, size: Fraction) -> Later:
     here = _followed(start, "enclosed", int(size)).tracks[0].here
 
     def later() -> Strayed:
-        from flint import arb
-
         x, w = (arb(value) for value in (here.x, here.w))
         radius = max(x.rad().upper().fmpq(), w.rad().upper().fmpq())
         return _away(start, int(size), x.mid().fmpq(), w.mid().fmpq(), radius)
@@ -113,9 +102,6 @@ def mp(start: Start, size: Fraction) -> Later:
     here = _followed(start, "mp", int(size), precision=DIGITS).tracks[0].here
 
     def later() -> Strayed:
-        from flint import fmpq
-        from mpmath.libmp import to_rational
-
         x, w = (fmpq(*map(int, to_rational(value._mpf_))) for value in (here.x, here.w))
         return _away(start, int(size), x, w, None)
 
@@ -126,8 +112,6 @@ def floats(start: Start, size: Fraction) -> Later:
     """float64 period by period, as one writes it down: every branch is what rounding makes of
     it.
     """
-    from juggleproof.scenes.juggler.given import formulas
-
     map_of, alpha, x, w = formulas(), float(start.alpha), float(start.x), float(start.w)
     for _ in range(int(size)):
         x, w = map_of.impact(alpha, x, w) if map_of.margin(x, w) > 0 else map_of.flight(x, w, 1)
@@ -135,24 +119,13 @@ def floats(start: Start, size: Fraction) -> Later:
 
 
 def _of_float(value: float) -> Any:
-    from flint import fmpq
-
     return fmpq(*float(value).as_integer_ratio())
-
-
-@dataclass(frozen=True)
-class Ensemble:
-    """Random states for one alpha, all followed for STATE_STEPS periods."""
-
-    alpha: Fraction = Fraction(3, 10)
 
 
 def ensemble(work: Ensemble, size: Fraction) -> Strayed:
     """So many states in float64 with their bounds; the answer is the largest bound, the note counts
     what is undecided.
     """
-    import numpy as np
-
     scene = juggler.scene(work.alpha, juggler.random(int(size), seed=SEED))
     found: Any = juggler.orbit(scene, "fast", STATE_STEPS)
     here = found.ensemble

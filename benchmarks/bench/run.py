@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from juggleproof.benchmarks.bench import table
-from juggleproof.benchmarks.bench.answers import Measured, read_answer
+from juggleproof.benchmarks.bench.answers import Ensemble, Measured, Start, read_answer
 from juggleproof.benchmarks.bench.methods import (
     ENSEMBLE,
     GROWTH,
@@ -27,7 +27,7 @@ from juggleproof.benchmarks.bench.methods import (
     QUICK,
     Method,
 )
-from juggleproof.benchmarks.bench.orbits import STARTS, STATE_STEPS, Ensemble, Start
+from juggleproof.benchmarks.bench.orbits import STARTS, STATE_STEPS
 from juggleproof.benchmarks.bench.questions import ALPHAS, VARIABLE_WIDTH, balls, questions
 from juggleproof.benchmarks.processes import end_with_children
 from juggleproof.certificates.language import ClaimError

@@ -7,6 +7,9 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
+from rich.console import Console
+from sympy import factor
+
 from juggleproof.proofs.reports.tables import DIGITS, draw, shown
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.given import counted
@@ -47,8 +50,6 @@ MARKS = {
 
 
 def _draw(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    from rich.console import Console
-
     draw(heads, rows, Console(highlight=False))
 
 
@@ -236,8 +237,6 @@ def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
 
 def _formula(expression: Any) -> str:
     """A rational function of alpha."""
-    from sympy import factor
-
     text = str(factor(expression)).replace("**", "^")
     return text if len(text) <= LONG_TEXT else "a long formula; --alpha gives the numbers"
 

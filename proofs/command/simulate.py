@@ -12,6 +12,7 @@ from typing import BinaryIO
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command import orbit_tables
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
+from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.tables import components, exact
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.orbits import Orbits, prepare
@@ -28,7 +29,7 @@ from juggleproof.scenes.juggler.starts import (
     random,
     scene,
 )
-from juggleproof.scenes.juggler.tables import NAMES
+from juggleproof.scenes.juggler.tables import NAMES, as_arrays, as_csv, as_npz
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof simulate`: orbits of a scene, as a table or a file, with their error.
@@ -233,14 +234,14 @@ def _writer(options: argparse.Namespace) -> Writer | None:
     if fault:
         raise ClaimError(f"--output {path}: {fault}; name another file")
     if path.suffix == ".svg":
-        from juggleproof.proofs.reports.contents import needed
-
         needed("matplotlib")
-        from juggleproof.scenes.juggler.tables import picture
+        return _picture
+    write = as_csv if path.suffix == ".csv" else as_npz
+    return lambda orbits, file: write(orbits, file, units)
 
-        return picture
-    from juggleproof.scenes.juggler import tables
 
-    return lambda orbits, file: (tables.as_csv if path.suffix == ".csv" else tables.as_npz)(
-        orbits, file, units
-    )
+def _picture(orbits: Orbits, file: BinaryIO) -> None:
+    """Writes a picture: of one start against time, of several in the plane."""
+    from juggleproof.scenes.juggler.picture import of_many, of_one
+
+    file.write(of_one(orbits) if len(orbits) == 1 else of_many(as_arrays(orbits)))

@@ -15,13 +15,19 @@ from typing import Any, BinaryIO
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
 from juggleproof.proofs.reports import part as part_tables
+from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.part import keep_results
+from juggleproof.scenes.part.animation import HORIZON, animation
+from juggleproof.scenes.part.ensemble import in_words, no_vibration
+from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
     AMPLITUDES,
     FACES,
     Point,
     Table,
+    as_csv,
     as_json,
+    as_npz,
     chosen,
     recorded,
     sweep,
@@ -45,22 +51,13 @@ def part(options: argparse.Namespace) -> int:
     """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was
     interrupted.
     """
-    _needed("numba")
+    needed("numba", "scene", "part")
     wishes = [name for name in WISHES if getattr(options, name)] or ["table"]
     if len(wishes) > 1:
         raise ClaimError(f"--{wishes[0]} and --{wishes[1]} do not go together; give one of them")
     _refuse_unwritable(options, wishes[0])
     with _threads(options.jobs) as executor:
         return DONE_BY[wishes[0]](options, _setting(options), executor)
-
-
-def _needed(module: str) -> None:
-    try:
-        __import__(module)
-    except ImportError:
-        raise ClaimError(
-            f"{module} is needed for this scene; install it with pip install -e '.[part]'"
-        ) from None
 
 
 def _threads(jobs: int | None) -> AbstractContextManager[Any]:
@@ -161,9 +158,7 @@ def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
 
 
 def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:
-    from juggleproof.scenes.part import onsets as tables
-
-    return tables.as_csv if path.suffix == ".csv" else tables.as_npz
+    return as_csv if path.suffix == ".csv" else as_npz
 
 
 def _axis(text: str, name: str) -> list[float]:
@@ -230,8 +225,6 @@ def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
 
 
 def _still(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
-    from juggleproof.scenes.part.ensemble import in_words, no_vibration
-
     print(in_words(no_vibration(setting, executor)))
     return 0
 
@@ -239,16 +232,12 @@ def _still(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
 def _drawn(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     path: Path = options.figure or options.animation
     if options.figure:
-        from juggleproof.proofs.reports.contents import needed
+        needed("matplotlib")
         from juggleproof.scenes.part.picture import figure_two
 
-        needed("matplotlib")
         with written_aside(path) as file:
             figure_two(setting, file, path.suffix[1:])
     else:
-        from juggleproof.scenes.part.animation import HORIZON, animation
-        from juggleproof.scenes.part.picture import ANGLES
-
         with written_aside(path) as file:
             animation(setting, ANGLES, HORIZON, file, executor)
     print(f"{path}: written")

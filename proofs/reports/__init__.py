@@ -4,6 +4,7 @@ claims and the derivations.
     tables     tables as columns, and exact numbers
     results    the results of a run as rows and data
     errata     what the paper prints wrongly
+    extras     libraries of the optional extras
     contents   what reports show, gathered once, and JSON
     latex      names, terms and formulas as LaTeX
     words      sentences and statements in words and LaTeX

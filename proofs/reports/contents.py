@@ -7,13 +7,12 @@ import tomllib
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError, rests_on
+from juggleproof.certificates.language import rests_on
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.proofs.claims import VERDICTS, Claim
 from juggleproof.proofs.derivations import Derivation, behind, derivations_of
@@ -366,20 +365,3 @@ def _own_version() -> str:
         return version("juggleproof")
     except PackageNotFoundError:
         return "unknown"
-
-
-# -------------------------------------------------------------------------------------------------
-# Libraries of the optional extra `report`, asked for where they are used.
-
-
-def needed(module: str) -> Any:
-    """The module, imported; raises ClaimError, one line that says how to install it, where it is
-    absent.
-    """
-    try:
-        return import_module(module)
-    except ImportError:
-        raise ClaimError(
-            f"{module.partition('.')[0]} is needed for this report; install it with pip install -e"
-            " '.[report]'"
-        ) from None

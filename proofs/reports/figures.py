@@ -7,15 +7,18 @@ from __future__ import annotations
 from base64 import b64decode, b64encode
 from typing import TYPE_CHECKING, NamedTuple
 
+from sympy import Expr, Rational, Symbol
+
 from juggleproof.certificates.language import ClaimError, Formula, Term
 from juggleproof.proofs import kept as cache
-from juggleproof.proofs.reports.contents import Contents, gather, needed
+from juggleproof.proofs.reports.contents import Contents, gather
+from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.words import rows, without_alpha
+from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 from juggleproof.scenes.figures import TABLE, Entry
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from sympy import Expr
 
 FORMS = ("svg", "pdf")
 
@@ -100,8 +103,6 @@ def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, boo
     """The rank, the root that it is written with and its square, and the margins of the trap, as
     the theorem's definition has them.
     """
-    from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
-
     ((root, square),) = TO_THE_POINT.roots
     parts = TRAP.args if TRAP.op == "and" else (TRAP,)
     return (
@@ -129,8 +130,6 @@ def to_sympy(expression: Term) -> Expr:
     >>> to_sympy((x - w) / 2 + 3 * x**2)
     -w/2 + 3*x**2 + x/2
     """
-    from sympy import Rational, Symbol
-
     if expression.op == "var":
         return Symbol(expression.args[0])
     if expression.op == "num":

@@ -14,12 +14,15 @@ from typing import Any
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
 from juggleproof.proofs.reports import markup
-from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown, needed
+from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown
 from juggleproof.proofs.reports.errata import GROUPS, said_there
+from juggleproof.proofs.reports.extras import needed
+from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.markup import Chip, Node, picture
 from juggleproof.proofs.reports.mathml import mathml
 from juggleproof.proofs.reports.part import HEADS, Results
+from juggleproof.scenes.figures.look import inline_svg
 
 # -------------------------------------------------------------------------------------------------
 # What the page shows of the contents: words, marks and links for the templates, which hold no logic
@@ -403,9 +406,6 @@ class Picture:
 
 def pictures(contents: Contents) -> list[Picture]:
     """The report's figures."""
-    from juggleproof.proofs.reports.figures import saved
-    from juggleproof.scenes.figures.drawing import inline_svg
-
     return [
         Picture(
             one.slug, one.title, one.caption, inline_svg(one.data, one.slug, one.title, one.alt)
@@ -418,8 +418,6 @@ def scene_picture(scene: Results | None) -> str:
     """Figure 2 as it stands in the page; empty where it was not drawn."""
     if scene is None or not scene.figure:
         return ""
-    from juggleproof.scenes.figures.drawing import inline_svg
-
     return inline_svg(
         scene.figure["svg"], scene.figure["slug"], scene.figure["title"], scene.figure["alt"]
     )

@@ -8,18 +8,30 @@ import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from rich.console import Console
 
 from juggleproof.proofs import kept
 from juggleproof.proofs.reports.tables import draw
+from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
-from juggleproof.scenes.part.ensemble import Run
-from juggleproof.scenes.part.onsets import Point, Row, Table, assumptions, discrepancies, misfit
-from juggleproof.scenes.part.setting import Scene
-
-if TYPE_CHECKING:
-    from rich.console import Console
+from juggleproof.scenes.part.ensemble import Run, frames, in_words, no_vibration
+from juggleproof.scenes.part.layout import ANGLES
+from juggleproof.scenes.part.onsets import (
+    ENSEMBLES,
+    HORIZON,
+    Point,
+    Row,
+    Table,
+    assumptions,
+    chosen,
+    discrepancies,
+    misfit,
+    recorded,
+)
+from juggleproof.scenes.part.setting import Scene, scene
 
 # -------------------------------------------------------------------------------------------------
 # What `juggleproof simulate part` prints.
@@ -40,8 +52,6 @@ RULES = (
 
 
 def _console() -> Console:
-    from rich.console import Console
-
     return Console(highlight=False)
 
 
@@ -129,10 +139,6 @@ def point(one: Point) -> str:
 # They are simulated, not proved; a report never computes them, so that it needs neither numba nor
 # the time.
 
-if TYPE_CHECKING:
-    from juggleproof.scenes.part.onsets import Table
-    from juggleproof.scenes.part.setting import Scene
-
 SWEEP = (
     Path(__file__).resolve().parents[2] / "scenes" / "part" / "sweep.json"
 )  # where e and mu of the scene come from
@@ -163,10 +169,6 @@ def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -
     """Whether a run of table I is the one that the report tells: nothing chosen, (e, mu) of the
     stored sweep, full ensembles.
     """
-    from juggleproof.scenes.errors import SceneError
-    from juggleproof.scenes.part.onsets import ENSEMBLES, HORIZON, chosen, recorded
-    from juggleproof.scenes.part.setting import scene
-
     try:
         pair = chosen(recorded())
     except SceneError:  # no sweep is stored, or none that can be read
@@ -181,9 +183,6 @@ def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -
 
 def results(setting: Scene, found: Table, amplitudes: str) -> Results:
     """A run in words, with figure 2 and the still table of the same scene."""
-    from juggleproof.scenes.part.ensemble import in_words, no_vibration
-    from juggleproof.scenes.part.onsets import assumptions, discrepancies, misfit
-
     first = found.rows[0]
     return Results(
         f"{len(first.chaotic)} ensembles of 91 blocks for each row, {first.horizon:g} s each",
@@ -202,14 +201,9 @@ def results(setting: Scene, found: Table, amplitudes: str) -> Results:
 
 def figure_two(setting: Scene) -> dict[str, str]:
     """Figure 2 with what is said beside it; nothing where matplotlib is absent."""
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
+    if find_spec("matplotlib") is None:
         return {}
-    from juggleproof.scenes.figures.drawing import svg
     from juggleproof.scenes.part import picture
-    from juggleproof.scenes.part.ensemble import frames
-    from juggleproof.scenes.part.picture import ANGLES
 
     shaken = picture.as_in_figure_two(setting)
     seen = frames(shaken, ANGLES, picture.TIMES)
@@ -218,7 +212,7 @@ def figure_two(setting: Scene) -> dict[str, str]:
         "title": picture.TITLE,
         "caption": picture.caption(shaken, seen),
         "alt": picture.alt(shaken, seen),
-        "svg": svg(picture.drawn(shaken, seen), picture.SLUG).decode("utf-8"),
+        "svg": picture.as_svg(picture.drawn(shaken, seen)).decode("utf-8"),
     }
 
 

@@ -14,8 +14,9 @@ from typing import Any
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
-from juggleproof.proofs.reports.contents import Contents, Entry, needed
+from juggleproof.proofs.reports.contents import Contents, Entry
 from juggleproof.proofs.reports.errata import GROUPS
+from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.latex import MACROS, NOTATION, latex_of, with_macros
 from juggleproof.proofs.reports.words import parts_of
 

@@ -2,7 +2,8 @@
 order.
 
     arcs     derived expressions as numbers, and arcs of parabolas
-    drawing  the look of figures, and a plane to draw on
+    look     the look of figures
+    drawing  how figures are saved, and a plane to draw on
     states   the plane of the sampled states
     paper    the figures of the paper
     ours     the two that it lacks

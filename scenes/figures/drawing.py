@@ -1,4 +1,4 @@
-"""The look of the figures, saved to the same bytes from run to run; and a plane to draw on."""
+"""Figures saved to the same bytes from run to run; and a plane to draw on."""
 
 from __future__ import annotations
 
@@ -6,74 +6,31 @@ import io
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import wraps
-from html import escape
 from math import atan2, cos, degrees, hypot, pi, sin
-from typing import TYPE_CHECKING, Any, ParamSpec
+from typing import Any, ParamSpec
+
+from matplotlib import rc_context
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.text import Text
+from matplotlib.transforms import Affine2D, Bbox, Transform, TransformedBbox
 
 from juggleproof.scenes.figures.arcs import Arc, Point
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-    from matplotlib.path import Path
-    from matplotlib.transforms import Transform
+from juggleproof.scenes.figures.look import INK, STYLE, Look
 
 # -------------------------------------------------------------------------------------------------
-# The look of figures.
-#
-# How figures look and are saved: one palette for the regions, one ink, and bytes that are the same
-# from run to run.
+# How figures are saved: bytes that are the same from run to run.
 
 P = ParamSpec("P")
-INK = "#222222"  # text, axes and whatever is no region; a page may put its own text colour for it
-
-
-@dataclass(frozen=True)
-class Look:
-    """How a region or its boundary is distinguished: by colour (of Okabe and Ito), by hatch and by
-    dashes, so that none of them is needed alone.
-    """
-
-    colour: str
-    hatch: str
-    dashes: Sequence[float] = ()
-    tint: float = 0.22  # how much of the colour fills a region
-    hatched: float = 0.45  # and its hatch
-
-
-B1 = Look("#0072B2", "////", tint=0.3)
-B2 = Look("#E69F00", "\\\\\\\\", (6, 2))
-R = Look("#009E73", "---", tint=0.3)
-GAIN = Look("#F0E442", "xxx", (1, 1), tint=0.35, hatched=0.5)
-LOSS = Look("#56B4E9", "///", (3, 1), tint=0.4, hatched=0.6)
-KEPT = Look("#D55E00", "", (4, 1.5, 1, 1.5))
-BAND = Look("#CC79A7", "|||", (2, 2), tint=0.4)
-PALETTE = {"B1": B1, "B2": B2, "R": R, "B1+": GAIN, "B1-": LOSS, "B10": KEPT, "K": BAND}
-# what is no region of the paper, or all of it: the table, H
-PLAIN = Look(INK, "////", tint=0.1, hatched=0.18)
-TRAP = Look(INK, "|||", (3, 2), tint=0.16, hatched=0.15)
-
-STYLE = {
-    "font.family": "STIXGeneral",
-    "mathtext.fontset": "stix",
-    "font.size": 10,
-    "text.color": INK,
-    "lines.color": INK,
-    "figure.facecolor": "none",
-    "savefig.facecolor": "none",
-    "hatch.linewidth": 0.5,
-    "svg.fonttype": "path",
-    "pdf.fonttype": 3,
-    "path.simplify": False,
-}
 
 
 @contextmanager
 def style(**more: Any) -> Iterator[None]:
     """The style, for as long as the block lasts."""
-    from matplotlib import rc_context
-
     with rc_context({**STYLE, **more}):
         yield
 
@@ -91,8 +48,6 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
 def blank(width: float, height: float) -> Figure:
     """An empty figure of this size in inches."""
-    from matplotlib.figure import Figure
-
     return Figure(figsize=(width, height))
 
 
@@ -100,8 +55,6 @@ def svg(figure: Figure, slug: str) -> bytes:
     """The figure as an SVG file in which every id begins with the slug, so that several can stand
     in one page.
     """
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-
     text = io.StringIO()
     with style(**{"svg.hashsalt": slug}):
         FigureCanvasSVG(figure).print_svg(
@@ -151,25 +104,6 @@ def pdf(figure: Figure) -> bytes:
     return data.getvalue()
 
 
-def inline_svg(data: bytes | str, slug: str, title: str, alt: str) -> str:
-    """An SVG file of `svg` as an element of an HTML page: named for readers who do not see it, its
-    ink the page's text colour.
-    """
-    text = data.decode("utf-8") if isinstance(data, bytes) else data
-    box = re.search(r'<svg[^>]*\sviewBox="([^"]*)"', text)
-    body = re.search(r"<svg[^>]*>(.*)</svg>", text, re.DOTALL)
-    if box is None or body is None:
-        raise ValueError(f"not an SVG file: {slug}")
-    inner = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", body.group(1), flags=re.DOTALL)
-    inner = inner.replace(INK, "currentColor").replace("*{", f"#{slug} *{{").strip()
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" id="{slug}" viewBox="{box.group(1)}" width="100%"'
-        f' role="img" aria-labelledby="{slug}-title {slug}-desc"><title'
-        f' id="{slug}-title">{escape(title)}</title><desc'
-        f' id="{slug}-desc">{escape(alt)}</desc>{inner}</svg>'
-    )
-
-
 # -------------------------------------------------------------------------------------------------
 # The plane.
 #
@@ -190,8 +124,6 @@ class Plane:
     """
 
     def __init__(self, figure: Figure, box: Box, across: Sides, up: Sides) -> None:
-        from matplotlib.transforms import Affine2D, Bbox, TransformedBbox
-
         self.figure, self.across, self.up = figure, across, up
         width, height = (72 * float(size) for size in figure.get_size_inches())
         self.left, self.bottom, self.width, self.height = (
@@ -265,8 +197,6 @@ class Plane:
         colour: str = INK,
     ) -> None:
         """Marks points of the plane."""
-        from matplotlib.lines import Line2D
-
         xs, ys = zip(*(self.place(*one) for one in places))
         self.figure.add_artist(
             Line2D(
@@ -292,8 +222,6 @@ class Plane:
 
     def words(self, at: Point, label: str, shift: Point = (0, 0), **more: Any) -> None:
         """Writes at a place of the figure in points of print."""
-        from matplotlib.text import Text
-
         if not label:
             return
         style = {"ha": "center", "va": "center", "transform": self.points, "zorder": 6, **more}
@@ -336,8 +264,6 @@ class Plane:
         """Draws an arrow between two points of the plane, with a head at the tip or at both ends,
         ending so many points short of them.
         """
-        from matplotlib.path import Path
-
         (x, y), (far_x, far_y) = self.place(*tail), self.place(*tip)
         length = hypot(far_x - x, far_y - y)
         dx, dy = (far_x - x) / length, (far_y - y) / length
@@ -427,8 +353,6 @@ class Plane:
             )
 
     def _patch(self, outline: Path, name: str | None, clip_on: bool = True, **look: Any) -> None:
-        from matplotlib.patches import PathPatch
-
         patch = PathPatch(outline, gid=name, **{"transform": self.own, "capstyle": "butt", **look})
         if clip_on:
             patch.set_clip_box(self.window)
@@ -439,8 +363,6 @@ def path(arcs: Sequence[Arc]) -> Path:
     """The arcs as a path; each is a quadratic Bezier curve, which a parabola is, or a straight
     line.
     """
-    from matplotlib.path import Path
-
     vertices: list[Point] = []
     codes: list[Any] = []
     for arc in arcs:
@@ -456,8 +378,6 @@ def path(arcs: Sequence[Arc]) -> Path:
 
 def polylines(lines: Sequence[Sequence[Point]]) -> Path:
     """Several lines as one path, each apart from the others."""
-    from matplotlib.path import Path
-
     codes = [code for line in lines for code in [Path.MOVETO, *[Path.LINETO] * (len(line) - 1)]]
     return Path([point for line in lines for point in line], codes)
 

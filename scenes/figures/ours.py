@@ -9,16 +9,16 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from juggleproof.scenes.figures.arcs import ALPHA, Arc, column, curve, straight, value, zeros
-from juggleproof.scenes.figures.drawing import B1, B2, TRAP, Plane, blank, styled, ticks
+from juggleproof.scenes.figures.drawing import Plane, blank, styled, ticks
+from juggleproof.scenes.figures.look import B1, B2, TRAP
 from juggleproof.scenes.juggler.exact import flight, impact, strikes
 from juggleproof.symbolic import normal_e_1, root_of
 from juggleproof.symbolic.algebra import n, w, x
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # -------------------------------------------------------------------------------------------------
 # The trap and the rank.

@@ -5,7 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 from math import dist
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from juggleproof.scenes.figures import states
 from juggleproof.scenes.figures.arcs import (
@@ -21,21 +23,8 @@ from juggleproof.scenes.figures.arcs import (
     value,
     zeros,
 )
-from juggleproof.scenes.figures.drawing import (
-    B1,
-    B2,
-    BAND,
-    GAIN,
-    KEPT,
-    LOSS,
-    PLAIN,
-    Box,
-    Plane,
-    R,
-    blank,
-    styled,
-    ticks,
-)
+from juggleproof.scenes.figures.drawing import Box, Plane, blank, styled, ticks
+from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, KEPT, LOSS, PLAIN, R
 from juggleproof.symbolic import (
     E_max,
     ball_after_collision,
@@ -51,9 +40,6 @@ from juggleproof.symbolic import (
     table_at,
 )
 from juggleproof.symbolic.algebra import t, z2
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # -------------------------------------------------------------------------------------------------
 # Figure 3.

@@ -6,7 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from juggleproof.scenes.figures.arcs import (
     SETTING,
@@ -18,7 +20,8 @@ from juggleproof.scenes.figures.arcs import (
     value,
     zeros,
 )
-from juggleproof.scenes.figures.drawing import Box, Look, Plane, Sides, ticks
+from juggleproof.scenes.figures.drawing import Box, Plane, Sides, ticks
+from juggleproof.scenes.figures.look import Look
 from juggleproof.symbolic import (
     boundary_height,
     e_1,
@@ -29,9 +32,6 @@ from juggleproof.symbolic import (
     zero_change_height,
 )
 from juggleproof.symbolic.algebra import E0, beta, v
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 HEIGHT = r"$\bar\beta\,/\,(\dot\rho_0 T)$"
 VELOCITY = r"$\dot{\bar\beta}\,/\,\dot\rho_0$"

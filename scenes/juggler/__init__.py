@@ -14,7 +14,8 @@ In reading order:
     bounded   orbits in Arb balls, and in float64 with proved bounds
     orbits    the orbits of a scene, and the motion between samples
     periodic  periodic orbits
-    tables    tables, pictures and hard cases
+    tables    tables and hard cases
+    picture   pictures of orbits
 
 Importing this package loads what it needs only when a name is first used.
 """

@@ -15,6 +15,7 @@ In reading order:
     motion     the orbit of one block
     ensemble   many blocks
     onsets     table I and sweeps
+    layout     how blocks are laid out in a picture
     picture    figure 2
     animation  the same in motion, as one HTML file
 

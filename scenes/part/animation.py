@@ -23,7 +23,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import frames
-from juggleproof.scenes.part.picture import COLUMNS, lying, pitch, rows, vibration
+from juggleproof.scenes.part.layout import COLUMNS, lying, pitch, rows, vibration
 from juggleproof.scenes.part.setting import Array, Scene
 
 HERE = Path(__file__).parent

@@ -13,6 +13,7 @@ import numpy as np
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
+from juggleproof.scenes.part.motion import follow_all, watch_all
 from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
@@ -68,8 +69,6 @@ def moved(job: Job) -> tuple[Array, Array]:
     """A chunk of blocks, moved on: states and notes; SceneError where a counted bound on the work
     is reached.
     """
-    from juggleproof.scenes.part.motion import follow_all
-
     p, states, until, notes = job[0], job[1].copy(), job[2], job[3].copy()
     codes = follow_all(p, states, until, notes)
     for k in np.flatnonzero(codes):
@@ -200,8 +199,6 @@ def frames(
 
 def watched(job: FrameJob) -> Array:
     """A chunk of blocks at its times; SceneError where a counted bound on the work is reached."""
-    from juggleproof.scenes.part.motion import watch_all
-
     states = job.states.copy()
     seen = np.zeros((len(states), len(job.times), body.STATE))
     codes = watch_all(job.parameters, states, job.times, fresh_notes(len(states)), seen)

@@ -5,85 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import cos, sin
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
-import numpy as np
-from numpy.typing import NDArray
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.arcs import Point, straight
-from juggleproof.scenes.figures.drawing import (
-    B1,
-    INK,
-    KEPT,
-    Look,
-    Plane,
-    blank,
-    pdf,
-    polylines,
-    styled,
-    svg,
-)
+from juggleproof.scenes.figures.drawing import Plane, blank, pdf, polylines, styled, svg
+from juggleproof.scenes.figures.look import B1, INK, KEPT, Look
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.ensemble import frames
+from juggleproof.scenes.part.layout import ANGLES, COLUMNS, lying, pitch, place, rows, vibration
 from juggleproof.scenes.part.setting import Array, Scene
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-# -------------------------------------------------------------------------------------------------
-# Layout.
-#
-# How 91 blocks are laid out in a picture: rows of ten from front to back, as in figure 2; and which
-# of them are nearer to lying.
-#
-# Blocks move in parallel planes and do not meet, so each is shown at its own place of a grid, at
-# its true angle and height above the table.  How far it has drifted along the table, some
-# centimetres a second, is left out of figure 2.
-
-COLUMNS, MOST_ROWS = 10, 60
-PITCH = 2.6  # from one place to the next, in half diagonals of the block
-ANGLES: Array = np.radians(np.arange(91.0))
-
-
-def place(k: int) -> tuple[int, int]:
-    """Column and row of block k: the foremost row has the first ten, from left to right.
-
-    >>> place(9), place(10), place(90)
-    ((9, 0), (0, 1), (0, 9))
-    """
-    return k % COLUMNS, k // COLUMNS
-
-
-def rows(count: int) -> int:
-    """How many rows so many blocks take; SceneError where that is none, or too many to see.
-
-    >>> rows(91)
-    10
-    """
-    found = -(-count // COLUMNS)
-    if not 1 <= found <= MOST_ROWS:
-        raise SceneError(
-            f"{count} blocks are outside 1 .. {MOST_ROWS * COLUMNS}, which is what a picture shows"
-        )
-    return found
-
-
-def pitch(setting: Scene) -> float:
-    """How far apart the places are, in metres: a block that turns does not reach its
-    neighbours'.
-    """
-    return PITCH * float(np.hypot(setting.a, setting.b))
-
-
-def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
-    """Which blocks are nearer to lying than to upright, as table I tells them apart
-    (`juggleproof.scenes.part.rest`).
-    """
-    split = np.arctan2(setting.a, setting.b)
-    found: NDArray[np.bool_] = np.abs(np.sin(states[..., body.THETA])) > np.sin(split)
-    return found
-
 
 # -------------------------------------------------------------------------------------------------
 # Figure 2.
@@ -96,8 +31,15 @@ FREQUENCY, AMPLITUDE = 30.0, 1e-3  # of the vibration along the table in the pap
 TIMES = (0.0, 0.8, 3.0)
 UPRIGHT = replace(KEPT, hatch="", dashes=(), tint=0.92)
 LYING = replace(B1, hatch="", tint=0.3)
-FORMS = {"svg": lambda figure: svg(figure, SLUG), "pdf": pdf}
 WIDTH, LEFT, TOP, BOTTOM, GAP = 7.6, 0.38, 0.48, 0.36, 0.12  # inches
+
+
+def as_svg(figure: Figure) -> bytes:
+    """The figure as an SVG file."""
+    return svg(figure, SLUG)
+
+
+FORMS = {"svg": as_svg, "pdf": pdf}
 
 
 def as_in_figure_two(setting: Scene) -> Scene:
@@ -140,19 +82,6 @@ def alt(setting: Scene, seen: Array) -> str:
         " rectangles lean ever more to the left, from the upright one at the lower left to the one"
         " that lies in the back row."
         f" Nearer to upright are {counts}; all others are nearer to lying."
-    )
-
-
-def vibration(setting: Scene) -> str:
-    """The vibration and the contact of a scene, in a line.
-
-    >>> from juggleproof.scenes.part.setting import scene
-    >>> vibration(as_in_figure_two(scene(e=0.7, mu=0.08)))
-    'table: 60 Hz 0.2 mm up and down, 30 Hz 1 mm along; e = 0.7, mu = 0.08'
-    """
-    return (
-        f"table: {setting.f_y:g} Hz {1e3 * setting.A_y:g} mm up and down, {setting.f_x:g} Hz"
-        f" {1e3 * setting.A_x:g} mm along; e = {setting.e:g}, mu = {setting.mu:g}"
     )
 
 
@@ -262,9 +191,6 @@ def fill(plane: Plane, polygons: Sequence[Sequence[Point]], name: str | None, lo
     """Fills polygons with the tint of a look, and draws their sides in ink, which is light on a
     dark page.
     """
-    from matplotlib.colors import to_rgba
-    from matplotlib.patches import PathPatch
-
     if polygons:
         outline = polylines([[*corners, corners[0]] for corners in polygons])
         plane.figure.add_artist(

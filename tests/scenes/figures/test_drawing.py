@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from juggleproof.scenes.figures import TABLE, drawing, entry
-from juggleproof.scenes.figures.drawing import B1, B2, BAND, GAIN, INK, LOSS, PALETTE, Look, R
+from juggleproof.scenes.figures import TABLE, drawing, entry, look
+from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, LOSS, PALETTE, Look, R
 from tests.scenes.figures.drawn import figure
 
 # -------------------------------------------------------------------------------------------------
@@ -53,7 +53,7 @@ def svg(slug: str) -> str:
 
 def inline(slug: str) -> str:
     one = entry(slug)
-    return drawing.inline_svg(drawing.svg(figure(slug), slug), slug, one.title, one.alt)
+    return look.inline_svg(drawing.svg(figure(slug), slug), slug, one.title, one.alt)
 
 
 def ids(text: str) -> list[str]:
@@ -151,7 +151,7 @@ def test_inline_figure_is_named_and_takes_the_colour_of_the_page_holds(slug: str
     title, described = list(root)[:2]
     assert (title.text, described.text) == (one.title, one.alt)
     assert root.get("aria-labelledby") == f"{title.get('id')} {described.get('id')}"
-    assert "currentColor" in text and drawing.INK not in text
+    assert "currentColor" in text and look.INK not in text
     assert (
         not re.search(r"<\?xml|<!|<metadata|<script|#000000|#ffffff", text)
         and text.count("http") == 1
@@ -163,19 +163,17 @@ def test_only_the_palette_and_the_ink_are_drawn_holds(slug: str) -> None:
     colours = {one.upper() for one in re.findall(r"#[0-9a-fA-F]{6}\b(?![^<]*\")", svg(slug))} | {
         one.upper() for one in re.findall(r"(?:fill|stroke): (#[0-9a-fA-F]{6})", svg(slug))
     }
-    assert colours <= {look.colour.upper() for look in drawing.PALETTE.values()} | {
-        drawing.INK.upper()
-    }
+    assert colours <= {one.colour.upper() for one in look.PALETTE.values()} | {look.INK.upper()}
 
 
 def test_words_of_the_page_cannot_become_tags_holds() -> None:
-    text = drawing.inline_svg(drawing.svg(figure("fig-5"), "fig-5"), "fig-5", "a < b", 'x & "y"')
+    text = look.inline_svg(drawing.svg(figure("fig-5"), "fig-5"), "fig-5", "a < b", 'x & "y"')
     assert [one.text for one in list(ElementTree.fromstring(text))[:2]] == ["a < b", 'x & "y"']
 
 
 def test_rejects_what_is_no_svg() -> None:
     with pytest.raises(ValueError, match="not an SVG file: fig-5"):
-        drawing.inline_svg("<p>", "fig-5", "title", "alt")
+        look.inline_svg("<p>", "fig-5", "title", "alt")
 
 
 @pytest.mark.parametrize("slug", SLUGS)
@@ -296,9 +294,9 @@ def apart(one: Colour, other: Colour) -> float:
 def filled(*layers: Look) -> Colour:
     """The tints of regions one over another on white paper, mixed as a screen mixes them."""
     parts = [1.0, 1.0, 1.0]
-    for look in layers:
+    for one in layers:
         parts = [
-            part + look.tint * (int(look.colour[k : k + 2], 16) / 255 - part)
+            part + one.tint * (int(one.colour[k : k + 2], 16) / 255 - part)
             for part, k in zip(parts, (1, 3, 5))
         ]
     return linear("#" + "".join(f"{round(255 * one):02x}" for one in parts))

@@ -29,8 +29,9 @@ from juggleproof.scenes.juggler import (
 from juggleproof.scenes.juggler import bounded as engine
 from juggleproof.scenes.juggler.bounded import Bounded, powers
 from juggleproof.scenes.juggler.given import nearest
+from juggleproof.scenes.juggler.picture import in_the_plane
 from juggleproof.scenes.juggler.starts import goal
-from juggleproof.scenes.juggler.tables import as_arrays, in_the_plane
+from juggleproof.scenes.juggler.tables import as_arrays
 
 FULL = st.floats(allow_nan=False, allow_infinity=False)
 SIZES = st.floats(0, 1e300) | st.sampled_from([0.0, 5e-324, 1e-310])
@@ -169,12 +170,12 @@ def test_what_is_told_of_many_states_takes_little_beside_them_holds() -> None:
     found = orbit(
         scene("3/10", random(count, 1, (0, 0), (0, 0)), r=2, g=3), "fast", 3
     )  # all on x = w
-    in_the_plane(found)
+    in_the_plane(as_arrays(found))
     used = {}
     for name, tell in (
         ("undecided", lambda: next(found.each_undecided())),
         ("arrays", lambda: as_arrays(found, "physical")["v"][-1]),
-        ("picture", lambda: in_the_plane(found) is not None),
+        ("picture", lambda: in_the_plane(as_arrays(found)) is not None),
     ):
         tracemalloc.start()
         assert tell() == {"undecided": (0, 0), "arrays": 2, "picture": True}[name]

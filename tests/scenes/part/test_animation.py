@@ -20,7 +20,8 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body, scene
 from juggleproof.scenes.part.animation import ANGLE, LENGTH, RATE, animation, digest, varied
 from juggleproof.scenes.part.ensemble import frames
-from juggleproof.scenes.part.picture import ANGLES, as_in_figure_two, lying
+from juggleproof.scenes.part.layout import ANGLES, lying
+from juggleproof.scenes.part.picture import as_in_figure_two
 from tests.proofs.reports.browser import Element, chromium, read_html, requests, resize
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
@@ -209,7 +210,7 @@ def test_blocks_are_drawn_where_they_are_holds(driver: Any) -> None:
 
 
 def pitch() -> float:
-    from juggleproof.scenes.part.picture import pitch as of
+    from juggleproof.scenes.part.layout import pitch as of
 
     return of(SETTING)
 

@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.figures.drawing import Look
+from juggleproof.scenes.figures.look import Look
 from juggleproof.scenes.part import body, run, scene, standing
 from juggleproof.scenes.part import picture as p
-from juggleproof.scenes.part.picture import ANGLES, lying, pitch, place, rows
+from juggleproof.scenes.part.layout import ANGLES, lying, pitch, place, rows
 from juggleproof.scenes.part.rest import side
 from tests.scenes.figures.test_drawing import DEFICIENCIES, apart, filled, lab, seen
 

@@ -1,0 +1,21 @@
+"""Libraries of the optional extras, asked for where they are used."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from juggleproof.certificates.language import ClaimError
+
+
+def needed(module: str, purpose: str = "report", extra: str = "report") -> Any:
+    """The module, imported; raises ClaimError, one line that says how to install it, where it is
+    absent.
+    """
+    try:
+        return import_module(module)
+    except ImportError:
+        raise ClaimError(
+            f"{module.partition('.')[0]} is needed for this {purpose}; install it with pip install"
+            f" -e '.[{extra}]'"
+        ) from None
