@@ -417,7 +417,9 @@ def claims_of_files(paths: Sequence[Path]) -> list[Claim]:
 def _line_in(path: Path) -> int:
     """The last line of the file on the stack of the error at hand."""
     frames = traceback.extract_tb(sys.exc_info()[2])
-    lines = [frame.lineno for frame in frames if frame.filename == str(path) and frame.lineno]
+    lines = [
+        frame.lineno for frame in frames if frame.filename == str(path.absolute()) and frame.lineno
+    ]
     return lines[-1] if lines else 1
 
 

@@ -18,7 +18,7 @@ from juggleproof.certificates.store import CERTIFICATES, DEFAULT, Store, certifi
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.judging import Judgement
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.run import Options, Reading, run, shares
+from juggleproof.proofs.run import Options, Reading, claims_of_file, run, shares
 
 # Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem.
 CHOSEN = ("s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "sA.3.2-sup3", "sB.1-so-that", "eq-26")
@@ -173,3 +173,16 @@ def test_a_folder_without_statements_comes_to_nothing_holds(tmp_path: Path) -> N
     assert read_by(tmp_path, 2) == []
     (tmp_path / "statements.txt").write_text("statement\n", encoding="utf-8")
     assert read_by(tmp_path, 1) == read_by(tmp_path, 2) == []
+
+
+@pytest.mark.parametrize("path", ["mine.py", "./mine.py", "{0}/mine.py"])
+def test_rejects_a_claim_without_a_sentence_by_its_line(
+    path: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    source = (
+        "from juggleproof.proofs import claim\n\n\n@claim('bare')\ndef bare():\n    return ()\n"
+    )
+    Path("mine.py").write_text(source, encoding="utf-8")
+    with pytest.raises(ClaimError, match=r"mine\.py:4: bare has no docstring"):
+        claims_of_file(Path(path.format(tmp_path)))
