@@ -9,6 +9,7 @@ import os
 import re
 import tempfile
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -107,6 +108,10 @@ class WrittenOut(Mapping[str, str]):
         return len(self.shortened)
 
 
+# Stores of one process that read the same file share what is written out of it.
+written_out = lru_cache(maxsize=4)(WrittenOut)
+
+
 class Store:
     """The statements and certificates of a folder, as last written; an absent folder is an empty
     store.
@@ -118,7 +123,7 @@ class Store:
         self._certificates: dict[str, Any] | None = None
         path = folder / STATEMENTS
         if path.exists():
-            self.texts = WrittenOut(checker.load(str(path)))
+            self.texts = written_out(checker.load(str(path)))
 
     def certificate(self, name: str, text: str) -> Any:
         """The stored certificate of a statement, if the stored statement has this very text; else

@@ -48,18 +48,20 @@ ELSEWHERE = {
             ".ci/run",
             "for format in html latex markdown json badge figures pdf;",
         )
-        for form in ("latex", "markdown", "json", "figures")
+        for form in ("html", "latex", "markdown", "json", "figures")
     },
+    "pytest --juggleproof": (
+        "tests/proofs/test_pytest_plugin.py",
+        'runpytest_subprocess("--juggleproof", "-v", "-s")',
+    ),
+    "juggleproof bench --quick": ("tests/docs/test_commands.py", '"juggleproof bench": "--quick'),
     "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
     "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
 }
 NEEDS = {
     "simulate part": "numba",
     "benchmarks.part": "numba",
-    "--format html": "jinja2",
-    "--format latex": "jinja2",
     "--format pdf": "jinja2",
-    "--format figures": "matplotlib",
 }
 
 
