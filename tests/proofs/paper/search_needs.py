@@ -18,6 +18,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import Condition, ring_of
 from juggleproof.certificates.search.certificate import found, search_proof
 from juggleproof.certificates.search.points import as_found_point, assignments
+from juggleproof.certificates.states import State
 from juggleproof.certificates.votes.z3 import vote
 from juggleproof.certificates.work import Budget, Exhausted
 
@@ -232,7 +233,7 @@ def refuted_there(plain: checker.Statement, narrow: checker.Statement, budget: B
         for assignment in islice(assignments(condition, names, integers, budget, effort), 8):
             refutation = as_found_point(
                 plain,
-                checker.State(checker.Context()),
+                State(checker.Context()),
                 assignment,
                 names,
                 "counterexample",
