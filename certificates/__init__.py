@@ -7,6 +7,7 @@ In reading order:
 - `language`: terms, formulas and statements as values, and their text;
 - `algebra`: arithmetic that the search and the votes share;
 - `work`: counted work, and statements unfolded once;
+- `states`: what a search assumes on one branch, and the branches below it;
 - `search`: finds certificates;
 - `votes`: other ways to decide a statement, recorded beside the certificate;
 - `store`: statements and certificates as files;

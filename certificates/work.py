@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from juggleproof.certificates import checker
@@ -40,34 +39,6 @@ class Budget:
     def part(self, units: int) -> Budget:
         """A smaller budget within this one."""
         return Budget(min(units, self.left), self)
-
-
-MALFORMED = (
-    RecursionError,
-    MemoryError,
-    ValueError,
-    TypeError,
-    KeyError,
-    AttributeError,
-    IndexError,
-    OverflowError,
-)
-
-
-def accepted(check: Callable[..., Any], *arguments: Any) -> bool:
-    """Whether the checker's function accepts what a search found.
-
-    >>> accepted(checker.close, checker.State(checker.Context()).assume(False), ["close"], {})
-    True
-    """
-    for one in arguments:
-        if isinstance(one, checker.State):  # the meter of the search itself, not of a check
-            one.context.work.left = checker.MAX_WORK
-    try:
-        check(*arguments)
-    except (checker.Rejected, *MALFORMED):
-        return False
-    return True
 
 
 # -------------------------------------------------------------------------------------------------

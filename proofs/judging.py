@@ -27,6 +27,7 @@ from juggleproof.certificates.language import (
 from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.vote import Vote, compare
@@ -210,9 +211,7 @@ def refuse_what_says_nothing(
     )
     story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
     try:
-        impossible_for_all = (
-            search_closing(checker.state_of(story), known, Budget(budget)) is not None
-        )
+        impossible_for_all = search_closing(state_of(story), known, Budget(budget)) is not None
     except Exhausted:
         impossible_for_all = False
     if impossible_for_all:
@@ -497,7 +496,7 @@ class Judge:
         if parsed.kind != "universal":
             return False
         unfolded(parsed)
-        start: checker.State = checker.State(checker.Context())
+        start = State(checker.Context())
         found = search_found(
             parsed,
             start,

@@ -9,9 +9,9 @@ import os
 import re
 import sys
 
-from .algebra import MAX_WORK, Kind, Rejected, Work, require
+from .algebra import MAX_WORK, Kind, Poly, Rejected, Work, require
 from .language import Context, names_in, put, read_statements
-from .rules import State, at, check_sharp, find, prove
+from .rules import State, at, check_sharp, close, find, prove
 
 MAX_FILE = 16 << 20
 STATEMENTS = "statements.txt"
@@ -291,6 +291,11 @@ ORBIT_RULES = {
 }
 
 
+def orbit_rules():
+    """{kind of statement: what its rule says}, for the rules for orbits of maps."""
+    return {kind: rule.__doc__ for kind, rule in ORBIT_RULES.items()}
+
+
 def premises_of(statement, known):
     """The premises of an orbit rule, as statements that a certificate has to prove: {name:
     statement}.
@@ -352,18 +357,68 @@ def settle(statement, certificate, known, statements, work=None):
 
 
 def check_one(statement, certificate, known, earlier, limit=MAX_WORK):
-    """(outcome, None), or ("rejected", why): whatever is wrong with a certificate is a rejection,
-    never a crash.
+    """(outcome, None), or ("rejected", why).
 
     known: the certified statements before it, by name; earlier: all statements before it; limit:
     the elementary products that it may take.
     """
+    return verdict(settle, statement, certificate, known, earlier, Work(limit))
+
+
+def verdict(check, *arguments):
+    """(what the check returns, None), or ("rejected", why): whatever is wrong with a certificate is
+    a rejection, never a crash.
+    """
     try:
-        return settle(statement, certificate, known, earlier, Work(limit)), None
+        return check(*arguments), None
     except Rejected as reason:
         return "rejected", reason
     except Exception as error:
         return "rejected", Rejected(Kind.MALFORMED, type(error).__name__)
+
+
+# ------------------------------ parts of a certificate, for who searches: no outcome rests on these
+
+
+def closes(context, formulas, node, known):
+    """Whether the node closes the state that assumes the formulas over the variables of a
+    context.
+    """
+    return not verdict(close, state_from(context, formulas), node, known)[1]
+
+
+def finds(context, formulas, found, known, purpose, statement, base=(), sharp=None):
+    """Whether values found serve their purpose in the state that assumes the formulas over the
+    variables of a context; base: the variables of the statement that are also the state's.
+    """
+    state = state_from(context, formulas)
+    own = {name: state.context.values[name] for name in base}
+    named = {statement.name: statement}
+    return not verdict(find, state, found, known, purpose, named, own, sharp)[1]
+
+
+def proves(statement, proof, known, sharp=None):
+    """Whether the proof, of a whole statement or inside a sharp range, is one."""
+    return not verdict(prove, statement, proof, known, sharp)[1]
+
+
+def state_from(context, formulas):
+    """A state that assumes formulas of others, on a meter of its own."""
+    work = Work()
+    variables = Context(work=work)
+    for key in context.index:
+        variables.declare(key, key in context.integers)
+    return State(variables).assume(on_meter(("and", formulas), work))
+
+
+def on_meter(formula, work):
+    """The same formula, whose polynomials spend from this meter."""
+    if isinstance(formula, bool):
+        return formula
+    if formula[0] == "atom":
+        _, poly, relation = formula
+        return ("atom", Poly(poly.terms, poly.den, poly.deg, work), relation)
+    return (formula[0], [on_meter(part, work) for part in formula[1]])
 
 
 # ------------------------------------------------------------ files

@@ -22,7 +22,7 @@ The files, each after those that it imports:
 - `ranges`: sets of one parameter, and verdicts along it
 - `lines`: terms over one parameter, piece by piece
 - `families`: terms on all of a state, split by signs; conditions solved for a parameter
-- `points`: points, counterexamples and witnesses, as the checker's `find` takes them
+- `points`: points, counterexamples and witnesses, as the checker's `finds` takes them
 - `certificate`: the certificate of a statement for all reals or of existence, and of map rules:
   `universal`, `map`, `descends`, `contracts`, `attracts`, `escapes`, `exactly`, `iterates`
 - `sharp`, `sharp_plane`: sharp ranges over one parameter, or over several; rule `sharp`

@@ -10,7 +10,8 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
 from juggleproof.certificates.search.points import search_found
-from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
+from juggleproof.certificates.states import State, state_of
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
 # -------------------------------------------------------------------------------------------------
 # The certificate of one statement: a proof with a point, a counterexample, or the reason why
@@ -181,7 +182,7 @@ def found(
     """A point or counterexample of the statement."""
     return search_found(
         statement,
-        checker.State(checker.Context()),
+        State(checker.Context()),
         purpose,
         {},
         known,
@@ -208,7 +209,7 @@ def search_proof(
     steps = []
     for count, negation in unfolding.obligations:
         node = search_closing(
-            checker.state_of(unfolding, count).assume(negation),
+            state_of(unfolding, count).assume(negation),
             known,
             budget,
             effort,
@@ -219,7 +220,7 @@ def search_proof(
             node is None and hints is not None
         ):  # as a rule a side condition needs no lemma, and cases of one only delay it
             node = search_closing(
-                checker.state_of(unfolding, count).assume(negation),
+                state_of(unfolding, count).assume(negation),
                 known,
                 budget,
                 effort,
@@ -233,7 +234,7 @@ def search_proof(
         base = {name: unfolding.context.values[name] for name in unfolding.universal}
         last = search_found(
             statement,
-            checker.state_of(unfolding),
+            state_of(unfolding),
             "witness",
             base,
             known,
@@ -245,7 +246,7 @@ def search_proof(
         proof = ["witness", steps, last]
     else:
         last = search_closing(
-            checker.state_of(unfolding).assume(unfolding.goal(False)),
+            state_of(unfolding).assume(unfolding.goal(False)),
             known,
             budget,
             effort,
@@ -255,8 +256,7 @@ def search_proof(
         proof = ["proof", steps, last]
     return (
         proof
-        if last is not None
-        and (not confirm or accepted(checker.prove, statement, proof, known, sharp))
+        if last is not None and (not confirm or checker.proves(statement, proof, known, sharp))
         else None
     )
 

@@ -32,7 +32,8 @@ from juggleproof.certificates.search.linear import (
 )
 from juggleproof.certificates.search.problem import Problem, has_interior_point
 from juggleproof.certificates.search.sums_of_squares import programs_of_facts, search_squares
-from juggleproof.certificates.work import Budget, Exhausted, accepted
+from juggleproof.certificates.states import State
+from juggleproof.certificates.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
 # Closing a state: leaves by positive combinations, disjunctions by cases, integers by rounding,
@@ -57,7 +58,7 @@ class Hints:
 
 
 def search_closing(
-    state: checker.State,
+    state: State,
     known: dict[str, checker.Statement],
     budget: Budget,
     effort: int = 2,
@@ -70,23 +71,21 @@ def search_closing(
     >>> context = checker.Context()
     >>> context.declare("x")
     >>> formula = context.formula(checker.parse("x > 1 and x^2 <= x"))
-    >>> search_closing(checker.State(context).assume(formula), {}, Budget(10**6))
+    >>> search_closing(State(context).assume(formula), {}, Budget(10**6))
     ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]
     """
     uses, inside = with_uses(state, known, hints.uses if hints else ())
     node = Closing(known, budget, effort).close(inside)
     for name, terms in reversed(uses):
         node = None if node is None else ["use", name, terms, {}, node]
-    return (
-        node if node is None or not confirm or accepted(checker.close, state, node, known) else None
-    )
+    return node if node is None or not confirm or state.is_closed_by(node, known) else None
 
 
 def with_uses(
-    state: checker.State,
+    state: State,
     known: dict[str, checker.Statement],
     wanted: Sequence[tuple[str, Mapping[str, str]]],
-) -> tuple[list[tuple[str, dict[str, str]]], checker.State]:
+) -> tuple[list[tuple[str, dict[str, str]]], State]:
     """The instances of earlier statements that a hint names, as far as they are known and exist,
     and the state that assumes them.
     """
@@ -115,7 +114,7 @@ class Closing:
         self.known, self.budget, self.effort = known, budget, effort
         self.rings: dict[tuple[str, ...], Ring] = {}
 
-    def problem(self, state: checker.State, whole: bool = False) -> Problem:
+    def problem(self, state: State, whole: bool = False) -> Problem:
         """The facts of a state, ready for a search."""
         self.budget.spend(300)
         names = tuple(state.context.index)
@@ -125,7 +124,7 @@ class Closing:
 
     # -------------------------------------------------------- disjunctions
 
-    def close(self, state: checker.State) -> Node | None:
+    def close(self, state: State) -> Node | None:
         """The node for this state: at once, by its facts, or by the cases of a disjunction."""
         if state.closed:
             return ["close"]
@@ -134,7 +133,7 @@ class Closing:
         node = self.attempt(state, QUICK)
         return node if node is not None else self.cases(state)
 
-    def cases(self, state: checker.State) -> Node | None:
+    def cases(self, state: State) -> Node | None:
         """Splits the last disjunction with the fewest alternatives that no fact contradicts at
         sight.
         """
@@ -156,7 +155,7 @@ class Closing:
 
     # -------------------------------------------------------- facts alone
 
-    def attempt(self, state: checker.State, stages: Sequence[Stage]) -> Node | None:
+    def attempt(self, state: State, stages: Sequence[Stage]) -> Node | None:
         """Closes a state by its facts alone, strict integer facts rounded first."""
         if state.closed:
             return ["close"]
@@ -164,7 +163,7 @@ class Closing:
         problem = self.problem(inside)
         return wrapped(rounded, close_by_equations(problem) or search(problem, stages, self.budget))
 
-    def rounded(self, state: checker.State) -> tuple[list[int], checker.State]:
+    def rounded(self, state: State) -> tuple[list[int], State]:
         """The strict integer facts p > 0 of a state, and the state in which p - 1 >= 0 as well."""
         numbers: list[int] = []
         if state.context.integers:
@@ -185,7 +184,7 @@ class Closing:
                         state = state.branch(less)
         return numbers, state
 
-    def leaf(self, state: checker.State, depth: int) -> Node | None:
+    def leaf(self, state: State, depth: int) -> Node | None:
         """A state without disjunctions: positive combinations, then signs told apart, then larger
         combinations.
         """
@@ -216,7 +215,7 @@ class Closing:
             node = search(problem, (*FIRST, *USUAL), self.budget)
         return node
 
-    def with_lemmas(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
+    def with_lemmas(self, state: State, problem: Problem, depth: int) -> Node | None:
         """Signs that can be shown are added to the facts; where that is not enough, signs are told
         apart.
         """
@@ -250,9 +249,7 @@ class Closing:
             node = search(problem, DEEP, self.budget)
         return under(lemmas, node)
 
-    def lemma(
-        self, state: checker.State, text: str, stages: Sequence[Stage]
-    ) -> tuple[Lemma | None, checker.State]:
+    def lemma(self, state: State, text: str, stages: Sequence[Stage]) -> tuple[Lemma | None, State]:
         """The sign of a polynomial where two of the three cases close quickly, and the state with
         it.
         """
@@ -265,7 +262,7 @@ class Closing:
         rounded, inside = self.rounded(cases[place])
         return Lemma(text, nodes, place, rounded, nodes[place]), inside
 
-    def split(self, state: checker.State, problem: Problem, depth: int) -> Node | None:
+    def split(self, state: State, problem: Problem, depth: int) -> Node | None:
         """Tells the sign of a candidate apart: the one of whose cases most close quickly comes
         first.
         """
@@ -321,7 +318,7 @@ def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
     return node
 
 
-def candidates(state: checker.State, problem: Problem, kind: str) -> list[str]:
+def candidates(state: State, problem: Problem, kind: str) -> list[str]:
     """Polynomials whose sign is worth telling apart: integers and their differences, factors of
     facts, variables, factors of resultants.
     """
@@ -448,7 +445,7 @@ class Adjoined:
         ]
 
 
-def close_at_number(state: checker.State, adjoined: Adjoined) -> list[Any] | None:
+def close_at_number(state: State, adjoined: Adjoined) -> list[Any] | None:
     """A node that closes the state, whose only variable is the adjoined number; None where a fact's
     sign is not yet visible.
     """
@@ -471,7 +468,7 @@ def close_at_number(state: checker.State, adjoined: Adjoined) -> list[Any] | Non
     return ["cases", 0, nodes]
 
 
-def _contradiction(state: checker.State, index: int, adjoined: Adjoined) -> list[Any] | None:
+def _contradiction(state: State, index: int, adjoined: Adjoined) -> list[Any] | None:
     poly, relation = state.facts[index]
     dense, modulus = _dense(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
     sign = adjoined.number.sign_of(dense)
@@ -519,7 +516,7 @@ def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly
     return fmpq_poly([int(c) for c in checker.univariate(context, poly, name)]) / poly.den
 
 
-def _own_facts(state: checker.State, adjoined: Adjoined) -> tuple[int, int, int]:
+def _own_facts(state: State, adjoined: Adjoined) -> tuple[int, int, int]:
     """The numbers of the facts that say low <= number, number <= high and p(number) = 0."""
     shift = checker.BITS * state.context.index[adjoined.name]
     one = 1 << shift

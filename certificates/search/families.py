@@ -35,7 +35,8 @@ from juggleproof.certificates.search.lines import LineCover
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import TemplateSearch
 from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Sample
-from juggleproof.certificates.work import Budget, Exhausted, accepted
+from juggleproof.certificates.states import State
+from juggleproof.certificates.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
 # Terms on all of a state: one choice of terms where it serves, and the state split by a sign where
@@ -44,7 +45,7 @@ from juggleproof.certificates.work import Budget, Exhausted, accepted
 
 def cover(
     task: Task,
-    state: checker.State,
+    state: State,
     samples: Sequence[Sample],
     depth: int = 3,
     former: Sequence[Choice] = (),
@@ -105,7 +106,7 @@ def cover(
 
 def _split(
     task: Task,
-    state: checker.State,
+    state: State,
     poly: fmpq_mpoly,
     samples: Sequence[Sample],
     depth: int,
@@ -125,10 +126,7 @@ def _split(
             return None
         founds.append(found)
     whole = ["sign", text, *founds]
-    named = {task.statement.name: task.statement}
-    ok = accepted(
-        checker.find, state.branch(), whole, task.known, task.purpose, named, task.base, task.sharp
-    )
+    ok = state.is_served_by(whole, task.known, task.purpose, task.statement, task.base, task.sharp)
     return whole if ok else None
 
 
@@ -198,7 +196,7 @@ def says_domain(statement: SharpRange, whole: Collection[str]) -> bool:
     """Whether the condition, with what the domain says of each parameter alone and the whole
     numbers being whole, implies the rest of the domain: proved.
     """
-    state = checker.State(_state(statement, whole).context)
+    state = State(_state(statement, whole).context)
     context = state.context
     domain = context.formula(checker.parse(str(statement.domain)))
     own = [
@@ -215,8 +213,8 @@ def says_domain(statement: SharpRange, whole: Collection[str]) -> bool:
     return _impossible(state.assume(checker.negate(domain)))
 
 
-def _state(statement: SharpRange, whole: Collection[str]) -> checker.State:
-    state: checker.State = checker.State(checker.Context())
+def _state(statement: SharpRange, whole: Collection[str]) -> State:
+    state = State(checker.Context())
     for name in statement.over:
         state.context.declare(name, name in whole)
     return state.assume(state.context.formula(checker.parse(str(statement.domain))))
@@ -225,7 +223,7 @@ def _state(statement: SharpRange, whole: Collection[str]) -> checker.State:
 def _interval(
     atoms: list[Any],
     parameter: str,
-    state: checker.State,
+    state: State,
     ends: tuple[End | None, End | None],
 ) -> str | None:
     """The bounds that relations set, as text, else the ends of the domain; None where one is not
@@ -256,7 +254,7 @@ def _interval(
 
 
 def _bound(
-    poly: checker.Poly, relation: str, parameter: str, state: checker.State
+    poly: checker.Poly, relation: str, parameter: str, state: State
 ) -> tuple[str, str] | None:
     """(relation, text) of the bound that poly relation 0 is."""
     ring = ring_of(state.context)
@@ -275,7 +273,7 @@ def _bound(
     )
 
 
-def _positive(poly: fmpq_mpoly, state: checker.State) -> bool | None:
+def _positive(poly: fmpq_mpoly, state: State) -> bool | None:
     """Whether a polynomial is positive on the whole of a state, or negative there; None where
     neither is proved.
     """
@@ -286,7 +284,7 @@ def _positive(poly: fmpq_mpoly, state: checker.State) -> bool | None:
     return None
 
 
-def _impossible(state: checker.State) -> bool:
+def _impossible(state: State) -> bool:
     try:
         return search_closing(state, {}, Budget(WORK)) is not None
     except Exhausted:

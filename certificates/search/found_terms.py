@@ -23,7 +23,8 @@ from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.facts import Weight
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Root, Sample
-from juggleproof.certificates.work import Budget, Exhausted, accepted
+from juggleproof.certificates.states import State
+from juggleproof.certificates.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
 # Terms as the checker takes them: quotients written with divisions that are licensed, roots
@@ -136,7 +137,7 @@ def _whole(text: str) -> str:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What `checker.find` is asked to accept a found for."""
+    """What `checker.finds` is asked to accept a found for."""
 
     statement: checker.Statement
     purpose: str
@@ -147,7 +148,7 @@ class Wanted:
 
 def confirmed(
     wanted: Wanted,
-    state: checker.State,
+    state: State,
     choice: Choice,
     keys: dict[str, str],
     known: Known,
@@ -155,20 +156,19 @@ def confirmed(
     samples: Sequence[Sample],
     effort: int,
 ) -> Node | None:
-    """The choice as a found with all nodes, accepted by the checker; None where a node is
+    """The choice as a found with all nodes by the checker; None where a node is
     missing.
     """
     found = _with_nodes(wanted, state, choice, keys, known, budget, samples, effort, 3)
-    named = {wanted.statement.name: wanted.statement}
-    ok = found is not None and accepted(
-        checker.find, state.branch(), found, known, wanted.purpose, named, wanted.base, wanted.sharp
+    ok = found is not None and state.is_served_by(
+        found, known, wanted.purpose, wanted.statement, wanted.base, wanted.sharp
     )
     return found if ok else None
 
 
 def _with_nodes(
     wanted: Wanted,
-    state: checker.State,
+    state: State,
     choice: Choice,
     keys: dict[str, str],
     known: Known,
@@ -264,7 +264,7 @@ def _with_nodes(
 
 
 def _adjoined_root(
-    state: checker.State,
+    state: State,
     root: Root,
     renamed: Renamed,
     writer: TermWriter,
@@ -295,7 +295,7 @@ def _adjoined_root(
 
 
 def _adjoined_inverse(
-    state: checker.State,
+    state: State,
     name: str,
     factor: fmpq_mpoly,
     renamed: Renamed,
@@ -324,7 +324,7 @@ def _adjoined_inverse(
 
 
 def adjoined_entry(
-    state: checker.State,
+    state: State,
     name: str,
     text: str,
     low: str,
@@ -352,7 +352,7 @@ def adjoined_entry(
         return None
     entry = [name, text, low, high, below, above]
     try:
-        checker.adjoin(state, known, *entry)
+        state.adjoin(name, text, low, high)
     except checker.Rejected:
         return None
     return entry
@@ -381,7 +381,7 @@ class Task:
     roles: Roles = NO_ROLES
 
 
-def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str], frozenset[str]]:
+def setting(task: Task, state: State) -> tuple[Condition, dict[str, str], frozenset[str]]:
     """The condition on base and unknowns, the key in the ring of every unknown, and the keys that
     are integers.
     """
@@ -422,7 +422,7 @@ def setting(task: Task, state: checker.State) -> tuple[Condition, dict[str, str]
 
 
 def failing_goal(
-    task: Task, state: checker.State, condition: Condition, budget: Budget
+    task: Task, state: State, condition: Condition, budget: Budget
 ) -> tuple[Condition | None, list[fmpq_mpoly]]:
     """For a counterexample to what is said to exist: the goals, and the borders of where they can
     be met.
@@ -442,7 +442,7 @@ def failing_goal(
         return goal, []
 
 
-def margins_of(state: checker.State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
+def margins_of(state: State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
     """What the state says to be positive, dehomogenised, as long as it is short, and products:
     small where the state ends.
     """

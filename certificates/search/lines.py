@@ -9,7 +9,6 @@ from itertools import chain, islice
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
-from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import Condition, constant_of, evaluate, univariate
 from juggleproof.certificates.algebra.numbers import (
     AlgebraicNumber,
@@ -42,6 +41,7 @@ from juggleproof.certificates.search.terms import (
     reduced_by,
     root_values,
 )
+from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Exhausted
 
 # -------------------------------------------------------------------------------------------------
@@ -116,9 +116,7 @@ class Piece:
 class LineCover:
     """The search for a found that serves on a state in one parameter."""
 
-    def __init__(
-        self, task: Task, state: checker.State, parameter: str, samples: Sequence[Sample]
-    ) -> None:
+    def __init__(self, task: Task, state: State, parameter: str, samples: Sequence[Sample]) -> None:
         self.task, self.state, self.parameter, self.samples = task, state, parameter, list(samples)
         self.condition, self.keys, self.integers = setting(task, state)
         self.normal = Normal(state, self.condition, equations=False)
@@ -274,7 +272,7 @@ class LineCover:
                 low, closed = best.interval.high, not best.interval.high_closed
         return pieces
 
-    def _build(self, state: checker.State, plan: Sequence[Piece], depth: int) -> Node | None:
+    def _build(self, state: State, plan: Sequence[Piece], depth: int) -> Node | None:
         if len(plan) == 1:
             return self._leaf(state, plan[0], depth)
         k = len(plan) // 2
@@ -295,11 +293,11 @@ class LineCover:
             founds.append(self._build(branches[2], plan[k:], depth))
         return ["sign", text, *founds] if founds[-1] is not None else None
 
-    def _empty(self, state: checker.State) -> Node | None:
+    def _empty(self, state: State) -> Node | None:
         node = search_closing(state, self.task.known, self.task.budget, 1)
         return None if node is None else ["empty", node]
 
-    def _leaf(self, state: checker.State, piece: Piece, depth: int) -> Node | None:
+    def _leaf(self, state: State, piece: Piece, depth: int) -> Node | None:
         """The piece's choice, or another that serves there, or the piece in two halves."""
         others = [
             c
@@ -341,7 +339,7 @@ class LineCover:
         )
 
     def _build_halves(
-        self, state: checker.State, halves: Sequence[Piece], value: fmpq, depth: int
+        self, state: State, halves: Sequence[Piece], value: fmpq, depth: int
     ) -> Node | None:
         text = linear_text(value, self.parameter)
         founds: list[Node] = []

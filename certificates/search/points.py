@@ -34,7 +34,8 @@ from juggleproof.certificates.search.found_terms import Task, adjoined_entry
 from juggleproof.certificates.search.models import ask, model_assignments, near_points
 from juggleproof.certificates.search.samples import Assignment, Sampler, base_samples
 from juggleproof.certificates.search.scales import with_scales
-from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
+from juggleproof.certificates.states import State
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
 # -------------------------------------------------------------------------------------------------
 # Points whose values are roots of equations with one another's values as coefficients: each root
@@ -230,14 +231,14 @@ class Towers:
 
 def as_found(
     statement: checker.Statement,
-    state: checker.State,
+    state: State,
     tower: Tower,
     purpose: str,
     known: dict[str, checker.Statement],
     budget: Budget,
     digits: int,
 ) -> Found | None:
-    """The point as `checker.find` takes it, with roots between neighbouring decimals; None where a
+    """The point as `checker.finds` takes it, with roots between neighbouring decimals; None where a
     node is missing.
     """
     own, entries = state.branch(), []
@@ -284,7 +285,7 @@ ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
 
 def search_found(
     statement: checker.Statement,
-    state: checker.State,
+    state: State,
     purpose: str,
     base: dict[str, checker.Poly],
     known: Known,
@@ -293,7 +294,7 @@ def search_found(
     effort: int = 1,
     roles: Roles = NO_ROLES,
 ) -> Found | None:
-    """Values as `checker.find` takes them for the purpose "point", "counterexample" or "witness";
+    """Values as `checker.finds` takes them for the purpose "point", "counterexample" or "witness";
     None where none was found.
     """
     unfolding = unfolded(statement, sharp)
@@ -364,7 +365,7 @@ def search_found(
 
 def _sampled(
     statement: checker.Statement,
-    state: checker.State,
+    state: State,
     condition: Condition,
     goal: Condition | None,
     names: Sequence[str],
@@ -396,7 +397,7 @@ def _sampled(
 
 def _by_towers(
     statement: checker.Statement,
-    state: checker.State,
+    state: State,
     condition: Condition,
     names: Sequence[str],
     purpose: str,
@@ -411,16 +412,7 @@ def _by_towers(
         for tower in Towers(budget, names, guide, 60 * effort, 1, roles).search(condition):
             for digits in DIGITS:
                 found = as_found(statement, state, tower, purpose, known, budget, digits)
-                if found is not None and accepted(
-                    checker.find,
-                    state.branch(),
-                    found,
-                    known,
-                    purpose,
-                    {statement.name: statement},
-                    {},
-                    None,
-                ):
+                if found is not None and state.is_served_by(found, known, purpose, statement):
                     return found
             failures += 1
             if failures >= 2 * effort:
@@ -451,7 +443,7 @@ def _beyond(
     return ask(there, budget, integers, 200_000).verdict == "unsat"
 
 
-def _found_terms(task: Task, state: checker.State) -> Found | None:
+def _found_terms(task: Task, state: State) -> Found | None:
     """Terms in the base variables, on all of the state."""
     if task.effort == 0:
         task = replace(task, effort=1, nodes=40, tries=2)
@@ -485,7 +477,7 @@ def assignments(
 
 def as_found_point(
     statement: checker.Statement,
-    state: checker.State,
+    state: State,
     assignment: Assignment,
     names: Sequence[str],
     purpose: str,
@@ -497,7 +489,6 @@ def as_found_point(
     """The assignment in the checker's form, with its nodes, confirmed by the checker; None where it
     does not serve.
     """
-    named = {statement.name: statement}
     nodes = [["close"]] * (2 if purpose == "counterexample" else 1)
     if assignment.number is None:
         values = {name: str(fraction(assignment.values[name][0])) for name in names}
@@ -507,38 +498,34 @@ def as_found_point(
             if node is None:
                 return None
             found[4] = node
-        return (
-            found
-            if accepted(checker.find, state.branch(), found, known, purpose, named, {}, sharp)
-            else None
-        )
+        return found if state.is_served_by(found, known, purpose, statement, sharp=sharp) else None
     for digits in (1, 2, 3, 4, 6, 9, 14, 20, 40):
         adjoined = Adjoined.of(assignment.number, digits, _fresh("theta", statement))
         values = {name: adjoined.text(assignment.values[name]) for name in names}
         found = [statement.name, [adjoined.entry()], values, *nodes]
-        if _with_nodes(statement, state, found, adjoined, sharp, purpose) and accepted(
-            checker.find, state.branch(), found, known, purpose, named, {}, sharp
+        if _with_nodes(statement, state, found, adjoined, sharp, purpose) and state.is_served_by(
+            found, known, purpose, statement, sharp=sharp
         ):
             return found
     return None
 
 
 def _unfolding(
-    statement: checker.Statement, state: checker.State, found: Found, sharp: list[Any] | None
-) -> tuple[checker.State, checker.Unfolding]:
+    statement: checker.Statement, state: State, found: Found, sharp: list[Any] | None
+) -> tuple[State, checker.Unfolding]:
     """The state and the unfolding that the checker has when it comes to the nodes of a found
     without a base.
     """
     state = state.branch()
     for entry in found[1]:
-        checker.adjoin(state, {}, *entry)
+        state.adjoin(*entry[:4])
     values = {name: state.context.value(checker.parse(text)) for name, text in found[2].items()}
     return state, checker.Unfolding(statement, checker.Context(state.context, values), sharp)
 
 
 def _goal_node(
     statement: checker.Statement,
-    state: checker.State,
+    state: State,
     found: Found,
     known: Known,
     budget: Budget,
@@ -553,7 +540,7 @@ def _goal_node(
 
 def _with_nodes(
     statement: checker.Statement,
-    state: checker.State,
+    state: State,
     found: Found,
     adjoined: Adjoined,
     sharp: list[Any] | None,

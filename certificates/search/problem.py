@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from flint import fmpz_mpoly
 
-from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import positive_between, univariate
 from juggleproof.certificates.algebra.polynomials import (
     Keys,
@@ -37,6 +36,7 @@ from juggleproof.certificates.search.facts import (
     squares,
     times,
 )
+from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
@@ -71,16 +71,17 @@ class Problem:
     """What a leaf of a proof has to contradict; `whole`, with the facts too that seem to say only
     what a root is.
 
+    >>> from juggleproof.certificates import checker
     >>> context = checker.Context()
     >>> for name in ("r", "x", "y"):
     ...     context.declare(name)
     >>> formula = context.formula(checker.parse("r > 0 and x >= r and 2*y = x + r and y < r"))
-    >>> problem = Problem(checker.State(context).assume(formula), Ring(("r", "x", "y")))
+    >>> problem = Problem(State(context).assume(formula), Ring(("r", "x", "y")))
     >>> [(str(fact.poly), fact.strict) for fact in problem.facts]
     [('x - 1', False), ('-x + 1', True)]
     """
 
-    def __init__(self, state: checker.State, ring: Ring, whole: bool = False) -> None:
+    def __init__(self, state: State, ring: Ring, whole: bool = False) -> None:
         self.ring = ring
         polys = [ring.read(poly) for poly, _ in state.facts]
         relations = [relation for _, relation in state.facts]

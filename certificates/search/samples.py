@@ -29,6 +29,7 @@ from juggleproof.certificates.search.candidates import (
     trials,
 )
 from juggleproof.certificates.search.terms import Sample
+from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
@@ -304,21 +305,13 @@ CLOSENESS = tuple(
 )
 
 
-def state_condition(state: checker.State) -> Condition:
+def state_condition(state: State) -> Condition:
     """What a state assumes, as a condition."""
-    parts = [("atom", poly, relation) for poly, relation in state.facts] + [
-        ("or", list(choice)) for choice in state.choices
-    ]
-    return Condition.of(
-        state.context,
-        checker.join("and", [False] if state.closed else parts),
-        ring_of(state.context),
-    )
+    formula = checker.join("and", state.formulas)
+    return Condition.of(state.context, formula, ring_of(state.context))
 
 
-def base_samples(
-    state: checker.State, budget: Budget, roles: Roles, count: int = 12
-) -> list[Sample]:
+def base_samples(state: State, budget: Budget, roles: Roles, count: int = 12) -> list[Sample]:
     """Points of the state, in a fixed order."""
     condition = state_condition(state)
     if condition.tree is False:

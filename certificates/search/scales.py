@@ -20,6 +20,7 @@ from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.language import Roles
 from juggleproof.certificates.search.facts import Scaling, Weight
 from juggleproof.certificates.search.terms import Root, Sample
+from juggleproof.certificates.states import State
 
 # -------------------------------------------------------------------------------------------------
 # Which variables are scales: positive ones that a change of units makes 1, where nothing that the
@@ -83,7 +84,7 @@ class Normal:
     that an equation gives is what it gives.
     """
 
-    def __init__(self, state: checker.State, condition: Condition, equations: bool = True) -> None:
+    def __init__(self, state: State, condition: Condition, equations: bool = True) -> None:
         self.ring: fmpq_mpoly_ctx = condition.ring
         names = tuple(self.ring.names())
         size = len(state.context.index)

@@ -44,7 +44,8 @@ from juggleproof.certificates.search.ranges import (
 )
 from juggleproof.certificates.search.samples import Sampler, base_samples
 from juggleproof.certificates.search.scales import with_scales
-from juggleproof.certificates.work import Budget, Exhausted, accepted, unfolded
+from juggleproof.certificates.states import State
+from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
 # -------------------------------------------------------------------------------------------------
 # The certificate of a sharp range: counterexamples on every interval outside on which one
@@ -132,14 +133,12 @@ def whole_parameters(
     )
 
 
-def outside_state(
-    statement: checker.Statement, statements: Sequence[checker.Statement]
-) -> checker.State:
+def outside_state(statement: checker.Statement, statements: Sequence[checker.Statement]) -> State:
     """The state that assumes the domain and not the condition."""
     (over,), (domain,), (condition,) = (
         statement.get(keyword) for keyword in ("over", "domain", "holds")
     )
-    state: checker.State = checker.State(checker.Context())
+    state = State(checker.Context())
     for parameter in over:
         state.context.declare(parameter, parameter in whole_parameters(over, statements))
     state.assume(state.context.formula(domain))
@@ -167,7 +166,7 @@ def sample_of(
 
 
 def _outside(
-    state: checker.State,
+    state: State,
     named: Mapping[str, checker.Statement],
     parameter: str,
     line: Line,
@@ -312,7 +311,7 @@ def find_sharp_range(
     roles: Roles = NO_ROLES,
 ) -> Range:
     """The set of one parameter on which all the statements hold, its ends, and a certificate for
-    `checker.check_sharp`.
+    `checker.check_one`.
     """
     tree, result = (
         checker.parse(str(domain)),
@@ -521,10 +520,8 @@ def _certified(
     certificate, failure = sharp_certificate(
         statement, statements, parameter, line, verdicts, known, budget, roles
     )
-    named = {s.name: s for s in statements}
-    if certificate is not None and not accepted(
-        checker.check_sharp, statement, certificate, dict(known), named
-    ):
+    named, settled = {s.name: s for s in statements}, {"certified": certificate}
+    if certificate is not None and checker.check_one(statement, settled, dict(known), named)[1]:
         return None, "the checker does not accept the certificate"
     return certificate, failure
 

@@ -46,7 +46,8 @@ from juggleproof.certificates.search.sharp import (
     whole_parameters,
 )
 from juggleproof.certificates.search.terms import Sample
-from juggleproof.certificates.work import Budget, Exhausted, accepted
+from juggleproof.certificates.states import State
+from juggleproof.certificates.work import Budget, Exhausted
 
 RELATIONS = ("=", "!=", ">", ">=")
 Guess = tuple[
@@ -68,7 +69,7 @@ def find_sharp_region(
     """
     tree = checker.parse(str(domain))
     roles = among(roles, dict.fromkeys(parameters, ()))
-    state: checker.State = checker.State(checker.Context())
+    state = State(checker.Context())
     for parameter in parameters:
         state.context.declare(parameter, parameter in whole_parameters(parameters, statements))
     state.assume(state.context.formula(tree))
@@ -97,7 +98,7 @@ def find_sharp_region(
 
 
 def _borders(
-    state: checker.State, violations: Sequence[Violation], parameters: Sequence[str], budget: Budget
+    state: State, violations: Sequence[Violation], parameters: Sequence[str], budget: Budget
 ) -> list[fmpq_mpoly]:
     """Polynomials from resultants, and for whole numbers those of the next one."""
     empty = Condition.of(state.context, True)
@@ -110,7 +111,7 @@ def _borders(
 
 
 def _samples(
-    state: checker.State,
+    state: State,
     polys: Sequence[fmpq_mpoly],
     parameters: Sequence[str],
     budget: Budget,
@@ -215,9 +216,8 @@ def _certified(
     if outside is None or sample is None:
         return None, "no family of counterexamples outside the range"
     certificate = [inside, outside, sample]
-    if not accepted(
-        checker.check_sharp, statement, certificate, dict(known), {s.name: s for s in statements}
-    ):
+    named, settled = {s.name: s for s in statements}, {"certified": certificate}
+    if checker.check_one(statement, settled, dict(known), named)[1]:
         return None, "the checker does not accept the certificate"
     return certificate, ""
 

@@ -179,8 +179,6 @@ def _merge(first: tuple[Atom, ...], second: tuple[Atom, ...]) -> tuple[Atom, ...
 # A question is a formula "assumed, and for all bound variables denied"; the statement holds if and
 # only if no question has a solution.
 
-TRUSTED: Any = checker  # the trusted file carries no annotations
-
 
 @dataclass(frozen=True)
 class Denial:
@@ -249,7 +247,7 @@ class Question:
 
 def read_statement(text: str) -> Any:
     """The checker's statement of this text (one statement, as `Statement.text` writes it)."""
-    (statement,) = TRUSTED.read_statements(text).values()
+    (statement,) = checker.read_statements(text).values()
     return statement
 
 
@@ -315,7 +313,7 @@ def _outside(
     """Is there a parameter in the domain, but outside the range, at which all the named statements
     hold?
     """
-    unfoldings = [TRUSTED.Unfolding(statement, TRUSTED.Context(), [domain]) for statement in named]
+    unfoldings = [checker.Unfolding(statement, checker.Context(), [domain]) for statement in named]
     names, integers = list[str](over), {p for p in over if p in unfoldings[0].integers}
     renamed = list[tuple[str, ...]]()
     # every denial binds its own variables; a name is shared unless it is an integer in one
@@ -332,17 +330,17 @@ def _outside(
         names += [n for n in own if n not in names]
         integers |= {n for n, key in zip(own, unfolding.context.index) if key in unfolding.integers}
         renamed.append(tuple(own))
-    context, order = TRUSTED.Context(), tuple(names)
+    context, order = checker.Context(), tuple(names)
     for parameter in over:
         context.declare(parameter)
     outside = [
         formula_of(f, tuple(over), order)
-        for f in (context.formula(domain), TRUSTED.negate(context.formula(condition)))
+        for f in (context.formula(domain), checker.negate(context.formula(condition)))
     ]
     denials = []
     for unfolding, bound in zip(unfoldings, renamed):
-        held = TRUSTED.join(
-            "or", [TRUSTED.negate(TRUSTED.join("and", unfolding.premises)), unfolding.goal(True)]
+        held = checker.join(
+            "or", [checker.negate(checker.join("and", unfolding.premises)), unfolding.goal(True)]
         )
         of_all = {n for n, key in zip(bound, unfolding.context.index) if key in unfolding.universal}
         denials.append(
@@ -366,14 +364,14 @@ def _iterate_questions(statement: Any) -> list[Question]:
     (variables,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "iterates", "after")
     )
-    images, powers = ([TRUSTED.parse(text) for text in terms] for terms in (images, powers))
-    context = TRUSTED.Context()
+    images, powers = ([checker.parse(text) for text in terms] for terms in (images, powers))
+    context = checker.Context()
     for name in variables:
         context.declare(name)
     values, (k,), names = dict(context.values), count, tuple(context.index)
 
     def image(trees: Sequence[Any], changes: Mapping[str, Any]) -> list[Any]:
-        inner = TRUSTED.Context(context, {**values, **changes})
+        inner = checker.Context(context, {**values, **changes})
         for name, tree in statement.get("let"):
             inner.define(name, inner.value(tree))
         return [inner.value(tree) for tree in trees]
@@ -382,7 +380,7 @@ def _iterate_questions(statement: Any) -> list[Question]:
         *zip(image(powers, {k: context.number(0)}), (values[name] for name in arguments)),
         *zip(
             image(images, dict(zip(arguments, image(powers, {})))),
-            image(powers, {k: context.value(TRUSTED.parse(k + " + 1"))}),
+            image(powers, {k: context.value(checker.parse(k + " + 1"))}),
         ),
     ]
     fails = join(

@@ -8,10 +8,9 @@ from typing import Any
 
 from flint import fmpz_mpoly
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import used_in
-from juggleproof.certificates.checker import parse
 from juggleproof.certificates.votes.questions import (
-    TRUSTED,
     Atom,
     Denial,
     Formula,
@@ -67,7 +66,7 @@ def recurrence(statement: Any) -> list[str]:
     (variables,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "iterates", "after")
     )
-    images, powers = ([parse(text) for text in terms] for terms in (images, powers))
+    images, powers = ([checker.parse(text) for text in terms] for terms in (images, powers))
     symbols = {name: symbol(name) for name in variables}
     k = count[0]
 
@@ -157,9 +156,9 @@ def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
             "; sharp range: inside it every named statement holds, outside it one of them fails at"
             " every parameter"
         )
-    if statement.kind in TRUSTED.ORBIT_RULES and statement.kind != "iterates":
+    if statement.kind in checker.orbit_rules() and statement.kind != "iterates":
         rows[0] += ", which are the premises of its rule, beside the statements that it names"
-        for premise in TRUSTED.premises_of(statement, earlier or {}).values():
+        for premise in checker.premises_of(statement, earlier or {}).values():
             rows += script(premise).splitlines()[1:]
         return "\n".join(rows) + "\n"
     for question in questions(statement, earlier):

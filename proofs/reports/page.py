@@ -344,7 +344,7 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
             rule.name,
             rule.name.partition("/")[2],
             rule.kind,
-            inspect.getdoc(checker.ORBIT_RULES[rule.kind]) or "",
+            inspect.cleandoc(checker.orbit_rules()[rule.kind]),
             statement(Shown(rule.name, rule.text, rule.outcome, None, "", {}), whole=True),
             [statement(premise, whole=True) for premise in rule.premises],
             rule.rests_on,

@@ -26,7 +26,7 @@ def rules_of(store: Store) -> dict[str, Any]:
     return {
         name: one
         for name, one in statements.items()
-        if one.kind in checker.ORBIT_RULES and one.kind != "iterates"
+        if one.kind in checker.orbit_rules() and one.kind != "iterates"
     }
 
 

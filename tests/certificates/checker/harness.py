@@ -8,6 +8,7 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Rejected
+from juggleproof.certificates.checker.settling import unique
 
 Json = Any
 # a kind; with how the offender begins; with the place
@@ -82,7 +83,7 @@ def verdict(text: str, certificates: dict[str, Json]) -> dict[str, tuple[str, Re
     earlier: dict[str, Any] = {}
     found: dict[str, tuple[str, Rejected | None]] = {}
     for name, statement in checker.read_statements(text).items():
-        certificate = json.loads(json.dumps(certificates[name]), object_pairs_hook=checker.unique)
+        certificate = json.loads(json.dumps(certificates[name]), object_pairs_hook=unique)
         found[name] = checker.check_one(statement, certificate, known, earlier)
         earlier[name] = statement
         if found[name][0] == "certified":

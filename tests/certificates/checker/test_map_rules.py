@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
+from juggleproof.certificates.checker.rules import prove
 from tests.certificates.checker.harness import Expected, refused
 from tests.certificates.checker.maps import SUBTRACT, TURN, checked, edited, read, searched
 
@@ -132,7 +133,7 @@ def test_rejects_one_name_for_the_roots_of_two_terms() -> None:
     statements = read(text)
     enters = checker.premises_of(statements["demo/attracts"], statements)["enters"]
     with pytest.raises(checker.Rejected) as info:
-        checker.prove(enters, ["proof", [], ["close"]], {})
+        prove(enters, ["proof", [], ["close"]], {})
     assert refused(info.value, (Kind.VARIABLE_TWICE, "c"))
 
 

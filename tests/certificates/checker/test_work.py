@@ -8,6 +8,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Rejected, Work
+from juggleproof.certificates.checker.rules import State, prove
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused
 
 POWER = lines("forall x", "show (x + 1)^60 - (x + 1)^60 = 0", "")
@@ -63,7 +64,7 @@ def test_what_is_made_in_a_check_holds_its_meter() -> None:
     poly = inner.polynomial("x^2 + 3*x - 1/2")
     results = [poly + poly, poly - poly, poly * poly, -poly, poly**3, poly**0, poly.primitive()[1]]
     assert all(one.work is work for one in results)
-    state = checker.State(inner)
+    state = State(inner)
     assert all(one.context.work is work for one in (state.branch(), *state.by_sign("x")))
     with pytest.raises(Rejected) as info:
         inner.polynomial("(x + 1)^100")
@@ -82,6 +83,6 @@ def test_an_orbit_rule_has_one_meter_for_all_premises() -> None:
     parts = []
     for premise in checker.premises_of(statement, {}).values():
         work = Work()
-        checker.prove(premise, ["proof", [], CLOSE], {}, work=work)
+        prove(premise, ["proof", [], CLOSE], {}, work=work)
         parts.append(checker.MAX_WORK - work.left)
     assert limits[0] == sum(parts) > max(parts)

@@ -4,6 +4,7 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
 
 
@@ -11,7 +12,7 @@ def search_points(statement: checker.Statement, units: Budget, effort: int = 0) 
     """(a point that meets the premises, a counterexample), each as the checker accepts it, or
     None.
     """
-    state: checker.State = checker.State(checker.Context())
+    state = State(checker.Context())
     counterexample = search_found(statement, state, "counterexample", {}, {}, units, effort=effort)
     if counterexample is not None:
         return counterexample[:4], counterexample

@@ -12,6 +12,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.certificate import search_certificate, search_proof
 from juggleproof.certificates.search.closing import Hints, search_closing
+from juggleproof.certificates.states import state_of
 from juggleproof.certificates.work import Budget, Exhausted
 
 STATEMENTS = checker.read_statements((Path(__file__).parent / "statements.txt").read_text())
@@ -23,7 +24,7 @@ def test_true_statements_are_proved_and_false_ones_are_not(name: str) -> None:
     proof = search_proof(STATEMENTS[name], {}, Budget(BUDGET))
     assert (proof is None) == name.endswith("-false")
     if proof is not None:
-        checker.prove(STATEMENTS[name], json.loads(json.dumps(proof)), {})
+        assert checker.proves(STATEMENTS[name], json.loads(json.dumps(proof)), {})
 
 
 @pytest.mark.parametrize("name", ["rank/falls", "region/f-r-physical", "integers/floor"])
@@ -70,8 +71,8 @@ show (z^2 + z - 2)^9 + (z^2 + z - 2)^4 + 3 > z^2 + z
 """
     known = checker.read_statements(text)
     story = checker.Unfolding(known["h/uses"], checker.Context())
-    state = checker.state_of(story).assume(story.goal(False))
+    state = state_of(story).assume(story.goal(False))
     hints = Hints((("h/lemma", {"y": "z^2 + z - 2"}),))
     node = search_closing(state, {"h/lemma": known["h/lemma"]}, Budget(BUDGET), 1, hints)
     assert node is not None and node[:3] == ["use", "h/lemma", {"y": "z^2 + z - 2"}]
-    checker.close(state, node, {"h/lemma": known["h/lemma"]})
+    assert state.is_closed_by(node, {"h/lemma": known["h/lemma"]})

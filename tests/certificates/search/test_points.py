@@ -4,7 +4,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.points import search_found
-from juggleproof.certificates.work import accepted
+from juggleproof.certificates.states import State, state_of
 from tests.certificates.search.cases import UNIT, budget, read, search_points
 
 # -------------------------------------------------------------------------------------------------
@@ -82,18 +82,11 @@ def test_refuted(case):
     text, effort = REFUTED[case]
     statement = read(text)
     point, counterexample = search_points(statement, budget(), effort)
-    named = {statement.name: statement}
-    assert accepted(
-        checker.find,
-        checker.State(checker.Context()),
-        counterexample,
-        {},
-        "counterexample",
-        named,
-        {},
-    )
-    assert accepted(checker.find, checker.State(checker.Context()), point, {}, "point", named, {})
-    assert checker.settle(statement, {"refuted": counterexample}, {}, {}) == "refuted"
+    start = State(checker.Context())
+    assert start.is_served_by(counterexample, {}, "counterexample", statement)
+    assert start.is_served_by(point, {}, "point", statement)
+    refuted = {"refuted": counterexample}
+    assert checker.check_one(statement, refuted, {}, {}) == ("refuted", None)
 
 
 TRUE = {
@@ -149,12 +142,12 @@ def test_the_counterexample_is_the_one_a_reader_would_take():
 def test_a_witness_in_numbers():
     statement = read("statement t/two\nexists y\nshow y^2 = 2 and y > 0")
     story = checker.Unfolding(statement, checker.Context())
-    found = search_found(statement, checker.state_of(story), "witness", {}, {}, budget())
+    found = search_found(statement, state_of(story), "witness", {}, {}, budget())
     certificate = {
         "certified": ["witness", [], found],
         "point": [statement.name, [], {}, ["close"]],
     }
-    assert checker.settle(statement, certificate, {}, {}) == "certified"
+    assert checker.check_one(statement, certificate, {}, {}) == ("certified", None)
     assert found[1][0][1] == "theta^2 - 2"
 
 
@@ -217,10 +210,8 @@ show beta + v*t = r*t""",
 def witness(statement: checker.Statement) -> list:
     story = checker.Unfolding(statement, checker.Context())
     base = {name: story.context.values[name] for name in story.universal}
-    found = search_found(
-        statement, checker.state_of(story), "witness", base, {}, budget(), effort=1
-    )
-    checker.find(checker.state_of(story), found, {}, "witness", {statement.name: statement}, base)
+    found = search_found(statement, state_of(story), "witness", base, {}, budget(), effort=1)
+    assert state_of(story).is_served_by(found, {}, "witness", statement, base)
     return found
 
 
@@ -244,10 +235,7 @@ def test_no_witness_for_what_does_not_exist():
     statement = read("statement w/none\nforall a\nexists y\nshow y^2 = a - 1 and a > 2")
     story = checker.Unfolding(statement, checker.Context())
     base = {"a": story.context.values["a"]}
-    assert (
-        search_found(statement, checker.state_of(story), "witness", base, {}, budget(), effort=1)
-        is None
-    )
+    assert search_found(statement, state_of(story), "witness", base, {}, budget(), effort=1) is None
 
 
 def leaves(found: list) -> list[dict[str, str]]:

@@ -24,7 +24,8 @@ from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.facts import Scaling
 from juggleproof.certificates.search.linear_program import Program, solve
 from juggleproof.certificates.search.problem import Problem, has_interior_point
-from juggleproof.certificates.work import Budget, Exhausted, accepted
+from juggleproof.certificates.states import State
+from juggleproof.certificates.work import Budget, Exhausted
 
 RING = Ring(("x", "y", "z"))
 monomials = st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(0, 2))
@@ -33,11 +34,11 @@ polynomials = st.dictionaries(
 ).map(RING.ctx.from_dict)
 
 
-def state_of(text: str, names: str, integers: str = "") -> checker.State:
+def state_of(text: str, names: str, integers: str = "") -> State:
     context = checker.Context()
     for name in names.split():
         context.declare(name, name in integers.split())
-    return checker.State(context).assume(context.formula(checker.parse(text)))
+    return State(context).assume(context.formula(checker.parse(text)))
 
 
 @settings(max_examples=50, deadline=None)
@@ -111,7 +112,7 @@ def test_units_are_found_for_lengths_and_times() -> None:
 def test_equations_are_used_up(text: str) -> None:
     state = state_of(text, "x y z")
     node = search_closing(state, {}, Budget(10**6))
-    assert node is not None and accepted(checker.close, state, node, {})
+    assert node is not None and state.is_closed_by(node, {})
 
 
 @pytest.mark.parametrize(
@@ -125,7 +126,7 @@ def test_equations_are_used_up(text: str) -> None:
 def test_strict_facts_in_integers_are_rounded(text: str, integers: str) -> None:
     state = state_of(text, "x y z", integers)
     node = search_closing(state, {}, Budget(10**6))
-    assert node is not None and accepted(checker.close, state, node, {})
+    assert node is not None and state.is_closed_by(node, {})
     assert search_closing(state_of(text, "x y z"), {}, Budget(10**6)) is None
 
 

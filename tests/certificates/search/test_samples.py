@@ -20,6 +20,7 @@ from juggleproof.certificates.search.closing import Closing
 from juggleproof.certificates.search.linear import FIRST, search
 from juggleproof.certificates.search.models import ask
 from juggleproof.certificates.search.terms import Point, Quotient, Trial
+from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 
 RING = fmpq_mpoly_ctx.get(["a", "x", "y"], Ordering.lex)
@@ -108,7 +109,7 @@ def test_a_search_that_found_nothing_costs_the_same_again() -> None:
     context = checker.Context()
     for name in ("u", "w"):
         context.declare(name)
-    state = checker.State(context).assume(
+    state = State(context).assume(
         context.formula(checker.parse("u > 0 and w > u^2 and w < 3 and u*w < 1"))
     )
     costs = []

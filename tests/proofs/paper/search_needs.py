@@ -19,6 +19,7 @@ from juggleproof.certificates.algebra.conditions import Condition, ring_of
 from juggleproof.certificates.language import Roles
 from juggleproof.certificates.search.certificate import found, search_proof
 from juggleproof.certificates.search.points import as_found_point, assignments
+from juggleproof.certificates.states import State
 from juggleproof.certificates.votes.z3 import vote
 from juggleproof.certificates.work import Budget, Exhausted
 from juggleproof.proofs.paper.names import STANDING
@@ -254,7 +255,7 @@ def refuted_there(
         for assignment in islice(some, 8):
             refutation = as_found_point(
                 plain,
-                checker.State(checker.Context()),
+                State(checker.Context()),
                 assignment,
                 names,
                 "counterexample",

@@ -110,13 +110,13 @@ class Plain(pickle.Pickler):
         return "work" if isinstance(thing, checker.Work) else None
 
 
-def bytes_of(state: checker.State) -> bytes:
+def bytes_of(state: rules.State) -> bytes:
     file = io.BytesIO()
     Plain(file).dump(state)
     return file.getvalue()
 
 
-def close_once(state: checker.State, node: Any, known: dict[str, checker.Statement]) -> None:
+def close_once(state: rules.State, node: Any, known: dict[str, rules.Statement]) -> None:
     """The checker's `close`, which depends on nothing but what it is given: a node closes an equal
     state without being followed again.
     """
@@ -130,7 +130,7 @@ def close_once(state: checker.State, node: Any, known: dict[str, checker.Stateme
 
 
 @cache
-def certified_before(name: str) -> dict[str, checker.Statement]:
+def certified_before(name: str) -> dict[str, rules.Statement]:
     """What the checker knows when it comes to a stored statement."""
     before = list(STATEMENTS)[: list(STATEMENTS).index(name)]
     return {
@@ -140,7 +140,7 @@ def certified_before(name: str) -> dict[str, checker.Statement]:
     }
 
 
-def outcome(statement: checker.Statement, certificate: Any) -> str:
+def outcome(statement: rules.Statement, certificate: Any) -> str:
     return str(
         checker.check_one(statement, certificate, certified_before(statement.name), STATEMENTS)[0]
     )

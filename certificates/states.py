@@ -1,0 +1,105 @@
+"""States of a search: what is assumed on one branch, and the branches below it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from juggleproof.certificates import checker
+
+
+class State:
+    """What is assumed on one branch of a search: facts (polynomial, relation) that all hold, and
+    disjunctions still open.
+
+    Its context has the variables of another one by their keys, the licences of what is assumed, and
+    a meter of its own: so no branch spends what is another's.
+
+    >>> context = checker.Context()
+    >>> context.declare("x")
+    >>> state = State(context).assume(context.formula(checker.parse("x > 1 and (x < 2 or x = 3)")))
+    >>> len(state.facts), len(state.choices), state.closed
+    (1, 1, False)
+    >>> [len(case.facts) for case in state.by_sign("x - 2")]
+    [2, 2, 2]
+    """
+
+    def __init__(self, variables: checker.Context, parent: State | None = None) -> None:
+        work = checker.Work()
+        values = {key: checker.variable(place, work) for key, place in variables.index.items()}
+        self.context = checker.Context(None, values, work)
+        self.context.index.update(variables.index)
+        self.context.integers.update(variables.integers)
+        self.facts: list[tuple[checker.Poly, str]] = []
+        self.choices: list[list[Any]] = []
+        self.closed = False  # whether something false is assumed
+        if parent is not None:
+            self.context.licensed.update(parent.context.licensed)
+            self.facts += parent.facts
+            self.choices += parent.choices
+            self.closed = parent.closed
+
+    @property
+    def formulas(self) -> list[Any]:
+        """All that is assumed: what is false, the facts and the disjunctions, in this order."""
+        facts = [("atom", poly, relation) for poly, relation in self.facts]
+        return [*[False] * self.closed, *facts, *(("or", list(one)) for one in self.choices)]
+
+    def assume(self, formula: Any) -> State:
+        """The same state, in which one more formula holds."""
+        for part in checker.conjuncts(formula):
+            if isinstance(part, bool):
+                self.closed = self.closed or not part
+            elif part[0] == "atom":
+                self.facts.append(part[1:])
+                self.context.license(part)
+            else:
+                self.choices.append(part[1])
+        return self
+
+    def branch(self, formula: Any = True, variables: checker.Context | None = None) -> State:
+        """A state of its own that assumes one more formula."""
+        return State(variables or self.context, self).assume(formula)
+
+    def by_sign(self, text: str) -> list[State]:
+        """The three states in which the polynomial is < 0, = 0 and > 0."""
+        poly = self.context.polynomial(text)
+        cases = ((-poly, ">"), (poly, "="), (poly, ">"))
+        return [self.branch(checker.fold(*case)) for case in cases]
+
+    def adjoin(self, name: str, text: str, low: str, high: str) -> None:
+        """Adds a variable between low and high at which the polynomial is 0.
+
+        Raises Rejected where the name is taken, or a term is none.
+        """
+        context = self.context
+        ends = [context.value(checker.parse(end)) for end in (low, high)]
+        context.declare(name)
+        root = context.values[name]
+        self.assume(context.atom(root, ">=", ends[0]))
+        self.assume(context.atom(root, "<=", ends[1]))
+        self.assume(context.atom(context.value(checker.parse(text)), "=", context.number(0)))
+
+    def is_closed_by(self, node: Any, known: dict[str, checker.Statement]) -> bool:
+        """Whether the checker accepts the node for what is assumed here."""
+        return bool(checker.closes(self.context, self.formulas, node, known))
+
+    def is_served_by(
+        self,
+        found: Any,
+        known: dict[str, checker.Statement],
+        purpose: str,
+        statement: checker.Statement,
+        base: Iterable[str] = (),
+        sharp: list[Any] | None = None,
+    ) -> bool:
+        """Whether the checker accepts the values for what is assumed here; base: the variables of
+        the statement that keep the value they have here.
+        """
+        assumed = self.context, self.formulas
+        return bool(checker.finds(*assumed, found, known, purpose, statement, base, sharp))
+
+
+def state_of(unfolding: checker.Unfolding, count: int | None = None) -> State:
+    """The state that assumes the premises of an unfolding, or the first `count` of them."""
+    return State(unfolding.context).assume(checker.join("and", unfolding.premises[:count]))
