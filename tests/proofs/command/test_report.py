@@ -12,8 +12,7 @@ import pytest
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command import report
 from juggleproof.proofs.command.main import run
-from juggleproof.proofs.reports import contents as extras
-from juggleproof.proofs.reports import page
+from juggleproof.proofs.reports import extras, page
 from tests.proofs.reports.runs import contents
 
 pytestmark = pytest.mark.usefixtures("kept_records")

@@ -164,21 +164,18 @@ def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.Mon
     pytest.importorskip("matplotlib")
     from juggleproof.scenes.part import scene
 
-    swept, onsets = (
-        import_module("juggleproof.scenes.part.onsets"),
-        import_module("juggleproof.scenes.part.onsets"),
-    )
+    onsets = import_module("juggleproof.scenes.part.onsets")
     monkeypatch.setenv(records.VARIABLE, str(tmp_path))
     monkeypatch.setattr(
-        swept,
+        part,
         "recorded",
-        lambda: (swept.Point(0.7, 0.08, (), (), 0.1), swept.Point(0.5, 0.08, (), (), 0.3)),
+        lambda: (onsets.Point(0.7, 0.08, (), (), 0.1), onsets.Point(0.5, 0.08, (), (), 0.3)),
     )
     setting = scene(e=0.7, mu=0.08, A_x=1e-3, f_x=30.0)
     found = onsets.table_one(setting, ensembles=2, horizon=0.5)
     assert not part.keep_results(setting, found, "peak", 1) and kept_results() is None
-    monkeypatch.setattr(onsets, "ENSEMBLES", 2)
-    monkeypatch.setattr(onsets, "HORIZON", 0.5)
+    monkeypatch.setattr(part, "ENSEMBLES", 2)
+    monkeypatch.setattr(part, "HORIZON", 0.5)
     for other, amplitudes, seed in (
         (setting, "peak", 2),
         (setting, "peak-to-peak", 1),
