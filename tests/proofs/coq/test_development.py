@@ -144,13 +144,16 @@ def test_rejects_a_changed_table(name: str, development: Path) -> None:
 TEXTS = {
     "stronger-bound": ("<= rate alpha ^ k.", "<= rate alpha ^ (k + 1)."),
     "earlier": ("rank s + 3 <= INR n", "rank s + 2 <= INR n"),
-    "wider-threshold": ("<-> alpha < 1 / 3.", "<-> alpha < 1 / 2."),
+    "wider-threshold": ("<->\n  alpha < 1 / 3.", "<->\n  alpha < 1 / 2."),
     "wider-range": (
         "Theorem global : forall alpha, 0 < alpha /\\ alpha < 1 / 3",
         "Theorem global : forall alpha, 0 < alpha /\\ alpha <= 1 / 3",
     ),
     "iterate": ("| S k => f (iterate f k s)", "| S k => iterate f k s"),
-    "attracting": ("exists N, forall n, (N <= n)%nat ->", "exists N, forall n, (n <= N)%nat ->"),
+    "attracting": (
+        "exists N,\n  forall n, (N <= n)%nat ->",
+        "exists N,\n  forall n, (n <= N)%nat ->",
+    ),
     "stable": ("dist s e < delta -> forall n,", "dist s e < delta -> exists n,"),
     "dist": ("Rmax (Rabs (fst s - fst e))", "Rmin (Rabs (fst s - fst e))"),
     "period": ("(2 * n) (e_2 alpha)", "(3 * n) (e_2 alpha)"),
