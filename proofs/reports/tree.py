@@ -11,8 +11,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, rests_on
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.vote import Vote
-
-THEOREM = "theorem-in-units/exactly"
+from juggleproof.proofs.theorem import SENTENCE, THEOREM
 
 
 def rules_of(store: Store) -> dict[str, Any]:
@@ -68,8 +67,7 @@ def theorem_line(
     count = sum(len(checker.premises_of(rules[name], rules)) for name in names)
     kinds = ", ".join(dict.fromkeys(rules[name].kind for name in reversed(names)))
     return (
-        "theorem: proved by exact certificates: for 0 < alpha < 1, e_1 is stable and attracts"
-        f" every state of H if and only if alpha < 1/3;\n         {THEOREM} rests on"
+        f"theorem: proved by exact certificates: {SENTENCE};\n         {THEOREM} rests on"
         f" {len(names) + len(used)} statements with {count} premises, under the checker's rules"
         f" {kinds}"
         + (

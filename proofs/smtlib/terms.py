@@ -228,11 +228,6 @@ def balanced(join: Callable[[Any, Any], Any], parts: Sequence[Any]) -> Any:
     return join(balanced(join, parts[:middle]), balanced(join, parts[middle:]))
 
 
-def sort_of(value: Value) -> str:
-    """Real or Bool."""
-    return "Real" if isinstance(value, Real) else "Bool"
-
-
 class Reader:
     """Reads the terms of one script."""
 
