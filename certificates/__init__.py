@@ -4,6 +4,7 @@ that believes none of them.
 In reading order:
 
 - `checker`: reads statements and certificates, and says whether these prove those;
+- `nodes`: the shape of certificates;
 - `language`: terms, formulas and statements as values, and their text;
 - `algebra`: arithmetic that the search and the votes share;
 - `work`: counted work, and statements unfolded once;
