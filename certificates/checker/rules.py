@@ -307,8 +307,8 @@ RULES = {
 
 def close(state, node, known):
     """Shows that the state has no point, by the rule that the node names."""
-    named = isinstance(node, list) and node and isinstance(node[0], str) and node[0] in RULES
-    require(named, Kind.RULE, node)
+    named = isinstance(node, (list, tuple)) and node and isinstance(node[0], str)
+    require(named and node[0] in RULES, Kind.RULE, node)
     RULES[node[0]](state, known, *node[1:])
 
 
