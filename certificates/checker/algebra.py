@@ -93,6 +93,7 @@ class Kind(Enum):
     WITNESS = "a witness of the wrong shape, or for another statement"
     SHARP = "a sharp range proves each of its earlier statements"
     SHARP_INTEGERS = "a parameter is an integer in one statement of a sharp range, not in another"
+    SHARP_OVER = "a sharp range is over what is not for all in one of its statements"
     SAMPLE = "the sample is not in the domain of a sharp range"
     ONE_ROOT = "not one root, with a change of sign, between the ends of a number"
     # rules for orbits

@@ -502,6 +502,11 @@ def check_sharp(
         once = once and sign_at(p, low, work) != sign_at(p, high, work)
         require(once, Kind.ONE_ROOT, name)
     for name in names:
+        # a witness is no parameter: the statement says nothing of each of its values
+        parameters = {n for line in statements[name].get("forall") for n in line}
+        require(set(over) <= parameters, Kind.SHARP_OVER, name)
+        # a meaning on the whole domain, not only where a condition or a value gives it one
+        Unfolding(statements[name], Context(work=work), [domain])
         prove(statements[name], inside[name], known, [domain, condition], work)
     state.assume(state.context.formula(domain))
     state.assume(negate(state.context.formula(condition)))

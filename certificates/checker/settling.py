@@ -22,6 +22,7 @@ from .language import (
     Known,
     Range,
     Statement,
+    Unfolding,
     read_statements,
 )
 from .rules import Hint, State, at, check_sharp, close, find, prove
@@ -374,6 +375,8 @@ def settle(
     state = State(Context(work=work))
     named = {statement.name: statement}
     if keys == ["refuted"]:
+        # else a line could use a root that stands below it, or divide by what a value makes nonzero
+        Unfolding(statement, Context(work=work))
         find(state, certificate["refuted"], known, "counterexample", named, {})
         return "refuted"
     # without a point, premises that contradict each other would certify anything
