@@ -227,7 +227,7 @@ def test_the_larger_of_two_needs_a_case_split():
             "statement w/maximum\nforall a b\nexists m\nshow m >= a and m >= b and (m = a or m = b)"
         )
     )
-    assert found[:2] == ["sign", "a - b"]
+    assert found[:2] == ("sign", "a - b")
     assert [part[2] for part in found[2:]] == [{"m": "b"}, {"m": "a"}, {"m": "a"}]
 
 
