@@ -76,7 +76,7 @@ def test_no_point_is_below_what_is_enclosed(text: str, box: Box) -> None:
 
 @MANY
 @given(polynomials, boxes, st.integers(0, 10**6))
-def test_a_changed_tree_is_rejected_or_says_what_is_true(text: str, box: Box, seed: int) -> None:
+def test_a_changed_tree_is_rejected_or_proves_what_is_true(text: str, box: Box, seed: int) -> None:
     found = enclose_minimum(text, box, Fraction(1, 10), budget=100)
     node = found.certificates[LOWER]["certified"][2]
     if node[0] != "boxes":
