@@ -337,8 +337,8 @@ def _integral(branch: Branch, statement: str, index: int, node: Any) -> list[str
 
 
 def _uses(rule: str, node: Any) -> bool:
-    return isinstance(node, list) and (
-        node[:1] == [rule] or any(_uses(rule, part) for part in node)
+    return isinstance(node, (list, tuple)) and (
+        tuple(node[:1]) == (rule,) or any(_uses(rule, part) for part in node)
     )
 
 

@@ -15,7 +15,8 @@ from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, Term, real
-from juggleproof.certificates.search.enclosing import Found, Problem, search_enclosure
+from juggleproof.certificates.nodes import Certificate, Node, Point
+from juggleproof.certificates.search.boxes.enclosures import Bounds, Problem, search_enclosure
 from juggleproof.certificates.store import (
     CERTIFICATES,
     STATEMENTS,
@@ -45,7 +46,7 @@ class Enclosure:
     boxes: int
     reached: bool
     statements: str
-    certificates: dict[str, Any]
+    certificates: dict[str, Certificate]
 
     @property
     def width(self) -> Fraction:
@@ -117,12 +118,12 @@ def enclose_minimum(
     question = _Question(text, ends)
     if not used:
         value = sum(terms.values(), start=Fraction(0))
-        return question.enclosure(Found(value, value, (), ["close"], 0, True), used)
+        return question.enclosure(Bounds(value, value, (), ("close",), 0, True), used)
     problem = Problem(
         {tuple(exponents[k] for k in used): c for exponents, c in terms.items()},
         [list(ends.values())[k] for k in used],
         [list(ends)[k] for k in used],
-        [[2 * k, 2 * k + 1] for k in used],
+        [(2 * k, 2 * k + 1) for k in used],
         2 * len(ends),
     )
     return question.enclosure(search_enclosure(problem, sought, budget, question.holds), used)
@@ -168,15 +169,15 @@ class _Question:
             ]
         )
 
-    def _lower_certificate(self, node: list[Any]) -> Any:
+    def _lower_certificate(self, node: Node) -> Certificate:
         corner = {name: str(first) for name, (first, _) in self.ends.items()}
-        return {"certified": ["proof", [], node], "point": [LOWER, [], corner, ["close"]]}
+        return {"certified": ("proof", [], node), "point": Point(LOWER, [], corner, ("close",))}
 
-    def holds(self, low: Fraction, node: list[Any]) -> bool:
+    def holds(self, low: Fraction, node: Node) -> bool:
         """Whether the checker accepts the bound from below with this proof."""
         return self._reason(self.lower(low), self._lower_certificate(node)) == ""
 
-    def _reason(self, text: str, certificate: Any) -> str:
+    def _reason(self, text: str, certificate: Certificate) -> str:
         key = text.encode() + canonical(certificate)
         if key in self.accepted:
             return ""
@@ -187,19 +188,19 @@ class _Question:
             return ""
         return str(reason or outcome)
 
-    def enclosure(self, found: Found, used: list[int]) -> Enclosure:
+    def enclosure(self, found: Bounds, used: list[int]) -> Enclosure:
         """The enclosure, once the checker has accepted both statements; raises ArithmeticError
         where it does not.
         """
         point = {name: first for name, (first, _) in self.ends.items()} | dict(
             zip((list(self.ends)[k] for k in used), found.point)
         )
-        witness = [ATTAINED, [], {name: str(value) for name, value in point.items()}, ["close"]]
-        certificates = {
+        values = {name: str(value) for name, value in point.items()}
+        certificates: dict[str, Certificate] = {
             LOWER: self._lower_certificate(found.node),
             ATTAINED: {
-                "certified": ["witness", [], witness],
-                "point": [ATTAINED, [], {}, ["close"]],
+                "certified": ("witness", [], Point(ATTAINED, [], values, ("close",))),
+                "point": Point(ATTAINED, [], {}, ("close",)),
             },
         }
         texts = {LOWER: self.lower(found.low), ATTAINED: self.attained(found.high)}

@@ -70,7 +70,7 @@ class Ring:
         self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
         self.differences: dict[
             int, tuple[fmpz_mpoly, frozenset[tuple[int, ...]]]
-        ] = {}  # what was found of units, for all states of a search
+        ] = {}  # what was found of scales, for all states of a search
         self.lowered: dict[tuple[int, tuple[int, ...]], tuple[fmpz_mpoly, fmpz_mpoly]] = {}
         self.scalings: dict[Any, Any] = {}
         self.one = self.ctx.constant(1)

@@ -27,6 +27,7 @@ from juggleproof.certificates.language import (
     different,
     names_in,
 )
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.search.certificate import (
     SQUARES_FIRST,
     search_certificate,
@@ -227,7 +228,7 @@ def settled(name: str, text: str, certificate: Any) -> str:
     return WORDS.get(str(outcome), "unknown")
 
 
-def _searched(name: str, text: str, budget: int) -> dict[str, Any]:
+def _searched(name: str, text: str, budget: int) -> Certificate:
     try:
         return search_certificate(
             checker.read_statements(text)[name], {}, Budget(budget), attempts=SQUARES_FIRST

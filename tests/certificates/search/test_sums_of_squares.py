@@ -22,7 +22,7 @@ from juggleproof.certificates.algebra.semidefinite import (
 )
 from juggleproof.certificates.search.certificate import SQUARES_FIRST, search_certificate
 from juggleproof.certificates.search.closing import SQUARED, search_closing
-from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.work import Budget, Exhausted
 
@@ -143,18 +143,20 @@ FALSE = {
 
 @pytest.mark.parametrize("name", TRUE)
 def test_squares_close_what_is_true_holds(name: str) -> None:
-    story = checker.Unfolding(statement(TRUE[name]), checker.Context())
-    state = state_of(story).assume(story.goal(False))
+    unfolding = checker.Unfolding(statement(TRUE[name]), checker.Context())
+    state = state_of(unfolding).assume(unfolding.goal(False))
     node = search_closing(state, {}, Budget(2_000_000), SQUARED)
     assert node is not None and state.is_closed_by(node, {})
 
 
 @pytest.mark.parametrize("name", FALSE)
 def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
-    story = checker.Unfolding(statement(FALSE[name]), checker.Context())
+    unfolding = checker.Unfolding(statement(FALSE[name]), checker.Context())
     try:
         assert (
-            search_closing(state_of(story).assume(story.goal(False)), {}, Budget(200_000), SQUARED)
+            search_closing(
+                state_of(unfolding).assume(unfolding.goal(False)), {}, Budget(200_000), SQUARED
+            )
             is None
         )
     except Exhausted:
@@ -162,8 +164,8 @@ def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
 
 
 def test_rejects_squares_whose_sum_is_changed() -> None:
-    story = checker.Unfolding(statement(TRUE["motzkin"]), checker.Context())
-    state = state_of(story).assume(story.goal(False))
+    unfolding = checker.Unfolding(statement(TRUE["motzkin"]), checker.Context())
+    state = state_of(unfolding).assume(unfolding.goal(False))
     node = search_closing(state, {}, Budget(2_000_000), SQUARED)
     assert node is not None and state.is_closed_by(node, {})
     for k, (c, factors, root) in enumerate(node[1]):
@@ -190,7 +192,7 @@ POINTS = {
 @pytest.mark.parametrize("name", POINTS)
 def test_points_with_irrational_values_are_found_holds(name: str) -> None:
     one = statement(POINTS[name])
-    found = search_found(
+    found = search_values(
         one, State(checker.Context()), "counterexample", {}, {}, Budget(2_000_000), effort=1
     )
     assert found is not None and found[1]
@@ -200,7 +202,7 @@ def test_points_with_irrational_values_are_found_holds(name: str) -> None:
 def test_a_condition_without_points_has_none_holds() -> None:
     one = statement("forall a b\nshow not (a^2 = 2 and b^2 = a - 2)")
     assert (
-        search_found(
+        search_values(
             one,
             State(checker.Context()),
             "counterexample",
