@@ -64,7 +64,8 @@ Proof = Union[
     tuple[Literal["proof"], Sequence[Node], Node],
     tuple[Literal["witness"], Sequence[Node], Values],
 ]
-Sharp = tuple[Mapping[str, Proof], Values, Mapping[str, str]]  # inside, outside, sample
+# proofs inside, counterexamples outside, a point that meets what each statement is given
+Sharp = tuple[Mapping[str, Proof], Values, Mapping[str, Values]]
 
 
 class Certificate(TypedDict, total=False):

@@ -94,7 +94,6 @@ class Kind(Enum):
     SHARP = "a sharp range proves each of its earlier statements"
     SHARP_INTEGERS = "a parameter is an integer in one statement of a sharp range, not in another"
     SHARP_OVER = "a sharp range is over what is not for all in one of its statements"
-    SAMPLE = "the sample is not in the domain of a sharp range"
     ONE_ROOT = "not one root, with a change of sign, between the ends of a number"
     # rules for orbits
     ITERATES_SHAPE = "a map names its variables first, an image for each, and one integer apart"

@@ -465,20 +465,21 @@ def check_sharp(
     work: Work | None = None,
 ) -> None:
     """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).
-    [{name: prove}, found, sample].
+    [{name: prove}, found, {name: found}].
 
     A statement's own range lines give way to the domain and the condition; a parameter is an
     integer where the statements say so. Inside, each statement is proved; outside, counterexamples
     to one of them are found.  Each `number` line: its polynomial has exactly one root between its
-    ends, where it changes its sign.  The sample {parameter: value} is a point of the domain.
+    ends, where it changes its sign.  Last, a point for each statement: in the domain, it meets what
+    the statement is given.
     """
     work = work or Work()
     (names,) = statement.get("sharp")
     (over,) = statement.get("over")
     (domain,) = statement.get("domain")
     (condition,) = statement.get("holds")
-    inside, outside, sample = certificate
-    ours = names and set(inside) == set(names)
+    inside, outside, points = certificate
+    ours = names and set(inside) == set(points) == set(names)
     ours = ours and all(n in statements and statements[n].kind == "universal" for n in names)
     require(ours, Kind.SHARP, names)  # one left out would hold by assertion
     integers = [{n for line in statements[name].get("integer") for n in line} for name in names]
@@ -489,11 +490,6 @@ def check_sharp(
     state = State(Context(work=work))
     for parameter in over:
         state.context.declare(parameter, parameter in whole)
-    # on an empty domain every condition would be sharp
-    values = {name: state.context.number(rational(value)) for name, value in sample.items()}
-    met = set(values) == set(over) and all(values[p].den == 1 for p in whole)
-    met = met and Context(None, values, work).formula(domain) is True
-    require(met, Kind.SAMPLE, sample)
     for name, (tree, *ends) in statement.get("number"):
         poly = state.context.value(tree)
         low, high = (rational_value(state.context, end) for end in ends)
@@ -508,6 +504,9 @@ def check_sharp(
         # a meaning on the whole domain, not only where a condition or a value gives it one
         Unfolding(statements[name], Context(work=work), [domain])
         prove(statements[name], inside[name], known, [domain, condition], work)
+        # on an empty domain, or where the givens contradict one another, any condition is sharp
+        alone = {name: statements[name]}
+        find(State(Context(work=work)), points[name], known, "point", alone, {}, [domain])
     state.assume(state.context.formula(domain))
     state.assume(negate(state.context.formula(condition)))
     base = {parameter: state.context.values[parameter] for parameter in over}

@@ -141,8 +141,11 @@ class Orbits:
         return terms
 
     def with_domain(self, premises: Premises) -> Premises:
-        """Beside other premises: the domain is not empty, and is part of the map's."""
-        possible = ["exists " + " ".join(self.parameters), f"show {self.domain}"]
+        """Beside other premises: a state of the space, for parameters in the domain, which is part
+        of the map's domain.
+        """
+        some = "exists " + " ".join([*self.parameters, *self.state])
+        possible = [some, f"with {self.domain}", f"show {self.space}"]
         inside = {}
         if self.own is not self.map:
             (whole,) = self.map.rows("domain")

@@ -14,7 +14,6 @@ from juggleproof.certificates.algebra.conditions import Condition, candidate_num
 from juggleproof.certificates.algebra.numbers import (
     AlgebraicNumber,
     exact,
-    fraction,
     real_roots,
     simplest_between,
 )
@@ -30,6 +29,7 @@ from juggleproof.certificates.nodes import Certificate, Proof, Sharp, Values, by
 from juggleproof.certificates.search.certificate import search_proof
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
+from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.search.ranges import (
     QUICK,
     Line,
@@ -42,7 +42,7 @@ from juggleproof.certificates.search.ranges import (
     isolated,
     polynomial_term,
 )
-from juggleproof.certificates.search.samples import Sampler, base_samples
+from juggleproof.certificates.search.samples import base_samples
 from juggleproof.certificates.search.scales import with_scales
 from juggleproof.certificates.search.witness_terms import Task
 from juggleproof.certificates.states import State
@@ -72,7 +72,7 @@ def sharp_certificate(
     (domain,) = statement.get("domain")
     named = {each.name: each for each in statements}
     try:
-        sample = sample_of(statement, statements, budget, roles)
+        points = points_of(statement, statements, known, budget, roles)
         outside = _outside(
             outside_state(statement, statements),
             named,
@@ -85,14 +85,14 @@ def sharp_certificate(
             roles,
         )
     except Exhausted:
-        sample = outside = None
-    if outside is None or sample is None:
+        points = outside = None
+    if outside is None or points is None:
         return None, "no family of counterexamples outside the range"
     try:
         inside, failure = proofs_inside(statement, statements, known, budget, roles)
     except Exhausted:
         return None, "the budget ran out"
-    return (None, failure) if inside is None else ((inside, outside, sample), "")
+    return (None, failure) if inside is None else ((inside, outside, points), "")
 
 
 def proofs_inside(
@@ -151,23 +151,39 @@ def outside_state(statement: checker.Statement, statements: Sequence[checker.Sta
     return state
 
 
-def sample_of(
+def points_of(
     statement: checker.Statement,
     statements: Sequence[checker.Statement],
+    known: Known,
     budget: Budget,
     roles: Roles,
-) -> dict[str, str] | None:
-    """A simple point of the domain."""
-    (over,), (domain,) = statement.get("over"), statement.get("domain")
-    context = checker.Context()
-    for parameter in over:
-        context.declare(parameter)
-    condition = Condition.of(context, context.formula(domain))
-    for assignment in Sampler(
-        budget, whole_parameters(over, statements), width=8, nodes=400, roles=roles
-    ).search(condition, over):
-        return {name: str(fraction(assignment.values[name][0])) for name in over}
-    return None
+) -> dict[str, Values] | None:
+    """{name: a point of the domain that meets what the statement is given}; None where one was not
+    found.
+
+    Raises Exhausted where the budget ends.
+    """
+    (domain,) = statement.get("domain")
+    points: dict[str, Values] = {}
+    for each in statements:
+        for depth in (0, 1, 2):
+            point = search_values(
+                each,
+                State(checker.Context()),
+                "point",
+                {},
+                known,
+                budget,
+                [domain],
+                depth,
+                roles,
+            )
+            if point is not None:
+                points[each.name] = point
+                break
+        else:
+            return None
+    return points
 
 
 def _outside(

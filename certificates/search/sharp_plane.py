@@ -39,9 +39,9 @@ from juggleproof.certificates.search.sharp import (
     Range,
     among,
     outside_state,
+    points_of,
     proofs_inside,
     read,
-    sample_of,
     task_outside,
     whole_parameters,
 )
@@ -213,13 +213,13 @@ def _certified(
         outside = cover(task, state, base_samples(state, budget, task.roles), depth=3)
         if outside is not None:
             break
-    sample = sample_of(statement, statements, budget, roles)
-    if outside is None or sample is None:
+    points = points_of(statement, statements, known, budget, roles)
+    if outside is None or points is None:
         return None, "no family of counterexamples outside the range"
-    settled: Certificate = {"certified": (inside, outside, sample)}
+    settled: Certificate = {"certified": (inside, outside, points)}
     if checker.check_one(statement, settled, dict(known), {s.name: s for s in statements})[1]:
         return None, "the checker does not accept the certificate"
-    return (inside, outside, sample), ""
+    return (inside, outside, points), ""
 
 
 def _shown(sample: Sample) -> str:
