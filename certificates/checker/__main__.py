@@ -15,6 +15,7 @@ import json  # noqa: F401
 import math  # noqa: F401
 import os
 import re  # noqa: F401
+import stat  # noqa: F401
 import sys
 import typing  # noqa: F401
 

@@ -211,6 +211,7 @@ class Poly:
     def plus(self, other: Poly, factor: Rational = 1) -> Poly:
         """self + factor * other, for a rational factor other than 0."""
         if self.under or other.under:
+            self.work.spend(len(self.under) + len(other.under))
             under = merged(max, self.under, other.under)
             return self.numerator(under).plus(other.numerator(under), factor).over(under)
         second = other.den * factor.denominator
@@ -229,6 +230,7 @@ class Poly:
         return self.plus(other, -1)
 
     def __neg__(self) -> Poly:
+        self.work.spend(len(self.terms))
         negative = {m: -c for m, c in self.terms.items()}
         return Poly(negative, self.den, self.deg, self.work, self.under)
 
@@ -239,6 +241,7 @@ class Poly:
         terms: Terms = {}
         for m, c in few.items():
             add_multiple(terms, c, many, self.work, m)
+        self.work.spend(len(self.under) + len(other.under))
         under = merged(sum, self.under, other.under) if self.under or other.under else None
         return Poly(terms, self.den * other.den, self.deg + other.deg, self.work, under)
 
@@ -263,6 +266,7 @@ class Poly:
         """(c, p) with terms = c * p, where p has coprime integer coefficients, that of the largest
         monomial positive.
         """
+        self.work.spend(len(self.terms))
         content = gcd(*self.terms.values())
         if self.terms[max(self.terms)] < 0:
             content = -content
@@ -402,15 +406,15 @@ def bernstein(
         d = lcm(low.denominator, high.denominator)
         a = int(low * d)
         b = int(high * d)
-        whole = lcm(*(comb(n, j) for j in range(n + 1)))
         count = sum(map(len, parts.values()))
         sizes.insert(0, n + 1)
-        # the longest coefficient at most, as (n + 1) * whole <= 8^n
+        # the longest coefficient at most, as (n + 1) * whole <= 8^n for the `whole` below
         bits += n * (3 + max(map(int.bit_length, (a, b, d))))
-        # both before the products: a degree of 4000 on three axes must not begin
+        # before the binomials and the products: a degree of 4000 must not begin
         poly.work.spend((8 * (n + 1) ** 3 + (n + 1) * count) * (1 + (bits * bits >> 16)))
         fits = bits <= MAX_BITS and (n + 1) * count <= MAX_TERMS
         require(fits, Kind.SIZE, f"{bits} bits")
+        whole = lcm(*(comb(n, j) for j in range(n + 1)))
         columns = []
         for e in range(n + 1):
             power = reduce(times, [(a, b)] * e + [(d, d)] * (n - e), [1])

@@ -118,6 +118,7 @@ class Context:
         self.index: dict[str, int] = dict(outer.index) if outer else {}
         self.integers: set[str] = set(outer.integers) if outer else set()
         self.licensed: Licences = dict(outer.licensed) if outer else {}
+        self.work.spend(len(self.index) + len(self.licensed))  # else copies would cost nothing
         if values is None:
             values = outer.values if outer else {}
         self.values: dict[str, Poly] = dict(values)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import stat
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import Literal, NoReturn, TypeVar
@@ -29,18 +30,21 @@ from .rules import Hint, State, at, check_sharp, close, find, prove
 from .text import names_in, put
 
 MAX_FILE = 16 << 20
+MAX_STATEMENTS = 2 << 20  # a syntax tree takes some 500 bytes for a letter
+MAX_FOLDER_WORK = 10**9  # for all statements of a folder
+PER_LETTER = 20  # elementary products that a letter of a premise stands for
 STATEMENTS = "statements.txt"
 CERTIFICATES = "certificates.jsonl"
 
 Premises = Mapping[str, list[str]]  # {name: lines of a statement}
-Check = Callable[[Statement, Hint, Known, Known], tuple[str, Rejected | None]]
+Check = Callable[[Statement, Hint, Known, Known, Work], tuple[str, Rejected | None]]
 T = TypeVar("T")
 
 
 # ------------- ORBIT RULES: what holds of every orbit of a map, from premises that this file writes
 
 
-def premises_of_iterates(statement: Statement, known: Known) -> Premises:
+def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Premises:
     """The K-th iterate of the map, for every integer K >= 0.  Premises: P(0) is the identity, and
     map(P(K)) = P(K + 1).
     """
@@ -78,8 +82,9 @@ class Orbits:
     written.
     """
 
-    def __init__(self, statement: Statement, known: Known) -> None:
+    def __init__(self, statement: Statement, known: Known, work: Work) -> None:
         self.own = statement
+        self.work = work
         if statement.kind == "map":
             self.map = statement
         else:
@@ -113,6 +118,8 @@ class Orbits:
     def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain, with the roots of parameters."""
         forall = "forall " + " ".join([*self.parameters, *extra])
+        # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
+        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, self.domain, *rows])))
         return [forall, f"range {self.domain}", *self.fixed, *rows]
 
     def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
@@ -163,12 +170,12 @@ def all_of(parts: Iterable[str], op: str = " and ") -> str:
     return op.join(f"({part})" for part in parts)
 
 
-def premises_of_map(statement: Statement, known: Known) -> Premises:
+def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
     """A map f of the space into itself: for all parameters in the domain, each state of the space
     has exactly one piece whose guard holds, f(state) is given by that piece, and f(state) is in the
     space.
     """
-    f = Orbits(statement, known)
+    f = Orbits(statement, known, work)
     guards = [guard for (guard,), _ in f.pieces]
     premises = {"covers": f.at("show " + all_of(guards, " or "))}
     for i, guard in enumerate(guards):
@@ -180,7 +187,7 @@ def premises_of_map(statement: Statement, known: Known) -> Premises:
     return f.with_domain(premises)
 
 
-def premises_of_descent(statement: Statement, known: Known) -> Premises:
+def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premises:
     """Descent of a rank to a trap: stages A_1, .., A_m.  For all parameters in the domain and all
     states s of the space, f^N(s) is in A_m for every integer N >= rank(s) + m - 1.
 
@@ -188,7 +195,7 @@ def premises_of_descent(statement: Statement, known: Known) -> Premises:
     and A_m into itself. So the first visit to a stage is after at most rank(s) steps, and m - 1
     more steps, or fewer, lead to A_m.
     """
-    f = Orbits(statement, known)
+    f = Orbits(statement, known, work)
     (rank,) = statement.get("rank")
     stages = statement.get("stage")
     outside = f"given not ({all_of(stages, ' or ')})"
@@ -201,7 +208,7 @@ def premises_of_descent(statement: Statement, known: Known) -> Premises:
     return f.with_domain(premises)
 
 
-def premises_of_contraction(statement: Statement, known: Known) -> Premises:
+def premises_of_contraction(statement: Statement, known: Known, work: Work) -> Premises:
     """Contraction in a weighted sup norm, |s - e| = max |s_j - e_j| / weight_j, e the point.  For
     all parameters in the domain: f(e) = e; for all states s of the space in the set `on` and all
     integers n >= 0, f^n(s) is in it and |f^n(s) - e| <= rate^n |s - e| <= rate^n size; and all
@@ -211,7 +218,7 @@ def premises_of_contraction(statement: Statement, known: Known) -> Premises:
     |s - e| <= radius, is taken into itself, and has |s - e| <= size; and on it |s - e| <= distance
     implies |f(s) - e| <= rate distance, for every distance >= 0.
     """
-    f = Orbits(statement, known)
+    f = Orbits(statement, known, work)
     (on,), (rate,), (radius,), (size,) = map(statement.get, ("on", "rate", "radius", "size"))
     point = f.terms("point")
     weights = f.terms("weights")
@@ -241,13 +248,13 @@ def premises_of_contraction(statement: Statement, known: Known) -> Premises:
     return f.with_domain(premises)
 
 
-def premises_of_attraction(statement: Statement, known: Known) -> Premises:
+def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Premises:
     """A descent whose last stage lies in the set of a contraction of the same map.  For all
     parameters in the descent's domain, the point is stable, f^n(s) tends to it for all states s of
     the space, and |f^(N+k)(s) - e| <= rate^k size for all integers N >= rank(s) + m - 1, k >= 0.
     """
-    f = Orbits(earlier_of("descends", statement.text("descent"), known), known)
-    other = Orbits(earlier_of("contracts", statement.text("contraction"), known), known)
+    f = Orbits(earlier_of("descends", statement.text("descent"), known), known, work)
+    other = Orbits(earlier_of("contracts", statement.text("contraction"), known), known, work)
     # the very statement: two maps may have the same text, and other certificates
     require(f.map is other.map, Kind.OTHER_MAP, statement.name)
     # a root of one name for two terms is declared twice, and refused
@@ -259,12 +266,12 @@ def premises_of_attraction(statement: Statement, known: Known) -> Premises:
     }
 
 
-def premises_of_escape(statement: Statement, known: Known) -> Premises:
+def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premises:
     """A periodic orbit: for all parameters in the domain the start is in the space, f^n(start) =
     start for the length n of the word of pieces, and start is not the point; so the orbit of the
     start does not tend to the point.
     """
-    f = Orbits(statement, known)
+    f = Orbits(statement, known, work)
     (word,) = statement.get("word")
     require(word, Kind.WORD, statement.name)  # after no step, every start is back
     here = f.terms("start")
@@ -275,6 +282,7 @@ def premises_of_escape(statement: Statement, known: Known) -> Premises:
     for count, piece in enumerate(word):
         (guard,), images = at(f.pieces, piece - 1)
         now = {name: f"{name}_{count}" for name in f.state}
+        work.spend(PER_LETTER * sum(map(len, [guard, *here, *images])))
         rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
         shown.append(put(guard, now))
         if count == 0:
@@ -284,21 +292,21 @@ def premises_of_escape(statement: Statement, known: Known) -> Premises:
     return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
 
 
-def premises_of_sharpness(statement: Statement, known: Known) -> Premises:
+def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Premises:
     """An attraction and an escape, from the same point of the same map, on domains that make up the
     map's.  For all parameters in the map's domain: the point is stable and attracts every state of
     the space <=> the parameters are in the domain of the attraction's descent.
     """
     attraction = earlier_of("attracts", statement.text("attraction"), known)
-    f = Orbits(known[attraction.text("descent")], known)
-    inner = Orbits(known[attraction.text("contraction")], known)
-    other = Orbits(earlier_of("escapes", statement.text("escape"), known), known)
+    f = Orbits(known[attraction.text("descent")], known, work)
+    inner = Orbits(known[attraction.text("contraction")], known, work)
+    other = Orbits(earlier_of("escapes", statement.text("escape"), known), known, work)
     require(f.map is other.map, Kind.OTHER_MAP, statement.name)
     roots = [root for root in inner.fixed if root not in other.fixed]
     points = zip(inner.terms("point"), other.terms("point"))
     same = all_of(f"({one}) = ({two})" for one, two in points)
     return {
-        "covers": Orbits(f.map, known).for_all(f"show ({f.domain}) or ({other.domain})"),
+        "covers": Orbits(f.map, known, work).for_all(f"show ({f.domain}) or ({other.domain})"),
         "same-point": other.for_all(*roots, f"show {same}"),
     }
 
@@ -319,12 +327,14 @@ def orbit_rules() -> dict[str, str]:
     return {kind: rule.__doc__ or "" for kind, rule in ORBIT_RULES.items()}
 
 
-def premises_of(statement: Statement, known: Known) -> dict[str, Statement]:
+def premises_of(
+    statement: Statement, known: Known, work: Work | None = None
+) -> dict[str, Statement]:
     """The premises of an orbit rule, as statements that a certificate has to prove: {name:
     statement}.
     """
     premises = {}
-    for name, rows in ORBIT_RULES[statement.kind](statement, known).items():
+    for name, rows in ORBIT_RULES[statement.kind](statement, known, work or Work()).items():
         full = f"{statement.name}.{name}"
         premises[name] = read_statements("\n".join([f"statement {full}", *rows]))[full]
     return premises
@@ -336,7 +346,7 @@ def check_orbit_rule(
     """{premise: prove}: each of the premises that the rule asks for is proved, and there is no
     other.
     """
-    premises = premises_of(statement, known)
+    premises = premises_of(statement, known, work)
     # what the statement asks for is shown, not what the certificate offers
     require(
         set(certificate) == set(premises), Kind.PREMISES, sorted(set(certificate) ^ set(premises))
@@ -390,14 +400,18 @@ def settle(
 
 
 def check_one(
-    statement: Statement, certificate: Hint, known: Known, earlier: Known, limit: int = MAX_WORK
+    statement: Statement,
+    certificate: Hint,
+    known: Known,
+    earlier: Known,
+    work: Work | None = None,
 ) -> tuple[str, Rejected | None]:
     """(outcome, None), or ("rejected", why).
 
-    known: the certified statements before it, by name; earlier: all statements before it; limit:
-    the elementary products that it may take.
+    known: the certified statements before it, by name; earlier: all statements before it; work: the
+    meter that it spends from.
     """
-    return verdict(settle, statement, certificate, known, earlier, Work(limit))
+    return verdict(settle, statement, certificate, known, earlier, work)
 
 
 def verdict(
@@ -471,15 +485,17 @@ def on_meter(formula: Atom | Join, work: Work) -> Atom | Join:
 # ------------------------------------------------------------ files
 
 
-def load(path: str) -> str:
+def load(path: str, limit: int = MAX_FILE) -> str:
     """The text of a file of printable ASCII, whose lines end in a newline alone."""
     try:
+        # a pipe or a device might never end, and opening a pipe wait for ever
+        require(stat.S_ISREG(os.stat(path).st_mode), Kind.FILE, path)
         with open(path, "rb") as file:
-            content = file.read(MAX_FILE + 1)
+            content = file.read(limit + 1)
     except OSError as error:
         raise Rejected(Kind.FILE, f"{path} ({type(error).__name__})") from None
     # a carriage return, or a letter that looks like another, could hide a line from who reads it
-    fits = len(content) <= MAX_FILE and not re.search(rb"[^\x20-\x7e\n]", content)
+    fits = len(content) <= limit and not re.search(rb"[^\x20-\x7e\n]", content)
     require(fits, Kind.CHARACTERS, path)
     return content.decode("ascii")
 
@@ -536,7 +552,8 @@ def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, 
     """[(name, outcome, reason)] for every statement of a folder in order, then for every line of
     certificates that is refused or has no statement.
     """
-    statements = read_statements(load(os.path.join(folder, STATEMENTS)))
+    left = MAX_FOLDER_WORK
+    statements = read_statements(load(os.path.join(folder, STATEMENTS), MAX_STATEMENTS))
     results: list[tuple[str, str, str]] = []
     certificates: dict[str, Hint] = {}
     rest: list[tuple[str, Rejected]] = []
@@ -551,7 +568,10 @@ def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, 
         outcome: str = "rejected"
         reason: Rejected | None = Rejected(Kind.NO_CERTIFICATE)
         if name in certificates:
-            outcome, reason = check(statement, certificates.pop(name), known, earlier)
+            limit = min(MAX_WORK, left)
+            work = Work(limit)
+            outcome, reason = check(statement, certificates.pop(name), known, earlier, work)
+            left -= limit - max(work.left, 0)
         results.append((name, outcome, str(reason) if reason else ""))
         earlier[name] = statement
         if outcome == "certified":

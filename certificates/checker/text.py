@@ -33,7 +33,7 @@ RESERVED = WORDS | {"sqrt", "root"}
 
 def parse(text: object) -> ast.expr:
     """The syntax tree of a term or formula."""
-    if not isinstance(text, str) or len(text) > 1 << 20:
+    if not isinstance(text, str) or len(text) > 1 << 18:
         raise Rejected(Kind.TEXT, text)
     return tree(text) if len(text) < 200 else tree.__wrapped__(text)  # what is kept is small
 

@@ -21,7 +21,7 @@ sys.path.insert(0, {str(ROOT)!r})
 from juggleproof.certificates import checker
 for text, certificate in json.load(sys.stdin):
     (statement,) = checker.read_statements(text).values()
-    outcome = checker.check_one(statement, certificate, {{}}, {{}}, checker.MAX_WORK // 20)
+    outcome = checker.check_one(statement, certificate, {{}}, {{}}, checker.Work(checker.MAX_WORK // 20))
     print(*outcome, flush=True)
 """
 AT = {"x": "0", "y": "0", "z": "0"}
