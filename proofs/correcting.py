@@ -183,7 +183,7 @@ def _sum_inside(expression: Term) -> tuple[list[Term], Any] | None:
     if expression.op in ("+", "-"):
         return _terms_of(expression), _total
     if expression.op in ("*", "/"):
-        left, right = expression.args
+        left, right = expression.operands
         found = _sum_inside(left)
         if found is not None:
             terms, rebuild = found
@@ -198,34 +198,37 @@ def _sum_inside(expression: Term) -> tuple[list[Term], Any] | None:
 
 def _terms_of(expression: Term) -> list[Term]:
     if expression.op == "+":
-        return _terms_of(expression.args[0]) + _terms_of(expression.args[1])
+        left, right = expression.operands
+        return _terms_of(left) + _terms_of(right)
     if expression.op == "-":
-        return _terms_of(expression.args[0]) + [-one for one in _terms_of(expression.args[1])]
+        left, right = expression.operands
+        return _terms_of(left) + [-one for one in _terms_of(right)]
     return [expression]
 
 
 def _total(terms: Sequence[Term]) -> Term:
     total = terms[0]
     for one in terms[1:]:
-        total = total - one.args[0] if one.op == "neg" else total + one
+        total = total - one.operands[0] if one.op == "neg" else total + one
     return total
 
 
 def _value(expression: Term, point: dict[str, Fraction]) -> Fraction:
     if expression.op == "var":
-        return point[str(expression.args[0])]
+        return point[expression.name]
     if expression.op == "num":
-        return Fraction(expression.args[0])
-    parts = [_value(part, point) if isinstance(part, Term) else part for part in expression.args]
+        return expression.value
+    parts = [_value(part, point) for part in expression.operands]
     if expression.op == "neg":
-        return -Fraction(parts[0])
+        return -parts[0]
+    if expression.op == "^":
+        return parts[0] ** expression.exponent
     a, b = parts
     arithmetic = {
         "+": operator.add,
         "-": operator.sub,
         "*": operator.mul,
         "/": operator.truediv,
-        "^": operator.pow,
     }
     return Fraction(arithmetic[expression.op](a, b))
 

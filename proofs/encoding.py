@@ -294,15 +294,15 @@ def _times(left: Term, right: Term) -> Term:
 def _back(found: Term) -> Any:
     """The term as a SymPy expression again."""
     if found.op == "var":
-        return _symbol(found.args[0])
+        return _symbol(found.name)
     if found.op == "num":
-        return Rational(found.args[0].numerator, found.args[0].denominator)
-    left = _back(found.args[0])
+        return Rational(found.value.numerator, found.value.denominator)
+    left = _back(found.operands[0])
     if found.op == "neg":
         return -left
     if found.op == "^":
-        return left ** found.args[1]
-    right = _back(found.args[1])
+        return left**found.exponent
+    right = _back(found.operands[1])
     return (
         {"+": left + right, "-": left - right, "*": left * right}[found.op]
         if found.op != "/"

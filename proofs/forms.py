@@ -158,11 +158,9 @@ class _Writer:
             return
         except checker.Rejected:
             pass
-        if below.op in ("*", "/"):
-            self.license(below.args[0])
-            self.license(below.args[1])
-        elif below.op == "^":
-            self.license(below.args[0])
+        if below.op in ("*", "/", "^"):
+            for part in below.operands:
+                self.license(part)
         else:
             sign = _likely_sign(below, self.vocabulary, self.sample)
             formula = below > 0 if sign > 0 else below < 0
@@ -178,7 +176,7 @@ def _denominators(thing: Term | Formula) -> list[Term]:
         if isinstance(part, (Term, Formula)):
             found += _denominators(part)
     if isinstance(thing, Term) and thing.op == "/":
-        found.append(thing.args[1])
+        found.append(thing.operands[1])
     return found
 
 
@@ -188,10 +186,10 @@ SAMPLES = tuple(Fraction(p, q) for p, q in ((2, 1), (3, 11), (5, 2), (10, 1), (-
 def _meets(formula: Formula, sample: Mapping[str, Fraction]) -> bool:
     """Whether a relation holds at a sample; any other formula counts as met."""
     if formula.op == "and":
-        return all(_meets(part, sample) for part in formula.args)
+        return all(_meets(part, sample) for part in formula.parts)
     if formula.op not in COMPARISONS:
         return True
-    left, right = (_evaluate(side, sample) for side in formula.args)
+    left, right = (_evaluate(side, sample) for side in formula.sides)
     return COMPARISONS[formula.op](left, right)
 
 
@@ -211,12 +209,12 @@ def _likely_sign(value: Term, vocabulary: Vocabulary, sample: Mapping[str, Fract
 
 def _evaluate(value: Term, sample: Mapping[str, Fraction]) -> Fraction:
     if value.op == "num":
-        return Fraction(value.args[0])
+        return value.value
     if value.op == "var":
-        return sample.get(str(value.args[0]), Fraction(2))
-    parts = [_evaluate(part, sample) for part in value.args if isinstance(part, Term)]
+        return sample.get(value.name, Fraction(2))
+    parts = [_evaluate(part, sample) for part in value.operands]
     if value.op == "^":
-        return parts[0] ** int(value.args[1])
+        return parts[0] ** value.exponent
     if value.op == "neg":
         return -parts[0]
     if value.op == "/":

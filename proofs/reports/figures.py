@@ -104,7 +104,7 @@ def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, boo
     the theorem's definition has them.
     """
     ((root, square),) = TO_THE_POINT.roots
-    parts = TRAP.args if TRAP.op == "and" else (TRAP,)
+    parts = TRAP.parts if TRAP.op == "and" else (TRAP,)
     return (
         to_sympy(TO_THE_POINT.rank),
         (to_sympy(Term("var", root)), to_sympy(square)),
@@ -116,7 +116,7 @@ def margin(relation: Formula) -> tuple[Expr, bool]:
     """What is positive where a strict relation holds, or not negative where one that is not strict
     does; and whether it is strict.
     """
-    less, more = relation.args if relation.op in ("<", "<=") else reversed(relation.args)
+    less, more = relation.sides if relation.op in ("<", "<=") else reversed(relation.sides)
     if relation.op not in ("<", "<=", ">", ">="):
         raise ClaimError(f"{relation} has no margin; it is no inequality")
     return to_sympy(more) - to_sympy(less), relation.op in ("<", ">")
@@ -131,14 +131,14 @@ def to_sympy(expression: Term) -> Expr:
     -w/2 + 3*x**2 + x/2
     """
     if expression.op == "var":
-        return Symbol(expression.args[0])
+        return Symbol(expression.name)
     if expression.op == "num":
-        return Rational(expression.args[0].numerator, expression.args[0].denominator)
+        return Rational(expression.value.numerator, expression.value.denominator)
     if expression.op == "neg":
-        return -to_sympy(expression.args[0])
+        return -to_sympy(expression.operands[0])
     if expression.op == "^":
-        return to_sympy(expression.args[0]) ** expression.args[1]
-    left, right = (to_sympy(part) for part in expression.args)
+        return to_sympy(expression.operands[0]) ** expression.exponent
+    left, right = (to_sympy(part) for part in expression.operands)
     return {
         "+": lambda: left + right,
         "-": lambda: left - right,

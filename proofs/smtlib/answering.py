@@ -63,7 +63,7 @@ def statement_of(problem: Problem, name: str) -> Statement:
     parts = [
         (line, part)
         for line, formula in problem.assertions
-        for part in (formula.args if formula.op == "and" else (formula,))
+        for part in (formula.parts if formula.op == "and" else (formula,))
     ]
     divided = [(line, part) for line, part in parts if next(divisors(part), None) is not None]
     whole = [part for _, part in parts if next(divisors(part), None) is None]
@@ -104,8 +104,10 @@ def divisors(thing: Term | Formula) -> Iterator[Term]:
     for part in thing.args:
         if isinstance(part, (Term, Formula)):
             yield from divisors(part)
-    if thing.op == "/" and not (thing.args[1].op == "num" and thing.args[1].args[0]):
-        yield thing.args[1]
+    if isinstance(thing, Term) and thing.op == "/":
+        _, below = thing.operands
+        if below.op != "num" or below.value == 0:
+            yield below
 
 
 def _licence(problem: Problem, line: int, before: Statement, below: Term) -> list[Line]:

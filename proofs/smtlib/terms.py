@@ -444,7 +444,7 @@ class Reader:
             return self._power(node, values)
         if name == "-" and len(values) == 1:
             return combined(
-                values, lambda one: number(-one[0].args[0]) if one[0].op == "num" else -one[0]
+                values, lambda one: number(-one[0].value) if one[0].op == "num" else -one[0]
             )
         if name == "-":
             return combined(values, lambda parts: reduce(lambda a, b: a - b, parts))
@@ -458,15 +458,15 @@ class Reader:
         if (
             exponent is None
             or exponent.op != "num"
-            or exponent.args[0].denominator != 1
-            or not 0 <= exponent.args[0] <= LARGEST_POWER
+            or exponent.value.denominator != 1
+            or not 0 <= exponent.value <= LARGEST_POWER
         ):
             self.script.fail(
                 node,
                 f"{brief(node)}: the exponent is no numeral from 0 to {LARGEST_POWER}",
                 "write a polynomial, or a root as y*y = t",
             )
-        power = int(exponent.args[0])
+        power = int(exponent.value)
         return combined(values[:1], lambda base: base[0] ** power)
 
     def _arity(self, at: Expression, name: str, count: int, least: int, most: int | None) -> None:
@@ -493,8 +493,8 @@ def number(value: Fraction) -> Term:
 
 def quotient(above: Term, below: Term) -> Term:
     """A quotient; of two numbers, the number."""
-    if above.op == below.op == "num" and below.args[0] != 0:
-        return number(above.args[0] / below.args[0])
+    if above.op == below.op == "num" and below.value != 0:
+        return number(above.value / below.value)
     return above / below
 
 

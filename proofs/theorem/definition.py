@@ -118,9 +118,8 @@ def opposite(strict: Formula) -> Formula:
     """
     if strict.op != "<":
         raise ClaimError(f"{strict} is not one strict inequality")
-    left, right = strict.args
-    other: Formula = right <= left
-    return other
+    left, right = strict.sides
+    return right <= left
 
 
 def _difference(polynomial: Expr) -> Term:
@@ -268,11 +267,11 @@ def value_of(expression: Term, point: Point) -> Fraction:
     Fraction(1, 4)
     """
     if expression.op == "num":
-        return Fraction(expression.args[0])
+        return expression.value
     if expression.op == "var":
-        if expression.args[0] not in point:
-            raise ClaimError(f"{expression.args[0]} has no value here")
-        return point[expression.args[0]]
+        if expression.name not in point:
+            raise ClaimError(f"{expression.name} has no value here")
+        return point[expression.name]
     parts = [value_of(part, point) if isinstance(part, Term) else part for part in expression.args]
     return Fraction(_ARITHMETIC[expression.op](*parts))
 
@@ -282,8 +281,8 @@ def holds_at(formula: Formula, point: Point) -> bool:
     these values.
     """
     if formula.op in _RELATIONS:
-        return _RELATIONS[formula.op](*(value_of(side, point) for side in formula.args))
-    parts = (holds_at(part, point) for part in formula.args)
+        return _RELATIONS[formula.op](*(value_of(side, point) for side in formula.sides))
+    parts = (holds_at(part, point) for part in formula.parts)
     if formula.op in ("and", "or"):
         return all(parts) if formula.op == "and" else any(parts)
     if formula.op == "not":
