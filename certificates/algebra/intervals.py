@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 from flint import arb, arf, ctx, fmpz_mpoly
 
@@ -53,11 +52,11 @@ def widest(box: Box, among: Sequence[int]) -> int:
     return max(among, key=lambda i: (box[i][1] * Fraction(2) ** box[i][2], -i))
 
 
-def working_precision() -> AbstractContextManager[Any]:
+def working_precision() -> AbstractContextManager[object]:
     """A context in which balls carry 64 bits, whatever is set outside: so votes do not depend on
     what ran before.
     """
-    context: AbstractContextManager[Any] = ctx.workprec(PRECISION)
+    context: AbstractContextManager[object] = ctx.workprec(PRECISION)
     return context
 
 

@@ -263,8 +263,8 @@ def _roots_of_irreducible(poly: fmpz_poly) -> list[AlgebraicNumber]:
     return found
 
 
-def _dyadic(ball: object) -> fmpq:
-    man, exp = ball.man_exp()  # type: ignore[attr-defined]
+def _dyadic(ball: arb) -> fmpq:
+    man, exp = ball.man_exp()
     man, exp = int(man), int(exp)
     return fmpq(man << exp, 1) if exp >= 0 else fmpq(man, 1 << -exp)
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
-from typing import Any
 
 import numpy as np
 from flint import fmpq, fmpz_mat, fmpz_mpoly, nmod_mat
+from numpy.typing import NDArray
 
 from juggleproof.certificates.work import Budget
 
@@ -27,7 +27,7 @@ from juggleproof.certificates.work import Budget
 # Clarabel 0.11 was measured in its place: the same verdicts, 0.12 s against 0.67 s for 26 programs;
 # but it needs SciPy, 143 MB and 0.14 s a process, and its LAPACK too is the machine's.
 
-Floats = np.ndarray[Any, np.dtype[np.float64]]
+Floats = NDArray[np.float64]
 DUAL_STEPS = 60
 ENOUGH = 1e-6  # what equations may miss
 SMALL = 1e-13  # an eigenvalue of equations that depend on others
