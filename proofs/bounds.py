@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.polynomials import Monomial, monomials
 from juggleproof.certificates.language import ClaimError, Term, real
+from juggleproof.certificates.nodes import Certificate, Node, Point
 from juggleproof.certificates.search.enclosing import Found, Problem, search_enclosure
 from juggleproof.certificates.store import (
     CERTIFICATES,
@@ -27,10 +28,10 @@ from juggleproof.certificates.store import (
 BUDGET = 20000  # boxes
 MOST_PRODUCTS, MOST_DEGREE, MOST_VALUE = 10**6, 60, 10**100
 LOWER, ATTAINED = "bound/lower", "bound/attained"
-Box = Mapping[str, Sequence[Any]]
-Ends = dict[str, tuple[Fraction, Fraction]]
 Number = int | Fraction
-Terms = dict[tuple[int, ...], Fraction]
+Box = Mapping[str, Sequence[Number]]  # the low and the high end of each variable
+Ends = dict[str, tuple[Fraction, Fraction]]
+Terms = dict[Monomial, Fraction]
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Enclosure:
     boxes: int
     reached: bool
     statements: str
-    certificates: dict[str, Any]
+    certificates: dict[str, Certificate]
 
     @property
     def width(self) -> Fraction:
@@ -117,7 +118,7 @@ def enclose_minimum(
     question = _Question(text, ends)
     if not used:
         value = sum(terms.values(), start=Fraction(0))
-        return question.enclosure(Found(value, value, (), ["close"], 0, True), used)
+        return question.enclosure(Found(value, value, (), ("close",), 0, True), used)
     problem = Problem(
         {tuple(exponents[k] for k in used): c for exponents, c in terms.items()},
         [list(ends.values())[k] for k in used],
@@ -168,15 +169,15 @@ class _Question:
             ]
         )
 
-    def _lower_certificate(self, node: list[Any]) -> Any:
+    def _lower_certificate(self, node: Node) -> Certificate:
         corner = {name: str(first) for name, (first, _) in self.ends.items()}
-        return {"certified": ["proof", [], node], "point": [LOWER, [], corner, ["close"]]}
+        return {"certified": ("proof", [], node), "point": Point(LOWER, [], corner, ("close",))}
 
-    def holds(self, low: Fraction, node: list[Any]) -> bool:
+    def holds(self, low: Fraction, node: Node) -> bool:
         """Whether the checker accepts the bound from below with this proof."""
         return self._reason(self.lower(low), self._lower_certificate(node)) == ""
 
-    def _reason(self, text: str, certificate: Any) -> str:
+    def _reason(self, text: str, certificate: Certificate) -> str:
         key = text.encode() + canonical(certificate)
         if key in self.accepted:
             return ""
@@ -194,12 +195,13 @@ class _Question:
         point = {name: first for name, (first, _) in self.ends.items()} | dict(
             zip((list(self.ends)[k] for k in used), found.point)
         )
-        witness = [ATTAINED, [], {name: str(value) for name, value in point.items()}, ["close"]]
-        certificates = {
+        values = {name: str(value) for name, value in point.items()}
+        witness = Point(ATTAINED, [], values, ("close",))
+        certificates: dict[str, Certificate] = {
             LOWER: self._lower_certificate(found.node),
             ATTAINED: {
-                "certified": ["witness", [], witness],
-                "point": [ATTAINED, [], {}, ["close"]],
+                "certified": ("witness", [], witness),
+                "point": Point(ATTAINED, [], {}, ("close",)),
             },
         }
         texts = {LOWER: self.lower(found.low), ATTAINED: self.attained(found.high)}
@@ -259,11 +261,8 @@ def _terms(text: str, names: list[str]) -> Terms:
             f"not a polynomial in {', '.join(names)}: {str(reason)[:200]}; write it as x^2 -"
             " 3/2*x*y"
         ) from None
-    shifts = [checker.BITS * context.index[name] for name in names]
-    return {
-        tuple((m >> shift) % (1 << checker.BITS) for shift in shifts): Fraction(c, poly.den)
-        for m, c in poly.terms.items()
-    }
+    terms = monomials(poly, len(names))
+    return {exponents: Fraction(c, poly.den) for exponents, c in terms.items()}
 
 
 def _refuse_large(terms: Terms, ends: Ends, used: Sequence[int]) -> None:

@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.intervals import working_precision
 from juggleproof.certificates.votes.box_search import GoalBound, enclose_goal, refute
 from juggleproof.certificates.votes.branches import MOST_BRANCHES, regions
@@ -46,8 +46,8 @@ class Tally:
 
 
 def vote(
-    statement: Any,
-    earlier: Mapping[str, Any] | None = None,
+    statement: checker.Statement,
+    earlier: Mapping[str, checker.Statement] | None = None,
     budget: Budget | None = None,
     asked: Sequence[Question] | None = None,
 ) -> Vote:

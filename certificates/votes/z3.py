@@ -7,10 +7,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from importlib import import_module
 from itertools import islice, product
-from typing import Any
 
+import z3
+
+from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, root_number, sign_at
 from juggleproof.certificates.algebra.polynomials import with_value
 from juggleproof.certificates.votes.questions import (
@@ -55,19 +56,16 @@ class Session:
     """A fresh Z3 context with a purse of resource units that all the queries of one vote share."""
 
     def __init__(self, purse: int, outer: Session | None = None) -> None:
-        self.z3: Any = import_module("z3")
-        self.context: Any = outer.context if outer else self.z3.Context()
+        self.context: z3.Context = outer.context if outer else z3.Context()
         self.outer, self.purse, self.spent = outer, purse, 0
-        self.before: int = (
-            outer.before if outer else 0
-        )  # the context's counter, which goes on from query to query
+        # the context's counter, which goes on from query to query
+        self.before: int = outer.before if outer else 0
 
     def ask(self, question: Question, engine: str, units: int) -> Reply:
         """One query, for at most so many resource units."""
         units = min(units, self.purse - self.spent)
         if units <= 0:
             return Reply("unknown", how="the budget is spent")
-        z3 = self.z3
         steps = [z3.Tactic(name, ctx=self.context) for name in TACTICS[engine]]
         solver = (z3.Then(*steps, ctx=self.context) if len(steps) > 1 else steps[0]).solver()
         solver.set("rlimit", units)
@@ -83,7 +81,7 @@ class Session:
         point = self._point(question, solver.model()) if answer == "sat" else None
         return Reply(answer, point, f"{answer} by {engine}")
 
-    def _count(self, solver: Any, units: int) -> None:
+    def _count(self, solver: z3.Solver, units: int) -> None:
         table = solver.statistics()
         total = next(
             (int(table.get_key_value(key)) for key in table.keys() if key == "rlimit count"),
@@ -96,7 +94,7 @@ class Session:
             self.outer.spent += self.spent - already
             self.outer.before = self.before
 
-    def _point(self, question: Question, model: Any) -> dict[str, Exact] | None:
+    def _point(self, question: Question, model: z3.ModelRef) -> dict[str, Exact] | None:
         values = {declared.name(): model[declared] for declared in model.decls()}
         try:
             return {
@@ -107,26 +105,26 @@ class Session:
         except ValueError:
             return None
 
-    def _exact(self, value: Any) -> Exact:
+    def _exact(self, value: z3.ExprRef | None) -> Exact:
         if value is None:
             return Fraction(0)  # a variable that the model leaves open may take any value
-        if self.z3.is_algebraic_value(value):
+        if z3.is_algebraic_value(value):
             parts = [c.as_fraction() for c in value.poly()]
             scale = max(c.denominator for c in parts)
             if any((c * scale).denominator != 1 for c in parts):
                 raise ValueError("a model's polynomial is not over the integers")
             root = root_number([int(c * scale) for c in parts], value.index())
             return root.as_fraction() if root.is_rational else root
-        if self.z3.is_int_value(value) or self.z3.is_rational_value(value):
-            return Fraction(
-                str(value.as_fraction()) if self.z3.is_rational_value(value) else value.as_long()
-            )
+        if z3.is_rational_value(value):
+            return Fraction(str(value.as_fraction()))
+        if z3.is_int_value(value):
+            return Fraction(value.as_long())
         raise ValueError("a model's value is not a number")
 
 
 def vote(
-    statement: Any,
-    earlier: Mapping[str, Any] | None = None,
+    statement: checker.Statement,
+    earlier: Mapping[str, checker.Statement] | None = None,
     budget: Budget | None = None,
     asked: Sequence[Question] | None = None,
 ) -> Vote:

@@ -227,7 +227,8 @@ def _rules(
             store.certificate(name, store.texts[name]),
             checked.get(name, "rejected"),
         )
-        parts = certificate.get("certified", {}) if isinstance(certificate, dict) else {}
+        certified = certificate.get("certified") if certificate else None
+        parts = certified if isinstance(certified, Mapping) else {}
         premises = tuple(
             _shown(
                 premise.name, premise.text(), outcome, parts.get(label), votes.get(premise.name, ())

@@ -128,7 +128,7 @@ def _code(text: str) -> str:
 def _outcomes(store: Store) -> dict[str, Counter[str]]:
     found: dict[str, Counter[str]] = {}
     for name, text in store.texts.items():
-        certificate = store.certificate(name, text)
+        certificate = store.certificate(name, text) or {}
         word = (
             "certificate"
             if "certified" in certificate

@@ -27,6 +27,7 @@ from juggleproof.certificates.language import (
     different,
     names_in,
 )
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.search.certificate import (
     SQUARES_FIRST,
     search_certificate,
@@ -398,7 +399,7 @@ def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
     """
     scripts = ", ".join(dict.fromkeys(ascii(one.path.name)[1:-1] for one in answered))
     blocks = [f"# {TITLE.format(scripts)}"]
-    certificates: dict[str, dict[str, object]] = {}
+    certificates: dict[str, dict[str, Certificate]] = {}
     for one in answered:
         renamed = [
             f"{variable.name} is {ascii(variable.symbol)[1:-1]}"

@@ -56,7 +56,7 @@ FLOORS = (
     ("symbolic", "certificates.checker"),
     ("certificates",),
     ("certificates.algebra", "scenes"),
-    ("certificates.search", "certificates.votes"),
+    ("certificates.search", "certificates.votes", "certificates.coq"),
     ("proofs.reading",),
     ("proofs",),
     ("proofs.paper", "proofs.theorem", "proofs.part", "proofs.smtlib", "proofs.ledger"),
