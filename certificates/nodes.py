@@ -78,3 +78,20 @@ class Certificate(TypedDict, total=False):
     point: Values
     refuted: Values
     unknown: str
+
+
+def values_at(
+    statement: str, adjoined: Sequence[Adjoined], terms: Mapping[str, str], nodes: Sequence[Node]
+) -> Point | Counterexample:
+    """The point that one node shows to be one, or the counterexample that two nodes do."""
+    node, *more = nodes
+    if not more:
+        return Point(statement, adjoined, terms, node)
+    (fails,) = more
+    return Counterexample(statement, adjoined, terms, node, fails)
+
+
+def by_sign(text: str, cases: Sequence[Values]) -> BySign:
+    """The values of three cases: where a polynomial is below, at and above 0."""
+    below, at, above = cases
+    return "sign", text, below, at, above

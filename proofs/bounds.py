@@ -16,7 +16,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import Monomial, monomials
 from juggleproof.certificates.language import ClaimError, Term, real
 from juggleproof.certificates.nodes import Certificate, Node, Point
-from juggleproof.certificates.search.enclosing import Found, Problem, search_enclosure
+from juggleproof.certificates.search.boxes.enclosures import Bounds, Problem, search_enclosure
 from juggleproof.certificates.store import (
     CERTIFICATES,
     STATEMENTS,
@@ -118,12 +118,12 @@ def enclose_minimum(
     question = _Question(text, ends)
     if not used:
         value = sum(terms.values(), start=Fraction(0))
-        return question.enclosure(Found(value, value, (), ("close",), 0, True), used)
+        return question.enclosure(Bounds(value, value, (), ("close",), 0, True), used)
     problem = Problem(
         {tuple(exponents[k] for k in used): c for exponents, c in terms.items()},
         [list(ends.values())[k] for k in used],
         [list(ends)[k] for k in used],
-        [[2 * k, 2 * k + 1] for k in used],
+        [(2 * k, 2 * k + 1) for k in used],
         2 * len(ends),
     )
     return question.enclosure(search_enclosure(problem, sought, budget, question.holds), used)
@@ -188,7 +188,7 @@ class _Question:
             return ""
         return str(reason or outcome)
 
-    def enclosure(self, found: Found, used: list[int]) -> Enclosure:
+    def enclosure(self, found: Bounds, used: list[int]) -> Enclosure:
         """The enclosure, once the checker has accepted both statements; raises ArithmeticError
         where it does not.
         """
@@ -196,11 +196,10 @@ class _Question:
             zip((list(self.ends)[k] for k in used), found.point)
         )
         values = {name: str(value) for name, value in point.items()}
-        witness = Point(ATTAINED, [], values, ("close",))
         certificates: dict[str, Certificate] = {
             LOWER: self._lower_certificate(found.node),
             ATTAINED: {
-                "certified": ("witness", [], witness),
+                "certified": ("witness", [], Point(ATTAINED, [], values, ("close",))),
                 "point": Point(ATTAINED, [], {}, ("close",)),
             },
         }

@@ -26,7 +26,7 @@ from juggleproof.certificates.language import (
 )
 from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
 from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.casting import cast_votes
@@ -497,7 +497,7 @@ class Judge:
             return False
         unfolded(parsed)
         start = State(checker.Context())
-        found = search_found(
+        found = search_values(
             parsed,
             start,
             "counterexample",

@@ -19,7 +19,7 @@ from juggleproof.certificates.language import (
     disjunction,
     interval_text,
 )
-from juggleproof.certificates.search.families import says_domain, solved
+from juggleproof.certificates.search.families import implies_domain, solved
 from juggleproof.certificates.search.ranges import Line, pinned, polynomial_term
 from juggleproof.certificates.search.sharp import Range, find_sharp_range, whole_parameters
 from juggleproof.certificates.search.sharp_plane import find_sharp_region
@@ -125,7 +125,7 @@ def told_of_pairs(statement: SharpRange, number: str) -> str:
         return text
     return (
         f"{text} for a whole number {number}"
-        if says_domain(statement, [number])
+        if implies_domain(statement, [number])
         else f"{text} where {statement.domain}"
     )
 

@@ -12,7 +12,7 @@ from itertools import permutations, product
 from math import inf, lcm
 from typing import Any
 
-from juggleproof.certificates.search.small_boxes import Exponents, Terms, simple_points, value_at
+from juggleproof.certificates.search.boxes.small import Exponents, Terms, simple_points, value_at
 
 # -------------------------------------------------------------------------------------------------
 # Questions as plain data, which a process of its own can read without SymPy and NumPy: the least

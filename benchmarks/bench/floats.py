@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from juggleproof.benchmarks.bench.answers import Answer, Problem
-from juggleproof.certificates.search.enclosing import FloatPolynomial
-from juggleproof.certificates.search.small_boxes import Terms
+from juggleproof.certificates.search.boxes.enclosures import FloatPolynomial
+from juggleproof.certificates.search.boxes.small import Terms
 
 Array = NDArray[np.float64]
 MOST, AT_ONCE = 10**7, 10**5  # samples

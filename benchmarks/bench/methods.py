@@ -25,7 +25,7 @@ from juggleproof.benchmarks.bench.answers import (
     best_point,
 )
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.small_boxes import search_tree
+from juggleproof.certificates.search.boxes.small import search_tree
 
 # -------------------------------------------------------------------------------------------------
 # Our method: a box tree of exact Bernstein coefficients, and the checker's verdict on it; the time

@@ -16,7 +16,7 @@ from fractions import Fraction
 from typing import Any, Protocol
 
 from juggleproof.benchmarks.bench.answers import SHARE, Answer, GaveUp, Problem, best_point
-from juggleproof.certificates.search.small_boxes import Terms
+from juggleproof.certificates.search.boxes.small import Terms
 
 BITS = 128
 Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put to an end

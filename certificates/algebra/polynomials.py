@@ -25,7 +25,7 @@ from juggleproof.certificates.formulas import Formula, Term, real, term
 Monomial = tuple[int, ...]  # the exponent of each variable
 Keys = NDArray[np.int64]
 Row = tuple[Keys, NDArray[np.float64]]  # the keys of a polynomial's monomials, its coefficients
-# units, weights of the variables, values of the units, and gradings of `search.facts.Scaling`
+# scales, weights of the variables, values of the scales, and gradings: a `Scaling`
 Gradings = tuple[tuple[int, ...], list[tuple[int, ...]], dict[int, int], list[list[int]]]
 
 # With many variables: one odd number for each, a monomial's key being the sum of exponent times
@@ -68,8 +68,8 @@ class Ring:
         self.gens = self.ctx.gens()
         self.size = max(1, len(names))
         self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
-        # what `search.facts.Scaling` keeps for all states of a search, by the id of a polynomial,
-        # which is held so that its id is not used again, and by differences of exponents
+        # what a `Scaling` keeps for all states of a search: by the id of a polynomial, which is
+        # held so that its id is not used again, and by differences of exponents
         self.differences: dict[int, tuple[fmpz_mpoly, frozenset[Monomial]]] = {}
         self.lowered: dict[tuple[int, tuple[int, ...]], tuple[fmpz_mpoly, fmpz_mpoly]] = {}
         self.scalings: dict[tuple[frozenset[Monomial], tuple[int, ...]], Gradings] = {}

@@ -1,24 +1,18 @@
 """The untrusted search: finds certificates that the checker then reads; nothing here has to be
 believed.
 
-The files, each after those that it imports:
+The files and folders, each after those that it imports:
 
-- `small_boxes`: polynomials and box trees as plain data, without NumPy
-- `linear_program`: positive combinations that vanish identically, exact on the support that floats
-  propose
-- `facts`: the facts of a state; scales by homogeneity, equations used up, signs at sight
-- `problem`: the facts of one leaf, and identities lifted back to them; rule `interval`
-- `linear`: one leaf by a linear program over products of facts; rule `psatz`
-- `sums_of_squares`: one leaf by sums of squares; rule `psatz`
-- `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `use`
-- `boxes`, `enclosing`: minima on boxes by trees with Bernstein coefficients; rule `boxes`
+- `psatz`: one leaf, where facts contradict one another; rule `psatz`
+- `boxes`: lower bounds of polynomials on boxes; rule `boxes`
+- `closing`: a whole state; rules `close`, `cases`, `sign`, `integral`, `interval`, `use`
 - `candidates`: simple values for one variable
 - `terms`: quotients and square roots proposed for unknowns
 - `samples`: exact values for all variables of a condition
 - `models`: values near which floats or Z3 see a solution
 - `scales`: the scales of a statement, a state with scales set to 1, and the way back
 - `templates`: terms for unknowns, tried on samples
-- `found_terms`: what terms are sought for, and how the checker takes them
+- `witness_terms`: what terms are sought for, and how the checker takes them
 - `ranges`: sets of one parameter, and verdicts along it
 - `lines`: terms over one parameter, piece by piece
 - `families`: terms on all of a state, split by signs; conditions solved for a parameter

@@ -157,10 +157,10 @@ def separate(roots: list[AlgebraicNumber]) -> None:
 
 def _gap(roots: list[AlgebraicNumber], root: AlgebraicNumber) -> Fraction:
     k = next(i for i, r in enumerate(roots) if r is root)
-    near = [
+    distances = [
         abs(fraction(other._low - root._low)) for i, other in enumerate(roots) if abs(i - k) == 1
     ]
-    return min([Fraction(1, 16), *(distance / 64 for distance in near)])
+    return min([Fraction(1, 16), *(distance / 64 for distance in distances)])
 
 
 def spread(low: fmpq, high: fmpq) -> Iterator[fmpq]:

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
+from juggleproof.certificates.nodes import (
+    Certificate,
+    Counterexample,
+    Node,
+    Point,
+    Proof,
+    Values,
+    by_sign,
+)
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
-from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
@@ -17,7 +25,6 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 # The certificate of one statement: a proof with a point, a counterexample, or the reason why
 # neither was found.
 
-Certificate = dict[str, Any]
 MOST = 256
 _made: dict[
     tuple[tuple[str, str], ...], tuple[str, Certificate]
@@ -60,12 +67,13 @@ def search_certificate(
     checker.
 
     `confirm=False` leaves it to the caller to have a proof checked, and to search again where the
-    checker rejects it.
+    checker rejects it.  Where the budget ends, that is the reason; nothing is raised.
 
     >>> text = "statement demo/square\\nforall x\\ngiven x > 1\\nshow x^2 > x"
     >>> statement = checker.read_statements(text)["demo/square"]
-    >>> search_certificate(statement, {}, Budget(10**6))["certified"]
-    ['proof', [], ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]]
+    >>> rule, steps, node = search_certificate(statement, {}, Budget(10**6))["certified"]
+    >>> rule, steps, node[1]
+    ('proof', [], [('1', ((0, 1),), '1'), ('1', ((1, 1),), '1'), ('1', ((0, 2),), '1')])
     """
     settings = (
         str(budget.left),
@@ -76,7 +84,7 @@ def search_certificate(
         *sorted(known),
     )
     key = (
-        *((keyword, written(said)) for keyword, said in statement.lines),
+        *((keyword, written(content)) for keyword, content in statement.lines),
         *(("", setting) for setting in settings),
     )
     if key not in _made:
@@ -87,33 +95,38 @@ def search_certificate(
             _search(statement, known, budget, hints, confirm, attempts, roles),
         )
     name, certificate = _made[key]
-    return (
-        {kind: renamed(part, name, statement.name) for kind, part in certificate.items()}
-        if name != statement.name
-        else certificate
-    )
+    return certificate if name == statement.name else renamed(certificate, statement.name)
 
 
-def written(said: Any) -> str:
-    """What a line says, as text."""
-    if isinstance(said, ast.AST):
-        return ast.unparse(said)
-    return (
-        "(" + ", ".join(map(written, said)) + ")" if isinstance(said, (list, tuple)) else str(said)
-    )
+def written(content: object) -> str:
+    """The content of a line of a statement, as text."""
+    if isinstance(content, ast.AST):
+        return ast.unparse(content)
+    if isinstance(content, (list, tuple)):
+        return "(" + ", ".join(map(written, content)) + ")"
+    return str(content)
 
 
-def renamed(part: Any, old: str, new: str) -> Any:
-    """A part of a certificate with the statement's name replaced where points and counterexamples
-    name it.
-    """
-    return (
-        [renamed(one, old, new) for one in part]
-        if isinstance(part, list)
-        else new
-        if part == old
-        else part
-    )
+def renamed(certificate: Certificate, name: str) -> Certificate:
+    """The certificate of the same statement under another name."""
+    changed = certificate.copy()
+    proof = certificate.get("certified")
+    if isinstance(proof, tuple) and proof[0] == "witness":
+        changed["certified"] = ("witness", proof[1], renamed_values(proof[2], name))
+    if "point" in certificate:
+        changed["point"] = renamed_values(certificate["point"], name)
+    if "refuted" in certificate:
+        changed["refuted"] = renamed_values(certificate["refuted"], name)
+    return changed
+
+
+def renamed_values(values: Values, name: str) -> Values:
+    """The same values for a statement of another name."""
+    if isinstance(values, (Point, Counterexample)):
+        return values._replace(statement=name)
+    if values[0] == "empty":
+        return values
+    return by_sign(values[1], [renamed_values(case, name) for case in values[2:]])
 
 
 def _search(
@@ -135,7 +148,9 @@ def _search(
             part = budget.part(budget.left * share // 100)
             try:
                 if refutes:
-                    refuted = found(statement, "counterexample", known, part, effort, roles)
+                    refuted = point_or_counterexample(
+                        statement, "counterexample", known, part, effort, roles
+                    )
                     if refuted is not None:
                         return {"refuted": refuted}
                     ended.add((refutes, effort))
@@ -158,29 +173,32 @@ def _search(
 
 def with_point(
     statement: checker.Statement,
-    proof: list[Any],
+    proof: Proof,
     known: dict[str, checker.Statement],
     budget: Budget,
     roles: Roles,
 ) -> Certificate:
     """The certificate of a proved statement: its proof and a point that meets its hypotheses."""
     for depth in (0, 1, 2):
-        point = found(statement, "point", known, budget, depth, roles)
+        point = point_or_counterexample(statement, "point", known, budget, depth, roles)
         if point is not None:
             return {"certified": proof, "point": point}
     return {"unknown": "proved, but no point was found that meets the hypotheses"}
 
 
-def found(
+def point_or_counterexample(
     statement: checker.Statement,
     purpose: str,
     known: dict[str, checker.Statement],
     budget: Budget,
     effort: int,
     roles: Roles = NO_ROLES,
-) -> list[Any] | None:
-    """A point or counterexample of the statement."""
-    return search_found(
+) -> Values | None:
+    """A point or counterexample of the statement; None where none was found.
+
+    Raises Exhausted where the budget ends.
+    """
+    return search_values(
         statement,
         State(checker.Context()),
         purpose,
@@ -196,17 +214,20 @@ def search_proof(
     statement: checker.Statement,
     known: dict[str, checker.Statement],
     budget: Budget,
-    sharp: list[Any] | None = None,
+    sharp: list[ast.expr] | None = None,
     effort: int = 2,
     hints: Hints | None = None,
     confirm: bool = True,
     roles: Roles = NO_ROLES,
-) -> list[Any] | None:
-    """["proof" | "witness", nodes of the side conditions, last] that the checker accepts, or None;
-    `confirm=False` leaves that to the caller.
+) -> Proof | None:
+    """A proof that the checker accepts, or None; `confirm=False` leaves that to the caller.
+
+    Inside a sharp range, `sharp` has its domain and its condition.  Raises Exhausted where the
+    budget ends.
     """
     unfolding = unfolded(statement, sharp)
-    steps = []
+    steps: list[Node] = []
+    proof: Proof | None = None
     for count, negation in unfolding.obligations:
         node = search_closing(
             state_of(unfolding, count).assume(negation),
@@ -232,7 +253,7 @@ def search_proof(
         steps.append(node)
     if statement.get("exists"):
         base = {name: unfolding.context.values[name] for name in unfolding.universal}
-        last = search_found(
+        values = search_values(
             statement,
             state_of(unfolding),
             "witness",
@@ -243,9 +264,10 @@ def search_proof(
             effort,
             roles,
         )
-        proof = ["witness", steps, last]
+        if values is not None:
+            proof = "witness", steps, values
     else:
-        last = search_closing(
+        node = search_closing(
             state_of(unfolding).assume(unfolding.goal(False)),
             known,
             budget,
@@ -253,12 +275,11 @@ def search_proof(
             hints,
             confirm=False,
         )
-        proof = ["proof", steps, last]
-    return (
-        proof
-        if last is not None and (not confirm or checker.proves(statement, proof, known, sharp))
-        else None
-    )
+        if node is not None:
+            proof = "proof", steps, node
+    if proof is None or not confirm or checker.proves(statement, proof, known, sharp):
+        return proof
+    return None
 
 
 # -------------------------------------------------------------------------------------------------
@@ -270,7 +291,7 @@ def search_map_rule(
     known: dict[str, checker.Statement],
     budget: int,
     hints: Mapping[str, Hints] | None = None,
-) -> dict[str, Any]:
+) -> Certificate:
     """{"certified": {premise: proof}}, or {"unknown": the premise for which no proof was found};
     each premise may take the whole budget.
 
@@ -280,7 +301,7 @@ def search_map_rule(
     >>> sorted(search_map_rule(statement, {}, 10**6)["certified"])
     ['covers', 'possible', 'stays-1']
     """
-    proofs: dict[str, Any] = {}
+    proofs: dict[str, Proof] = {}
     for name in rests_on(statement):
         if name not in known:
             return {"unknown": f"it rests on {name}, which is not certified"}

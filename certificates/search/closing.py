@@ -1,4 +1,4 @@
-"""Closing a state: cases, integers, signs told apart."""
+"""Closing a state: cases of disjunctions and of signs, integers rounded."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
-from typing import Any
 
 from flint import fmpq_poly, fmpz_poly
 
@@ -18,8 +17,9 @@ from juggleproof.certificates.algebra.numbers import (
     polynomial_text,
 )
 from juggleproof.certificates.algebra.polynomials import Ring
-from juggleproof.certificates.search.facts import Pool
-from juggleproof.certificates.search.linear import (
+from juggleproof.certificates.nodes import Adjoined, Node, Sign
+from juggleproof.certificates.search.psatz.facts import Pool
+from juggleproof.certificates.search.psatz.linear import (
     DEEP,
     FIRST,
     QUICK,
@@ -30,29 +30,28 @@ from juggleproof.certificates.search.linear import (
     close_by_equations,
     search,
 )
-from juggleproof.certificates.search.problem import Problem, has_interior_point
-from juggleproof.certificates.search.sums_of_squares import programs_of_facts, search_squares
+from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
+from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.states import State
-from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
 # Closing a state: leaves by positive combinations, disjunctions by cases, integers by rounding,
-# signs told apart.
+# cases by the sign of a polynomial.
 
-Node = list[Any]
-DEPTH = 2  # of signs told apart below one another
+DEPTH = 2  # of cases by sign below one another
 CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
-SQUARED = 3  # the effort at which leaves are closed by sums of squares, and no sign is told apart
+SQUARED = (
+    3  # the effort at which leaves are closed by sums of squares, and there are no cases by sign
+)
 MOST_FOR_BOTH = 9  # facts
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
 
 @dataclass(frozen=True)
 class Hints:
-    """What a claim may tell the search: earlier statements to use, each with terms for its
-    variables.
-    """
+    """A claim's help: earlier statements to use, each with terms for its variables."""
 
     uses: tuple[tuple[str, Mapping[str, str]], ...] = ()
 
@@ -68,16 +67,18 @@ def search_closing(
     """A node by which the checker closes the state, or None where none was found; `confirm=False`
     leaves the confirmation to the caller.
 
+    Raises Exhausted where the budget ends.
+
     >>> context = checker.Context()
     >>> context.declare("x")
     >>> formula = context.formula(checker.parse("x > 1 and x^2 <= x"))
     >>> search_closing(State(context).assume(formula), {}, Budget(10**6))
-    ['psatz', [['1', [[0, 1]], '1'], ['1', [[1, 1]], '1'], ['1', [[0, 2]], '1']], []]
+    ('psatz', [('1', ((0, 1),), '1'), ('1', ((1, 1),), '1'), ('1', ((0, 2),), '1')], [])
     """
     uses, inside = with_uses(state, known, hints.uses if hints else ())
-    node = Closing(known, budget, effort).close(inside)
+    node: Node | None = Closing(known, budget, effort).close(inside)
     for name, terms in reversed(uses):
-        node = None if node is None else ["use", name, terms, {}, node]
+        node = None if node is None else ("use", name, terms, {}, node)
     return node if node is None or not confirm or state.is_closed_by(node, known) else None
 
 
@@ -96,12 +97,13 @@ def with_uses(
         values = {
             variable: state.context.value(checker.parse(text)) for variable, text in terms.items()
         }
-        story = checker.Unfolding(known[name], checker.Context(state.context, values))
+        unfolding = checker.Unfolding(known[name], checker.Context(state.context, values))
         state = state.branch(
             checker.join(
-                "or", [checker.negate(checker.join("and", story.premises)), story.goal(True)]
+                "or",
+                [checker.negate(checker.join("and", unfolding.premises)), unfolding.goal(True)],
             ),
-            story.context,
+            unfolding.context,
         )
         uses.append((name, dict(terms)))
     return uses, state
@@ -127,7 +129,7 @@ class Closing:
     def close(self, state: State) -> Node | None:
         """The node for this state: at once, by its facts, or by the cases of a disjunction."""
         if state.closed:
-            return ["close"]
+            return ("close",)
         if not state.choices:
             return self.leaf(state, 0)
         node = self.attempt(state, QUICK)
@@ -137,7 +139,7 @@ class Closing:
         """Splits the last disjunction with the fewest alternatives that no fact contradicts at
         sight.
         """
-        known = {mark(poly, relation) for poly, relation in state.facts}
+        known = {fact_key(poly, relation) for poly, relation in state.facts}
         sizes = [
             sum(not contradicted(one, known) for one in alternatives)
             for alternatives in state.choices
@@ -151,14 +153,14 @@ class Closing:
             if node is None:
                 return None
             nodes.append(node)
-        return ["cases", index, nodes]
+        return "cases", index, nodes
 
     # -------------------------------------------------------- facts alone
 
     def attempt(self, state: State, stages: Sequence[Stage]) -> Node | None:
         """Closes a state by its facts alone, strict integer facts rounded first."""
         if state.closed:
-            return ["close"]
+            return ("close",)
         rounded, inside = self.rounded(state)
         problem = self.problem(inside)
         return wrapped(rounded, close_by_equations(problem) or search(problem, stages, self.budget))
@@ -185,11 +187,11 @@ class Closing:
         return numbers, state
 
     def leaf(self, state: State, depth: int) -> Node | None:
-        """A state without disjunctions: positive combinations, then signs told apart, then larger
+        """A state without disjunctions: positive combinations, then cases by sign, then larger
         combinations.
         """
         if state.closed:
-            return ["close"]
+            return ("close",)
         rounded, inside = self.rounded(state)
         problem = self.problem(inside)
         node = close_by_equations(problem) or search(
@@ -216,8 +218,8 @@ class Closing:
         return node
 
     def with_lemmas(self, state: State, problem: Problem, depth: int) -> Node | None:
-        """Signs that can be shown are added to the facts; where that is not enough, signs are told
-        apart.
+        """Signs that can be shown are added to the facts; where that is not enough, there are
+        cases by sign.
         """
         lemmas: list[Lemma] = []
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
@@ -263,13 +265,11 @@ class Closing:
         return Lemma(text, nodes, place, rounded, nodes[place]), inside
 
     def split(self, state: State, problem: Problem, depth: int) -> Node | None:
-        """Tells the sign of a candidate apart: the one of whose cases most close quickly comes
-        first.
-        """
+        """Cases by the sign of a candidate: those of which most close quickly come first."""
         known = [
             text
             for fact in problem.facts
-            for text in (problem.in_units(fact.poly), problem.in_units(-fact.poly))
+            for text in (problem.homogeneous_text(fact.poly), problem.homogeneous_text(-fact.poly))
         ]
         tried: list[tuple[int, str, list[Node | None]]] = []
         for kind in ("factors", "variables", "resultants"):
@@ -278,8 +278,9 @@ class Closing:
                     continue
                 nodes = [self.attempt(case, BOTH) for case in state.by_sign(text)]
                 count = sum(node is not None for node in nodes)
-                if count == 3:
-                    return ["sign", text, *nodes]
+                node = with_signs(text, nodes)
+                if node is not None:
+                    return node
                 tried += [(count, text, nodes)] if count else []
         tried.sort(key=lambda one: -one[0])
         for _, text, nodes in tried[: BRANCHES - depth]:
@@ -289,14 +290,14 @@ class Closing:
                 if nodes[k] is None:
                     break
             else:
-                return ["sign", text, *nodes]
+                return with_signs(text, nodes)
         return None
 
 
 @dataclass
 class Lemma:
-    """A sign told apart where one case is left, in which integers are rounded; `node` closes that
-    case too where it is known.
+    """Cases by sign of which one is left, in which integers are rounded; `node` closes that case
+    too where it is known.
     """
 
     text: str
@@ -306,20 +307,26 @@ class Lemma:
     node: Node | None
 
 
+def with_signs(text: str, nodes: Sequence[Node | None]) -> Sign | None:
+    """The node of the cases p < 0, p = 0 and p > 0; None where one of them is open."""
+    below, at, above = nodes
+    return (
+        None if below is None or at is None or above is None else ("sign", text, below, at, above)
+    )
+
+
 def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
     """The node below the nodes of lemmas."""
     for lemma in reversed(lemmas if node is not None else []):
         own = lemma.node if lemma.node is not None else wrapped(lemma.rounded, node)
-        node = [
-            "sign",
-            lemma.text,
-            *(own if k == lemma.place else case for k, case in enumerate(lemma.nodes)),
-        ]
+        node = with_signs(
+            lemma.text, [own if k == lemma.place else case for k, case in enumerate(lemma.nodes)]
+        )
     return node
 
 
 def candidates(state: State, problem: Problem, kind: str) -> list[str]:
-    """Polynomials whose sign is worth telling apart: integers and their differences, factors of
+    """Polynomials whose sign may make cases: integers and their differences, factors of
     facts, variables, factors of resultants.
     """
     pool = Pool()
@@ -345,12 +352,15 @@ def candidates(state: State, problem: Problem, kind: str) -> list[str]:
             if not signs.of(rest)[0] or any(
                 not divmod(equation, rest)[1] for equation in equations
             ):
-                texts.append(problem.in_units(poly))
+                texts.append(problem.homogeneous_text(poly))
     return texts[: 2 * CANDIDATES]
 
 
-def mark(poly: checker.Poly, relation: str) -> tuple[frozenset[tuple[int, int]], str]:
-    """A fact up to a positive factor."""
+FactKey = tuple[frozenset[tuple[int, int]], str]
+
+
+def fact_key(poly: checker.Poly, relation: str) -> FactKey:
+    """The same for two facts that differ by a positive factor."""
     content, key = poly.primitive()
     return (
         frozenset((key if content > 0 or relation in ("=", "!=") else -key).terms.items()),
@@ -366,14 +376,14 @@ CONTRARY = {
 }
 
 
-def contradicted(formula: Any, known: set[tuple[frozenset[tuple[int, int]], str]]) -> bool:
+def contradicted(formula: checker.Formula, known: set[FactKey]) -> bool:
     """Whether a fact among the known ones is the negation of the formula, or of a part of a
     conjunction.
     """
     if formula[0] == "and":
         return any(contradicted(part, known) for part in formula[1])
     return formula[0] == "atom" and any(
-        mark(formula[1] if sign > 0 else -formula[1], relation) in known
+        fact_key(formula[1] if sign > 0 else -formula[1], relation) in known
         for sign, relation in CONTRARY[formula[2]]
     )
 
@@ -381,11 +391,8 @@ def contradicted(formula: Any, known: set[tuple[frozenset[tuple[int, int]], str]
 def wrapped(rounded: list[int], node: Node | None) -> Node | None:
     """The node below the nodes that round integer facts."""
     for index in reversed(rounded):
-        node = None if node is None else ["integral", index, node]
+        node = None if node is None else ("integral", index, node)
     return node
-
-
-__all__ = ["Closing", "Exhausted", "Hints", "search_closing"]
 
 
 # -------------------------------------------------------------------------------------------------
@@ -400,7 +407,7 @@ def dense_text(poly: fmpq_poly, name: str) -> str:
     return text if denominator == 1 else f"({text})/{denominator}"
 
 
-class Adjoined:
+class AdjoinedNumber:
     """An algebraic number under a name, between decimals, as the checker adjoins it: its polynomial
     rises through the root.
     """
@@ -411,7 +418,7 @@ class Adjoined:
         self.name, self.number, self.poly, self.low, self.high = name, number, poly, low, high
 
     @staticmethod
-    def of(number: AlgebraicNumber, digits: int, name: str) -> Adjoined:
+    def of(number: AlgebraicNumber, digits: int, name: str) -> AdjoinedNumber:
         """The number between neighbouring decimals of so many digits."""
         scale = 10**digits
         number.narrow(Fraction(1, 4 * scale))
@@ -420,7 +427,7 @@ class Adjoined:
         low = Fraction((number.low * scale).__floor__(), scale)
         high = low + Fraction(1, scale)
         poly = number.poly
-        return Adjoined(
+        return AdjoinedNumber(
             name,
             number,
             poly if number.sign_of(fmpq_poly(poly).derivative()) > 0 else -poly,
@@ -432,25 +439,18 @@ class Adjoined:
         """A polynomial in the number as text."""
         return dense_text(poly, self.name) if poly.degree() > 0 else str(fraction(poly[0]))
 
-    def entry(self) -> list[Any]:
-        """[name, polynomial, low, high, node, node]."""
-        coefficients = [int(c) for c in self.poly.coeffs()]
-        return [
-            self.name,
-            polynomial_text(coefficients, self.name),
-            str(self.low),
-            str(self.high),
-            ["close"],
-            ["close"],
-        ]
+    def entry(self) -> Adjoined:
+        """The number as values name it; its change of sign needs no proof."""
+        text = polynomial_text([int(c) for c in self.poly.coeffs()], self.name)
+        return self.name, text, str(self.low), str(self.high), ("close",), ("close",)
 
 
-def close_at_number(state: State, adjoined: Adjoined) -> list[Any] | None:
+def close_at_number(state: State, adjoined: AdjoinedNumber) -> Node | None:
     """A node that closes the state, whose only variable is the adjoined number; None where a fact's
     sign is not yet visible.
     """
     if state.closed:
-        return ["close"]
+        return ("close",)
     for index, (poly, _) in enumerate(state.facts):
         if checker.variables_of(state.context, poly) == {adjoined.name}:
             node = _contradiction(state, index, adjoined)
@@ -465,10 +465,10 @@ def close_at_number(state: State, adjoined: Adjoined) -> list[Any] | None:
         if node is None:
             return None
         nodes.append(node)
-    return ["cases", 0, nodes]
+    return "cases", 0, nodes
 
 
-def _contradiction(state: State, index: int, adjoined: Adjoined) -> list[Any] | None:
+def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node | None:
     poly, relation = state.facts[index]
     dense, modulus = _dense(state.context, poly, adjoined.name), fmpq_poly(adjoined.poly)
     sign = adjoined.number.sign_of(dense)
@@ -477,30 +477,22 @@ def _contradiction(state: State, index: int, adjoined: Adjoined) -> list[Any] | 
     low, high, equation = _own_facts(state, adjoined)
     if sign == 0:
         quotient = dense // modulus
-        if relation == ">":
-            return [
-                "psatz",
-                [["1", [[index, 1]], "1"]],
-                [[equation, dense_text(-quotient, adjoined.name)]],
-            ]
-        return [
-            "psatz",
-            [["1", [[index, 2]], "1"]],
-            [[equation, dense_text(-quotient * dense, adjoined.name)]],
-        ]
+        power, cofactor = (1, -quotient) if relation == ">" else (2, -quotient * dense)
+        cofactors = [(equation, dense_text(cofactor, adjoined.name))]
+        return "psatz", [("1", [(index, power)], "1")], cofactors
     if relation == "=":
         gcd, u, v = dense.xgcd(modulus)
         cofactors = [
-            [index, dense_text(-u / gcd[0], adjoined.name)],
-            [equation, dense_text(-v / gcd[0], adjoined.name)],
+            (index, dense_text(-u / gcd[0], adjoined.name)),
+            (equation, dense_text(-v / gcd[0], adjoined.name)),
         ]
-        return ["psatz", [["1", [], "1"]], cofactors]
+        return "psatz", [("1", [], "1")], cofactors
     if dense(exact(adjoined.low)) < 0 and _no_root(dense, adjoined):
-        return ["interval", index, low, high]
+        return "interval", index, low, high
     return None
 
 
-def _no_root(dense: fmpq_poly, adjoined: Adjoined) -> bool:
+def _no_root(dense: fmpq_poly, adjoined: AdjoinedNumber) -> bool:
     ends = dense(exact(adjoined.low)), dense(exact(adjoined.high))
     return (
         all(ends)
@@ -516,8 +508,8 @@ def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly
     return fmpq_poly([int(c) for c in checker.univariate(context, poly, name)]) / poly.den
 
 
-def _own_facts(state: State, adjoined: Adjoined) -> tuple[int, int, int]:
-    """The numbers of the facts that say low <= number, number <= high and p(number) = 0."""
+def _own_facts(state: State, adjoined: AdjoinedNumber) -> tuple[int, int, int]:
+    """The numbers of the facts low <= number, number <= high and p(number) = 0."""
     shift = checker.BITS * state.context.index[adjoined.name]
     one = 1 << shift
     found: dict[str, int] = {}

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from itertools import islice
 from math import lcm
-from typing import Any
 
 from flint import fmpq_mpoly
 
@@ -21,20 +20,19 @@ from juggleproof.certificates.algebra.conditions import (
 from juggleproof.certificates.algebra.numbers import sign
 from juggleproof.certificates.algebra.polynomials import term_of
 from juggleproof.certificates.language import End, SharpRange, bounds_of
+from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.found_terms import (
-    Node,
+from juggleproof.certificates.search.lines import LineCover
+from juggleproof.certificates.search.scales import Normal
+from juggleproof.certificates.search.templates import TemplateSearch
+from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Sample
+from juggleproof.certificates.search.witness_terms import (
     Task,
-    Wanted,
     confirmed,
     length,
     margins_of,
     setting,
 )
-from juggleproof.certificates.search.lines import LineCover
-from juggleproof.certificates.search.scales import Normal
-from juggleproof.certificates.search.templates import TemplateSearch
-from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Sample
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 
@@ -49,10 +47,13 @@ def cover(
     samples: Sequence[Sample],
     depth: int = 3,
     former: Sequence[Choice] = (),
-) -> Node | None:
-    """A found that serves on the whole state; None where none was found."""
+) -> Values | None:
+    """Values that serve on the whole state; None where none were found.
+
+    Raises Exhausted where the budget ends.
+    """
     if state.closed:
-        return ["empty", ["close"]]
+        return "empty", ("close",)
     line = list(state.context.index)
     if len(line) == 1 and samples:
         return LineCover(task, state, line[0], samples).search()
@@ -80,14 +81,11 @@ def cover(
     else:
         node = search_closing(state, task.known, task.budget, 1)
         if node is not None:
-            return ["empty", node]
+            return "empty", node
     for choice in _shortest(tried):
-        wanted = Wanted(task.statement, task.purpose, task.base, task.sharp, normal)
-        found = confirmed(
-            wanted, state, choice, keys, task.known, task.budget, samples, task.effort
-        )
-        if found is not None:
-            return found
+        values = confirmed(task, normal, state, choice, keys, samples)
+        if values is not None:
+            return values
     if depth <= 0 or len(samples) < 2:
         return None
     partial = TemplateSearch(
@@ -98,9 +96,9 @@ def cover(
     )
     for first in choices[:3]:
         for poly in _splitters(condition, first, given, base)[:2]:
-            found = _split(task, state, normal.lift(poly), samples, depth, choices[:4])
-            if found is not None:
-                return found
+            values = _split(task, state, normal.lift(poly), samples, depth, choices[:4])
+            if values is not None:
+                return values
     return None
 
 
@@ -111,7 +109,7 @@ def _split(
     samples: Sequence[Sample],
     depth: int,
     former: Sequence[Choice],
-) -> Node | None:
+) -> Values | None:
     text = to_text(poly)
     groups: list[list[Sample]] = [[], [], []]
     for sample in samples:
@@ -119,13 +117,13 @@ def _split(
         if value is None:
             return None
         groups[sign(value) + 1].append(sample)
-    founds: list[Node] = []
+    cases: list[Values] = []
     for branch, group in zip(state.by_sign(text), groups):
-        found = cover(task, branch, group, depth - 1, former if not group else ())
-        if found is None:
+        values = cover(task, branch, group, depth - 1, former if not group else ())
+        if values is None:
             return None
-        founds.append(found)
-    whole = ["sign", text, *founds]
+        cases.append(values)
+    whole = by_sign(text, cases)
     ok = state.is_served_by(whole, task.known, task.purpose, task.statement, task.base, task.sharp)
     return whole if ok else None
 
@@ -133,7 +131,7 @@ def _split(
 def _splitters(
     condition: Condition, choice: Choice, samples: Sequence[Sample], base: Sequence[str]
 ) -> list[fmpq_mpoly]:
-    """Polynomials in the base whose sign tells the samples that a choice serves from the others."""
+    """Polynomials in the base whose sign separates the samples that a choice serves from others."""
     if choice.roots or len(choice.serves) == len(samples):
         return []
     changed = condition
@@ -168,7 +166,7 @@ def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -
     """The condition of a range as bounds on one parameter, those of the domain being understood;
     None where it is not linear in it.
 
-    A relation slope*parameter + rest > 0 says parameter > -rest/slope where slope > 0, and
+    A relation slope*parameter + rest > 0 means parameter > -rest/slope where slope > 0, and
     parameter < -rest/slope where slope < 0. Which of the two it is on the whole domain is proved:
     the checker accepts that the domain with slope <= 0, or >= 0, has no point.
 
@@ -192,8 +190,8 @@ def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -
     return None if None in texts else " or ".join(text for text in texts if text)
 
 
-def says_domain(statement: SharpRange, whole: Collection[str]) -> bool:
-    """Whether the condition, with what the domain says of each parameter alone and the whole
+def implies_domain(statement: SharpRange, whole: Collection[str]) -> bool:
+    """Whether the condition, with what the domain demands of each parameter alone and the whole
     numbers being whole, implies the rest of the domain: proved.
     """
     state = State(_state(statement, whole).context)
@@ -221,7 +219,7 @@ def _state(statement: SharpRange, whole: Collection[str]) -> State:
 
 
 def _interval(
-    atoms: list[Any],
+    atoms: Sequence[checker.Formula],
     parameter: str,
     state: State,
     ends: tuple[End | None, End | None],

@@ -1,9 +1,9 @@
-"""Where two pieces of a line meet: polynomials whose signs tell them apart."""
+"""Terms over one parameter, piece by piece."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, islice
 
@@ -17,18 +17,9 @@ from juggleproof.certificates.algebra.numbers import (
     sign,
     simplest_between,
 )
+from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.candidates import separate
 from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.found_terms import (
-    Node,
-    Task,
-    Wanted,
-    confirmed,
-    failing_goal,
-    length,
-    margins_of,
-    setting,
-)
 from juggleproof.certificates.search.models import ask
 from juggleproof.certificates.search.ranges import Interval, Line
 from juggleproof.certificates.search.samples import state_condition
@@ -41,11 +32,19 @@ from juggleproof.certificates.search.terms import (
     reduced_by,
     root_values,
 )
+from juggleproof.certificates.search.witness_terms import (
+    Task,
+    confirmed,
+    failing_goal,
+    length,
+    margins_of,
+    setting,
+)
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Exhausted
 
 # -------------------------------------------------------------------------------------------------
-# Where two pieces of a line meet: polynomials whose signs tell them apart.
+# Where two pieces of a line meet: polynomials whose signs separate them.
 
 
 def linear_text(value: fmpq, parameter: str) -> str:
@@ -114,7 +113,7 @@ class Piece:
 
 
 class LineCover:
-    """The search for a found that serves on a state in one parameter."""
+    """The search for values that serve on a state in one parameter."""
 
     def __init__(self, task: Task, state: State, parameter: str, samples: Sequence[Sample]) -> None:
         self.task, self.state, self.parameter, self.samples = task, state, parameter, list(samples)
@@ -125,12 +124,15 @@ class LineCover:
         self.goal, self.borders = failing_goal(task, state, self.condition, task.budget)
         self.served: list[tuple[Choice, list[Interval]]] = []
 
-    def search(self) -> Node | None:
-        """A found for the whole state, or None."""
+    def search(self) -> Values | None:
+        """Values for the whole state, or None.
+
+        Raises Exhausted where the budget ends.
+        """
         regions = _intervals(self.allowed, self.parameter)
         if not regions:
             node = search_closing(self.state, self.task.known, self.task.budget, 1)
-            return None if node is None else ["empty", node]
+            return None if node is None else ("empty", node)
         count = len(self.samples)
         groups = [
             self.samples,
@@ -143,9 +145,9 @@ class LineCover:
                 self._gather(group)
                 plan = self._plan(regions)
                 if isinstance(plan, list):
-                    found = self._build(self.state, plan, 2)
-                    if found is not None:
-                        return found
+                    values = self._build(self.state, plan, 2)
+                    if values is not None:
+                        return values
         for _ in range(8):
             plan = self._plan(regions)
             if isinstance(plan, list):
@@ -272,7 +274,7 @@ class LineCover:
                 low, closed = best.interval.high, not best.interval.high_closed
         return pieces
 
-    def _build(self, state: State, plan: Sequence[Piece], depth: int) -> Node | None:
+    def _build(self, state: State, plan: Sequence[Piece], depth: int) -> Values | None:
         if len(plan) == 1:
             return self._leaf(state, plan[0], depth)
         k = len(plan) // 2
@@ -282,22 +284,22 @@ class LineCover:
             return None
         text, middle = cut
         branches = state.by_sign(text)
-        founds = [self._build(branches[0], plan[:k], depth)]
-        if founds[0] is not None:
-            founds.append(
-                self._leaf(branches[1], (left, right)[middle], 0)
-                if middle is not None
-                else self._empty(branches[1])
-            )
-        if founds[-1] is not None:
-            founds.append(self._build(branches[2], plan[k:], depth))
-        return ["sign", text, *founds] if founds[-1] is not None else None
+        below = self._build(branches[0], plan[:k], depth)
+        if below is None:
+            return None
+        at = (
+            self._leaf(branches[1], (left, right)[middle], 0)
+            if middle is not None
+            else self._empty(branches[1])
+        )
+        above = None if at is None else self._build(branches[2], plan[k:], depth)
+        return None if at is None or above is None else ("sign", text, below, at, above)
 
-    def _empty(self, state: State) -> Node | None:
+    def _empty(self, state: State) -> Values | None:
         node = search_closing(state, self.task.known, self.task.budget, 1)
-        return None if node is None else ["empty", node]
+        return None if node is None else ("empty", node)
 
-    def _leaf(self, state: State, piece: Piece, depth: int) -> Node | None:
+    def _leaf(self, state: State, piece: Piece, depth: int) -> Values | None:
         """The piece's choice, or another that serves there, or the piece in two halves."""
         others = [
             c
@@ -305,26 +307,17 @@ class LineCover:
             if c is not piece.choice and any(_within(piece.interval, i) for i in intervals)
         ]
         task = self.task
-        wanted = Wanted(task.statement, task.purpose, task.base, task.sharp, self.normal)
         for part, choices in zip(PARTS, ([piece.choice, *others[:4]], [piece.choice, *others[:1]])):
             for choice in choices:
                 try:
-                    found = confirmed(
-                        wanted,
-                        state,
-                        choice,
-                        self.keys,
-                        task.known,
-                        task.budget.part(part),
-                        self.samples,
-                        task.effort,
-                    )
+                    less = replace(task, budget=task.budget.part(part))
+                    values = confirmed(less, self.normal, state, choice, self.keys, self.samples)
                 except Exhausted:
                     if task.budget.left <= 0:
                         raise
-                    found = None
-                if found is not None:
-                    return found
+                    values = None
+                if values is not None:
+                    return values
         low, high = piece.interval.low, piece.interval.high
         if depth <= 0 or low is None or high is None or low is high:
             return None
@@ -340,15 +333,15 @@ class LineCover:
 
     def _build_halves(
         self, state: State, halves: Sequence[Piece], value: fmpq, depth: int
-    ) -> Node | None:
+    ) -> Values | None:
         text = linear_text(value, self.parameter)
-        founds: list[Node] = []
+        cases: list[Values] = []
         for branch, piece in zip(state.by_sign(text), (halves[0], halves[0], halves[1])):
-            found = self._leaf(branch, piece, depth)
-            if found is None:
+            values = self._leaf(branch, piece, depth)
+            if values is None:
                 return None
-            founds.append(found)
-        return ["sign", text, *founds]
+            cases.append(values)
+        return by_sign(text, cases)
 
 
 def _intervals(

@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import lcm
-from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
 import z3
 from flint import fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
+from numpy.typing import NDArray
 
 from juggleproof.certificates.algebra.conditions import Condition, Tree, places
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, exact, simplest_between
@@ -21,8 +21,8 @@ from juggleproof.certificates.search.samples import Assignment, Sampler
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
-# Asking Z3: a vote on whether a condition can be met, and a model of it.  Nothing that Z3 says is
-# believed.
+# Asking Z3: a vote on whether a condition can be met, and a model of it.  No answer of Z3
+# is believed.
 
 RESOURCES = 200_000  # Z3's own unit of work; about a tenth of a second where numbers are rational
 
@@ -98,7 +98,7 @@ class _Session:
             0,
         )  # the context's counter goes on from question to question
 
-    def work(self, solver: Any, resources: int) -> int:
+    def work(self, solver: z3.Solver, resources: int) -> int:
         """What Z3 has spent since it was asked for the last time."""
         statistics = solver.statistics()
         total = next(
@@ -159,14 +159,14 @@ def _term(poly: fmpq_mpoly, integers: frozenset[str]) -> str:
     return f"(+ {' '.join(total)})" if len(total) > 1 else total[0] if total else "0.0"
 
 
-def _value(value: Any) -> Value:
+def _value(value: z3.ExprRef) -> Value:
     if z3.is_algebraic_value(value):
         coefficients = [int(str(c)) for c in value.poly()]
         # Z3's polynomial need not be irreducible: the factor that changes its sign on the enclosure
         # is the one of the root.
         for precision in (10, 40, 160):
-            near = value.approx(precision)
-            middle = Fraction(near.numerator_as_long(), near.denominator_as_long())
+            decimal = value.approx(precision)
+            middle = Fraction(decimal.numerator_as_long(), decimal.denominator_as_long())
             radius = Fraction(2, 10**precision)
             low, high = exact(middle - radius), exact(middle + radius)
             hits = [
@@ -209,7 +209,7 @@ def model_assignments(
         here = condition.substituted(pinned)
         if name not in here.variables():
             continue
-        for value in _near(here, name, model.get(name, fmpq(0)), name in integers, roles):
+        for value in _simple_values(here, name, model.get(name, fmpq(0)), name in integers, roles):
             answer = ask(here.substituted({name: value}), budget, integers, resources, model=True)
             if answer.verdict == "sat":
                 pinned[name] = value
@@ -223,11 +223,11 @@ def model_assignments(
         yield assignment
 
 
-def _near(
+def _simple_values(
     condition: Condition, name: str, value: Value, integral: bool, roles: Roles
 ) -> list[fmpq]:
-    """Values to try in place of a model's: favourites that meet what is said of the variable alone,
-    then simple ones ever nearer.
+    """Values to try in place of a model's: favourites that meet the relations about the variable
+    alone, then simple ones ever nearer.
     """
     found = list(trials(condition, name, integral, 4, roles))
     if isinstance(value, AlgebraicNumber):
@@ -253,7 +253,7 @@ def _constant(value: fmpq) -> fmpq_poly:
 # Points in floats that nearly meet a condition, by damped Gauss-Newton steps from counted starts:
 # a guide to exact ones, and no more.
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
+Array = NDArray[np.float64]
 STARTS, STEPS = 12, 40
 MARGINS = (0.2, 0.02, 0.001)  # by how much inequalities are to be met, ever less
 
@@ -292,7 +292,7 @@ class Residual:
         return (short, -gradient) if short > 0 else (0.0, np.zeros(len(point)))
 
 
-def near_points(
+def approximate_points(
     condition: Condition, names: Sequence[str], budget: Budget
 ) -> Iterator[dict[str, fmpq]]:
     """Points near which the condition may be met, as rationals; other alternatives of `or` are
@@ -315,7 +315,7 @@ def near_points(
                 break
 
 
-def _alternative(tree: Tree, random: Any) -> Iterator[tuple[int, str]]:
+def _alternative(tree: Tree, random: np.random.Generator) -> Iterator[tuple[int, str]]:
     if isinstance(tree, bool):
         return
     if isinstance(tree[0], int):

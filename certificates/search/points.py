@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
@@ -27,13 +27,14 @@ from juggleproof.certificates.algebra.numbers import (
     simplest_between,
 )
 from juggleproof.certificates.language import NO_ROLES, Roles
+from juggleproof.certificates.nodes import Adjoined, Node, Values, values_at
 from juggleproof.certificates.search.candidates import trials
-from juggleproof.certificates.search.closing import Adjoined, close_at_number, search_closing
+from juggleproof.certificates.search.closing import AdjoinedNumber, close_at_number, search_closing
 from juggleproof.certificates.search.families import cover
-from juggleproof.certificates.search.found_terms import Task, adjoined_entry
-from juggleproof.certificates.search.models import ask, model_assignments, near_points
+from juggleproof.certificates.search.models import approximate_points, ask, model_assignments
 from juggleproof.certificates.search.samples import Assignment, Sampler, base_samples
 from juggleproof.certificates.search.scales import with_scales
+from juggleproof.certificates.search.witness_terms import Known, Task, adjoined_entry
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
@@ -41,11 +42,9 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 # Points whose values are roots of equations with one another's values as coefficients: each root
 # is adjoined between two decimals.
 #
-# Signs are told at rational approximations, which are only hints: the nodes that the checker asks
-# for
-# are searched as any others.
+# Signs are those at rational approximations, which are only hints: the nodes that the checker asks
+# for are searched as any others.
 
-Found = list[Any]
 TINY = fmpq(1, 10**15)
 DIGITS = (2, 4, 8, 14)
 
@@ -229,7 +228,7 @@ class Towers:
         return Tower(roots, values)
 
 
-def as_found(
+def values_of_tower(
     statement: checker.Statement,
     state: State,
     tower: Tower,
@@ -237,16 +236,17 @@ def as_found(
     known: dict[str, checker.Statement],
     budget: Budget,
     digits: int,
-) -> Found | None:
+) -> Values | None:
     """The point as `checker.finds` takes it, with roots between neighbouring decimals; None where a
     node is missing.
     """
-    own, entries = state.branch(), []
-    for name, poly, near in tower.roots:
+    own = state.branch()
+    entries: list[Adjoined] = []
+    for name, poly, approximation in tower.roots:
         place, ring = places(poly.context()), poly.context()
         at = {place[n]: value for n, _, value in tower.roots}
         rises = sign(constant_of(poly.derivative(place[name]).subs(at)) or fmpq(0)) > 0
-        low = fmpq((near * 10**digits).floor(), 10**digits)
+        low = fmpq((approximation * 10**digits).floor(), 10**digits)
         text = to_text(poly if rises else ring.constant(0) - poly)
         entry = adjoined_entry(
             own, name, text, str(low), str(low + fmpq(1, 10**digits)), known, budget, 1
@@ -265,14 +265,13 @@ def as_found(
         [own.branch(unfolding.goal(True), unfolding.context)] if purpose == "counterexample" else []
     )
     nodes = [search_closing(aim, known, budget, 1) for aim in aims]
-    return None if None in nodes else [statement.name, entries, terms, *nodes]
+    closed = [node for node in nodes if node is not None]
+    return values_at(statement.name, entries, terms, closed) if len(closed) == len(nodes) else None
 
 
 # -------------------------------------------------------------------------------------------------
 # Exact points that meet a statement's premises, counterexamples that break its goals, and
 # witnesses, as the checker takes them.
-
-Known = dict[str, checker.Statement]
 
 # For each effort: rounds of (values tried for a variable, values kept for the last one,
 # substitutions in all, irrational ones too).
@@ -283,25 +282,28 @@ ROUNDS: tuple[tuple[tuple[int, int, int, bool], ...], ...] = (
 )
 
 
-def search_found(
+def search_values(
     statement: checker.Statement,
     state: State,
     purpose: str,
     base: dict[str, checker.Poly],
     known: Known,
     budget: Budget,
-    sharp: list[Any] | None = None,
+    sharp: list[ast.expr] | None = None,
     effort: int = 1,
     roles: Roles = NO_ROLES,
-) -> Found | None:
+) -> Values | None:
     """Values as `checker.finds` takes them for the purpose "point", "counterexample" or "witness";
-    None where none was found.
+    None where none were found.
+
+    `base` has the values of variables that are given, in which a witness is sought as terms.
+    Raises Exhausted where the budget ends.
     """
     unfolding = unfolded(statement, sharp)
     roles = with_scales(roles, unfolding)
     if base:
         task = Task(statement, purpose, base, known, budget, sharp, effort, roles=roles)
-        return _found_terms(task, state)
+        return _terms_on_state(task, state)
     exists = bool(statement.get("exists"))
     parts = list(unfolding.premises)
     names = list(unfolding.universal)
@@ -342,7 +344,7 @@ def search_found(
         )
     try:
         part = budget.part(budget.left * 6 // 10)
-        found = _sampled(
+        values = _sampled(
             statement,
             state,
             condition,
@@ -357,8 +359,8 @@ def search_found(
             roles,
         )
     except Exhausted:
-        found = None
-    return found or _by_towers(
+        values = None
+    return values or _by_towers(
         statement, state, condition, names, purpose, known, budget, effort, roles
     )
 
@@ -373,10 +375,10 @@ def _sampled(
     purpose: str,
     known: Known,
     budget: Budget,
-    sharp: list[Any] | None,
+    sharp: list[ast.expr] | None,
     effort: int,
     roles: Roles,
-) -> Found | None:
+) -> Values | None:
     """A point from samples and models, with one irrational number at most."""
     failures = 0
     many = goal is not None
@@ -384,11 +386,11 @@ def _sampled(
         if goal is not None and not _beyond(goal, assignment, names, integers, budget, roles):
             failures += 1
         else:
-            found = as_found_point(
+            values = values_of_assignment(
                 statement, state, assignment, names, purpose, known, budget, sharp, effort
             )
-            if found is not None:
-                return found
+            if values is not None:
+                return values
             failures += 5
         if failures >= 30 * (effort + 1):
             break
@@ -405,15 +407,15 @@ def _by_towers(
     budget: Budget,
     effort: int,
     roles: Roles,
-) -> Found | None:
-    """A point with several irrational values, sought near points in floats."""
-    for guide in near_points(condition, names, budget):
+) -> Values | None:
+    """A point with several irrational values, guided by points in floats."""
+    for guide in approximate_points(condition, names, budget):
         failures = 0
         for tower in Towers(budget, names, guide, 60 * effort, 1, roles).search(condition):
             for digits in DIGITS:
-                found = as_found(statement, state, tower, purpose, known, budget, digits)
-                if found is not None and state.is_served_by(found, known, purpose, statement):
-                    return found
+                values = values_of_tower(statement, state, tower, purpose, known, budget, digits)
+                if values is not None and state.is_served_by(values, known, purpose, statement):
+                    return values
             failures += 1
             if failures >= 2 * effort:
                 break
@@ -443,7 +445,7 @@ def _beyond(
     return ask(there, budget, integers, 200_000).verdict == "unsat"
 
 
-def _found_terms(task: Task, state: State) -> Found | None:
+def _terms_on_state(task: Task, state: State) -> Values | None:
     """Terms in the base variables, on all of the state."""
     if task.effort == 0:
         task = replace(task, effort=1, nodes=40, tries=2)
@@ -475,7 +477,7 @@ def assignments(
                 yield from model_assignments(condition, names, integers, budget, effort, roles)
 
 
-def as_found_point(
+def values_of_assignment(
     statement: checker.Statement,
     state: State,
     assignment: Assignment,
@@ -483,72 +485,78 @@ def as_found_point(
     purpose: str,
     known: Known,
     budget: Budget,
-    sharp: list[Any] | None,
+    sharp: list[ast.expr] | None,
     effort: int,
-) -> Found | None:
+) -> Values | None:
     """The assignment in the checker's form, with its nodes, confirmed by the checker; None where it
     does not serve.
     """
-    nodes = [["close"]] * (2 if purpose == "counterexample" else 1)
+    nodes: list[Node] = [("close",)] * (2 if purpose == "counterexample" else 1)
     if assignment.number is None:
-        values = {name: str(fraction(assignment.values[name][0])) for name in names}
-        found = [statement.name, [], values, *nodes]
+        terms = {name: str(fraction(assignment.values[name][0])) for name in names}
         if purpose == "counterexample" and statement.get("exists"):
-            node = _goal_node(statement, state, found, known, budget, sharp, effort)
+            node = _goal_node(statement, state, terms, known, budget, sharp, effort)
             if node is None:
                 return None
-            found[4] = node
-        return found if state.is_served_by(found, known, purpose, statement, sharp=sharp) else None
+            nodes[1] = node
+        values = values_at(statement.name, [], terms, nodes)
+        return (
+            values if state.is_served_by(values, known, purpose, statement, sharp=sharp) else None
+        )
     for digits in (1, 2, 3, 4, 6, 9, 14, 20, 40):
-        adjoined = Adjoined.of(assignment.number, digits, _fresh("theta", statement))
-        values = {name: adjoined.text(assignment.values[name]) for name in names}
-        found = [statement.name, [adjoined.entry()], values, *nodes]
-        if _with_nodes(statement, state, found, adjoined, sharp, purpose) and state.is_served_by(
-            found, known, purpose, statement, sharp=sharp
-        ):
-            return found
+        adjoined = AdjoinedNumber.of(assignment.number, digits, _fresh("theta", statement))
+        terms = {name: adjoined.text(assignment.values[name]) for name in names}
+        closed = _nodes_at_number(statement, state, terms, adjoined, sharp, purpose)
+        if closed is not None:
+            values = values_at(statement.name, [adjoined.entry()], terms, closed)
+            if state.is_served_by(values, known, purpose, statement, sharp=sharp):
+                return values
     return None
 
 
 def _unfolding(
-    statement: checker.Statement, state: State, found: Found, sharp: list[Any] | None
+    statement: checker.Statement,
+    state: State,
+    adjoined: Sequence[Adjoined],
+    terms: Mapping[str, str],
+    sharp: list[ast.expr] | None,
 ) -> tuple[State, checker.Unfolding]:
-    """The state and the unfolding that the checker has when it comes to the nodes of a found
-    without a base.
+    """The state and the unfolding that the checker has when it comes to the nodes of values without
+    a base.
     """
     state = state.branch()
-    for entry in found[1]:
-        state.adjoin(*entry[:4])
-    values = {name: state.context.value(checker.parse(text)) for name, text in found[2].items()}
+    for name, text, low, high, _, _ in adjoined:
+        state.adjoin(name, text, low, high)
+    values = {name: state.context.value(checker.parse(text)) for name, text in terms.items()}
     return state, checker.Unfolding(statement, checker.Context(state.context, values), sharp)
 
 
 def _goal_node(
     statement: checker.Statement,
     state: State,
-    found: Found,
+    terms: Mapping[str, str],
     known: Known,
     budget: Budget,
-    sharp: list[Any] | None,
+    sharp: list[ast.expr] | None,
     effort: int,
-) -> list[Any] | None:
-    state, unfolding = _unfolding(statement, state, found, sharp)
+) -> Node | None:
+    state, unfolding = _unfolding(statement, state, [], terms, sharp)
     return search_closing(
         state.branch(unfolding.goal(True), unfolding.context), known, budget, min(effort, 1)
     )
 
 
-def _with_nodes(
+def _nodes_at_number(
     statement: checker.Statement,
     state: State,
-    found: Found,
-    adjoined: Adjoined,
-    sharp: list[Any] | None,
+    terms: Mapping[str, str],
+    adjoined: AdjoinedNumber,
+    sharp: list[ast.expr] | None,
     purpose: str,
-) -> bool:
-    """Fills in the nodes at an adjoined number; whether that went well."""
+) -> list[Node] | None:
+    """The nodes of values at an adjoined number; None where one is missing."""
     try:
-        state, unfolding = _unfolding(statement, state, found, sharp)
+        state, unfolding = _unfolding(statement, state, [adjoined.entry()], terms, sharp)
         branches = [
             state.branch(
                 checker.negate(
@@ -560,14 +568,15 @@ def _with_nodes(
         ]
         if purpose == "counterexample":
             branches.append(state.branch(unfolding.goal(True), unfolding.context))
-        for k, branch in enumerate(branches):
+        nodes: list[Node] = []
+        for branch in branches:
             node = close_at_number(branch, adjoined)
             if node is None:
-                return False
-            found[3 + k] = node
+                return None
+            nodes.append(node)
     except checker.Rejected:
-        return False
-    return True
+        return None
+    return nodes
 
 
 def _fresh(name: str, statement: checker.Statement) -> str:
@@ -575,8 +584,8 @@ def _fresh(name: str, statement: checker.Statement) -> str:
     taken = {
         n
         for kind in kinds
-        for said in statement.get(kind)
-        for n in (said if isinstance(said, list) else [said[0]])
+        for line in statement.get(kind)
+        for n in (line if isinstance(line, list) else [line[0]])
     }
     while name in taken:
         name += "_"

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import ast
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
@@ -52,12 +52,12 @@ from juggleproof.certificates.work import Budget
 def pinned(
     statements: Sequence[checker.Statement],
     parameter: str,
-    domain: Any,
+    domain: ast.expr,
     budget: Budget,
     roles: Roles = NO_ROLES,
 ) -> tuple[str, Formula] | None:
-    """(a whole number of all the statements, what their hypotheses say of it and the parameter
-    alone), scales being 1.
+    """(a whole number of all the statements, their hypotheses on it and the parameter alone); the
+    scales are 1.
 
     >>> text = "statement a/b\\nforall alpha n x\\ninteger n\\n"
     >>> text += "given n <= 2*alpha and 2*alpha < n + 1\\nshow x*n <= 2*x*alpha"
@@ -66,19 +66,23 @@ def pinned(
     '2*alpha - n >= 0 and -2*alpha + n + 1 > 0'
     """
     for name in sorted({n for each in statements for line in each.get("integer") for n in line}):
-        said = [_said(each, parameter, name, domain, budget, roles) for each in statements]
-        if said and all(said):
+        each_one = [_hypotheses(s, parameter, name, domain, budget, roles) for s in statements]
+        if each_one and all(each_one):
             return name, conjunction(
-                list({str(formula): formula for formulas in said for formula in formulas}.values())
+                list(
+                    {
+                        str(formula): formula for formulas in each_one for formula in formulas
+                    }.values()
+                )
             )
     return None
 
 
-def _said(
+def _hypotheses(
     statement: checker.Statement,
     parameter: str,
     name: str,
-    domain: Any,
+    domain: ast.expr,
     budget: Budget,
     roles: Roles,
 ) -> list[Formula]:
@@ -120,7 +124,7 @@ def _without(positive: Sequence[fmpq_mpoly], poly: fmpq_mpoly) -> fmpq_mpoly:
 
 # -------------------------------------------------------------------------------------------------
 # Sets of one parameter as intervals with exact ends, and as conditions that the language of
-# statements can say.
+# statements can write.
 
 MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 
@@ -199,7 +203,7 @@ def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
 
 
 def one_relation(line: Line, parameter: str, domain: Formula) -> Formula | None:
-    """p relation 0 for the one irreducible polynomial p of all the ends, where that says the same
+    """p relation 0 for the one irreducible polynomial p of all the ends, where that is equivalent
     on the domain.
 
     >>> from juggleproof.certificates.language import reals
@@ -312,7 +316,7 @@ def isolated(
     return list(zip(cuts, cuts[1:]))
 
 
-def ends_of(domain: Any, parameter: str) -> tuple[Fraction | None, Fraction | None]:
+def ends_of(domain: ast.expr, parameter: str) -> tuple[Fraction | None, Fraction | None]:
     """The rational ends of a domain, as the checker parses it, that bounds the parameter by
     relations linear in it; None where it has no such end.
     """
@@ -344,7 +348,7 @@ class Violation:
     integers: tuple[str, ...]
 
     @staticmethod
-    def of(statement: checker.Statement, domain: Any, roles: Roles = NO_ROLES) -> Violation:
+    def of(statement: checker.Statement, domain: ast.expr, roles: Roles = NO_ROLES) -> Violation:
         """The violations of a statement in a domain, scales being 1."""
         unfolding = checker.Unfolding(statement, checker.Context(), [domain])
         premises = list(unfolding.premises)
@@ -422,7 +426,7 @@ class Lines:
         self,
         violations: Sequence[Violation],
         parameter: str,
-        domain: Any,
+        domain: ast.expr,
         budget: Budget,
         more: Sequence[AlgebraicNumber] = (),
     ) -> None:
@@ -512,7 +516,11 @@ def _joined(one: Verdict, doubtful: bool) -> tuple[bool, ...]:
 
 
 def _cell_samples(
-    numbers: Sequence[AlgebraicNumber], count: int, allowed: Condition, parameter: str, cells: Any
+    numbers: Sequence[AlgebraicNumber],
+    count: int,
+    allowed: Condition,
+    parameter: str,
+    cells: Mapping[int, fmpq_poly],
 ) -> list[fmpq] | None:
     """A simple rational in every open cell of the domain, which has to be one interval."""
     borders = [(left._high, right._low) for left, right in zip(numbers, numbers[1:])]

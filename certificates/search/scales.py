@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
@@ -18,20 +17,20 @@ from juggleproof.certificates.algebra.conditions import (
 )
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.language import Roles
-from juggleproof.certificates.search.facts import Scaling, Weight
+from juggleproof.certificates.search.psatz.facts import Scaling, Weight
 from juggleproof.certificates.search.terms import Root, Sample
 from juggleproof.certificates.states import State
 
 # -------------------------------------------------------------------------------------------------
-# Which variables are scales: positive ones that a change of units makes 1, where nothing that the
-# statement says of them prefers a unit.
+# Which variables are scales: positive ones that a change of units makes 1, where no polynomial
+# of the statement prefers a unit.
 
 
 def with_scales(roles: Roles, unfolding: checker.Unfolding) -> Roles:
-    """The roles with the scales of an unfolded statement, found by homogeneity where nothing is
-    said of scales.
+    """The roles with the scales of an unfolded statement, found by homogeneity where the
+    roles leave them open.
 
-    A scale is a universal variable that a premise says to be positive; every polynomial of the
+    A scale is a universal variable that a premise makes positive; every polynomial of the
     statement is homogeneous in weights that give it 1, and parameters and whole numbers 0.
 
     >>> text = "statement a/b\\nforall r v\\ngiven r > 0 and v < r\\nshow v - 2*r < "
@@ -57,11 +56,11 @@ def with_scales(roles: Roles, unfolding: checker.Unfolding) -> Roles:
         [poly for poly in polys if poly != 0],
         [k for k in positive if names[k] in unfolding.universal],
     )
-    return replace(roles, scales=frozenset(names[k] for k in scaling.units))
+    return replace(roles, scales=frozenset(names[k] for k in scaling.scales))
 
 
 def positive_variables(facts: Sequence[tuple[fmpq_mpoly, str]]) -> list[int]:
-    """The places of the variables that a fact alone says to be positive, in order."""
+    """The places of the variables that a fact alone makes positive, in order."""
     return sorted(
         {
             poly.degrees().index(1)
@@ -105,10 +104,10 @@ class Normal:
         if any(
             any(self.scaling.weights[k])
             for k, name in enumerate(names)
-            if name in whole and self.scaling.units
+            if name in whole and self.scaling.scales
         ):
             self.scaling = Scaling(Ring(names), polys, [])
-        self.scales = {names[k]: fmpq(1) for k in self.scaling.units}
+        self.scales = {names[k]: fmpq(1) for k in self.scaling.scales}
         self.weights: dict[str, Weight] = (
             dict(zip(names, self.scaling.weights)) if self.scales else {}
         )
@@ -156,7 +155,7 @@ class Normal:
         return [name for name in names if name not in gone]
 
     def sample(self, sample: Sample) -> Sample:
-        """The sample in these units."""
+        """The sample with scales of 1."""
         if not self.scales:
             return sample
         found = {}
@@ -209,7 +208,7 @@ class Normal:
         return self.ring.from_dict(terms)
 
 
-def _atoms(formula: Any) -> list[tuple[str, checker.Poly, str]]:
+def _atoms(formula: checker.Formula) -> list[tuple[str, checker.Poly, str]]:
     if isinstance(formula, bool):
         return []
     return (

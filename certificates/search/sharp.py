@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any
 
 from flint import fmpq, fmpq_poly
 
@@ -26,10 +26,10 @@ from juggleproof.certificates.language import (
     Term,
     disjunction,
 )
+from juggleproof.certificates.nodes import Certificate, Proof, Sharp, Values, by_sign
 from juggleproof.certificates.search.certificate import search_proof
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
-from juggleproof.certificates.search.found_terms import Task
 from juggleproof.certificates.search.ranges import (
     QUICK,
     Line,
@@ -44,6 +44,7 @@ from juggleproof.certificates.search.ranges import (
 )
 from juggleproof.certificates.search.samples import Sampler, base_samples
 from juggleproof.certificates.search.scales import with_scales
+from juggleproof.certificates.search.witness_terms import Task
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
@@ -51,7 +52,6 @@ from juggleproof.certificates.work import Budget, Exhausted, unfolded
 # The certificate of a sharp range: counterexamples on every interval outside on which one
 # statement fails, then proofs inside.
 
-Node = list[Any]
 FIRST = 600_000  # units of work for a proof with little effort
 OUTSIDE = 2_500_000  # units of work for the families; those that are found at all are found early
 
@@ -65,8 +65,10 @@ def sharp_certificate(
     known: Mapping[str, checker.Statement],
     budget: Budget,
     roles: Roles,
-) -> tuple[Node | None, str]:
-    """([{name: proof}, found, sample], "") or (None, what could not be certified)."""
+) -> tuple[Sharp | None, str]:
+    """(certificate, "") or (None, what could not be certified); nothing is raised where the budget
+    ends.
+    """
     (domain,) = statement.get("domain")
     named = {each.name: each for each in statements}
     try:
@@ -90,7 +92,7 @@ def sharp_certificate(
         inside, failure = proofs_inside(statement, statements, known, budget, roles)
     except Exhausted:
         return None, "the budget ran out"
-    return (None, failure) if inside is None else ([inside, outside, sample], "")
+    return (None, failure) if inside is None else ((inside, outside, sample), "")
 
 
 def proofs_inside(
@@ -99,10 +101,13 @@ def proofs_inside(
     known: Mapping[str, checker.Statement],
     budget: Budget,
     roles: Roles,
-) -> tuple[dict[str, Any] | None, str]:
-    """({name: proof}, "") where the condition holds, or (None, which proof is missing)."""
+) -> tuple[dict[str, Proof] | None, str]:
+    """({name: proof}, "") where the condition holds, or (None, which proof is missing).
+
+    Raises Exhausted where the budget ends.
+    """
     (domain,), (condition,) = statement.get("domain"), statement.get("holds")
-    inside: dict[str, Any] = {}
+    inside: dict[str, Proof] = {}
     for each in statements:
         proof = None
         for effort, part in ((1, min(FIRST, budget.left // 3)), (2, budget.left)):
@@ -127,7 +132,7 @@ def proofs_inside(
 def whole_parameters(
     over: Sequence[str], statements: Sequence[checker.Statement]
 ) -> frozenset[str]:
-    """The parameters that the statements say to be integers."""
+    """The parameters that are integers in the statements."""
     return frozenset(
         p for p in over if any(p in line for each in statements for line in each.get("integer"))
     )
@@ -171,37 +176,37 @@ def _outside(
     parameter: str,
     line: Line,
     verdicts: Mapping[str, Sequence[bool]],
-    domain: Any,
+    domain: ast.expr,
     known: dict[str, checker.Statement],
     budget: Budget,
     roles: Roles,
-) -> Node | None:
+) -> Values | None:
     base = {parameter: state.context.values[parameter]}
     failing = [k for k, verdict in enumerate(line.verdicts) if not verdict]
     if not failing:
         node = search_closing(state, known, budget, 2)
-        return None if node is None else ["empty", node]
+        return None if node is None else ("empty", node)
     whole = [name for name in sorted(named) if not any(verdicts[name][k] for k in failing)]
     for name in whole:
         task = task_outside(named[name], base, known, budget, domain, roles)
-        found = cover(task, state, base_samples(state, budget, task.roles), depth=4)
-        if found is not None:
-            return found
+        values = cover(task, state, base_samples(state, budget, task.roles), depth=4)
+        if values is not None:
+            return values
     cut = _cut(line, failing, verdicts, parameter, domain)
     if cut is None:
         return None
     text, pieces = cut
-    founds = []
+    cases: list[Values] = []
     for branch, piece in zip(state.by_sign(text), pieces):
         part = Line(
             line.numbers,
             tuple(verdict or k not in piece for k, verdict in enumerate(line.verdicts)),
         )
-        found = _outside(branch, named, parameter, part, verdicts, domain, known, budget, roles)
-        if found is None:
+        values = _outside(branch, named, parameter, part, verdicts, domain, known, budget, roles)
+        if values is None:
             return None
-        founds.append(found)
-    return ["sign", text, *founds]
+        cases.append(values)
+    return by_sign(text, cases)
 
 
 def task_outside(
@@ -209,12 +214,12 @@ def task_outside(
     base: dict[str, checker.Poly],
     known: dict[str, checker.Statement],
     budget: Budget,
-    domain: Any,
+    domain: ast.expr,
     roles: Roles,
 ) -> Task:
     """The task of a family of counterexamples to a statement on a part of the domain."""
-    found = with_scales(roles, unfolded(statement, [domain]))
-    return Task(statement, "counterexample", base, known, budget, [domain], roles=found)
+    scaled = with_scales(roles, unfolded(statement, [domain]))
+    return Task(statement, "counterexample", base, known, budget, [domain], roles=scaled)
 
 
 def _cut(
@@ -222,7 +227,7 @@ def _cut(
     failing: Sequence[int],
     verdicts: Mapping[str, Sequence[bool]],
     parameter: str,
-    domain: Any,
+    domain: ast.expr,
 ) -> tuple[str, list[set[int]]] | None:
     """A polynomial of degree 1 or that of a number, and which cells and numbers lie below, on and
     above its sign change.
@@ -271,7 +276,7 @@ def _separates(
     return not any((low is None or low < r) and (high is None or r < high) for r in others)
 
 
-def _derivative(number: AlgebraicNumber) -> Any:
+def _derivative(number: AlgebraicNumber) -> fmpq_poly:
     return fmpq_poly(number.poly).derivative()
 
 
@@ -295,7 +300,7 @@ class Range:
 
     statement: SharpRange | None = None
     ends: list[AlgebraicNumber] = field(default_factory=list)
-    certificate: list[Any] | None = None
+    certificate: Sharp | None = None
     failure: str = ""
     line: Line | None = None
 
@@ -364,7 +369,7 @@ def among(roles: Roles, domains: Mapping[str, tuple[Formula, ...]]) -> Roles:
         roles,
         domains={
             **roles.domains,
-            **{name: said for name, said in domains.items() if name not in roles.domains},
+            **{name: ends for name, ends in domains.items() if name not in roles.domains},
         },
     )
 
@@ -476,7 +481,7 @@ def search_sharp(
     statements: Mapping[str, checker.Statement],
     budget: Budget,
     roles: Roles = NO_ROLES,
-) -> list[Any] | None:
+) -> Sharp | None:
     """A certificate for a sharp range that is already stated, in one parameter, or None."""
     (names,), (over,), (domain,), (condition,) = (
         statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
@@ -516,13 +521,15 @@ def _certified(
     known: Known,
     budget: Budget,
     roles: Roles,
-) -> tuple[list[Any] | None, str]:
+) -> tuple[Sharp | None, str]:
     certificate, failure = sharp_certificate(
         statement, statements, parameter, line, verdicts, known, budget, roles
     )
-    named, settled = {s.name: s for s in statements}, {"certified": certificate}
-    if certificate is not None and checker.check_one(statement, settled, dict(known), named)[1]:
-        return None, "the checker does not accept the certificate"
+    named = {s.name: s for s in statements}
+    if certificate is not None:
+        settled: Certificate = {"certified": certificate}
+        if checker.check_one(statement, settled, dict(known), named)[1]:
+            return None, "the checker does not accept the certificate"
     return certificate, failure
 
 

@@ -1,12 +1,11 @@
-"""Sharp ranges in several parameters: one polynomial border, or two, whose signs tell where
-statements hold.
+"""Sharp ranges in several parameters: one polynomial border, or two, by whose signs statements hold
+or fail.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
@@ -29,6 +28,7 @@ from juggleproof.certificates.language import (
     conjunction,
     disjunction,
 )
+from juggleproof.certificates.nodes import Certificate, Sharp, Values
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.families import cover
 from juggleproof.certificates.search.models import ask
@@ -195,10 +195,10 @@ def _certified(
     statement: checker.Statement,
     statements: Sequence[checker.Statement],
     samples: Sequence[Sample],
-    known: Mapping[str, Any],
+    known: Known,
     budget: Budget,
     roles: Roles,
-) -> tuple[list[Any] | None, str]:
+) -> tuple[Sharp | None, str]:
     inside, failure = proofs_inside(statement, statements, known, budget, roles)
     if inside is None:
         return None, failure
@@ -206,7 +206,7 @@ def _certified(
     (domain,) = statement.get("domain")
     base = {name: state.context.values[name] for name in state.context.index}
     node = search_closing(state, dict(known), budget, 1)
-    outside: list[Any] | None = None if node is None else ["empty", node]
+    outside: Values | None = None if node is None else ("empty", node)
     for each in statements if outside is None else ():
         task = task_outside(each, base, dict(known), budget, domain, roles)
         outside = cover(task, state, base_samples(state, budget, task.roles), depth=3)
@@ -215,11 +215,10 @@ def _certified(
     sample = sample_of(statement, statements, budget, roles)
     if outside is None or sample is None:
         return None, "no family of counterexamples outside the range"
-    certificate = [inside, outside, sample]
-    named, settled = {s.name: s for s in statements}, {"certified": certificate}
-    if checker.check_one(statement, settled, dict(known), named)[1]:
+    settled: Certificate = {"certified": (inside, outside, sample)}
+    if checker.check_one(statement, settled, dict(known), {s.name: s for s in statements})[1]:
         return None, "the checker does not accept the certificate"
-    return certificate, ""
+    return (inside, outside, sample), ""
 
 
 def _shown(sample: Sample) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
@@ -145,7 +144,7 @@ class TemplateSearch:
             for sampled in partial.sampled
         ]
         values: dict[tuple[int, int], fmpq | None] = {}
-        tried: set[tuple[Any, ...]] = set()
+        tried: set[tuple[int, ...]] = set()
         for value, more, root in self._candidates(partial, name, rest):
             if self.nodes < 0:
                 return

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isqrt
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
@@ -28,7 +27,7 @@ from juggleproof.certificates.algebra.numbers import sign
 # for unknown variables.
 
 Sample = Mapping[str, fmpq]
-MARKS = tuple(fmpq(31 * k + 17, 7 * k + 3) for k in range(80))
+KEY_POINT = tuple(fmpq(31 * k + 17, 7 * k + 3) for k in range(80))
 SPARE = ("root1", "root2")  # names in the ring for square roots that a search adjoins
 
 
@@ -83,9 +82,9 @@ class Quotient:
             self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom
         )
 
-    def key(self) -> tuple[Any, ...]:
+    def key(self) -> tuple[int, ...]:
         """The same for the same quotient, and but by an unlikely chance no other's."""
-        point = MARKS[: len(places(self.top.context()))]
+        point = KEY_POINT[: len(places(self.top.context()))]
         top, bottom = self.top(*point), self.bottom(*point)
         return int(top.p), int(top.q), int(bottom.p), int(bottom.q)
 
@@ -146,8 +145,7 @@ def root_values(roots: Sequence[Root], sample: Sample) -> dict[str, fmpq]:
         if under < 0:
             return values
         scaled = under * (fmpq(4) ** 200)
-        near = fmpq(isqrt(int(scaled.floor())), 1) / (fmpq(2) ** 200)
-        values[root.name] = half + near
+        values[root.name] = half + fmpq(isqrt(int(scaled.floor())), 1) / (fmpq(2) ** 200)
     return values
 
 
@@ -319,8 +317,8 @@ class Trial:
         return 3 if tree[0] == OPEN else int(self.alone[tree[0]] is None)
 
 
-def _decided(tree: Tree, sign_of: Any) -> bool | None:
-    """The truth of a tree where the signs tell it; None where they do not."""
+def _decided(tree: Tree, sign_of: Callable[[int], int | None]) -> bool | None:
+    """The truth of a tree where the signs decide it; None where they do not."""
     if isinstance(tree, bool):
         return tree
     if isinstance(tree[0], int):

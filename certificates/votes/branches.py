@@ -14,7 +14,7 @@ from flint import Ordering, fmpz_mpoly
 
 from juggleproof.certificates.algebra.intervals import Box
 from juggleproof.certificates.algebra.polynomials import Ring, constant_of, pseudo_divide, value_at
-from juggleproof.certificates.search.facts import Reduction, Signed, Step
+from juggleproof.certificates.search.psatz.facts import Reduction, Signed, Step
 from juggleproof.certificates.votes.questions import Atom, Formula, atom, branches, truth
 from juggleproof.certificates.votes.spans import (
     ZERO,

@@ -19,7 +19,7 @@ from juggleproof.certificates.algebra.polynomials import (
     used_in,
     value_at,
 )
-from juggleproof.certificates.search.facts import Scaling
+from juggleproof.certificates.search.psatz.facts import Scaling
 from juggleproof.certificates.work import unfolded
 
 # -------------------------------------------------------------------------------------------------
@@ -436,7 +436,7 @@ def scale_variables(question: Question) -> tuple[str, ...]:
         if isinstance(fact, Atom) and fact.relation == ">" and fact.poly in ring.gens
     )
     free = [i for i in positive if question.names[i] not in question.bound | question.integers]
-    return tuple(question.names[i] for i in Scaling(ring, polys, free).units) if free else ()
+    return tuple(question.names[i] for i in Scaling(ring, polys, free).scales) if free else ()
 
 
 def with_scales_one(question: Question, names: tuple[str, ...]) -> Question:

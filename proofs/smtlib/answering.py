@@ -230,7 +230,7 @@ def settled(name: str, text: str, certificate: Any) -> str:
     return WORDS.get(str(outcome), "unknown")
 
 
-def _searched(name: str, text: str, budget: int) -> dict[str, Any]:
+def _searched(name: str, text: str, budget: int) -> Certificate:
     try:
         return search_certificate(
             checker.read_statements(text)[name], {}, Budget(budget), attempts=SQUARES_FIRST

@@ -3,7 +3,7 @@
 from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
 
@@ -13,10 +13,10 @@ def search_points(statement: checker.Statement, units: Budget, effort: int = 0) 
     None.
     """
     state = State(checker.Context())
-    counterexample = search_found(statement, state, "counterexample", {}, {}, units, effort=effort)
+    counterexample = search_values(statement, state, "counterexample", {}, {}, units, effort=effort)
     if counterexample is not None:
         return counterexample[:4], counterexample
-    return search_found(statement, state, "point", {}, {}, units, effort=effort), None
+    return search_values(statement, state, "point", {}, {}, units, effort=effort), None
 
 
 def read(text: str) -> checker.Statement:

@@ -14,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.boxes import Branching, bernstein_tensor
-from juggleproof.certificates.search.small_boxes import value_at
-from juggleproof.certificates.search.sums_of_squares import program_around, search_squares
+from juggleproof.certificates.search.boxes.branching import Branching, bernstein_tensor
+from juggleproof.certificates.search.boxes.small import value_at
+from juggleproof.certificates.search.psatz.sums_of_squares import program_around, search_squares
 from juggleproof.certificates.work import Budget
 from juggleproof.proofs.bounds import LOWER, Enclosure, enclose_minimum
 from tests.certificates.checker.evaluator import term_at

@@ -9,7 +9,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import SharpRange, reals
-from juggleproof.certificates.search.families import says_domain, solved
+from juggleproof.certificates.search.families import implies_domain, solved
 
 alpha, K, n = reals("alpha K n")
 UNIT = (alpha > 0) & (alpha < 1)
@@ -64,5 +64,5 @@ def test_a_whole_number_that_the_condition_ties():
         UNIT & ceiling,
         ~((alpha * n + alpha - n + 1 < 0) | (alpha * n + alpha - n + 1 > 0)),
     )
-    assert not says_domain(tied, ["n"])
-    assert says_domain(exact, ["n"])
+    assert not implies_domain(tied, ["n"])
+    assert implies_domain(exact, ["n"])

@@ -3,7 +3,7 @@
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from tests.certificates.search.cases import UNIT, budget, read, search_points
 
@@ -142,7 +142,7 @@ def test_the_counterexample_is_the_one_a_reader_would_take():
 def test_a_witness_in_numbers():
     statement = read("statement t/two\nexists y\nshow y^2 = 2 and y > 0")
     story = checker.Unfolding(statement, checker.Context())
-    found = search_found(statement, state_of(story), "witness", {}, {}, budget())
+    found = search_values(statement, state_of(story), "witness", {}, {}, budget())
     certificate = {
         "certified": ["witness", [], found],
         "point": [statement.name, [], {}, ["close"]],
@@ -210,7 +210,7 @@ show beta + v*t = r*t""",
 def witness(statement: checker.Statement) -> list:
     story = checker.Unfolding(statement, checker.Context())
     base = {name: story.context.values[name] for name in story.universal}
-    found = search_found(statement, state_of(story), "witness", base, {}, budget(), effort=1)
+    found = search_values(statement, state_of(story), "witness", base, {}, budget(), effort=1)
     assert state_of(story).is_served_by(found, {}, "witness", statement, base)
     return found
 
@@ -235,7 +235,9 @@ def test_no_witness_for_what_does_not_exist():
     statement = read("statement w/none\nforall a\nexists y\nshow y^2 = a - 1 and a > 2")
     story = checker.Unfolding(statement, checker.Context())
     base = {"a": story.context.values["a"]}
-    assert search_found(statement, state_of(story), "witness", base, {}, budget(), effort=1) is None
+    assert (
+        search_values(statement, state_of(story), "witness", base, {}, budget(), effort=1) is None
+    )
 
 
 def leaves(found: list) -> list[dict[str, str]]:

@@ -1,4 +1,4 @@
-"""The parts of the proof search: polynomials, units, eliminations, linear programs, interior
+"""The parts of the proof search: polynomials, scales, eliminations, linear programs, interior
 points.
 """
 
@@ -21,9 +21,9 @@ from juggleproof.certificates.algebra.polynomials import (
     pseudo_divide,
 )
 from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.facts import Scaling
-from juggleproof.certificates.search.linear_program import Program, solve
-from juggleproof.certificates.search.problem import Problem, has_interior_point
+from juggleproof.certificates.search.psatz.facts import Scaling
+from juggleproof.certificates.search.psatz.linear_program import Program, solve
+from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 
@@ -75,8 +75,8 @@ def test_keys_add_where_monomials_multiply(p: fmpz_mpoly, q: fmpz_mpoly) -> None
 @given(polynomials)
 def test_what_is_lowered_is_lifted_back(poly: fmpz_mpoly) -> None:
     x, y, z = RING.gens
-    scaling = Scaling(RING, [x**2 - y * z], [0])  # x a unit: y + z has its weight twice
-    assert scaling.units == (0,)
+    scaling = Scaling(RING, [x**2 - y * z], [0])  # x a scale: y + z has its weight twice
+    assert scaling.scales == (0,)
     lifted = (
         scaling.lift(scaling.lower(poly), scaling.largest(scaling.lower(poly)))
         if scaling.lower(poly)
@@ -91,7 +91,7 @@ def test_units_are_found_for_lengths_and_times() -> None:
     scaling = Scaling(
         ring, [g * b + 2 * r * v - 2 * r**2, 2 * b + 2 * v * t - g * t**2, r, g], [2, 3]
     )
-    assert scaling.units == (2, 3)
+    assert scaling.scales == (2, 3)
     assert str(scaling.lower(g * b + 2 * r * v - 2 * r**2)) == "b + 2*v - 2"
     assert scaling.lift(b + 2 * v - 2, (2, 0)) == g * b + 2 * r * v - 2 * r**2
 

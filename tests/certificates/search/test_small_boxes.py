@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.search.boxes import Branching
-from juggleproof.certificates.search.small_boxes import search_tree, value_at
+from juggleproof.certificates.search.boxes.branching import Branching
+from juggleproof.certificates.search.boxes.small import search_tree, value_at
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
 NAMES = ("x", "y", "z")

@@ -22,7 +22,7 @@ from juggleproof.certificates.algebra.semidefinite import (
 )
 from juggleproof.certificates.search.certificate import SQUARES_FIRST, search_certificate
 from juggleproof.certificates.search.closing import SQUARED, search_closing
-from juggleproof.certificates.search.points import search_found
+from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.work import Budget, Exhausted
 
@@ -190,7 +190,7 @@ POINTS = {
 @pytest.mark.parametrize("name", POINTS)
 def test_points_with_irrational_values_are_found_holds(name: str) -> None:
     one = statement(POINTS[name])
-    found = search_found(
+    found = search_values(
         one, State(checker.Context()), "counterexample", {}, {}, Budget(2_000_000), effort=1
     )
     assert found is not None and found[1]
@@ -200,7 +200,7 @@ def test_points_with_irrational_values_are_found_holds(name: str) -> None:
 def test_a_condition_without_points_has_none_holds() -> None:
     one = statement("forall a b\nshow not (a^2 = 2 and b^2 = a - 2)")
     assert (
-        search_found(
+        search_values(
             one,
             State(checker.Context()),
             "counterexample",

@@ -17,8 +17,8 @@ from typing import Any
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import Condition, ring_of
 from juggleproof.certificates.language import Roles
-from juggleproof.certificates.search.certificate import found, search_proof
-from juggleproof.certificates.search.points import as_found_point, assignments
+from juggleproof.certificates.search.certificate import point_or_counterexample, search_proof
+from juggleproof.certificates.search.points import assignments, values_of_assignment
 from juggleproof.certificates.states import State
 from juggleproof.certificates.votes.z3 import vote
 from juggleproof.certificates.work import Budget, Exhausted
@@ -149,7 +149,9 @@ def search_need(text: str, one: Hypothesis, budget: int = BUDGET) -> tuple[str, 
                 if search_proof(opposite, {}, part, effort=effort, roles=roles) is not None:
                     return NOT_NEEDED, "", None
             elif (
-                refutation := found(opposite, "counterexample", {}, part, effort, roles)
+                refutation := point_or_counterexample(
+                    opposite, "counterexample", {}, part, effort, roles
+                )
             ) is not None and is_refuted(plain, refutation):
                 return NEEDED, "", refutation
         except Exhausted:
@@ -253,7 +255,7 @@ def refuted_there(
     for effort in (0, 1):
         some = assignments(condition, names, integers, budget, effort, roles=roles)
         for assignment in islice(some, 8):
-            refutation = as_found_point(
+            refutation = values_of_assignment(
                 plain,
                 State(checker.Context()),
                 assignment,

@@ -1,4 +1,4 @@
-"""Facts of a state: units, equations used up, signs at sight."""
+"""Facts of a state: scales, equations used up, signs at sight."""
 
 from __future__ import annotations
 
@@ -258,35 +258,35 @@ class Reduction:
 
 
 # -------------------------------------------------------------------------------------------------
-# Physical units: positive variables that a change of units makes 1, and identities lifted back by
+# Scales: positive variables that a change of physical units makes 1, and identities lifted back by
 # powers of them.
 
-Weight = tuple[int, ...]  # one entry for each unit
+Weight = tuple[int, ...]  # one entry for each scale
 
 
 class Scaling:
     """Gradings under which every polynomial of a state is homogeneous, each with a positive
-    variable of weight 1: its unit.
+    variable of weight 1: its scale.
 
     >>> ring = Ring(("r", "v", "w"))
     >>> r, v, w = ring.gens
     >>> scaling = Scaling(ring, [r**2 - v**2, r * w - v * w], [0])
-    >>> scaling.units, str(scaling.lower(r**2 - v**2)), str(scaling.lift(1 - v, (2,)))
+    >>> scaling.scales, str(scaling.lower(r**2 - v**2)), str(scaling.lift(1 - v, (2,)))
     ((0,), '-v^2 + 1', 'r^2 - r*v')
     """
 
     def __init__(self, ring: Ring, polys: Sequence[fmpz_mpoly], positive: Sequence[int]) -> None:
         self.ring = ring
-        self.units: tuple[int, ...] = ()
+        self.scales: tuple[int, ...] = ()
         self.weights: list[Weight] = []  # of every variable
         self.values: dict[int, int] = {}
         self.gradings: list[list[int]] = []  # of all of which the polynomials are homogeneous
         differences = frozenset[tuple[int, ...]]().union(*map(self._differences, polys))
         key = differences, tuple(positive)
-        if key not in ring.scalings:  # most states of a search have the same units
+        if key not in ring.scalings:  # most states of a search have the same scales
             self._find(differences, positive)
-            ring.scalings[key] = self.units, self.weights, self.values, self.gradings
-        self.units, self.weights, self.values, self.gradings = ring.scalings[key]
+            ring.scalings[key] = self.scales, self.weights, self.values, self.gradings
+        self.scales, self.weights, self.values, self.gradings = ring.scalings[key]
 
     def _differences(self, poly: fmpz_mpoly) -> frozenset[tuple[int, ...]]:
         """The first monomial less each of the others."""
@@ -309,30 +309,33 @@ class Scaling:
             self.gradings = [[int(i == k) for k in range(ring.size)] for i in range(ring.size)]
         candidates = [k for k in positive if any(row[k] for row in self.gradings)]
         for count in range(min(len(self.gradings), len(candidates)), 0, -1):
-            if any(self._choose(units) for units in combinations(candidates, count)):
+            if any(self._choose(scales) for scales in combinations(candidates, count)):
                 return
 
-    def _choose(self, units: tuple[int, ...]) -> bool:
-        """Takes these units, if each has a grading of its own with integer weights for all
+    def _choose(self, scales: tuple[int, ...]) -> bool:
+        """Takes these scales, if each has a grading of its own with integer weights for all
         variables.
         """
         size = self.ring.size
-        others = [k for k in range(size) if k not in units]
-        for first in others if len(units) < len(self.gradings) else others[:1] or [-1]:
-            order = [*units, *(k for k in (first, *(k for k in others if k != first)) if k >= 0)]
+        others = [k for k in range(size) if k not in scales]
+        for first in others if len(scales) < len(self.gradings) else others[:1] or [-1]:
+            order = [*scales, *(k for k in (first, *(k for k in others if k != first)) if k >= 0)]
             table, den, rank = fmpz_mat([[row[k] for k in order] for row in self.gradings]).rref()
-            lines, den = [[int(c) for c in line] for line in table.tolist()[: len(units)]], int(den)
+            lines, den = (
+                [[int(c) for c in line] for line in table.tolist()[: len(scales)]],
+                int(den),
+            )
             if (
-                rank >= len(units)
+                rank >= len(scales)
                 and all(c % den == 0 for line in lines for c in line)
                 and all(
                     lines[i][j] == (den if i == j else 0)
-                    for i in range(len(units))
-                    for j in range(len(units))
+                    for i in range(len(scales))
+                    for j in range(len(scales))
                 )
             ):
                 place = {variable: k for k, variable in enumerate(order)}
-                self.units, self.values = units, dict.fromkeys(units, 1)
+                self.scales, self.values = scales, dict.fromkeys(scales, 1)
                 self.weights = [tuple(line[place[k]] // den for line in lines) for k in range(size)]
                 return True
         return False
@@ -342,10 +345,10 @@ class Scaling:
         return all(row[v] == row[w] for row in self.gradings)
 
     def lower(self, poly: fmpz_mpoly) -> fmpz_mpoly:
-        """The polynomial with every unit set to 1."""
-        if not self.units:
+        """The polynomial with every scale set to 1."""
+        if not self.scales:
             return poly
-        key = id(poly), self.units
+        key = id(poly), self.scales
         if key not in self.ring.lowered:
             self.ring.lowered[key] = poly, poly.subs(self.values)
         return self.ring.lowered[key][1]
@@ -354,25 +357,25 @@ class Scaling:
         """The weight of one monomial."""
         return tuple(
             sum(int(e) * self.weights[k][i] for k, e in enumerate(monomial) if e)
-            for i in range(len(self.units))
+            for i in range(len(self.scales))
         )
 
     def largest(self, poly: fmpz_mpoly) -> Weight:
         """The least weight to which a lowered polynomial can be lifted."""
         parts = [self.of_monomial(monomial) for monomial in poly.monoms()] or [
-            (0,) * len(self.units)
+            (0,) * len(self.scales)
         ]
         return tuple(map(max, zip(*parts)))
 
     def lift(self, poly: fmpz_mpoly, weight: Weight) -> fmpz_mpoly:
         """The homogeneous polynomial of this weight which lowers to the given one."""
-        if not self.units:
+        if not self.scales:
             return poly
         terms = {}
         for monomial, coefficient in zip(poly.monoms(), poly.coeffs()):
             exponents = [int(e) for e in monomial]
-            for unit, have, want in zip(self.units, self.of_monomial(monomial), weight):
-                exponents[unit] += want - have
+            for place, have, want in zip(self.scales, self.of_monomial(monomial), weight):
+                exponents[place] += want - have
             terms[tuple(exponents)] = coefficient
         return self.ring.ctx.from_dict(terms)
 
@@ -514,7 +517,7 @@ class Signs:
 
 
 # -------------------------------------------------------------------------------------------------
-# Polynomials worth squaring, or telling the sign of: candidates read off the facts of a
+# Polynomials to square, or to make cases of by sign: candidates read off the facts of a
 # problem.
 
 MOST = 6  # of the candidates of one kind

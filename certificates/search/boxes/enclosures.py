@@ -7,13 +7,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.search.boxes import ROUNDING, Branching, Tree
-from juggleproof.certificates.search.small_boxes import (
+from juggleproof.certificates.nodes import Node
+from juggleproof.certificates.search.boxes.branching import ROUNDING, Branching, Tree
+from juggleproof.certificates.search.boxes.small import (
     Box,
     Exponents,
     Terms,
@@ -23,14 +24,15 @@ from juggleproof.certificates.search.small_boxes import (
     simple_points,
     value_at,
 )
-from juggleproof.certificates.search.sums_of_squares import program_around, search_squares
+from juggleproof.certificates.search.boxes.squares import program_around
+from juggleproof.certificates.search.psatz.sums_of_squares import search_squares
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
 # Points where a polynomial is small on a box, found in floating point: nothing here is believed,
 # every value is computed again exactly.
 
-Array = Any  # of floats
+Array = NDArray[np.float64]
 STEPS = 200
 NOISE = 2.0**-52
 
@@ -55,14 +57,19 @@ class FloatPolynomial:
                 self.matrix[row, monomials[e]] = c
 
     def values(self, x: Array, rows: int | None = None) -> Array:
-        """The value, then the slopes, then the second derivatives: the first `rows` of them."""
-        return self.matrix[:rows] @ self._monomials(x)
+        """The value, then the slopes, then the second derivatives at x: the first `rows` of them.
+
+        Shapes, for n variables: x (n,); all of the values (1 + n + n (n + 1) / 2,).
+        """
+        values: Array = self.matrix[:rows] @ self._monomials(x)
+        return values
 
     def _monomials(self, x: Array) -> Array:
         table = np.ones((self.size, self.most + 1))
         for k in range(1, self.most + 1):
             table[:, k] = table[:, k - 1] * x
-        return table[np.arange(self.size), self.exponents].prod(axis=1)
+        values: Array = table[np.arange(self.size), self.exponents].prod(axis=1)
+        return values
 
     def noise(self, x: Array) -> float:
         """What rounding may change in the value there."""
@@ -105,7 +112,9 @@ class FloatPolynomial:
         if len(slope) == 1:  # the same, without the cost of a call to LAPACK
             return slope / (bend[0] + damping + max(0.0, -2 * float(bend[0, 0])))
         least = float(np.linalg.eigvalsh(bend)[0])
-        return np.linalg.solve(bend + (damping + max(0.0, -2 * least)) * np.eye(len(slope)), slope)
+        damped = bend + (damping + max(0.0, -2 * least)) * np.eye(len(slope))
+        step: Array = np.linalg.solve(damped, slope).astype(np.float64, copy=False)
+        return step
 
 
 def polished(
@@ -142,7 +151,6 @@ def polished(
 # point: the searches, in order.
 
 Point = tuple[Fraction, ...]
-Node = list[Any]
 Prove = Callable[
     [Fraction, Node], bool
 ]  # whether the checker accepts that the polynomial is at least so much, by this node
@@ -154,7 +162,7 @@ SHARE = 8  # of the width, which the value at the point and its rounding may eac
 
 
 @dataclass(frozen=True)
-class Found:
+class Bounds:
     """min >= low by the node, and min <= high at the point; `reached` says whether high - low is
     within the width that was asked for.
     """
@@ -176,7 +184,7 @@ class Problem:
     terms: Terms
     box: Box
     names: list[str]
-    facts: list[list[int]]
+    facts: list[tuple[int, int]]
     goal: int
 
 
@@ -210,11 +218,11 @@ class Best:
         if value >= self.value:
             return
         self.value = value
-        near = Fraction(value) + (
+        enough = Fraction(value) + (
             self.width / SHARE if self.width else Fraction(1, 10**11) * (1 + abs(int(value)))
         )
         for point in simple_points(x, self.box):
-            if self._take(point) <= near:
+            if self._take(point) <= enough:
                 break
         if 0 < self.width < FINE:
             bits = 2 * (1 / self.width).numerator.bit_length()
@@ -244,12 +252,14 @@ def _decimal_below(value: Fraction) -> Fraction:
     return unit
 
 
-def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prove) -> Found:
+def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prove) -> Bounds:
     """A bound from below within `width` of the value at a point where the budget of boxes allows,
     else the best that it came to.
 
     Trees first, in floating point unless the width is too small for it, then in integers; squares
     around the best point where boxes are slow.
+
+    Raises ClaimError where the polynomial is too large for the checker.
     """
     best, done, squares_left = Best(problem.terms, problem.box, width), 0, budget >= QUICK
     floats = width >= 64 * ROUNDING * max(map(abs, problem.terms.values()))
@@ -268,7 +278,7 @@ def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prov
             tree = branching.run(most)
             done += tree.boxes
             found = (_reached if tree.reached else _unfinished)(
-                best, tree, done, ["boxes", problem.goal, problem.facts, tree.text], prove
+                best, tree, done, ("boxes", problem.goal, problem.facts, tree.text), prove
             )
             if found:
                 return found
@@ -279,9 +289,9 @@ def search_enclosure(problem: Problem, width: Fraction, budget: int, prove: Prov
     )
 
 
-def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Found | None:
+def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Bounds | None:
     """Squares that show that the value at the best point is the minimum; or, for a positive width,
-    that the minimum is near it.
+    that the minimum is within the width of it.
     """
     low, high = best.bounds
     for bound, top, point in [
@@ -299,7 +309,7 @@ def _squares(problem: Problem, best: Best, done: int, prove: Prove) -> Found | N
         )
         node = search_squares([program], Budget(SQUARES)) if program else None
         if node and prove(bound, node):
-            return Found(bound, top, best.point, node, done, True)
+            return Bounds(bound, top, best.point, node, done, True)
     return None
 
 
@@ -318,22 +328,22 @@ def _shorter(best: Best) -> Point:
     return best.point
 
 
-def _reached(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Found | None:
+def _reached(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Bounds | None:
     """What a tree that reached its aim shows: the minimum itself where that is the simple value at
     the point, else a bound within the width.
     """
     low, high = best.bounds
     if low < high and best.exact.denominator <= SIMPLE and prove(best.exact, node):
-        return Found(best.exact, best.exact, best.point, node, done, True)
-    return Found(low, high, best.point, node, done, True) if prove(low, node) else None
+        return Bounds(best.exact, best.exact, best.point, node, done, True)
+    return Bounds(low, high, best.point, node, done, True) if prove(low, node) else None
 
 
-def _unfinished(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Found | None:
+def _unfinished(best: Best, tree: Tree, done: int, node: Node, prove: Prove) -> Bounds | None:
     """What the leaves of a tree show that did not reach its aim, rounded down until the checker
     accepts it.
     """
     for digits in (40, 12, 6, 0):
         low = rounded_down(tree.bound, Fraction(1, 10**digits)) - Fraction(1, 10**digits)
         if prove(low, node):
-            return Found(low, best.exact, best.point, node, done, best.exact - low <= best.width)
+            return Bounds(low, best.exact, best.point, node, done, best.exact - low <= best.width)
     return None

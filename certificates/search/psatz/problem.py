@@ -6,10 +6,10 @@ from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 from flint import fmpz_mpoly
+from numpy.typing import NDArray
 
 from juggleproof.certificates.algebra.numbers import positive_between, univariate
 from juggleproof.certificates.algebra.polynomials import (
@@ -20,7 +20,7 @@ from juggleproof.certificates.algebra.polynomials import (
     constant_of,
     total_degree,
 )
-from juggleproof.certificates.search.facts import (
+from juggleproof.certificates.search.psatz.facts import (
     MOST,
     Bounded,
     Fact,
@@ -51,20 +51,20 @@ class Source:
 
     ring: Ring
     scaling: Scaling
-    polys: list[fmpz_mpoly]  # numerators of all facts, in the state's own units
+    polys: list[fmpz_mpoly]  # numerators of all facts, with the scales of the state
     lowered: list[fmpz_mpoly]
     dens: list[int]
     relations: list[str]
-    unit_facts: dict[
+    scale_facts: dict[
         int, tuple[int, int]
-    ]  # unit variable -> (number of the fact c * variable > 0, c)
+    ]  # scale variable -> (number of the fact c * variable > 0, c)
 
 
 # -------------------------------------------------------------------------------------------------
-# The facts of a state made ready for a search: units set to 1, equations used up, each fact once
+# The facts of a state made ready for a search: scales set to 1, equations used up, each fact once
 # and primitive.
 
-MANY = 7  # facts, from which on those near the goal are tried first
+MANY = 7  # facts, from which on those in the goal's variables are tried first
 
 
 class Problem:
@@ -85,7 +85,7 @@ class Problem:
         self.ring = ring
         polys = [ring.read(poly) for poly, _ in state.facts]
         relations = [relation for _, relation in state.facts]
-        unit_facts: dict[int, tuple[int, int]] = {}
+        scale_facts: dict[int, tuple[int, int]] = {}
         for index, (poly, relation) in enumerate(zip(polys, relations)):
             if (
                 relation == ">"
@@ -93,10 +93,10 @@ class Problem:
                 and poly.total_degree() == 1
                 and poly.leading_coefficient() > 0
             ):
-                unit_facts.setdefault(
+                scale_facts.setdefault(
                     poly.degrees().index(1), (index, int(poly.leading_coefficient()))
                 )
-        scaling = Scaling(ring, [p for p in polys if p], sorted(unit_facts))
+        scaling = Scaling(ring, [p for p in polys if p], sorted(scale_facts))
         lowered = [scaling.lower(poly) for poly in polys]
         self.source = Source(
             ring,
@@ -105,7 +105,7 @@ class Problem:
             lowered,
             [poly.den for poly, _ in state.facts],
             relations,
-            unit_facts,
+            scale_facts,
         )
         self.idle: set[int] = set() if whole else idle_facts(lowered, relations)
         equations = [
@@ -124,7 +124,7 @@ class Problem:
         kept = integers | self._bounded_variables(lowered, relations)
         self.reduction = Reduction(ring, equations, signed if equations else [], kept)
         self.facts: list[Fact] = []
-        self.rows: dict[int, tuple[fmpz_mpoly, Keys, Any]] = {}
+        self.rows: dict[int, tuple[fmpz_mpoly, Keys, NDArray[np.float64]]] = {}
         self.contradiction: Fact | None = None
         for index, (poly, relation) in enumerate(zip(lowered, relations)):
             if relation != "=" and index not in self.idle:
@@ -206,19 +206,19 @@ class Problem:
             )
         return known[1] @ packing.weights, known[2]
 
-    def near_goal(self) -> list[int] | None:
+    def goal_facts(self) -> list[int] | None:
         """The facts in the variables of the last one alone; None where that is all of them, or few
         are.
         """
         if len(self.facts) < MANY:
             return None
         own = [bool(d) for d in self.facts[-1].poly.degrees()]
-        near = [
+        found = [
             k
             for k, fact in enumerate(self.facts)
             if all(mine or not d for mine, d in zip(own, fact.poly.degrees()))
         ]
-        return near if len(near) < len(self.facts) else None
+        return found if len(found) < len(self.facts) else None
 
     # -------------------------------------------------------- bounded variables
 
@@ -249,7 +249,7 @@ class Problem:
             return i if self.facts[i].strict else j
         return j if (ends[1] > ends[0]) == below else i
 
-    def said_by_bounds(self, index: int, bounded: Bounded) -> bool:
+    def implied_by_bounds(self, index: int, bounded: Bounded) -> bool:
         """Whether a fact is one of the bounds, or in the bounded variable alone and implied by
         them.
         """
@@ -312,10 +312,10 @@ class Problem:
         alone = [gens[v] for v in used if not signs.of(gens[v])[0]]
         return alone + [gens[v] - gens[w] for v, w in combinations(used, 2) if alike(v, w)]
 
-    def in_units(self, poly: fmpz_mpoly) -> str:
-        """The text of a polynomial in the state's own units."""
+    def homogeneous_text(self, poly: fmpz_mpoly) -> str:
+        """The text of a polynomial of the problem as one of the state, homogeneous with scales."""
         scaling = self.source.scaling
-        return str(scaling.lift(poly, scaling.largest(poly)) if scaling.units else poly)
+        return str(scaling.lift(poly, scaling.largest(poly)) if scaling.scales else poly)
 
     def divide(self) -> bool:
         """Replaces facts that have a positive factor by what is left without it; whether there were
@@ -396,14 +396,13 @@ def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int
 # A point found here proves nothing; it only ends the search for a proof that cannot exist.
 
 SAMPLES, ROUNDS, KEPT, MARGIN = 160, 5, 8, 1e-6
-Array = np.ndarray[Any, np.dtype[np.float64]]
+Array = NDArray[np.float64]
 
 
 class Values:
     """The facts of a problem as arrays, ready to be evaluated at many points."""
 
     def __init__(self, problem: Problem) -> None:
-        self.exponents: list[Array] = []
         self.used = sorted(
             {v for fact in problem.facts for v, d in enumerate(fact.poly.degrees()) if d}
         )

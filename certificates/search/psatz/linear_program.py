@@ -1,22 +1,22 @@
 """Positive combinations of polynomials that vanish identically: floating HiGHS for the support,
-exact rationals on it.
+exact rationals on it.  By Farkas' lemma, linear inequalities without a solution have one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import highspy
 import numpy as np
 from flint import fmpz_mat
+from numpy.typing import NDArray
 
 from juggleproof.certificates.algebra.polynomials import Keys
 from juggleproof.certificates.work import Budget
 
-Matrix = np.ndarray[Any, np.dtype[np.float64]]
-Mask = np.ndarray[Any, np.dtype[np.bool_]]
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 EXACT = float(1 << 53)
 TINY = 1e-9
 
@@ -32,17 +32,17 @@ class Program:
 
     def __init__(self) -> None:
         # of every block of columns an array each: the columns, monomials and values of its entries
-        self.places: list[Any] = []
-        self.keys: list[Any] = []
-        self.values: list[Any] = []
-        self.strict: list[Any] = []  # an array for every block
-        self.costs: list[Any] = []
-        self.rewritings: list[tuple[Keys, Keys, Any]] = []
+        self.places: list[Keys] = []
+        self.keys: list[Keys] = []
+        self.values: list[Floats] = []
+        self.strict: list[Mask] = []  # an array for every block
+        self.costs: list[Floats] = []
+        self.rewritings: list[tuple[Keys, Keys, Floats]] = []
         self.exponents: Callable[[Keys], Keys] = _no_exponents
         self.count = 0  # of the columns that are not free; they come first
         self.columns = 0
 
-    def add(self, places: Any, keys: Any, values: Any, strict: Any, costs: Any) -> None:
+    def add(self, places: Keys, keys: Keys, values: Floats, strict: Mask, costs: Floats) -> None:
         """n columns that may be used with positive coefficients, with N entries in all.
 
         Shapes: `places` (the entry's column, counted from the first of these), `keys` (its
@@ -54,21 +54,23 @@ class Program:
         self.count += len(strict)
         self.columns += len(strict)
 
-    def add_free(self, count: int, keys: Any, values: Any) -> None:
+    def add_free(self, count: int, keys: Keys, values: Floats) -> None:
         """`count` columns that may be used with any coefficients, with the same number of entries,
         one column's after another's in `keys` and `values` (N,); these come last.
         """
         self._entries(np.repeat(np.arange(count), len(keys) // max(1, count)), keys, values)
         self.columns += count
 
-    def _entries(self, places: Any, keys: Any, values: Any) -> None:
+    def _entries(self, places: Keys, keys: Keys, values: Floats) -> None:
         self.places.append(places + self.columns)
         self.keys.append(keys)
         self.values.append(values)
 
-    def add_rewriting(self, leading: Keys, keys: Keys, values: Any) -> None:
+    def add_rewriting(self, leading: Keys, keys: Keys, values: Floats) -> None:
         """An equation, its leading monomial first: columns are compared after its multiples are
         taken off.
+
+        Shapes, for v variables and n terms: `leading` (v,), exponents; `keys` and `values` (n,).
         """
         self.rewritings.append((leading, keys, values))
 
@@ -79,6 +81,8 @@ Solution = tuple[dict[int, Fraction], dict[int, Fraction]]
 def solve(program: Program, budget: Budget) -> Solution | None:
     """The positive coefficients of the columns used and the coefficients of the free ones used,
     exactly; None where none were found.
+
+    Raises Exhausted where the budget ends.
 
     >>> from juggleproof.certificates.algebra.polynomials import Packing, Ring
     >>> ring = Ring(("x",))
@@ -109,11 +113,12 @@ def solve(program: Program, budget: Budget) -> Solution | None:
     inequality, strict, costs = alive < count, strict[alive], costs[alive]
     budget.spend(100 + work.size // 8)
     for jitter in JITTER:
-        values, basic = optimum(
+        vertex = optimum(
             work / size, inequality, strict, costs * (1 + jitter * NOISE[: len(costs)])
         )
-        if values is None or basic is None:
+        if vertex is None:
             return None
+        values, basic = vertex
         for support in (np.flatnonzero(np.abs(values) > TINY), basic):
             found = exact(
                 work[:, support],
@@ -135,7 +140,7 @@ SWEEPS = 60
 NOISE = np.random.default_rng(7).random(20000)
 
 
-def assemble(program: Program, budget: Budget) -> Matrix | None:
+def assemble(program: Program, budget: Budget) -> Floats | None:
     """The coefficients as a matrix, one row for each monomial; None if it is too large."""
     columns, values = program.columns, np.concatenate(program.values)
     keys, inverse = np.unique(np.concatenate(program.keys), return_inverse=True)
@@ -144,7 +149,7 @@ def assemble(program: Program, budget: Budget) -> Matrix | None:
     if rows * columns > 6_000_000 or columns > len(NOISE):
         return None
     where = inverse * columns + np.concatenate(program.places)
-    matrix: Matrix = (
+    matrix: Floats = (
         np.bincount(where, values, rows * columns)
         .astype(np.float64, copy=False)
         .reshape(rows, columns)
@@ -152,7 +157,7 @@ def assemble(program: Program, budget: Budget) -> Matrix | None:
     return rewritten(matrix, keys, program, budget) if program.rewritings else matrix
 
 
-def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> Matrix | None:
+def rewritten(matrix: Floats, keys: Keys, program: Program, budget: Budget) -> Floats | None:
     """The columns reduced by the equations: a row of a multiple of a leading monomial is moved to
     the other monomials.
     """
@@ -177,9 +182,12 @@ def rewritten(matrix: Matrix, keys: Keys, program: Program, budget: Budget) -> M
     return None
 
 
-def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
+def presolve(matrix: Floats, count: int, strict: Mask) -> NDArray[np.intp] | None:
     """The columns that may be positive: where all of a row has one sign, its columns are zero.
     None if no strict one is left.
+
+    Shapes, for n columns of which the first `count` are not free: `matrix` (rows, n), `strict`
+    (count,).
     """
     positive: Mask = matrix > 0
     negative: Mask = matrix < 0
@@ -198,9 +206,13 @@ def presolve(matrix: Matrix, count: int, strict: Mask) -> Any:
         positive, negative, fixed = positive[left], negative[left], fixed[left]
 
 
-def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple[Any, Any]:
+def optimum(
+    matrix: Floats, inequality: Mask, strict: Mask, costs: Floats
+) -> tuple[Floats, Keys] | None:
     """A vertex of {matrix c = 0, sum of strict c = 1, c >= 0 where an inequality} of least cost, in
-    floats, and its basic columns.
+    floats, and its basic columns; None where HiGHS finds none.
+
+    Shapes, for n columns: `matrix` (rows, n); `inequality`, `strict`, `costs` and the vertex (n,).
     """
     rows, columns = matrix.shape
     whole = np.vstack([matrix, strict.astype(float)])
@@ -223,7 +235,7 @@ def optimum(matrix: Matrix, inequality: Mask, strict: Mask, costs: Any) -> tuple
     solver.passModel(model)
     solver.run()
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
-        return None, None
+        return None
     status = solver.getBasis().col_status
     basic = [k for k, s in enumerate(status) if s == highspy.HighsBasisStatus.kBasic]
     return np.array(solver.getSolution().col_value), np.array(basic, dtype=np.int64)
@@ -242,10 +254,12 @@ OPTIONS = (
 
 
 def exact(
-    matrix: Matrix, inequality: Mask, strict: Mask, near: Any, budget: Budget
+    matrix: Floats, inequality: Mask, strict: Mask, floats: Floats, budget: Budget
 ) -> list[Fraction] | None:
     """Exact coefficients of the columns near the floating ones, or None where the columns allow
     none.
+
+    Shapes, for n columns: `matrix` (rows, n), `inequality`, `strict` and `floats` (n,).
     """
     count = matrix.shape[1]
     kept = matrix[matrix.any(axis=1)]
@@ -263,7 +277,7 @@ def exact(
         return None
     values = [
         Fraction(float(v)).limit_denominator(64) if k not in pivots else Fraction(0)
-        for k, v in enumerate(near)
+        for k, v in enumerate(floats)
     ]
     values = [max(v, Fraction(0)) if inequality[k] else v for k, v in enumerate(values)]
     free = [k for k in range(count) if k not in pivots and values[k]]

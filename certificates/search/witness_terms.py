@@ -1,10 +1,12 @@
-"""What is sought, and how the checker takes it."""
+"""Terms as values of points, counterexamples and witnesses: what is sought, and how the checker
+takes it.
+"""
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
@@ -19,19 +21,132 @@ from juggleproof.certificates.algebra.conditions import (
     to_text,
 )
 from juggleproof.certificates.language import NO_ROLES, Roles
+from juggleproof.certificates.nodes import Adjoined, Node, Values, by_sign, values_at
 from juggleproof.certificates.search.closing import search_closing
-from juggleproof.certificates.search.facts import Weight
+from juggleproof.certificates.search.psatz.facts import Weight
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Root, Sample
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget, Exhausted
 
+Known = dict[str, checker.Statement]
+
+# -------------------------------------------------------------------------------------------------
+# What terms are sought for, as a condition on base and unknown variables.
+
+
+@dataclass
+class Task:
+    """What terms are sought for: a statement, the purpose, the variables that are given, and those
+    that are unknown.
+    """
+
+    statement: checker.Statement
+    purpose: str
+    base: dict[str, checker.Poly]
+    known: Known
+    budget: Budget
+    sharp: list[ast.expr] | None = None  # the domain of a sharp range, and its condition if inside
+    effort: int = 2
+    hints: Mapping[str, Sequence[Quotient]] = field(default_factory=dict)
+    nodes: int = 400
+    tries: int = 6
+    roles: Roles = NO_ROLES
+
+
+def setting(task: Task, state: State) -> tuple[Condition, dict[str, str], frozenset[str]]:
+    """The condition on base and unknowns, the key in the ring of every unknown, and the keys that
+    are integers.
+    """
+    unfolding = checker.Unfolding(
+        task.statement, checker.Context(state.context, dict(task.base)), task.sharp
+    )
+    if task.purpose == "witness":
+        formula = unfolding.goal(True)
+        needed = unfolding.variables
+    else:
+        premises = checker.join("and", list(unfolding.premises))
+        exists = task.statement.get("exists")
+        formula = (
+            checker.join("and", [premises, unfolding.goal(False)])
+            if task.purpose == "counterexample" and not exists
+            else premises
+        )
+        needed = set(unfolding.universal)
+    by_place = {i: key for key, i in unfolding.context.index.items()}
+    keys = {}
+    order = [
+        n for line in (*task.statement.get("forall"), *task.statement.get("exists")) for n in line
+    ]
+    for name in sorted(
+        needed - set(task.base),
+        key=lambda n: (not task.roles.is_scale(n), order.index(n) if n in order else len(order)),
+    ):
+        (monomial,) = unfolding.context.values[name].terms
+        keys[name] = by_place[(monomial.bit_length() - 1) // checker.BITS]
+    integers = frozenset(keys[n] for n in unfolding.integers if n in keys) | frozenset(
+        state.context.integers
+    )
+    return (
+        Condition.of(unfolding.context, formula, ring_of(unfolding.context, *SPARE)).cleared(),
+        keys,
+        integers,
+    )
+
+
+def failing_goal(
+    task: Task, state: State, condition: Condition, budget: Budget
+) -> tuple[Condition | None, list[fmpq_mpoly]]:
+    """For a counterexample to a statement of existence: the goals, and the borders of the set on
+    which they can be met.
+    """
+    if task.purpose != "counterexample" or not task.statement.get("exists"):
+        return None, []
+    unfolding = checker.Unfolding(
+        task.statement, checker.Context(state.context, dict(task.base)), task.sharp
+    )
+    goal = Condition.of(unfolding.context, unfolding.goal(True), condition.ring)
+    outer = set(condition.ring.names()) - {
+        name for line in task.statement.get("exists") for name in line
+    }
+    try:
+        return goal, projected(goal, outer, budget.part(50_000))
+    except Exhausted:
+        return goal, []
+
+
+def margins_of(state: State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
+    """What is positive by the state, dehomogenised, as long as it is short, and products:
+    small where the state ends.
+    """
+    size = len(state.context.index)
+    keys = list(state.context.index)
+    ring = fmpq_mpoly_ctx.get(keys or ["none"], condition.ring.ordering())
+    found: list[fmpq_mpoly] = []
+    for poly, relation in state.facts:
+        if relation in (">", ">="):
+            dehomogenised = normal.dehomogenised(
+                to_flint(poly, ring, size).project_to_context(condition.ring)
+            )
+            if (
+                not dehomogenised.is_constant()
+                and len(dehomogenised) <= 6
+                and dehomogenised.total_degree() <= 4
+                and dehomogenised not in found
+            ):
+                found.append(dehomogenised)
+    least = sorted(found, key=lambda p: (p.total_degree(), len(p)))[:5]
+    return least + [least[0] * q for q in least[1:3]]
+
+
+def length(choice: Choice) -> int:
+    """How long a choice of terms is to read."""
+    return sum(sum(q.size()) for q in choice.values.values()) + 20 * len(choice.roots)
+
+
 # -------------------------------------------------------------------------------------------------
 # Terms as the checker takes them: quotients written with divisions that are licensed, roots
-# adjoined, nodes found and confirmed.
-
-Node = list[Any]
-Known = dict[str, checker.Statement]
+# adjoined, nodes searched and confirmed.
 
 
 class Renamed:
@@ -135,58 +250,38 @@ def _whole(text: str) -> str:
     return text if text.isalnum() else f"({text})"
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """What `checker.finds` is asked to accept a found for."""
-
-    statement: checker.Statement
-    purpose: str
-    base: dict[str, checker.Poly]
-    sharp: list[Any] | None
-    normal: Normal
-
-
 def confirmed(
-    wanted: Wanted,
+    task: Task,
+    normal: Normal,
     state: State,
     choice: Choice,
     keys: dict[str, str],
-    known: Known,
-    budget: Budget,
     samples: Sequence[Sample],
-    effort: int,
-) -> Node | None:
-    """The choice as a found with all nodes by the checker; None where a node is
-    missing.
+) -> Values | None:
+    """The choice as values with all nodes, confirmed by the checker; None where a node is missing.
+
+    Raises Exhausted where the budget ends.
     """
-    found = _with_nodes(wanted, state, choice, keys, known, budget, samples, effort, 3)
-    ok = found is not None and state.is_served_by(
-        found, known, wanted.purpose, wanted.statement, wanted.base, wanted.sharp
+    values = _with_nodes(task, normal, state, choice, keys, samples, 3)
+    ok = values is not None and state.is_served_by(
+        values, task.known, task.purpose, task.statement, task.base, task.sharp
     )
-    return found if ok else None
+    return values if ok else None
 
 
 def _with_nodes(
-    wanted: Wanted,
+    task: Task,
+    normal: Normal,
     state: State,
     choice: Choice,
     keys: dict[str, str],
-    known: Known,
-    budget: Budget,
     samples: Sequence[Sample],
-    effort: int,
     depth: int,
-) -> Node | None:
-    """The found; the signs of what it divides by are told apart first where no licence settles
+) -> Values | None:
+    """The values; cases by the signs of what they divide by come first where no licence settles
     them.
     """
-    statement, purpose, base, sharp, normal = (
-        wanted.statement,
-        wanted.purpose,
-        wanted.base,
-        wanted.sharp,
-        wanted.normal,
-    )
+    known, budget, effort = task.known, task.budget, task.effort
     own = state.branch()
     renamed = Renamed(choice.ring)
     writer = TermWriter(own.context, renamed, normal)
@@ -197,26 +292,24 @@ def _with_nodes(
                 if depth == 0:
                     return None
                 text = renamed.text(normal.lift(factor))
-                founds: list[Node] = []
+                cases: list[Values] = []
                 for case, branch in enumerate(own.by_sign(text)):
                     node = search_closing(branch, known, budget, min(effort, 1))
                     if node is None and case == 1:
                         return None
-                    part = (
-                        ["empty", node]
+                    part: Values | None = (
+                        ("empty", node)
                         if node is not None
-                        else _with_nodes(
-                            wanted, branch, choice, keys, known, budget, samples, effort, depth - 1
-                        )
+                        else _with_nodes(task, normal, branch, choice, keys, samples, depth - 1)
                     )
                     if part is None:
                         return None
-                    founds.append(part)
-                return ["sign", text, founds[0], founds[1], founds[2]]
-    adjoined: list[Node] = []
+                    cases.append(part)
+                return by_sign(text, cases)
+    adjoined: list[Adjoined] = []
     try:
         for root in choice.roots:
-            entry = _adjoined_root(own, root, renamed, writer, known, budget, samples, effort)
+            entry = _adjoined_root(task, own, root, renamed, writer)
             if entry is None:
                 return None
             adjoined.append(entry)
@@ -228,7 +321,7 @@ def _with_nodes(
                 else renamed.names[key]
             )
         for name, factor in list(writer.inverses.values()):
-            entry = _adjoined_inverse(own, name, factor, renamed, known, budget, samples, effort)
+            entry = _adjoined_inverse(task, own, name, factor, renamed, samples)
             if entry is None:
                 return None
             adjoined.append(entry)
@@ -236,43 +329,36 @@ def _with_nodes(
             variable: own.context.value(checker.parse(text)) for variable, text in terms.items()
         }
         unfolding = checker.Unfolding(
-            statement, checker.Context(own.context, {**values, **base}), sharp
+            task.statement, checker.Context(own.context, {**values, **task.base}), task.sharp
         )
         aims = [
             own.branch(
                 checker.negate(
                     checker.join(
-                        "and", unfolding.goals if purpose == "witness" else unfolding.premises
+                        "and", unfolding.goals if task.purpose == "witness" else unfolding.premises
                     )
                 )
             )
         ]
         aims += (
             [own.branch(unfolding.goal(True), unfolding.context)]
-            if purpose == "counterexample"
+            if task.purpose == "counterexample"
             else []
         )
     except checker.Rejected:
         return None
-    nodes = []
+    nodes: list[Node] = []
     for aim in aims:
         node = search_closing(aim, known, budget, effort)
         if node is None:
             return None
         nodes.append(node)
-    return [statement.name, adjoined, terms, *nodes]
+    return values_at(task.statement.name, adjoined, terms, nodes)
 
 
 def _adjoined_root(
-    state: State,
-    root: Root,
-    renamed: Renamed,
-    writer: TermWriter,
-    known: Known,
-    budget: Budget,
-    samples: Sequence[Sample],
-    effort: int,
-) -> Node | None:
+    task: Task, state: State, root: Root, renamed: Renamed, writer: TermWriter
+) -> Adjoined | None:
     """The larger root of a polynomial of degree 2 with leading coefficient 1, between 0 or its
     vertex and a bound.
     """
@@ -288,22 +374,22 @@ def _adjoined_root(
     highs = [renamed.text(normal.lift(one * k, weight)) for k in range(1, 5)]
     quotients = [half + 1 + under]
     for high in [*highs, *(writer.text(Quotient(q, one), weight) for q in quotients)]:
-        entry = adjoined_entry(state, name, renamed.text(poly), low, high, known, budget, effort)
+        entry = adjoined_entry(
+            state, name, renamed.text(poly), low, high, task.known, task.budget, task.effort
+        )
         if entry is not None:
             return entry
     return None
 
 
 def _adjoined_inverse(
+    task: Task,
     state: State,
     name: str,
     factor: fmpq_mpoly,
     renamed: Renamed,
-    known: Known,
-    budget: Budget,
     samples: Sequence[Sample],
-    effort: int,
-) -> Node | None:
+) -> Adjoined | None:
     values = [constant_of(factor.subs(dict(s))) for s in samples]
     known_values = [v for v in values if v]
     if not known_values or len({v > 0 for v in known_values}) > 1:
@@ -317,7 +403,9 @@ def _adjoined_inverse(
                 # factor < 0: its inverse lies in [-bound, 0]; the polynomial 1 - factor * inverse
                 # rises there.
                 text, low, high = f"1 - ({renamed.text(factor)})*{name}", str(-bound), "0"
-            entry = adjoined_entry(state, name, text, low, high, known, budget, effort)
+            entry = adjoined_entry(
+                state, name, text, low, high, task.known, task.budget, task.effort
+            )
             if entry is not None:
                 return entry
     return None
@@ -332,8 +420,12 @@ def adjoined_entry(
     known: Known,
     budget: Budget,
     effort: int,
-) -> Node | None:
-    """The adjoined entry with its nodes; the state then has the new variable."""
+) -> Adjoined | None:
+    """The adjoined root with its nodes; the state then has the new variable.  None where a node is
+    missing, or the name is taken.
+
+    Raises Exhausted where the budget ends, Rejected where a text is none.
+    """
     context, zero, tree = state.context, state.context.number(0), checker.parse(text)
     ends = [context.value(checker.parse(end)) for end in (low, high)]
     first, second = (
@@ -350,122 +442,8 @@ def adjoined_entry(
     )
     if above is None:
         return None
-    entry = [name, text, low, high, below, above]
     try:
         state.adjoin(name, text, low, high)
     except checker.Rejected:
         return None
-    return entry
-
-
-# -------------------------------------------------------------------------------------------------
-# What terms are sought for, as a condition on base and unknown variables.
-
-
-@dataclass
-class Task:
-    """What terms are sought for: a statement, the purpose, the variables that are given, and those
-    that are unknown.
-    """
-
-    statement: checker.Statement
-    purpose: str
-    base: dict[str, checker.Poly]
-    known: Known
-    budget: Budget
-    sharp: list[Any] | None = None
-    effort: int = 2
-    hints: Mapping[str, Sequence[Quotient]] = field(default_factory=dict)
-    nodes: int = 400
-    tries: int = 6
-    roles: Roles = NO_ROLES
-
-
-def setting(task: Task, state: State) -> tuple[Condition, dict[str, str], frozenset[str]]:
-    """The condition on base and unknowns, the key in the ring of every unknown, and the keys that
-    are integers.
-    """
-    unfolding = checker.Unfolding(
-        task.statement, checker.Context(state.context, dict(task.base)), task.sharp
-    )
-    if task.purpose == "witness":
-        formula = unfolding.goal(True)
-        needed = unfolding.variables
-    else:
-        premises = checker.join("and", list(unfolding.premises))
-        exists = task.statement.get("exists")
-        formula = (
-            checker.join("and", [premises, unfolding.goal(False)])
-            if task.purpose == "counterexample" and not exists
-            else premises
-        )
-        needed = set(unfolding.universal)
-    by_place = {i: key for key, i in unfolding.context.index.items()}
-    keys = {}
-    order = [
-        n for line in (*task.statement.get("forall"), *task.statement.get("exists")) for n in line
-    ]
-    for name in sorted(
-        needed - set(task.base),
-        key=lambda n: (not task.roles.is_scale(n), order.index(n) if n in order else len(order)),
-    ):
-        (monomial,) = unfolding.context.values[name].terms
-        keys[name] = by_place[(monomial.bit_length() - 1) // checker.BITS]
-    integers = frozenset(keys[n] for n in unfolding.integers if n in keys) | frozenset(
-        state.context.integers
-    )
-    return (
-        Condition.of(unfolding.context, formula, ring_of(unfolding.context, *SPARE)).cleared(),
-        keys,
-        integers,
-    )
-
-
-def failing_goal(
-    task: Task, state: State, condition: Condition, budget: Budget
-) -> tuple[Condition | None, list[fmpq_mpoly]]:
-    """For a counterexample to what is said to exist: the goals, and the borders of where they can
-    be met.
-    """
-    if task.purpose != "counterexample" or not task.statement.get("exists"):
-        return None, []
-    unfolding = checker.Unfolding(
-        task.statement, checker.Context(state.context, dict(task.base)), task.sharp
-    )
-    goal = Condition.of(unfolding.context, unfolding.goal(True), condition.ring)
-    outer = set(condition.ring.names()) - {
-        name for line in task.statement.get("exists") for name in line
-    }
-    try:
-        return goal, projected(goal, outer, budget.part(50_000))
-    except Exhausted:
-        return goal, []
-
-
-def margins_of(state: State, condition: Condition, normal: Normal) -> list[fmpq_mpoly]:
-    """What the state says to be positive, dehomogenised, as long as it is short, and products:
-    small where the state ends.
-    """
-    size = len(state.context.index)
-    keys = list(state.context.index)
-    ring = fmpq_mpoly_ctx.get(keys or ["none"], condition.ring.ordering())
-    found: list[fmpq_mpoly] = []
-    for poly, relation in state.facts:
-        if relation in (">", ">="):
-            dehomogenised = normal.dehomogenised(
-                to_flint(poly, ring, size).project_to_context(condition.ring)
-            )
-            if (
-                not dehomogenised.is_constant()
-                and len(dehomogenised) <= 6
-                and dehomogenised.total_degree() <= 4
-                and dehomogenised not in found
-            ):
-                found.append(dehomogenised)
-    least = sorted(found, key=lambda p: (p.total_degree(), len(p)))[:5]
-    return least + [least[0] * q for q in least[1:3]]
-
-
-def length(choice: Choice) -> int:
-    """How long a choice of terms is to read."""
-    return sum(sum(q.size()) for q in choice.values.values()) + 20 * len(choice.roots)
+    return name, text, low, high, below, above

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm, prod
-from typing import Any
 
 from flint import fmpz_mpoly
 
 from juggleproof.certificates.algebra.polynomials import degree_in, pseudo_divide, total_degree
-from juggleproof.certificates.search.facts import (
+from juggleproof.certificates.nodes import Node, Product, Psatz
+from juggleproof.certificates.search.psatz.facts import (
     Fact,
     Factors,
     Reduction,
@@ -22,9 +22,8 @@ from juggleproof.certificates.search.facts import (
     power,
     times,
 )
-from juggleproof.certificates.search.problem import Problem, Source
+from juggleproof.certificates.search.psatz.problem import Problem, Source
 
-Node = list[Any]
 Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
 SWEEPS = 8
 
@@ -37,7 +36,7 @@ def powers_of(chosen: tuple[int, ...]) -> Factors:
 @dataclass
 class Term:
     """coefficient * product of facts * root^2, in the numbers and polynomials of the state with its
-    units set to 1.
+    scales set to 1.
     """
 
     coefficient: Fraction
@@ -144,8 +143,8 @@ def squared(problem: Problem, place: int) -> tuple[fmpz_mpoly, Factors]:
 
 def finish(
     source: Source, reduction: Reduction, terms: Sequence[Term], cofactors: dict[int, fmpz_mpoly]
-) -> list[object] | None:
-    """The node ["psatz", products, equations] for an identity that holds modulo the reduction's
+) -> Psatz | None:
+    """The node ("psatz", products, equations) for an identity that holds modulo the reduction's
     equations; None if it does not lift.
 
     `cofactors` belong to the state's own equations; what the eliminated equations owe is found by
@@ -221,20 +220,20 @@ def finish(
     return written(source, terms, {k: c for k, c in owed.items() if c})
 
 
-def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> list[object]:
+def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) -> Psatz:
     """The node of an identity between lowered facts, every term brought to one weight by powers of
-    the units.
+    the scales.
     """
     scaling, content = source.scaling, 0
     for t in terms:
         content = gcd(content, t.coefficient.numerator)
     for c in owed.values():
         content = gcd(content, int(c.content()))
-    weights = [scaling.largest(poly) for poly in source.polys] if scaling.units else []
+    weights = [scaling.largest(poly) for poly in source.polys] if scaling.scales else []
     parts: list[tuple[Fraction, Factors, fmpz_mpoly, tuple[int, ...]]] = []
     for t in terms:
-        root, weight = t.root, (0,) * len(scaling.units)
-        if scaling.units:
+        root, weight = t.root, (0,) * len(scaling.scales)
+        if scaling.scales:
             own = scaling.largest(root)
             root = scaling.lift(root, own)
             weight = tuple(
@@ -245,25 +244,25 @@ def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) 
     wanted = [part[3] for part in parts]
     wanted += (
         [tuple(map(sum, zip(scaling.largest(c), weights[k]))) for k, c in owed.items()]
-        if scaling.units
+        if scaling.scales
         else []
     )
     target = tuple(map(max, zip(*wanted)))
-    products: list[object] = []
+    products: list[Product] = []
     for coefficient, powers, root, weight in parts:
-        for unit, have, want in zip(scaling.units, weight, target):
-            fact, leading = source.unit_facts[unit]
+        for place, have, want in zip(scaling.scales, weight, target):
+            fact, leading = source.scale_facts[place]
             if want > have:
                 coefficient *= Fraction(source.dens[fact], leading) ** (want - have)
                 powers = merge(powers, ((fact, want - have),))
-        products.append([str(coefficient), [list(pair) for pair in powers], str(root)])
-    equations: list[object] = []
+        products.append((str(coefficient), powers, str(root)))
+    equations: list[tuple[int, str]] = []
     for k, c in sorted(owed.items()):
-        if scaling.units:
+        if scaling.scales:
             c = scaling.lift(c, tuple(want - have for want, have in zip(target, weights[k])))
         factor = Fraction(source.dens[k], content)
-        equations.append([k, scaled_text(c, factor)])
-    return ["psatz", products, equations]
+        equations.append((k, scaled_text(c, factor)))
+    return "psatz", products, equations
 
 
 def scaled_text(poly: fmpz_mpoly, factor: Fraction) -> str:

@@ -1,4 +1,8 @@
-"""One leaf: a linear program over products of facts."""
+"""One leaf: a linear program over products of facts, with Bernstein polynomials and squares.
+
+Source, for products of linear facts: Handelman, Representing polynomials by positive linear
+functions on compact convex polyhedra, Pacific Journal of Mathematics 132 (1988).
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as choices
 from math import prod
-from typing import Any
 
 import numpy as np
 from flint import fmpz_mpoly
@@ -22,10 +25,11 @@ from juggleproof.certificates.algebra.polynomials import (
     multiply,
     total_degree,
 )
-from juggleproof.certificates.search.facts import Factors, merge, power
-from juggleproof.certificates.search.lifting import Cofactor, Node, Term, finish, lift, powers_of
-from juggleproof.certificates.search.linear_program import Mask, Program, solve
-from juggleproof.certificates.search.problem import Problem
+from juggleproof.certificates.nodes import Node
+from juggleproof.certificates.search.psatz.facts import Factors, merge, power
+from juggleproof.certificates.search.psatz.lifting import Cofactor, Term, finish, lift, powers_of
+from juggleproof.certificates.search.psatz.linear_program import Floats, Mask, Program, solve
+from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
@@ -52,7 +56,7 @@ class Combination:
         facts, bounded = problem.facts, problem.bounded if bernstein else None
         others, degrees = only if only is not None else list(range(len(facts))), [0] * len(facts)
         if bounded is not None:
-            others = [k for k in others if not problem.said_by_bounds(k, bounded)]
+            others = [k for k in others if not problem.implied_by_bounds(k, bounded)]
             degrees = [fact.degree(bounded.variable) for fact in facts]
         most = (
             bernstein + max((degrees[k] for k in others), default=0) if bounded is not None else 0
@@ -212,7 +216,9 @@ class Products:
         """The facts of every product by their numbers in the problem, of the shape (P, n)."""
         return self.others[self.places]
 
-    def _changed(self, places: Keys, strict: Mask, at: Keys, keys: Keys, values: Any) -> Products:
+    def _changed(
+        self, places: Keys, strict: Mask, at: Keys, keys: Keys, values: Floats
+    ) -> Products:
         """Other products of the same facts."""
         new = object.__new__(Products)
         new.__dict__.update(self.__dict__)
@@ -327,12 +333,12 @@ MOST_FAILED = 5000
 _failed: dict[
     tuple[Hashable, int, int, str], int
 ] = {}  # (facts, stage) -> the work that it takes to find nothing
-# (products of facts, extra Bernstein degree, kind of squares; or "near": no squares, and only facts
+# (products of facts, extra Bernstein degree, kind of squares; or "goal": no squares, and only facts
 # in the goal's variables)
 Stage = tuple[int, int, str]
 QUICK: tuple[Stage, ...] = ((1, 0, ""),)
 FIRST: tuple[Stage, ...] = ((2, 0, ""),)
-USUAL: tuple[Stage, ...] = ((2, 2, "near"), (2, 2, ""), (1, 0, "squares"))
+USUAL: tuple[Stage, ...] = ((2, 2, "goal"), (2, 2, ""), (1, 0, "squares"))
 SQUARES: tuple[Stage, ...] = ((1, 2, "squares"), (1, 2, "resultants"))
 TRIPLES: tuple[Stage, ...] = ((3, 2, ""),)
 DEEP: tuple[Stage, ...] = (
@@ -373,7 +379,10 @@ def close_by_equations(problem: Problem) -> Node | None:
 
 
 def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | None:
-    """The first node that one of the stages finds."""
+    """The first node that one of the stages finds; None where none does.
+
+    Raises Exhausted where the budget ends.
+    """
     if not problem.facts and not problem.reduction.left:
         return None
     key = problem.content()
@@ -383,26 +392,25 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
         if (
             stage in _failed
             # the same facts come back, in other cases and at greater effort: the work counts, but
-            # is
-            # not done again
+            # is not done again
         ):
             budget.spend(_failed[stage])
             continue
         left = budget.left
-        near = problem.near_goal() if kind == "near" else None
+        goal_facts = problem.goal_facts() if kind == "goal" else None
         if kind not in roots:
-            roots[kind] = problem.candidates(kind) if kind != "near" else []
+            roots[kind] = problem.candidates(kind) if kind != "goal" else []
         same = (
             bernstein == 2
             and degree == 2
             and problem.bounded is None
             and not problem.reduction.left
         )
-        if near is None if kind == "near" else not roots[kind] if kind else same:
+        if goal_facts is None if kind == "goal" else not roots[kind] if kind else same:
             continue  # nothing that a smaller stage did not have
         if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
             continue
-        node = Combination(problem, degree, bernstein, roots[kind], near).node(budget)
+        node = Combination(problem, degree, bernstein, roots[kind], goal_facts).node(budget)
         if node is not None:
             return node
         if len(_failed) >= MOST_FAILED:

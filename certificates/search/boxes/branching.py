@@ -11,20 +11,22 @@ from math import comb, gcd, lcm, prod
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from juggleproof.certificates.search.small_boxes import LETTERS, Box, Terms
+from juggleproof.certificates.search.boxes.small import LETTERS, Box, Terms
 
 # -------------------------------------------------------------------------------------------------
 # Polynomials on a box as tensors of Bernstein coefficients, in floating point or in exact
 # integers, by the same steps.
 
-Array = Any
-BEFORE: Any = [(slice(None),) * axis for axis in range(26)]  # the axes before one, in an index
+Tensor = NDArray[Any]  # of floats, or of Python's integers, by the same steps
+NOTHING: Tensor = np.zeros(0)  # the coefficients of a box that is no longer open
+BEFORE = [(slice(None),) * axis for axis in range(26)]  # the axes before one, in an index
 
 
-def bernstein_tensor(terms: Terms, box: Box) -> tuple[Array, int]:
-    """(integers, unit): the Bernstein coefficients on the box are integers / unit, one axis a
-    variable, as an array of Python ints.
+def bernstein_tensor(terms: Terms, box: Box) -> tuple[Tensor, int]:
+    """(integers, unit): the Bernstein coefficients on the box are integers / unit, as an array of
+    Python ints of shape (n_1 + 1, .., n_k + 1) for degrees n_i in the k variables.
 
     x^e on [a, b], in degree n, has as its j-th coefficient sum_k C(n - j, e - k) C(j, k) a^(e - k)
     b^k / C(n, e).
@@ -32,7 +34,7 @@ def bernstein_tensor(terms: Terms, box: Box) -> tuple[Array, int]:
     size = len(box)
     degrees = [max(e[i] for e in terms) for i in range(size)]
     unit = lcm(*(c.denominator for c in terms.values()))
-    tensor: Array = np.zeros([n + 1 for n in degrees], dtype=object)
+    tensor: Tensor = np.zeros([n + 1 for n in degrees], dtype=object)
     for exponents, c in terms.items():
         tensor[exponents] = int(c * unit)
     for axis in range(
@@ -44,20 +46,21 @@ def bernstein_tensor(terms: Terms, box: Box) -> tuple[Array, int]:
     return tensor, unit
 
 
-def _along(matrix: list[list[int]], tensor: Array, axis: int) -> Array:
+def _along(matrix: list[list[int]], tensor: Tensor, axis: int) -> Tensor:
     slices = [part_of(tensor, axis, e) for e in range(tensor.shape[axis])]
     used = [e for e, part in enumerate(slices) if part.any()]
     result = np.zeros(tensor.shape, dtype=object)
     for j, row in enumerate(matrix):
         for e in used:
             if row[e]:
-                result[(*BEFORE[axis], j)] += row[e] * slices[e]
+                result[BEFORE[axis] + (j,)] += row[e] * slices[e]
     return result
 
 
-def part_of(tensor: Array, axis: int, index: int) -> Array:
+def part_of(tensor: Tensor, axis: int, index: int) -> Tensor:
     """The part of a tensor with this index along an axis, an array also where it is one number."""
-    return tensor[(*BEFORE[axis], index, ...)]
+    part: Tensor = tensor[BEFORE[axis] + (index, ...)]
+    return part
 
 
 def _axis_matrix(n: int, low: Fraction, high: Fraction) -> tuple[list[list[int]], int]:
@@ -77,9 +80,9 @@ def _axis_matrix(n: int, low: Fraction, high: Fraction) -> tuple[list[list[int]]
 
 
 @lru_cache(256)
-def halving(n: int, exact: bool) -> tuple[Array, Array]:
-    """The matrices that take coefficients of degree n to those on the lower and on the upper half,
-    times 2^n where exact.
+def halving(n: int, exact: bool) -> tuple[Tensor, Tensor]:
+    """The matrices, of shape (n + 1, n + 1), that take coefficients of degree n to those on the
+    lower and on the upper half, times 2^n where exact.
     """
     lower = np.array(
         [[comb(j, k) * 2 ** (n - j) if k <= j else 0 for k in range(n + 1)] for j in range(n + 1)],
@@ -89,8 +92,8 @@ def halving(n: int, exact: bool) -> tuple[Array, Array]:
     return (lower, upper) if exact else ((lower / 2**n).astype(float), (upper / 2**n).astype(float))
 
 
-def along_first(matrix: Array, tensor: Array, axis: int) -> Array:
-    """The matrix applied along an axis, which becomes the first one."""
+def along_first(matrix: Tensor, tensor: Tensor, axis: int) -> Tensor:
+    """The matrix (n, n) applied along an axis of length n, which becomes the first one."""
     moved = np.moveaxis(tensor, axis, 0)
     return (matrix @ moved.reshape(len(moved), -1)).reshape(moved.shape)
 
@@ -109,19 +112,19 @@ Improve = Callable[[tuple[float, ...]], None]
 
 
 @dataclass
-class Node:
+class Subbox:
     """A box of the tree: the faces taken on the way to it, its coefficients while it is open, and
     its place in the whole box.
     """
 
     prefix: str
-    tensor: Array
+    tensor: Tensor
     unit: int
     places: Places  # for each axis: the variable, and low and high in [0, 1]
     fixed: dict[int, float]
     bound: Fraction | float
     letter: str = "."
-    children: list[Node] = field(default_factory=list)
+    children: list[Subbox] = field(default_factory=list)
 
 
 @dataclass
@@ -166,7 +169,7 @@ class Arithmetic:
         """The number below all coefficients that are at least so much."""
         return (Fraction(goal) - Fraction(self.slack)) / self.scale
 
-    def node(self, tensor: Array, unit: int, places: Places, fixed: dict[int, float]) -> Node:
+    def subbox(self, tensor: Tensor, unit: int, places: Places, fixed: dict[int, float]) -> Subbox:
         """The box, after every face that monotony allows."""
         prefix, axis, slack = "", 0, self.slack_of(unit)
         while axis < tensor.ndim:
@@ -184,7 +187,7 @@ class Arithmetic:
                 0,
             )
         least = tensor.min()
-        return Node(
+        return Subbox(
             prefix,
             tensor,
             unit,
@@ -193,14 +196,14 @@ class Arithmetic:
             Fraction(int(least), unit) if self.exact else float(least),
         )
 
-    def halves(self, node: Node, axis: int) -> list[Node]:
+    def halves(self, node: Subbox, axis: int) -> list[Subbox]:
         """The children of a node, which from here on keeps no coefficients."""
         degree = node.tensor.shape[axis] - 1
         variable, low, high = node.places[axis]
         others, middle = node.places[:axis] + node.places[axis + 1 :], (low + high) / 2
         node.letter = LETTERS[axis]
         node.children = [
-            self.node(
+            self.subbox(
                 along_first(matrix, node.tensor, axis),
                 node.unit << degree,
                 [(variable, *ends), *others],
@@ -208,7 +211,7 @@ class Arithmetic:
             )
             for matrix, ends in zip(halving(degree, self.exact), ((low, middle), (middle, high)))
         ]
-        node.tensor = None
+        node.tensor = NOTHING
         return node.children
 
 
@@ -216,15 +219,15 @@ class Branching:
     """Halves boxes until all coefficients on all leaves are at least `target()`, which may fall
     while `improve` finds better points.
 
-    `improve` is told where in the unit box a coefficient is least.  Source: Garloff, The Bernstein
-    algorithm, Interval Computations 2 (1993).
+    `improve` receives the place in the unit box where a coefficient is least.  Source: Garloff, The
+    Bernstein algorithm, Interval Computations 2 (1993).
     """
 
     def __init__(
         self, terms: Terms, box: Box, target: Callable[[], Fraction], improve: Improve, exact: bool
     ) -> None:
         self.numbers, self.target, self.improve = Arithmetic(terms, box, exact), target, improve
-        self.root = self.numbers.node(
+        self.root = self.numbers.subbox(
             self.numbers.root, 1, [(i, 0.0, 1.0) for i in range(len(box))], {}
         )
         self.boxes, self.heap, self.stuck = 1, [(self.root.bound, 0, self.root)], False
@@ -258,16 +261,16 @@ class Branching:
             reached,
         )
 
-    def _halve(self, node: Node, axis: int, goal: Fraction | float) -> None:
+    def _halve(self, node: Subbox, axis: int, goal: Fraction | float) -> None:
         for child in self.numbers.halves(node, axis):
             self.boxes += 1
             if child.bound < goal:
                 heapq.heappush(self.heap, (child.bound, self.boxes, child))
             else:
-                child.tensor = None
+                child.tensor = NOTHING
 
 
-def _axis_to_halve(tensor: Array) -> int | None:
+def _axis_to_halve(tensor: Tensor) -> int | None:
     """The axis with the largest n (n - 1) max |second difference|; none where each has degree 1."""
     best, choice = None, None
     for axis, size in enumerate(tensor.shape):
@@ -281,7 +284,7 @@ def _axis_to_halve(tensor: Array) -> int | None:
     return choice
 
 
-def _least_at(node: Node) -> tuple[float, ...]:
+def _least_at(node: Subbox) -> tuple[float, ...]:
     """Where in the unit box the least coefficient of a box stands."""
     place = dict(node.fixed)
     index = np.unravel_index(int(node.tensor.argmin()), node.tensor.shape)
@@ -290,7 +293,7 @@ def _least_at(node: Node) -> tuple[float, ...]:
     return tuple(place[variable] for variable in sorted(place))
 
 
-def _text(root: Node) -> str:
+def _text(root: Subbox) -> str:
     """The tree in preorder, one character a box; boxes that were left open are leaves."""
     letters, stack = [], [root]
     while stack:

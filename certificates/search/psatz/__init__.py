@@ -1,0 +1,13 @@
+"""One leaf: identities that show that facts contradict one another; rule `psatz`.
+
+Source: Stengle, A Nullstellensatz and a Positivstellensatz in semialgebraic geometry, Mathematische
+Annalen 207 (1974).  The files, each after those that it imports:
+
+- `linear_program`: positive combinations that vanish identically, exact on the support that floats
+  propose
+- `facts`: the facts of a state; scales by homogeneity, equations used up, signs at sight
+- `problem`: the facts of one leaf, ready for a search; whether floats see a point that meets them
+- `lifting`: identities between them as nodes over the facts of the state
+- `linear`: products of facts, by a linear program
+- `sums_of_squares`: facts times sums of squares, by a semidefinite program
+"""
