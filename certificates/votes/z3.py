@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from importlib import import_module
 from itertools import islice, product
-
-import z3
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, root_number, sign_at
@@ -31,6 +31,9 @@ from juggleproof.certificates.votes.questions import (
 )
 from juggleproof.certificates.votes.smtlib import question_text, symbol
 from juggleproof.certificates.votes.vote import Budget, Vote
+
+if TYPE_CHECKING:
+    from z3 import Context, ExprRef, ModelRef, Solver
 
 Exact = Fraction | AlgebraicNumber
 MOST_BRANCHES, MOST_TRIES = 64, 16
@@ -56,7 +59,8 @@ class Session:
     """A fresh Z3 context with a purse of resource units that all the queries of one vote share."""
 
     def __init__(self, purse: int, outer: Session | None = None) -> None:
-        self.context: z3.Context = outer.context if outer else z3.Context()
+        self.z3 = import_module("z3")  # here, since it takes long to load
+        self.context: Context = outer.context if outer else self.z3.Context()
         self.outer, self.purse, self.spent = outer, purse, 0
         # the context's counter, which goes on from query to query
         self.before: int = outer.before if outer else 0
@@ -66,6 +70,7 @@ class Session:
         units = min(units, self.purse - self.spent)
         if units <= 0:
             return Reply("unknown", how="the budget is spent")
+        z3 = self.z3
         steps = [z3.Tactic(name, ctx=self.context) for name in TACTICS[engine]]
         solver = (z3.Then(*steps, ctx=self.context) if len(steps) > 1 else steps[0]).solver()
         solver.set("rlimit", units)
@@ -81,7 +86,7 @@ class Session:
         point = self._point(question, solver.model()) if answer == "sat" else None
         return Reply(answer, point, f"{answer} by {engine}")
 
-    def _count(self, solver: z3.Solver, units: int) -> None:
+    def _count(self, solver: Solver, units: int) -> None:
         table = solver.statistics()
         total = next(
             (int(table.get_key_value(key)) for key in table.keys() if key == "rlimit count"),
@@ -94,7 +99,7 @@ class Session:
             self.outer.spent += self.spent - already
             self.outer.before = self.before
 
-    def _point(self, question: Question, model: z3.ModelRef) -> dict[str, Exact] | None:
+    def _point(self, question: Question, model: ModelRef) -> dict[str, Exact] | None:
         values = {declared.name(): model[declared] for declared in model.decls()}
         try:
             return {
@@ -105,19 +110,19 @@ class Session:
         except ValueError:
             return None
 
-    def _exact(self, value: z3.ExprRef | None) -> Exact:
+    def _exact(self, value: ExprRef | None) -> Exact:
         if value is None:
             return Fraction(0)  # a variable that the model leaves open may take any value
-        if z3.is_algebraic_value(value):
+        if self.z3.is_algebraic_value(value):
             parts = [c.as_fraction() for c in value.poly()]
             scale = max(c.denominator for c in parts)
             if any((c * scale).denominator != 1 for c in parts):
                 raise ValueError("a model's polynomial is not over the integers")
             root = root_number([int(c * scale) for c in parts], value.index())
             return root.as_fraction() if root.is_rational else root
-        if z3.is_rational_value(value):
+        if self.z3.is_rational_value(value):
             return Fraction(str(value.as_fraction()))
-        if z3.is_int_value(value):
+        if self.z3.is_int_value(value):
             return Fraction(value.as_long())
         raise ValueError("a model's value is not a number")
 
