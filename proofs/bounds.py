@@ -188,32 +188,32 @@ class _Question:
             return ""
         return str(reason or outcome)
 
-    def enclosure(self, found: Bounds, used: list[int]) -> Enclosure:
+    def enclosure(self, bounds: Bounds, used: list[int]) -> Enclosure:
         """The enclosure, once the checker has accepted both statements; raises ArithmeticError
         where it does not.
         """
         point = {name: first for name, (first, _) in self.ends.items()} | dict(
-            zip((list(self.ends)[k] for k in used), found.point)
+            zip((list(self.ends)[k] for k in used), bounds.point)
         )
         values = {name: str(value) for name, value in point.items()}
         certificates: dict[str, Certificate] = {
-            LOWER: self._lower_certificate(found.node),
+            LOWER: self._lower_certificate(bounds.node),
             ATTAINED: {
                 "certified": ("witness", [], Point(ATTAINED, [], values, ("close",))),
                 "point": Point(ATTAINED, [], {}, ("close",)),
             },
         }
-        texts = {LOWER: self.lower(found.low), ATTAINED: self.attained(found.high)}
+        texts = {LOWER: self.lower(bounds.low), ATTAINED: self.attained(bounds.high)}
         for name, text in texts.items():
             reason = self._reason(text, certificates[name])
             if reason:
                 raise ArithmeticError(f"the checker rejects {name}: {reason}")
         return Enclosure(
-            found.low,
-            found.high,
+            bounds.low,
+            bounds.high,
             point,
-            found.boxes,
-            found.reached,
+            bounds.boxes,
+            bounds.reached,
             "\n".join(texts.values()),
             certificates,
         )
@@ -295,5 +295,5 @@ def _readable(text: str) -> str:
     """The text in the checker's notation: ^ for powers, and 0.1 for exactly 1/10."""
     text = " ".join(text.replace("**", "^").split())
     return re.sub(
-        r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])", lambda found: f"({Fraction(found[0])})", text
+        r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])", lambda decimal: f"({Fraction(decimal[0])})", text
     )

@@ -191,9 +191,9 @@ class Enclosed:
         """Enclosures of the partial derivatives on the box by their own mean value forms, where
         these are narrower.
         """
-        found = {}
+        enclosures = {}
         for i, slope in self.slopes.items():
             if placed.box[i][1]:
                 natural, centred = slope.natural(placed), slope.centred(placed)[0]
-                found[i] = min(natural, centred, key=lambda value: float(value.rad()))
-        return found
+                enclosures[i] = min(natural, centred, key=lambda value: float(value.rad()))
+        return enclosures

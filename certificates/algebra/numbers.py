@@ -253,14 +253,14 @@ def _roots_of_irreducible(poly: fmpz_poly) -> list[AlgebraicNumber]:
         return [AlgebraicNumber.rational(fmpq(-poly[0], poly[1]))]
     if poly.degree() == 2 and poly[1] ** 2 - 4 * poly[0] * poly[2] < 0:
         return []
-    found = []
+    roots = []
     for root, _ in poly.complex_roots():
         if root.imag == 0:
             middle, radius = _dyadic(root.real.mid()), _dyadic(root.real.rad())
             # The ball isolates its root; a little more than its radius moves both ends off the
             # root.
-            found.append(AlgebraicNumber(poly, middle - radius * 2, middle + radius * 2))
-    return found
+            roots.append(AlgebraicNumber(poly, middle - radius * 2, middle + radius * 2))
+    return roots
 
 
 def _dyadic(ball: arb) -> fmpq:
@@ -371,8 +371,8 @@ def univariate(poly: fmpz_mpoly, variable: int) -> fmpq_poly:
 
 
 def _coefficients(poly: fmpz_mpoly, variable: int) -> list[int]:
-    found = {int(m[variable]): int(c) for m, c in zip(poly.monoms(), poly.coeffs())}
-    return [found.get(k, 0) for k in range(max(found, default=0) + 1)]
+    by_power = {int(m[variable]): int(c) for m, c in zip(poly.monoms(), poly.coeffs())}
+    return [by_power.get(k, 0) for k in range(max(by_power, default=0) + 1)]
 
 
 def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> list[fmpq]:

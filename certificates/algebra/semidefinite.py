@@ -295,7 +295,7 @@ class LinearEquations:
 
     def solve(self, budget: Budget, trace: float, last: float) -> list[Floats] | None:
         """Gram matrices in floats, one for each block, each times its scale, of the shape (n, n)
-        for a basis of n; None where none is found.  `trace` and `last` are those of `feasible`.
+        for a basis of n; None where `feasible` has none.  `trace` and `last` are its own.
         """
         blocks = [
             np.zeros((self.rows, len(block.basis), len(block.basis))) for block in self.blocks
@@ -324,17 +324,17 @@ class LinearEquations:
         free /= sizes[:, None]
         right = np.zeros(self.rows)
         right[-1] = float(self.total) / sizes[-1]
-        found = feasible(blocks, free, right, budget, trace, last)
-        if found is None:
+        grams = feasible(blocks, free, right, budget, trace, last)
+        if grams is None:
             return None
         if free.shape[1]:
             rest = right - sum(
-                (block.reshape(self.rows, -1) @ gram.ravel() for block, gram in zip(blocks, found)),
+                (block.reshape(self.rows, -1) @ gram.ravel() for block, gram in zip(blocks, grams)),
                 np.zeros(self.rows),
             )
             tops = [max(map(abs, column.values())) for column in self.terms[self.count :]]
             self.multipliers = (np.linalg.lstsq(free, rest, rcond=None)[0] / tops).tolist()
-        return found
+        return grams
 
     @cached_property
     def scales(self) -> list[Fraction]:
@@ -403,12 +403,12 @@ class LinearEquations:
     @cached_property
     def alone(self) -> dict[int, list[tuple[int, int]]]:
         """For each equation the columns that stand in no other, with their coefficients."""
-        found: dict[int, list[tuple[int, int]]] = {}
+        columns: dict[int, list[tuple[int, int]]] = {}
         for k, column in enumerate(self.terms):
             if len(column) == 1:
                 ((row, c),) = column.items()
-                found.setdefault(row, []).append((k, c))
-        return found
+                columns.setdefault(row, []).append((k, c))
+        return columns
 
     def shortest(self, missing: list[Fraction]) -> list[Fraction] | None:
         """The shortest vector whose combination of the columns is what is missing."""

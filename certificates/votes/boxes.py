@@ -126,19 +126,19 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
     leaves = 0
     for region in parts:
         unbounded = region.unbounded()
-        found = refute(
+        outcome = refute(
             region.facts,
             region.box(),
             TRIAL if unbounded else max(TRIAL, allowance // len(parts)),
             region.test(matrix),
         )
-        tally.boxes += found.boxes
-        if found.point is not None:
-            return Finding(point=region.complete(found.point))
+        tally.boxes += outcome.boxes
+        if outcome.point is not None:
+            return Finding(point=region.complete(outcome.point))
         if unbounded:
             finding.unbounded = True
             finding.reasons.append(f"the region is not bounded in {', '.join(unbounded)}")
-        elif not found.empty:
+        elif not outcome.empty:
             finding.thin = finding.thin or any(
                 fact.relation in ("=", "!=") for fact in region.facts
             )
@@ -146,7 +146,7 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
                 "undecided after the counted boxes" + (", near an equation" if finding.thin else "")
             )
         else:
-            leaves += found.leaves
+            leaves += outcome.leaves
     if not finding.reasons:
         tally.leaves += leaves
     return finding

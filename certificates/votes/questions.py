@@ -148,18 +148,20 @@ def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
         return [()] if formula else []
     if isinstance(formula, Atom):
         return [(formula,)]
-    found: list[tuple[Atom, ...]] = [] if formula.op == "or" else [()]
+    disjuncts: list[tuple[Atom, ...]] = [] if formula.op == "or" else [()]
     for part in formula.parts:
         inner = branches(part, limit)
         if inner is None:
             return None
         if formula.op == "or":
-            found += inner
+            disjuncts += inner
         else:
-            found = [merged for a in found for b in inner if (merged := _merge(a, b)) is not None]
-        if len(found) > limit:
+            disjuncts = [
+                merged for a in disjuncts for b in inner if (merged := _merge(a, b)) is not None
+            ]
+        if len(disjuncts) > limit:
             return None
-    return found
+    return disjuncts
 
 
 def _merge(first: tuple[Atom, ...], second: tuple[Atom, ...]) -> tuple[Atom, ...] | None:

@@ -91,10 +91,10 @@ def _bernstein_range(coefficients: tuple[int, ...], low: fmpq, high: fmpq) -> tu
     """The least and the largest Bernstein coefficient of a polynomial in one variable on [low,
     high]: they enclose its values there.
     """
-    found = bernstein(
+    enclosing = bernstein(
         fmpq_poly(list(coefficients)), fraction(low), fraction(high), len(coefficients) - 1
     )
-    return min(found), max(found)
+    return min(enclosing), max(enclosing)
 
 
 def _termwise(p: Expanded, box: Sequence[Interval]) -> Interval:
@@ -159,17 +159,17 @@ def bounding_box(facts: Sequence[Atom], width: int) -> list[Bounds] | None:
     """
     box: list[Interval] = [((-1, fmpq(0)), (1, fmpq(0)))] * width
     sides = [(fact, p) for fact in facts if fact.relation != "!=" for p in _signs(fact)]
-    found = _propagate(sides, box)
+    consistent = _propagate(sides, box)
     used = sorted({i for fact in facts for i in fact.used})
-    if found and any(_infinite(box[i]) for i in used):
+    if consistent and any(_infinite(box[i]) for i in used):
         # the bounds of one variable often need a better lower end of another, such as s >= 1.4 from
         # s^2 > 2
-        found = all(_infinite(box[i]) or _shave(sides, box, i) for i in used) and _propagate(
+        consistent = all(_infinite(box[i]) or _shave(sides, box, i) for i in used) and _propagate(
             sides, box
         )
     return (
         [((low[0], fraction(low[1])), (high[0], fraction(high[1]))) for low, high in box]
-        if found
+        if consistent
         else None
     )
 

@@ -73,13 +73,13 @@ class Vote:
         return self.answer in ("holds", "fails")
 
     def __str__(self) -> str:
-        said = "; ".join([self.detail, *map(str, self.enclosures)])
+        details = "; ".join([self.detail, *map(str, self.enclosures)])
         at = (
             " at " + ", ".join(f"{name} = {value}" for name, value in self.model)
             if self.model
             else ""
         )
-        return f"{self.route} says {self.answer}{at} ({said})"
+        return f"{self.route} says {self.answer}{at} ({details})"
 
 
 class Disagreement(Exception):
@@ -105,7 +105,7 @@ def compare(statement: str, outcome: str, votes: Sequence[Vote]) -> None:
     sides = [(checked, f"the checked certificate says {outcome}")] if checked else []
     for vote in votes:
         if vote.decided:
-            for answer, said in sides:
+            for answer, source in sides:
                 if answer != vote.answer:
-                    raise Disagreement(statement, said, str(vote))
+                    raise Disagreement(statement, source, str(vote))
             sides.append((vote.answer, str(vote)))
