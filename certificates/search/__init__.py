@@ -21,6 +21,9 @@ The files and folders, each after those that it imports:
   `universal`, `map`, `descends`, `contracts`, `attracts`, `escapes`, `exactly`, `iterates`
 - `sharp`, `sharp_plane`: sharp ranges over one parameter, or over several; rule `sharp`
 
+What takes a budget raises `Exhausted` where that ends, unless its docstring has what it returns
+then.
+
 Roles (`certificates.language.Roles`) come with each statement: its parameters with their domains,
 and its scales.
 """

@@ -270,7 +270,7 @@ class Residual:
         self.values = np.array(values) / max(map(abs, values), default=1.0)
 
     def at(self, point: Array, margin: float) -> tuple[float, Array]:
-        """The residual and its gradient at a point."""
+        """The residual at a point (n,), and its gradient (n,)."""
         table = point[None, :] ** self.powers
         whole = table.prod(axis=1) @ self.values
         gradient = np.array(

@@ -316,7 +316,8 @@ def find_sharp_range(
     roles: Roles = NO_ROLES,
 ) -> Range:
     """The set of one parameter on which all the statements hold, its ends, and a certificate for
-    `checker.check_one`.
+    `checker.check_one`; with the reason as its `failure` where the budget ends, or one of the three
+    is not found.
     """
     tree, result = (
         checker.parse(str(domain)),
@@ -482,7 +483,9 @@ def search_sharp(
     budget: Budget,
     roles: Roles = NO_ROLES,
 ) -> Sharp | None:
-    """A certificate for a sharp range that is already stated, in one parameter, or None."""
+    """A certificate for a sharp range that is already stated, in one parameter; None where none was
+    found, or the budget ended.
+    """
     (names,), (over,), (domain,), (condition,) = (
         statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
     )

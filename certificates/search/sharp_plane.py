@@ -65,7 +65,8 @@ def find_sharp_region(
     roles: Roles = NO_ROLES,
 ) -> Range:
     """The set of several parameters on which all the statements hold, as at most two relations of
-    border polynomials to 0.
+    border polynomials to 0; with the reason as its `failure` where the budget ends, or none was
+    found.
     """
     tree = checker.parse(str(domain))
     roles = among(roles, dict.fromkeys(parameters, ()))

@@ -137,10 +137,11 @@ def root_values(roots: Sequence[Root], sample: Sample) -> dict[str, fmpq]:
     values: dict[str, fmpq] = {}
     for root in roots:
         given = {**sample, **values}
-        parts = [valued(c, given) for c in coefficients_in(root.poly, root.name)]
-        if len(parts) != 3 or any(c is None for c in parts):
+        at = [valued(c, given) for c in coefficients_in(root.poly, root.name)]
+        parts = [c for c in at if c is not None]
+        if len(parts) != 3:
             return values
-        half = -parts[1] / 2  # type: ignore[operator]
+        half = -parts[1] / 2
         under = half * half - parts[0]
         if under < 0:
             return values

@@ -1,4 +1,4 @@
-"""Bounds on a box: Bernstein trees, points near the minimum."""
+"""Bounds on a box, by a tree of halved boxes and their Bernstein coefficients."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""A lower bound of a polynomial on a box with its proof, near the value at a point that is found in
-floating point.
+"""A lower bound of a polynomial on a box with its proof, close to the value at a point that floats
+propose.
 """
 
 from __future__ import annotations
@@ -110,10 +110,11 @@ class FloatPolynomial:
     @staticmethod
     def _step(bend: Array, slope: Array, damping: float) -> Array:
         if len(slope) == 1:  # the same, without the cost of a call to LAPACK
-            return slope / (bend[0] + damping + max(0.0, -2 * float(bend[0, 0])))
+            step: Array = slope / (bend[0] + damping + max(0.0, -2 * float(bend[0, 0])))
+            return step
         least = float(np.linalg.eigvalsh(bend)[0])
         damped = bend + (damping + max(0.0, -2 * least)) * np.eye(len(slope))
-        step: Array = np.linalg.solve(damped, slope).astype(np.float64, copy=False)
+        step = np.linalg.solve(damped, slope).astype(np.float64, copy=False)
         return step
 
 
@@ -124,8 +125,8 @@ def polished(
     box: Sequence[tuple[Fraction, Fraction]],
     bits: int,
 ) -> list[Fraction]:
-    """The stationary point near x, in the coordinates that are not at an end of the box, to so many
-    bits: exact gradients, a fixed Hessian.
+    """The stationary point next to x, in the coordinates that are not at an end of the box, to so
+    many bits: exact gradients, a fixed Hessian.
     """
     point = [min(max(Fraction(float(v)), low), high) for v, (low, high) in zip(x, box)]
     free = [i for i, (v, (low, high)) in enumerate(zip(point, box)) if low < v < high]

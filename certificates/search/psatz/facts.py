@@ -176,7 +176,7 @@ class Reduction:
         )
 
     def _tidy(self) -> None:
-        """Drops equations that say nothing and notes one that is false."""
+        """Drops trivial equations and keeps one that is false."""
         self.left = [equation for equation in self.left if equation.poly]
         for equation in self.left:
             if equation.poly.is_constant():

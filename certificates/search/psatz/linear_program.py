@@ -201,7 +201,7 @@ def presolve(matrix: Floats, count: int, strict: Mask) -> NDArray[np.intp] | Non
         alive[:count] &= ~(positive[rows, :count] | negative[rows, :count]).any(axis=0)
         if not (alive[:count] & strict).any():
             return None
-        # a row that only dead columns reach says nothing any more
+        # a row that only dead columns reach is a constraint no more
         left = np.flatnonzero(~rows)
         positive, negative, fixed = positive[left], negative[left], fixed[left]
 

@@ -68,8 +68,8 @@ MANY = 7  # facts, from which on those in the goal's variables are tried first
 
 
 class Problem:
-    """What a leaf of a proof has to contradict; `whole`, with the facts too that seem to say only
-    what a root is.
+    """What a leaf of a proof has to contradict; `whole`, with the facts too that seem only to
+    define a root.
 
     >>> from juggleproof.certificates import checker
     >>> context = checker.Context()
@@ -148,8 +148,8 @@ class Problem:
         return frozenset(v for v, up in sides if up and (v, False) in sides)
 
     def _take(self, index: int, poly: fmpz_mpoly, relation: str) -> None:
-        """Adds the fact as it stands after the eliminations, unless it is there already or says
-        nothing.
+        """Adds the fact as it stands after the eliminations, unless it is there already or is
+        trivial.
         """
         counts, rest = self.reduction.reduce(poly)
         own: Factors = ((index, 1),)
@@ -364,7 +364,7 @@ def size(poly: fmpz_mpoly) -> tuple[int, int]:
 
 
 def idle_facts(polys: Sequence[fmpz_mpoly], relations: Sequence[str]) -> set[int]:
-    """The facts that only say what a root is, where the root occurs nowhere else: root >= 0 and
+    """The facts that only define a root, where the root occurs nowhere else: root >= 0 and
     root^2 = term.
     """
     idle: set[int] = set()
@@ -432,7 +432,7 @@ class Values:
 
     def least(self, points: Array) -> Array:
         """At every point the least of the facts, each divided by the sum of the absolute values of
-        its terms.
+        its terms; of points (p, n), for the n variables in use, p values.
         """
         table = np.ones((self.top + 1, *points.shape))
         for k in range(1, self.top + 1):

@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from juggleproof.certificates import checker
 from juggleproof.certificates.search.boxes.branching import Branching, bernstein_tensor
 from juggleproof.certificates.search.boxes.small import value_at
-from juggleproof.certificates.search.psatz.sums_of_squares import program_around, search_squares
+from juggleproof.certificates.search.boxes.squares import program_around
+from juggleproof.certificates.search.psatz.sums_of_squares import search_squares
 from juggleproof.certificates.work import Budget
 from juggleproof.proofs.bounds import LOWER, Enclosure, enclose_minimum
 from tests.certificates.checker.evaluator import term_at
@@ -75,7 +76,7 @@ def test_no_point_is_below_what_is_enclosed(text: str, box: Box) -> None:
 
 @MANY
 @given(polynomials, boxes, st.integers(0, 10**6))
-def test_a_changed_tree_is_rejected_or_says_what_is_true(text: str, box: Box, seed: int) -> None:
+def test_a_changed_tree_is_rejected_or_proves_what_is_true(text: str, box: Box, seed: int) -> None:
     found = enclose_minimum(text, box, Fraction(1, 10), budget=100)
     node = found.certificates[LOWER]["certified"][2]
     if node[0] != "boxes":

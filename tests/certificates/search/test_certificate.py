@@ -70,9 +70,9 @@ given z^2 + z > 2 and z > 0
 show (z^2 + z - 2)^9 + (z^2 + z - 2)^4 + 3 > z^2 + z
 """
     known = checker.read_statements(text)
-    story = checker.Unfolding(known["h/uses"], checker.Context())
-    state = state_of(story).assume(story.goal(False))
+    unfolding = checker.Unfolding(known["h/uses"], checker.Context())
+    state = state_of(unfolding).assume(unfolding.goal(False))
     hints = Hints((("h/lemma", {"y": "z^2 + z - 2"}),))
     node = search_closing(state, {"h/lemma": known["h/lemma"]}, Budget(BUDGET), 1, hints)
-    assert node is not None and node[:3] == ["use", "h/lemma", {"y": "z^2 + z - 2"}]
+    assert node is not None and node[:3] == ("use", "h/lemma", {"y": "z^2 + z - 2"})
     assert state.is_closed_by(node, {"h/lemma": known["h/lemma"]})

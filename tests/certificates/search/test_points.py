@@ -141,8 +141,8 @@ def test_the_counterexample_is_the_one_a_reader_would_take():
 
 def test_a_witness_in_numbers():
     statement = read("statement t/two\nexists y\nshow y^2 = 2 and y > 0")
-    story = checker.Unfolding(statement, checker.Context())
-    found = search_values(statement, state_of(story), "witness", {}, {}, budget())
+    unfolding = checker.Unfolding(statement, checker.Context())
+    found = search_values(statement, state_of(unfolding), "witness", {}, {}, budget())
     certificate = {
         "certified": ["witness", [], found],
         "point": [statement.name, [], {}, ["close"]],
@@ -208,10 +208,10 @@ show beta + v*t = r*t""",
 
 
 def witness(statement: checker.Statement) -> list:
-    story = checker.Unfolding(statement, checker.Context())
-    base = {name: story.context.values[name] for name in story.universal}
-    found = search_values(statement, state_of(story), "witness", base, {}, budget(), effort=1)
-    assert state_of(story).is_served_by(found, {}, "witness", statement, base)
+    unfolding = checker.Unfolding(statement, checker.Context())
+    base = {name: unfolding.context.values[name] for name in unfolding.universal}
+    found = search_values(statement, state_of(unfolding), "witness", base, {}, budget(), effort=1)
+    assert state_of(unfolding).is_served_by(found, {}, "witness", statement, base)
     return found
 
 
@@ -227,16 +227,17 @@ def test_the_larger_of_two_needs_a_case_split():
             "statement w/maximum\nforall a b\nexists m\nshow m >= a and m >= b and (m = a or m = b)"
         )
     )
-    assert found[:2] == ["sign", "a - b"]
+    assert found[:2] == ("sign", "a - b")
     assert [part[2] for part in found[2:]] == [{"m": "b"}, {"m": "a"}, {"m": "a"}]
 
 
 def test_no_witness_for_what_does_not_exist():
     statement = read("statement w/none\nforall a\nexists y\nshow y^2 = a - 1 and a > 2")
-    story = checker.Unfolding(statement, checker.Context())
-    base = {"a": story.context.values["a"]}
+    unfolding = checker.Unfolding(statement, checker.Context())
+    base = {"a": unfolding.context.values["a"]}
     assert (
-        search_values(statement, state_of(story), "witness", base, {}, budget(), effort=1) is None
+        search_values(statement, state_of(unfolding), "witness", base, {}, budget(), effort=1)
+        is None
     )
 
 
@@ -247,7 +248,7 @@ def leaves(found: list) -> list[dict[str, str]]:
     return [] if found[0] == "empty" else [found[2]]
 
 
-SIGNS_TOLD_APART = {
+CASES_BY_SIGN = {
     "a positive denominator that no line names": (
         f"""statement w/inverse
 forall alpha
@@ -319,9 +320,9 @@ alpha))) - eps"""
 }
 
 
-@pytest.mark.parametrize("case", SIGNS_TOLD_APART)
-def test_what_a_term_divides_by_is_told_apart_by_sign(case):
-    text, terms = SIGNS_TOLD_APART[case]
+@pytest.mark.parametrize("case", CASES_BY_SIGN)
+def test_what_a_term_divides_by_makes_cases_by_sign(case):
+    text, terms = CASES_BY_SIGN[case]
     assert leaves(witness(read(text))) == [terms]
 
 

@@ -85,7 +85,7 @@ def test_what_is_lowered_is_lifted_back(poly: fmpz_mpoly) -> None:
     assert lifted is None or scaling.lower(lifted) == scaling.lower(poly)
 
 
-def test_units_are_found_for_lengths_and_times() -> None:
+def test_scales_are_found_for_lengths_and_times() -> None:
     ring = Ring(("b", "v", "r", "g", "t"))
     b, v, r, g, t = ring.gens
     scaling = Scaling(
@@ -146,7 +146,7 @@ def test_interior_points_are_seen_and_empty_states_are_not() -> None:
 
     assert seen("x > 0 and y > x^2 and y < 2*x")
     assert not seen("x > 0 and y > x^2 and y < 0")
-    assert not seen("x^2 + y^2 = 1")  # where an equation is left nothing is said
+    assert not seen("x^2 + y^2 = 1")  # where an equation is left nothing is claimed
 
 
 def test_a_program_without_solution_has_none() -> None:

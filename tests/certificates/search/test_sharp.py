@@ -77,7 +77,7 @@ show (2*alpha - 1)^2*(3*alpha - 1)*(5*alpha - 4) >= 0""")
 
 
 def test_algebraic_ends_of_one_polynomial_are_kept_apart():
-    # The cubic has two roots in (0, 1): separators tell them apart.
+    # The cubic has two roots in (0, 1): separators lie between them.
     statement = cases.read("""statement s/cubic
 forall alpha
 show 10*alpha^3 - 20*alpha^2 + 10*alpha - 1 > 0""")
@@ -180,7 +180,7 @@ def test_a_family_begins_in_a_corner(case):
     assert outcome == ("certified", None)
 
 
-def test_the_corner_says_nothing_beyond_the_other_side():
+def test_the_corner_proves_nothing_beyond_the_other_side():
     # the same certificate does not serve a range that is a little smaller
     statement = cases.read(NEAR)
     found = find_sharp_range([statement], "alpha", UNIT, "corner/sharp", {}, cases.budget())

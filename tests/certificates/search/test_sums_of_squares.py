@@ -143,18 +143,20 @@ FALSE = {
 
 @pytest.mark.parametrize("name", TRUE)
 def test_squares_close_what_is_true_holds(name: str) -> None:
-    story = checker.Unfolding(statement(TRUE[name]), checker.Context())
-    state = state_of(story).assume(story.goal(False))
+    unfolding = checker.Unfolding(statement(TRUE[name]), checker.Context())
+    state = state_of(unfolding).assume(unfolding.goal(False))
     node = search_closing(state, {}, Budget(2_000_000), SQUARED)
     assert node is not None and state.is_closed_by(node, {})
 
 
 @pytest.mark.parametrize("name", FALSE)
 def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
-    story = checker.Unfolding(statement(FALSE[name]), checker.Context())
+    unfolding = checker.Unfolding(statement(FALSE[name]), checker.Context())
     try:
         assert (
-            search_closing(state_of(story).assume(story.goal(False)), {}, Budget(200_000), SQUARED)
+            search_closing(
+                state_of(unfolding).assume(unfolding.goal(False)), {}, Budget(200_000), SQUARED
+            )
             is None
         )
     except Exhausted:
@@ -162,8 +164,8 @@ def test_squares_close_nothing_that_is_false_holds(name: str) -> None:
 
 
 def test_rejects_squares_whose_sum_is_changed() -> None:
-    story = checker.Unfolding(statement(TRUE["motzkin"]), checker.Context())
-    state = state_of(story).assume(story.goal(False))
+    unfolding = checker.Unfolding(statement(TRUE["motzkin"]), checker.Context())
+    state = state_of(unfolding).assume(unfolding.goal(False))
     node = search_closing(state, {}, Budget(2_000_000), SQUARED)
     assert node is not None and state.is_closed_by(node, {})
     for k, (c, factors, root) in enumerate(node[1]):
