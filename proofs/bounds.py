@@ -130,9 +130,7 @@ def enclose_minimum(
 
 
 class _Question:
-    """The two statements about a polynomial on a box, and what the checker says of their
-    certificates.
-    """
+    """The two statements about a polynomial on a box, and the checks of their certificates."""
 
     def __init__(self, text: str, ends: Ends) -> None:
         self.text, self.ends = text, ends

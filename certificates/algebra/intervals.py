@@ -1,4 +1,5 @@
-"""Enclosures of a polynomial on a box in Arb's balls: natural and mean value form, intersected.
+"""Enclosures of a polynomial on a box in Arb's balls: natural interval extension and mean value
+form.
 
 A box is a tuple of dyadic sides (m, r, e): the interval [(m - r) 2^e, (m + r) 2^e].  An undecided
 comparison of balls is False, whichever way it is asked, so `surely` alone decides; powers are
@@ -48,7 +49,7 @@ def split(box: Box, i: int) -> tuple[Box, Box]:
 
 
 def widest(box: Box, among: Sequence[int]) -> int:
-    """The widest of the sides named."""
+    """The number of the widest of the sides named; of equal ones, the first."""
     return max(among, key=lambda i: (box[i][1] * Fraction(2) ** box[i][2], -i))
 
 
@@ -165,7 +166,7 @@ class Enclosed:
         return arb(0) if total is None else total
 
     def natural(self, placed: Placed) -> arb:
-        """The polynomial's enclosure on the box, term by term."""
+        """The natural interval extension: the polynomial's enclosure on the box, term by term."""
         return self._value(placed, False)
 
     def at(self, placed: Placed) -> arb:

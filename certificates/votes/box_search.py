@@ -39,17 +39,17 @@ class Fact(Enclosed):
     def __init__(self, fact: Atom) -> None:
         super().__init__(fact.poly)
         self.relation = fact.relation
-        # x > c: the box itself says it but for its edge, so no cut is made for its sake
+        # x > c holds on the box but for its edge, so no cut is made for its sake
         self.bound = fact.poly.total_degree() == 1 and len(self.used) == 1
 
     def truth(self, value: arb) -> bool | None:
-        """Whether the fact holds for every number of the ball, or for none; None says nothing."""
+        """Whether the fact holds for every number of the ball, or for none; None: undecided."""
         return surely(value, self.relation)
 
 
 @dataclass
 class Emptiness:
-    """What became of the search for a solution of all facts: `empty`, `point` (exact) or, with
+    """The outcome of the search for a solution of all facts: `empty`, `point` (exact) or, with
     neither, undecided; `leaves` counts the boxes that were discarded.
     """
 

@@ -25,16 +25,15 @@ TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point t
 
 @dataclass
 class Finding:
-    """What became of one question: an exact solution, reasons why nothing was decided, or neither,
-    which says that it has none.
+    """The outcome of one question: an exact solution, reasons why nothing was decided, or neither,
+    where it has no solution.
     """
 
     point: list[Fraction] | None = None
     reasons: list[str] = field(default_factory=list)
     unbounded: bool = False
-    thin: bool = (
-        False  # an equation or its negation is among the facts: boxes only come near such sets
-    )
+    # an equation or its negation is among the facts: boxes only approach such sets
+    thin: bool = False
 
 
 @dataclass

@@ -121,7 +121,7 @@ def atom(poly: fmpz_mpoly, relation: str) -> Formula:
 
 
 def truth(formula: Formula, decide: Callable[[Atom], bool | None]) -> bool | None:
-    """The truth value of the formula from those of its atoms; None where they do not tell."""
+    """The truth value of the formula from those of its atoms; None where they leave it open."""
     if isinstance(formula, bool):
         return formula
     if isinstance(formula, Atom):
@@ -199,8 +199,8 @@ class Denial:
 
 @dataclass(frozen=True)
 class Question:
-    """Is there a point that meets all of `assumed` and every denial?  `part` says of which line of
-    the statement this is the denial.
+    """Is there a point that meets all of `assumed` and every denial?  `part` names the line of the
+    statement that is denied.
 
     A point refutes the statement where `refutes`; else (a `have` line, or the term under a root) it
     shows that a line does not follow.
@@ -260,7 +260,8 @@ def questions(
     """The questions of a statement, in the order: `have` and `root` lines, then what is shown.
 
     A sharp range asks one question more than the statements it names ask inside it: outside, is
-    there a parameter at which all of them hold?  Recurrences ask whether an identity fails.
+    there a parameter at which all of them hold?  Recurrences ask whether an identity fails.  Raises
+    KeyError where `earlier` lacks a statement that a sharp range names.
     """
     if statement.kind == "sharp":
         return _sharp_questions(statement, earlier or {})

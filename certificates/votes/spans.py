@@ -19,9 +19,8 @@ from juggleproof.certificates.votes.questions import Atom
 # -------------------------------------------------------------------------------------------------
 # Intervals, and the values of polynomials on boxes of them.
 
-End = tuple[
-    int, fmpq
-]  # (-1, 0) and (1, 0) are the infinite ends, (0, q) is q: tuples compare as the ends do
+# (-1, 0) and (1, 0) are the infinite ends, (0, q) is q: tuples compare as the ends do
+End = tuple[int, fmpq]
 Interval = tuple[End, End]
 ZERO: End = (0, fmpq(0))
 
@@ -89,7 +88,7 @@ def span(p: Expanded, box: Sequence[Interval]) -> Interval:
 @lru_cache(maxsize=4096)
 def _bernstein_range(coefficients: tuple[int, ...], low: fmpq, high: fmpq) -> tuple[fmpq, fmpq]:
     """The least and the largest Bernstein coefficient of a polynomial in one variable on [low,
-    high]: they enclose its values there.
+    high]: they enclose its values there (the convex hull property).
     """
     enclosing = bernstein(
         fmpq_poly(list(coefficients)), fraction(low), fraction(high), len(coefficients) - 1
@@ -262,7 +261,7 @@ def _worth(old: Interval, new: Interval) -> bool:
 
 
 def _ends_along(p: Expanded, i: int, box: list[Interval]) -> tuple[fmpq | None, fmpq | None]:
-    """(t, s) such that p >= 0 fails for x_i > t and for x_i < s; None where none is found."""
+    """(t, s) such that p >= 0 fails for x_i > t and for x_i < s; None where none is known."""
     spans = [
         (k, span(coefficient, box), bool(coefficient.used))
         for k, coefficient in reversed(p.collected(i))
@@ -297,9 +296,8 @@ def _end(
         return zero if constant else max(zero, none)
     end = 1 + max(max(c, none) for c in tops[:-1]) / -tops[-1]
     low = none
-    for _ in range(
-        SHIFTS
-    ):  # Cauchy's bound, then the least shift that is seen to be beyond all roots
+    # Cauchy's bound, then the least shift that is seen to be beyond all roots
+    for _ in range(SHIFTS):
         middle = rounded((low + end) / 2, up=True)
         if low < middle < end and all(
             c <= 0 for c in fmpq_poly(tops)(fmpq_poly([middle, 1])).coeffs()

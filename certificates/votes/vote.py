@@ -54,8 +54,8 @@ class Enclosure:
 
 @dataclass(frozen=True)
 class Vote:
-    """What one route says of one statement: `holds` or `fails` decide it; `unknown`, `enclosed` and
-    `not applicable` do not.
+    """The answer of one route about one statement: `holds` or `fails` decide it; `unknown`,
+    `enclosed` and `not applicable` do not.
 
     `model` is an exact point (name, value) at which the statement fails.
     """
@@ -69,7 +69,7 @@ class Vote:
 
     @property
     def decided(self) -> bool:
-        """Whether the vote says that the statement holds or that it fails."""
+        """Whether the answer is that the statement holds, or that it fails."""
         return self.answer in ("holds", "fails")
 
     def __str__(self) -> str:

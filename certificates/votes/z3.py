@@ -48,7 +48,7 @@ SEEDS = {"nlsat": "seed", "smt": "random_seed"}  # nlqsat takes no seed: it draw
 
 @dataclass(frozen=True)
 class Reply:
-    """sat, unsat or unknown; for sat the exact values of the free variables; how it was found."""
+    """sat, unsat or unknown; for sat the exact values of the free variables; by which steps."""
 
     answer: str
     point: dict[str, Exact] | None = None
@@ -255,7 +255,7 @@ def decide(session: Session, question: Question) -> Reply:
     """The question's answer, by steps that are each sound for the whole question, cheap ones first.
 
     As it stands; with scales set to 1, which loses nothing; branch by branch, or with witnesses
-    tried for what is said to exist, which only makes them harder to find.  Integers are first let
+    tried for what is to exist, which only makes them harder to find.  Integers are first let
     be reals, after p > 0 has become p >= 1: unsat then settles the whole; a solution in reals
     counts only if its integers are integers, and otherwise small integers are tried in turn.
     """
@@ -365,7 +365,7 @@ def _by_branches(session: Session, question: Question, engine: str) -> Reply:
 
 
 def _with_witnesses(session: Session, question: Question) -> Reply:
-    """Tries the value 0 for one variable that is said to exist, and asks again: unsat then settles
+    """Tries the value 0 for one variable that is to exist, and asks again: unsat then settles
     the whole.
     """
     if not question.refutes or question.part == "outside":
