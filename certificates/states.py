@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Node, Values
@@ -32,7 +32,7 @@ class State:
         self.context.index.update(variables.index)
         self.context.integers.update(variables.integers)
         self.facts: list[tuple[checker.Poly, str]] = []
-        self.choices: list[list[checker.Formula]] = []
+        self.choices: list[list[checker.Atom | checker.Join]] = []
         self.closed = False  # whether something false is assumed
         if parent is not None:
             self.context.licensed.update(parent.context.licensed)
@@ -43,8 +43,9 @@ class State:
     @property
     def formulas(self) -> list[checker.Formula]:
         """All that is assumed: what is false, the facts and the disjunctions, in this order."""
-        facts = [("atom", poly, relation) for poly, relation in self.facts]
-        return [*[False] * self.closed, *facts, *(("or", list(one)) for one in self.choices)]
+        facts: list[checker.Formula] = [("atom", poly, relation) for poly, relation in self.facts]
+        choices: list[checker.Formula] = [("or", list(one)) for one in self.choices]
+        return [*[False] * self.closed, *facts, *choices]
 
     def assume(self, formula: checker.Formula) -> State:
         """The same state, in which one more formula holds."""
@@ -98,7 +99,7 @@ class State:
         known: Mapping[str, checker.Statement],
         purpose: str,
         statement: checker.Statement,
-        base: Iterable[str] = (),
+        base: Collection[str] = (),
         sharp: Sequence[ast.expr] | None = None,
     ) -> bool:
         """Whether the checker accepts the values for what is assumed here, as a "point", a
