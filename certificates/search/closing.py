@@ -42,9 +42,7 @@ from juggleproof.certificates.work import Budget
 DEPTH = 2  # of cases by sign below one another
 CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
-SQUARED = (
-    3  # the effort at which leaves are closed by sums of squares, and there are no cases by sign
-)
+SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
 MOST_FOR_BOTH = 9  # facts
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
@@ -265,7 +263,7 @@ class Closing:
         return Lemma(text, nodes, place, rounded, nodes[place]), inside
 
     def split(self, state: State, problem: Problem, depth: int) -> Node | None:
-        """Cases by the sign of a candidate: those of which most close quickly come first."""
+        """Cases by the sign of a candidate; one of whose cases most close quickly comes first."""
         known = [
             text
             for fact in problem.facts
@@ -278,7 +276,7 @@ class Closing:
                     continue
                 nodes = [self.attempt(case, BOTH) for case in state.by_sign(text)]
                 count = sum(node is not None for node in nodes)
-                node = with_signs(text, nodes)
+                node = sign_node(text, nodes)
                 if node is not None:
                     return node
                 tried += [(count, text, nodes)] if count else []
@@ -290,7 +288,7 @@ class Closing:
                 if nodes[k] is None:
                     break
             else:
-                return with_signs(text, nodes)
+                return sign_node(text, nodes)
         return None
 
 
@@ -307,26 +305,26 @@ class Lemma:
     node: Node | None
 
 
-def with_signs(text: str, nodes: Sequence[Node | None]) -> Sign | None:
+def sign_node(text: str, nodes: Sequence[Node | None]) -> Sign | None:
     """The node of the cases p < 0, p = 0 and p > 0; None where one of them is open."""
     below, at, above = nodes
-    return (
-        None if below is None or at is None or above is None else ("sign", text, below, at, above)
-    )
+    if below is None or at is None or above is None:
+        return None
+    return "sign", text, below, at, above
 
 
 def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
     """The node below the nodes of lemmas."""
     for lemma in reversed(lemmas if node is not None else []):
         own = lemma.node if lemma.node is not None else wrapped(lemma.rounded, node)
-        node = with_signs(
+        node = sign_node(
             lemma.text, [own if k == lemma.place else case for k, case in enumerate(lemma.nodes)]
         )
     return node
 
 
 def candidates(state: State, problem: Problem, kind: str) -> list[str]:
-    """Polynomials whose sign may make cases: integers and their differences, factors of
+    """Polynomials worth cases by sign: integers and their differences, factors of
     facts, variables, factors of resultants.
     """
     pool = Pool()
@@ -380,6 +378,8 @@ def contradicted(formula: checker.Formula, known: set[FactKey]) -> bool:
     """Whether a fact among the known ones is the negation of the formula, or of a part of a
     conjunction.
     """
+    if isinstance(formula, bool):
+        return not formula
     if formula[0] == "and":
         return any(contradicted(part, known) for part in formula[1])
     return formula[0] == "atom" and any(
@@ -440,7 +440,7 @@ class AdjoinedNumber:
         return dense_text(poly, self.name) if poly.degree() > 0 else str(fraction(poly[0]))
 
     def entry(self) -> Adjoined:
-        """The number as values name it; its change of sign needs no proof."""
+        """The number as values adjoin it; its change of sign, of rationals, closes at once."""
         text = polynomial_text([int(c) for c in self.poly.coeffs()], self.name)
         return self.name, text, str(self.low), str(self.high), ("close",), ("close",)
 

@@ -184,9 +184,7 @@ def solved(statement: SharpRange, parameter: str, whole: Collection[str] = ()) -
         return None
     cases = condition[1] if condition[0] == "or" else [condition]
     ends = bounds_of(str(statement.domain), parameter) or (None, None)
-    texts = [
-        _interval(case[1] if case[0] == "and" else [case], parameter, state, ends) for case in cases
-    ]
+    texts = [_interval(checker.conjuncts(case), parameter, state, ends) for case in cases]
     return None if None in texts else " or ".join(text for text in texts if text)
 
 
@@ -229,7 +227,9 @@ def _interval(
     """
     bounds: dict[str, str] = {}
     for atom in atoms:
-        bound = _bound(atom[1], atom[2], parameter, state) if atom[0] == "atom" else None
+        if isinstance(atom, bool) or atom[0] != "atom":
+            return None
+        bound = _bound(atom[1], atom[2], parameter, state)
         if bound is None or bound[0][0] in {relation[0] for relation in bounds}:
             return None
         bounds[bound[0]] = bound[1]

@@ -12,7 +12,7 @@ from math import gcd, lcm, prod
 from flint import fmpz_mpoly
 
 from juggleproof.certificates.algebra.polynomials import degree_in, pseudo_divide, total_degree
-from juggleproof.certificates.nodes import Node, Product, Psatz
+from juggleproof.certificates.nodes import Cofactor, Node, Product, Psatz
 from juggleproof.certificates.search.psatz.facts import (
     Fact,
     Factors,
@@ -24,7 +24,7 @@ from juggleproof.certificates.search.psatz.facts import (
 )
 from juggleproof.certificates.search.psatz.problem import Problem, Source
 
-Cofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
+MonomialCofactor = tuple[int, tuple[int, ...]]  # an equation left, and the exponents of a monomial
 SWEEPS = 8
 
 
@@ -47,7 +47,7 @@ class Term:
 def lift(
     problem: Problem,
     used: list[tuple[tuple[Factors, int], Fraction]],
-    cofactors: list[tuple[Cofactor, Fraction]],
+    cofactors: list[tuple[MonomialCofactor, Fraction]],
     roots: list[fmpz_mpoly],
 ) -> Node | None:
     """The node of an identity between the problem's facts and the equations left."""
@@ -256,7 +256,7 @@ def written(source: Source, terms: Sequence[Term], owed: dict[int, fmpz_mpoly]) 
                 coefficient *= Fraction(source.dens[fact], leading) ** (want - have)
                 powers = merge(powers, ((fact, want - have),))
         products.append((str(coefficient), powers, str(root)))
-    equations: list[tuple[int, str]] = []
+    equations: list[Cofactor] = []
     for k, c in sorted(owed.items()):
         if scaling.scales:
             c = scaling.lift(c, tuple(want - have for want, have in zip(target, weights[k])))

@@ -27,7 +27,13 @@ from juggleproof.certificates.algebra.polynomials import (
 )
 from juggleproof.certificates.nodes import Node
 from juggleproof.certificates.search.psatz.facts import Factors, merge, power
-from juggleproof.certificates.search.psatz.lifting import Cofactor, Term, finish, lift, powers_of
+from juggleproof.certificates.search.psatz.lifting import (
+    MonomialCofactor,
+    Term,
+    finish,
+    lift,
+    powers_of,
+)
 from juggleproof.certificates.search.psatz.linear_program import Floats, Mask, Program, solve
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.work import Budget
@@ -52,7 +58,7 @@ class Combination:
     ) -> None:
         self.problem, self.roots, self.program = problem, roots, Program()
         self.blocks: list[Block] = []
-        self.cofactors: list[Cofactor] = []
+        self.cofactors: list[MonomialCofactor] = []
         facts, bounded = problem.facts, problem.bounded if bernstein else None
         others, degrees = only if only is not None else list(range(len(facts))), [0] * len(facts)
         if bounded is not None:

@@ -29,7 +29,7 @@ from juggleproof.certificates.algebra.semidefinite import (
 )
 from juggleproof.certificates.nodes import Node
 from juggleproof.certificates.search.psatz.facts import Factors
-from juggleproof.certificates.search.psatz.lifting import Cofactor, lift, powers_of
+from juggleproof.certificates.search.psatz.lifting import MonomialCofactor, lift, powers_of
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.work import Budget
 
@@ -43,7 +43,9 @@ from juggleproof.certificates.work import Budget
 
 Solved = tuple[LinearEquations, list[Floats]]
 Square = tuple[tuple[Factors, int], Fraction]  # (factors, number of a root or -1 for 1), weight
-Lift = Callable[[list[Square], list[tuple[Cofactor, Fraction]], list[fmpz_mpoly]], Node | None]
+Lift = Callable[
+    [list[Square], list[tuple[MonomialCofactor, Fraction]], list[fmpz_mpoly]], Node | None
+]
 MOST_ENTRIES = 2_000_000
 MOST_BITS = 6000  # of a coefficient
 MOST_MONOMIALS = 70  # in one block
@@ -75,7 +77,7 @@ class SquaresProgram:
 
     ring: Ring
     blocks: list[FactBlock]
-    cofactors: list[tuple[Cofactor, fmpz_mpoly]]
+    cofactors: list[tuple[MonomialCofactor, fmpz_mpoly]]
     lift: Lift
     total: Fraction = Fraction(1)
     goals: Sequence[tuple[float, float]] = GOALS
