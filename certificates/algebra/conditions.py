@@ -443,8 +443,9 @@ def _cost(polys: Sequence[fmpq_mpoly], place: int) -> tuple[int, int, int]:
 def without_equations(
     condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly]
 ) -> tuple[Condition, list[fmpq_mpoly]]:
-    """The condition after every equation linear in a variable is solved for it; where its
-    coefficient vanishes is a border.
+    """The condition after every equation that is linear in a variable, over the parameters, is
+    solved for it; and polynomials on whose roots that, or `more`, can change.  Raises Exhausted
+    where the budget ends.
     """
     borders: list[fmpq_mpoly] = list(more)
     while True:
