@@ -176,12 +176,10 @@ class Closing:
                     if any((m >> (checker.BITS * k)) % (1 << checker.BITS) for m in poly.terms)
                 }
                 if relation == ">" and poly.den == 1 and used <= integers:
-                    less = checker.fold(poly - state.context.number(1), ">=")
-                    if isinstance(less, bool) or not any(
-                        r == ">=" and q.terms == less[1].terms for q, r in state.facts
-                    ):
+                    less = poly - state.context.number(1)
+                    if not any(r == ">=" and q.terms == less.terms for q, r in state.facts):
                         numbers.append(index)
-                        state = state.branch(less)
+                        state = state.branch(checker.fold(less, ">="))
         return numbers, state
 
     def leaf(self, state: State, depth: int) -> Node | None:
