@@ -88,8 +88,7 @@ def in_the_plane(arrays: Mapping[str, Column]) -> Figure:
     finite = np.flatnonzero(np.abs(xs) + np.abs(ws) < 1e300)
     drawn = np.unravel_index(finite[:: -(-len(finite) // MOST_DOTS) or 1], xs.shape)
     states = [
-        (float(x), float(w), bool(odd))
-        for x, w, odd in zip(xs[drawn], ws[drawn], undecided[drawn])
+        (float(x), float(w), bool(odd)) for x, w, odd in zip(xs[drawn], ws[drawn], undecided[drawn])
     ]
     if not states:
         raise SceneError("no state is near enough to be drawn; choose a table instead")

@@ -41,7 +41,7 @@ def animation(
     executor: Executor | None = None,
 ) -> None:
     """Writes blocks that start at these angles, in radians, up to the horizon, in seconds; the same
-    to the byte for the same states.
+    to the byte for the same states.  SceneError for a horizon or a number of blocks out of range.
     """
     rows(len(angles))
     if not 0 < horizon <= MOST_FRAMES / RATE:

@@ -51,8 +51,8 @@ def pitch(setting: Scene) -> float:
 
 
 def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
-    """Which blocks are nearer to lying than to upright, as table I tells them apart
-    (`juggleproof.scenes.part.rest`).
+    """Which blocks are nearer to lying than to upright, as table I distinguishes them
+    (`juggleproof.scenes.part.rest`); of states (..., 10) the shape is (...).
     """
     split = np.arctan2(setting.a, setting.b)
     found: NDArray[np.bool_] = np.abs(np.sin(states[..., body.THETA])) > np.sin(split)

@@ -27,7 +27,7 @@ from juggleproof.scenes.part import (
     sweep,
     table_one,
 )
-from juggleproof.scenes.part.ensemble import moved
+from juggleproof.scenes.part.ensemble import advanced
 
 ROOT = Path(__file__).resolve().parents[3]
 BLOCK = scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3)
@@ -114,7 +114,7 @@ def test_run_that_cannot_go_on_is_told_in_one_line_holds() -> None:
     p, states = BLOCK.parameters(), standing(BLOCK, [0.0, 0.6])
     p[body.FRICTION] = 5.0
     assert (
-        "block 0, at t = " in (said := refused(lambda: moved((p, states, 1.0, fresh_notes(2)))))
+        "block 0, at t = " in (said := refused(lambda: advanced((p, states, 1.0, fresh_notes(2)))))
         and "friction is too large" in said
     )
 
