@@ -59,13 +59,13 @@ class State(NamedTuple):
     counterclockwise), and their velocities.
     """
 
-    t: Number
-    X: Number
-    Y: Number
-    theta: Number
-    VX: Number
-    VY: Number
-    omega: Number
+    t: Number = 0
+    X: Number = 0
+    Y: Number = 0
+    theta: Number = 0
+    VX: Number = 0
+    VY: Number = 0
+    omega: Number = 0
 
 
 def exact(value: Given, name: str) -> Fraction:
@@ -225,7 +225,7 @@ class Flight:
         """The gap between each corner and the table at the time t, and its rate.
 
         >>> model = Model(setting(3, 4, e=0, mu=0, g=10), 30)
-        >>> flight = Flight(model, model.lifted(State(0, 0, 9, 0, 0, 0, 2)))
+        >>> flight = Flight(model, model.lifted(State(Y=9, omega=2)))
         >>> [(int(gap), int(rate)) for gap, rate in flight.gaps(model.lift(0))]
         [(13, 6), (13, -6), (5, -6), (5, 6)]
         """
@@ -246,18 +246,9 @@ class Flight:
 
 
 def dropped(
-    setting: Setting,
-    theta: Given,
-    height: Given,
-    *,
-    X: Given = 0,
-    VX: Given = 0,
-    VY: Given = 0,
-    omega: Given = 0,
-    t: Given = 0,
-    digits: int = 50,
+    setting: Setting, theta: Given, height: Given, digits: int = 50, **others: Given
 ) -> State:
-    """The state at the time t whose lowest corner stands so high above the table.
+    """The state whose lowest corner stands so high above the table; `others` by their names.
 
     For a comparison with an integrator in float64, round it and start both at
     `State(*map(float, state))`.
@@ -266,7 +257,7 @@ def dropped(
     6
     """
     model = Model(setting, digits)
-    start = model.lifted(State(t, X, 0, theta, VX, VY, omega))
+    start = model.lifted(State(theta=theta, **others))
     lowest = min(gap for gap, _ in Flight(model, start).gaps(start.t))
     return start._replace(Y=model.lift(height) - lowest)
 
@@ -283,7 +274,6 @@ def dropped(
 # velocity of the centre of mass relative to the table, and angular velocity
 Motion = tuple[Number, Number, Number]
 Vector = tuple[Number, Number]
-AT_REST = (0, 0, 0)
 
 
 class Impact(NamedTuple):
@@ -310,7 +300,6 @@ def pushed(motion: Motion, place: Vector, k2: Number, impulse: Vector) -> Motion
     """The motion after an impulse there; k2 is the square of the radius of gyration (momentum and
     angular momentum).
 
-    >>> from fractions import Fraction
     >>> pushed((0, 0, 0), (3, 4), Fraction(2), (1, 0))
     (1, 0, Fraction(-2, 1))
     """
@@ -323,7 +312,6 @@ def impact(motion: Motion, place: Vector, k2: Number, e: Number, mu: Number) -> 
 
     A part that falls on the corner below its centre leaves with e times its speed:
 
-    >>> from fractions import Fraction
     >>> half = Fraction(1, 2)
     >>> fallen = impact((0, -2, 0), (0, -5), Fraction(25, 3), half, half)
     >>> fallen.motion == (0, 1, 0), fallen.mode
@@ -339,7 +327,7 @@ def impact(motion: Motion, place: Vector, k2: Number, e: Number, mu: Number) -> 
 
     def growth(slope: Number) -> Vector:
         """What a unit of normal impulse, with so much friction, adds to the corner's velocity."""
-        return corner_velocity(pushed(AT_REST, place, k2, (slope, 1)), place)
+        return corner_velocity(pushed((0, 0, 0), place, k2, (slope, 1)), place)
 
     def from_a_stop() -> tuple[int, Number]:
         """The way in which a corner without tangential velocity goes on, and its friction: it
@@ -411,14 +399,12 @@ def first_crossing(
     Numbers closer than the noise are not distinguished: Undecided is raised for a gap that touches
     0 so closely.
 
-    >>> from mpmath import mpf
     >>> first_crossing(lambda t: [(2 - t, -1), (3 - 2 * t, -2)], 0, mpf(0), mpf(8), mpf("1e-9"))
     (mpf('1.5'), 1)
     >>> touching = lambda t: [((t - 2)**2 + mpf("0.001"), 2 * (t - 2))]
     >>> first_crossing(touching, 2, mpf(0), mpf(8), mpf("1e-9"))
     """
-    everyone = list(range(len(gaps(start))))
-    pieces = [(start, end, everyone)]
+    pieces = [(start, end, list(range(len(gaps(start)))))]
     while pieces:
         left, right, watched = pieces.pop()
         half = (right - left) / 2
@@ -460,7 +446,6 @@ def crossing(gaps: Gaps, one: int, left: mpf, right: mpf, width: mpf) -> mpf:
     """The root of a gap that falls from above 0 to below, from the side where it is above, to this
     width (the Illinois method); Undecided where the gap does not change its sign.
 
-    >>> from mpmath import mpf
     >>> crossing(lambda t: [(1 - t**2, -2 * t)], 0, mpf(0), mpf(3), mpf("1e-15")) - 1 < mpf("1e-15")
     True
     """
