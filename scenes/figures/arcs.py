@@ -133,10 +133,10 @@ def polynomial(expression: Expr, parameter: Symbol, **values: Real) -> Quadratic
 
 @cache
 def _coefficients(expression: Expr, parameter: Symbol) -> list[Expr]:
-    found = (expression + 0 * parameter).as_poly(parameter)
-    if found is None or found.degree() > 2:
+    quadratic = (expression + 0 * parameter).as_poly(parameter)
+    if quadratic is None or quadratic.degree() > 2:
         raise ValueError(f"not a parabola: {expression}")
-    return list(reversed(found.all_coeffs()))
+    return list(reversed(quadratic.all_coeffs()))
 
 
 def zeros(expression: Expr, parameter: Symbol, **values: Real) -> list[float]:
@@ -255,13 +255,13 @@ def images(arcs: Sequence[Arc]) -> list[Arc]:
     """The image under f: each arc is cut where f jumps, and each part taken by the branch that
     holds there.
     """
-    found = []
+    mapped = []
     for arc in arcs:
         for part, strikes in cut_at_the_bounce(arc):
             (a, b, c), (d, e, k) = _affine(strikes)
             across = tuple(a * one + b * two for one, two in zip(part.across, part.up))
             up = tuple(d * one + e * two for one, two in zip(part.across, part.up))
-            found.append(
+            mapped.append(
                 Arc(
                     (across[0] + c, across[1], across[2]),
                     (up[0] + k, up[1], up[2]),
@@ -269,4 +269,4 @@ def images(arcs: Sequence[Arc]) -> list[Arc]:
                     part.stop,
                 )
             )
-    return found
+    return mapped

@@ -77,7 +77,7 @@ def _with_own_ids(text: str, slug: str) -> str:
     text = re.sub(r"<!--.*?-->|<!DOCTYPE[^>]*>", "", text, flags=re.DOTALL)
     text = re.sub(
         r'(\sid="|href="#|url\(#)([^")]*)',
-        lambda found: found[1] + short.get(found[2], f"{slug}-{found[2]}"),
+        lambda match: match[1] + short.get(match[2], f"{slug}-{match[2]}"),
         text,
     )
     text = re.sub(r'(<use [^>]*?)transform="translate\(([-\d.]+) ([-\d.]+)\)"', _placed, text)
@@ -198,7 +198,7 @@ class Plane:
         filled: bool = True,
         colour: str = INK,
     ) -> None:
-        """Marks points of the plane."""
+        """Dots, or other markers of matplotlib, at points of the plane."""
         xs, ys = zip(*(self.place(*one) for one in places))
         self.figure.add_artist(
             Line2D(

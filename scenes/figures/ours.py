@@ -17,6 +17,7 @@ from juggleproof.scenes.figures.arcs import (
     ALPHA,
     Arc,
     Place,
+    Real,
     column,
     curve,
     straight,
@@ -42,13 +43,13 @@ STARTS = tuple(
     for a, b in ((3, -3), (5, 0), (2, 6), (Fraction(1, 2), Fraction(-5, 2)))
 )
 LEVELS = range(1, 13)
-Point = tuple[Fraction, Fraction]
+State = tuple[Fraction, Fraction]  # (x, w)
 Side = tuple[Place, Place, bool]  # its ends, and whether it is left out of the region
 # an expression in x and w that is positive inside, and whether it is so on the boundary too
 Margin = tuple[Expr, bool]
 
 
-def normal_step(height: Fraction, closing: Fraction) -> Point:
+def normal_step(height: Fraction, closing: Fraction) -> State:
     """One period in normal form, exactly.
 
     >>> normal_step(Fraction(3), Fraction(-3))
@@ -59,7 +60,7 @@ def normal_step(height: Fraction, closing: Fraction) -> Point:
     )
 
 
-def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Point]:
+def orbit_into(trap: Sequence[Margin], start: State, most: int = 30) -> list[State]:
     """The orbit from the start until it is in the trap; ValueError where that takes more steps than
     allowed.
     """
@@ -71,7 +72,7 @@ def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Poi
     return states
 
 
-def inside(trap: Sequence[Margin], height: Fraction, closing: Fraction) -> bool:
+def inside(trap: Sequence[Margin], height: Real, closing: Real) -> bool:
     """Whether a state is in the trap: every margin is positive, or zero where that is allowed."""
     return all(
         here > 0 or (here == 0 and not strict)

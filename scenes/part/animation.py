@@ -133,11 +133,11 @@ def varied(numbers: Iterable[int]) -> bytes:
     >>> varied([0, -1, 64, -64]).hex()
     '000180017f'
     """
-    found = bytearray()
+    encoded = bytearray()
     for number in numbers:
         rest = 2 * number if number >= 0 else -2 * number - 1
         while rest > 127:
-            found.append(rest & 127 | 128)
+            encoded.append(rest & 127 | 128)
             rest >>= 7
-        found.append(rest)
-    return bytes(found)
+        encoded.append(rest)
+    return bytes(encoded)

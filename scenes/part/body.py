@@ -34,8 +34,8 @@ def _digest() -> str:
 
 
 def _folder() -> Path | None:
-    """Where machine code is kept, if anywhere: where numba is told to, or beside the other records
-    of the project (see `juggleproof.proofs.kept`).
+    """The folder of machine code, if there is one: that of NUMBA_CACHE_DIR, or beside the other
+    records of the project (see `juggleproof.proofs.kept`).
     """
     chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("JUGGLEPROOF_CACHE", "")
     if chosen == "off":

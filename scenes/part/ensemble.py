@@ -117,9 +117,9 @@ def run(
 
 def joined(parts: Iterable[tuple[Array, Array]]) -> Run:
     """Chunks in their order as one run."""
-    found = list(parts)
+    chunks = list(parts)
     return Run(
-        np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found])
+        np.concatenate([part[0] for part in chunks]), np.concatenate([part[1] for part in chunks])
     )
 
 
@@ -244,8 +244,8 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
     neighbours that end apart.
 
     >>> block = Scene(0.01, 0.02, 0.5, 0.3, 0, 0, 0, 0, 0, 0, 9.81, 1e-12, 1e-3, "rest")
-    >>> found = no_vibration(block)
-    >>> found.as_printed(), found.upright < found.exact < found.lying, round(found.lying, 6)
+    >>> split = no_vibration(block)
+    >>> split.as_printed(), split.upright < split.exact < split.lying, round(split.lying, 6)
     (True, True, 26.565051)
     """
     still = replace(setting, A_x=0.0, f_x=0.0, phase_x=0.0, A_y=0.0, f_y=0.0, phase_y=0.0)
@@ -285,21 +285,21 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
     )
 
 
-def in_words(found: Split) -> str:
+def in_words(split: Split) -> str:
     """Where blocks end on a still table, and where they part.
 
-    >>> found = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
-    >>> print(in_words(found))  # doctest: +NORMALIZE_WHITESPACE
+    >>> split = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
+    >>> print(in_words(split))  # doctest: +NORMALIZE_WHITESPACE
     Without vibration 27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the
     paper says. The two part
     between 26.5600000000 and 26.5700000000 degrees; atan(a/b) is 26.5650000000 degrees.
     """
-    up, count = found.ends.index(90), len(found.ends)
+    up, count = split.ends.index(90), len(split.ends)
     printed = (
-        "as the paper says" if found.as_printed() else "where the paper says 0 to 26 and 27 to 90"
+        "as the paper says" if split.as_printed() else "where the paper says 0 to 26 and 27 to 90"
     )
     return (
         f"Without vibration {up} blocks, 0 to {up - 1} degrees, end upright, and {count - up}, {up}"
-        f" to {count - 1} degrees, lie, {printed}. The two part between {found.upright:.10f} and"
-        f" {found.lying:.10f} degrees; atan(a/b) is {found.exact:.10f} degrees."
+        f" to {count - 1} degrees, lie, {printed}. The two part between {split.upright:.10f} and"
+        f" {split.lying:.10f} degrees; atan(a/b) is {split.exact:.10f} degrees."
     )

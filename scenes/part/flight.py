@@ -45,7 +45,7 @@ NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton'
 # so that the order of the corners does not matter
 EQUAL_GAPS = 1e-15
 LEAST_FLIGHT = 1e-10  # seconds: how long a flight takes that would end at once
-# of the time at which a corner comes down to a height, and the seconds to which it is found
+# of the time at which a corner comes down to a height, the second in seconds
 MOST_GUESSES, TIME_RESOLUTION = 100, 1e-14
 
 

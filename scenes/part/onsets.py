@@ -275,10 +275,10 @@ def recorded() -> tuple[Point, ...]:
     True
     """
     try:
-        found = json.loads(RECORD.read_text(encoding="utf-8"))["points"]
+        points = json.loads(RECORD.read_text(encoding="utf-8"))["points"]
         return tuple(
             Point(p["e"], p["mu"], tuple(p["medians"]), tuple(p["chaotic"]), p["misfit"])
-            for p in found
+            for p in points
         )
     except (OSError, ValueError, KeyError, TypeError) as fault:
         raise SceneError(

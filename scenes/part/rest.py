@@ -403,17 +403,17 @@ def end_of_phase(
             guess = min(max(secant, early + TIME_RESOLUTION / 2), late - TIME_RESOLUTION / 2)
         allowed *= 0.8
         _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, guess)
-        found = ending(p, t + guess, vx2, theta2, omega2, i, slide, turn)
-        if found == LASTS:
+        how = ending(p, t + guess, vx2, theta2, omega2, i, slide, turn)
+        if how == LASTS:
             early, above = guess, margin(p, ended, t + guess, vx2, theta2, omega2, i, slide, turn)
             below = below / 2 if side > 0 else below
             side = 1
             continue
-        late, below = guess, margin(p, found, t + guess, vx2, theta2, omega2, i, slide, turn)
+        late, below = guess, margin(p, how, t + guess, vx2, theta2, omega2, i, slide, turn)
         above = above / 2 if side < 0 else above
         side = -1
-        if found != ended:
-            ended, side = found, 0
+        if how != ended:
+            ended, side = how, 0
             _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, early)
             above = margin(p, ended, t + early, vx2, theta2, omega2, i, slide, turn)
     return early, late, ended

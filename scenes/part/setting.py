@@ -189,12 +189,12 @@ def changed(setting: Scene, **numbers: float) -> Scene:
 
 def _finite(value: float, name: str) -> float:
     try:
-        found = float(value)
+        number = float(value)
     except (TypeError, ValueError):
         raise SceneError(f"{name} = {str(value)[:40]!r} is no number") from None
-    if not math.isfinite(found):
-        raise SceneError(f"{name} = {found} is not finite")
-    return found
+    if not math.isfinite(number):
+        raise SceneError(f"{name} = {number} is not finite")
+    return number
 
 
 def standing(setting: Scene, angles: Sequence[float] | Array) -> Array:
