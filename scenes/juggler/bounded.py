@@ -23,7 +23,7 @@ from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 # Numbers in float64 with bounds.
 #
 # Arrays of float64 with a proved bound on their distance to the exact numbers (running error
-# analysis).
+# analysis: Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 3.3).
 #
 # A `Bounded` is an array v of floats and an array e >= 0 of floats with |exact - v| <= e, entry by
 # entry.  Let u = 2^-53 be the unit roundoff, fl a rounded result (IEEE 754 binary64, to nearest,

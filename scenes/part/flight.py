@@ -1,5 +1,5 @@
-"""Free flight, and the first corner that meets the table: conservative advancement, which cannot
-step over a meeting.
+"""Free flight, and the first corner that meets the table: conservative advancement (Mirtich 1996),
+which cannot step over a meeting.
 
 The gap of a corner at time s of a flight is at least gap + rate s - M s^2/2, where M = g + A_y
 W_y^2 + omega^2 rho bounds how fast its rate can fall. Each step goes to the first root of that

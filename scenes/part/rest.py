@@ -115,7 +115,9 @@ LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of
 
 @compiled
 def lift_off(p: Floats, t: float) -> float:
-    """When the table next falls faster than g, now where it does; 1e300 where it never does."""
+    """The time (s) at which the table next falls faster than g, t where it does; 1e300 where it
+    never does.
+    """
     if p[G] + table_lift(p, t) <= 0:
         return t
     if p[A_Y] * p[W_Y] * p[W_Y] <= p[G]:
@@ -196,7 +198,9 @@ def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
 
 @compiled
 def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves a block that lies on a face on until it leaves it, or to the time `until`."""
+    """Moves a block that lies on a face on until it leaves it, or to the time `until`; DONE, or why
+    it gave up.
+    """
     t, x, vx, slide = z[TIME], z[X], z[V_X], z[SLIDE]
     upright = int(z[CORNER]) % 2 == 0
     half, tall = (p[HALF_SHORT], p[HALF_LONG]) if upright else (p[HALF_LONG], p[HALF_SHORT])
@@ -437,7 +441,7 @@ LEAST_STEP = 1e-10  # seconds: how long a phase lasts that would end at once
 @compiled
 def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves a pivoting block on until it leaves its corner or the next one strikes, or to the time
-    `until`.
+    `until`; DONE, or why it gave up.
     """
     i, slide = int(z[CORNER]), z[SLIDE]
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]

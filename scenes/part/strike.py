@@ -49,7 +49,7 @@ from juggleproof.scenes.part.body import (
 # -------------------------------------------------------------------------------------------------
 # One corner.
 #
-# Wang and Mason's five contact modes with Poisson's restitution, as
+# Wang and Mason's five contact modes (1992) with Poisson's restitution, as
 # `juggleproof.symbolic.corner_impact` derives them.
 #
 # The formulas stand here once more so that they can be compiled; a test compares them, exactly,
@@ -142,10 +142,9 @@ def impulse(
 def hold(
     p: Floats, t: float, theta: float, omega: float, i: int, slide: float
 ) -> tuple[float, float, float]:
-    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the
-    direction `slide`, or sticking where that is 0.
-
-    Third, the angular acceleration by this force.
+    """The force (F, N) per unit of mass (m/s^2) at corner i that keeps it on the table, sliding in
+    the direction `slide`, or sticking where that is 0; third, the angular acceleration by this
+    force (rad/s^2).
     """
     c, s = cos(theta), sin(theta)
     x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
