@@ -141,7 +141,7 @@ def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
         seed=options.seed,
         peak=AMPLITUDES[options.amplitudes],
         executor=executor,
-        tell=progress(),
+        report=progress(),
     )
     clear()
     keep_results(
@@ -193,7 +193,7 @@ def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     horizon = _number(options.horizon, "horizon")
     points: list[Point] = []
 
-    def tell(point: Point) -> None:
+    def report(point: Point) -> None:
         points.append(point)
         print(part_tables.point(point), flush=True)
 
@@ -209,7 +209,7 @@ def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
             seed=options.seed,
             peak=AMPLITUDES[options.amplitudes],
             executor=executor,
-            tell=tell,
+            report=report,
         )
     except KeyboardInterrupt:
         interrupted = True
