@@ -28,10 +28,10 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs import claims, forms
-from juggleproof.proofs.derivations import Origin, made_by
-from juggleproof.proofs.derivations import derived as derived
-from juggleproof.proofs.derivations import encoded as encoded
 from juggleproof.proofs.forms import Vocabulary
+from juggleproof.proofs.paper.derivations import Origin, made_by
+from juggleproof.proofs.paper.derivations import derived as derived
+from juggleproof.proofs.paper.derivations import encoded as encoded
 from juggleproof.proofs.reading.evaluation import Environment, relate
 from juggleproof.proofs.reading.meaning import Meaning, Printed
 from juggleproof.proofs.reading.values import (

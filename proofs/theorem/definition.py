@@ -28,8 +28,8 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.certificates.search.closing import Hints
-from juggleproof.proofs.derivations import Origin, made_by
 from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.paper.derivations import Origin, made_by
 from juggleproof.proofs.paper.names import (
     H,
     Placed,

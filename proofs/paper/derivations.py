@@ -18,7 +18,8 @@ from sympy import ImmutableMatrix, MatrixBase
 from juggleproof import symbolic
 from juggleproof.certificates.language import Formula, Term, origins_in, real, term
 from juggleproof.proofs.claims import Body, assertions
-from juggleproof.proofs.encoding import from_sympy, paper_form
+from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.paper.paper_form import paper_form
 from juggleproof.proofs.reading.values import Matrix, Vector
 
 Rows = tuple[tuple[str, ...], ...]
