@@ -15,7 +15,8 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import rests_on
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.judging import Judgement, settle_by_rules
+from juggleproof.proofs.judgement import Judgement
+from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
 from juggleproof.proofs.register import (

@@ -22,7 +22,7 @@ from juggleproof.proofs.claims import (
     Following,
     Readings,
 )
-from juggleproof.proofs.judging import Judgement
+from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.register import Change, differences, load_register, registered
 from juggleproof.proofs.reports.errata import counterexample, group_of, what_is_wrong
 from juggleproof.proofs.reports.tables import plain

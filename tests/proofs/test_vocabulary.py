@@ -25,7 +25,8 @@ from juggleproof.certificates.language import (
 from juggleproof.certificates.search.scales import with_scales
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import Vocabulary, always, domains_of
-from juggleproof.proofs.judging import Judgement, Resources, judge
+from juggleproof.proofs.judgement import Judgement, Resources
+from juggleproof.proofs.judging import judge
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.names import STANDING
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from juggleproof.certificates.language import origins_in, reals, substitute
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import Origin, derivations_of, derived
+from juggleproof.proofs.paper.derivations import Origin, derivations_of, derived, derived_vector
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -49,7 +49,9 @@ def test_an_origin_stays_with_its_term_holds() -> None:
     moved = substitute(energy, {"v": v + y, "beta": y}) + 1
     assert list(origins_in(moved)) == [made]
     assert list(origins_in(pickle.loads(pickle.dumps(moved)))) == [made]
-    assert list(origins_in([derived("launch_state").component(2) > v])) == [Origin("launch_state")]
+    assert list(origins_in([derived_vector("launch_state").component(2) > v])) == [
+        Origin("launch_state")
+    ]
     plain = v**2 / 2 + 0
     assert plain.made_by(made) == plain and hash(plain.made_by(made)) == hash(plain)
     assert list(origins_in(plain)) == []
