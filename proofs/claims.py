@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Union
+from typing import TYPE_CHECKING, TypedDict, TypeVar, Union
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -25,13 +25,17 @@ from juggleproof.proofs.forms import PLAIN, Vocabulary, domains_of
 from juggleproof.proofs.reading import meaning
 from juggleproof.proofs.reading.values import Matrix, Vector
 
+if TYPE_CHECKING:
+    from juggleproof.certificates.search.closing import Hints
+
+Read = TypeVar("Read", bound=Callable[..., object])
+
 # -------------------------------------------------------------------------------------------------
 # Claims: an assertion with its place and print, and the formal reading that is judged.
 #
 # A claim is a function from its parsed print to statements.  What it returns is an assertion (all
-# its
-# statements hold), readings (a sentence that can be read in several ways), an argument (steps and a
-# conclusion), or what follows from map rules.
+# its statements hold), readings (a sentence that can be read in several ways), an argument (steps
+# and a conclusion), or what follows from map rules.
 
 
 @dataclass(frozen=True)
@@ -91,6 +95,16 @@ class Said:
         return self.body
 
 
+class ClaimHints(TypedDict, total=False):
+    """What a claim may tell the search: the names of the statements that its proofs use, and how
+    they are used; of a map rule, by the name of the premise.
+    """
+
+    uses: Sequence[str]
+    search: Hints
+    premises: Mapping[str, Hints]
+
+
 @dataclass(frozen=True)
 class Claim:
     """One assertion: id, place, what is printed, and the function that reads it."""
@@ -99,14 +113,14 @@ class Claim:
     section: str
     place: str
     says: str
-    read: Callable[..., Any]
+    read: Callable[..., object]
     printed: str = ""
     as_it_stands: str = ""
     repeats: str = ""
     parameters: tuple[str, ...] | None = None
     derived: Callable[[], Term | Vector | Matrix] | None = None
-    true_nearby: tuple[str, Callable[[], Any]] | None = None
-    hints: Mapping[str, Any] = field(default_factory=dict)
+    true_nearby: tuple[str, Callable[[], object]] | None = None
+    hints: ClaimHints = field(default_factory=lambda: ClaimHints())
     source: str = ""
     vocabulary: Vocabulary = PLAIN
 
@@ -138,7 +152,7 @@ class Claim:
             shown = path
         return f"{shown}:{code.co_firstlineno}"
 
-    def body(self, printed: Any = None) -> Body:
+    def body(self, printed: meaning.Printed | None = None) -> Body:
         """What the claim asserts, with its own print or with another one in its place.
 
         Raises ClaimError, naming the claim, where what it returns is not a claim.
@@ -147,12 +161,12 @@ class Claim:
             return as_body(self.read(), self.id)
         return as_body(self.read(self.read_print() if printed is None else printed), self.id)
 
-    def read_print(self, latex: str = "") -> Any:
+    def read_print(self, latex: str = "") -> meaning.Printed:
         """The print, or another LaTeX text, as the reader reads it."""
         return meaning.read(latex or self.printed)
 
 
-def as_body(returned: Any, claim_id: str) -> Body:
+def as_body(returned: object, claim_id: str) -> Body:
     """What a claim function returned, as a body."""
     if isinstance(returned, (Assertion, Readings, Argument, Following)):
         return returned
@@ -231,10 +245,10 @@ def claim(
     repeats: str = "",
     parameters: Sequence[str] | None = None,
     derived: Callable[[], Term | Vector | Matrix] | None = None,
-    true_nearby: tuple[str, Callable[[], Any]] | None = None,
-    hints: Mapping[str, Any] | None = None,
+    true_nearby: tuple[str, Callable[[], object]] | None = None,
+    hints: ClaimHints | None = None,
     vocabulary: Vocabulary = PLAIN,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+) -> Callable[[Read], Read]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription
@@ -246,7 +260,7 @@ def claim(
     and dots.
     """
 
-    def register(read: Callable[..., Any]) -> Callable[..., Any]:
+    def register(read: Read) -> Read:
         if not re.fullmatch(r"[A-Za-z0-9.\-]+", id):
             raise ClaimError(f"{id!r} is no name for a claim; use letters, digits, - and .")
         if any(known.id == id for known in _registry):
@@ -266,7 +280,7 @@ def claim(
             None if parameters is None else tuple(parameters),
             derived,
             true_nearby,
-            dict(hints or {}),
+            hints or {},
             f"{read.__module__}.{read.__qualname__}",
             vocabulary,
         )

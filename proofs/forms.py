@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import ast
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
@@ -25,16 +24,15 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
+from juggleproof.proofs.reading.evaluation import Environment
 
 # -------------------------------------------------------------------------------------------------
 # The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes
 # plain statements.
 #
-# A vocabulary says what is understood without being said: the standing assumption on a parameter (0
-# <
-# alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a name is.  The
-# lines
-# it adds stand in the statement, where an auditor reads them.
+# A vocabulary says what is understood without being said: the standing assumption on a parameter
+# (0 < alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a name is.  The
+# lines it adds stand in the statement, where an auditor reads them.
 
 
 @dataclass(frozen=True)
@@ -58,7 +56,7 @@ class Vocabulary:
     sample: Mapping[str, Fraction] = field(default_factory=dict)
     domains: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
     scales: frozenset[str] | None = None
-    reads: Callable[[], Any] | None = None
+    reads: Callable[[], Environment] | None = None
     defines: Callable[[], Sequence[Definition]] | None = None
 
 
@@ -516,7 +514,9 @@ def has_whole_range(statement: Statement, domains: Mapping[str, tuple[Formula, .
     return _say_the_same(statement.forall, ranges, whole)
 
 
-def _say_the_same(variables: Sequence[str], left: Sequence[Any], right: Sequence[Any]) -> bool:
+def _say_the_same(
+    variables: Sequence[str], left: Sequence[object], right: Sequence[object]
+) -> bool:
     return _are_the_same(tuple(variables), tuple(map(str, left)), tuple(map(str, right)))
 
 
@@ -537,13 +537,13 @@ def _are_the_same(
     )
 
 
-def _atoms(context: checker.Context, trees: list[Any]) -> set[Any]:
+def _atoms(context: checker.Context, trees: list[ast.expr]) -> set[Hashable]:
     """The atoms of a conjunction, each as its primitive polynomial and relation; anything else as
     itself.
     """
     joined = checker.join("and", [context.formula(tree) for tree in trees])
     parts = [joined] if isinstance(joined, bool) or joined[0] != "and" else joined[1]
-    found: set[Any] = set()
+    found: set[Hashable] = set()
     for part in parts:
         if isinstance(part, bool) or part[0] != "atom":
             found.add(repr(part))

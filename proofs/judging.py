@@ -517,7 +517,7 @@ class Judge:
         if result is None:
             return Sharp(NOT_FOUND, tried=tried)
         sharp, proof, shown = result
-        certificate: Certificate = {"certified": proof}
+        certificate = cast(Certificate, {"certified": proof})
         earlier = {part.name: read(part.text(), part.name) for part in parts}
         outcome, reason = checker.check_one(
             read(sharp.text(), name), certificate, self.known, earlier

@@ -10,10 +10,10 @@ import hashlib
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import Any  # of JSON
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
@@ -97,7 +97,7 @@ def load(key: str) -> list[dict[str, Any]]:
         return []
 
 
-def keep(key: str, records: Sequence[dict[str, Any]]) -> None:
+def keep(key: str, records: Sequence[Mapping[str, object]]) -> None:
     """Keeps the records under the key, and only the latest few files; a folder that cannot be
     written is let be.
     """

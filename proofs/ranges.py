@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from fractions import Fraction
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
 from juggleproof.certificates.language import (
     End,
     Formula,
+    Number,
     Roles,
     SharpRange,
     Statement,
@@ -36,7 +37,7 @@ def search_sharp_range(
     known: Mapping[str, checker.Statement],
     budget: int,
     roles: Roles,
-) -> tuple[SharpRange, Any, str] | None:
+) -> tuple[SharpRange, Sequence[object], str] | None:
     """The sharp range of the statements, its certificate and how it is told; None where the search
     does not find one.
 
@@ -133,7 +134,7 @@ def told_of_pairs(statement: SharpRange, number: str) -> str:
 def told(
     line: Line,
     parameter: str,
-    numbers: Sequence[tuple[str, Term, Any, Any]] = (),
+    numbers: Sequence[tuple[str, Term, Number, Number]] = (),
     ends: tuple[End | None, End | None] = (None, None),
 ) -> str:
     """The set as a person reads it: intervals, up to the ends of the domain, and for each
@@ -148,7 +149,8 @@ def told(
             (
                 name
                 for name, poly, low, high in numbers
-                if str(poly) == str(polynomial_term(n.coefficients, parameter)) and low < n < high
+                if str(poly) == str(polynomial_term(n.coefficients, parameter))
+                and Fraction(str(low)) < n < Fraction(str(high))
             ),
             f"c{k + 1}",
         )
@@ -177,7 +179,7 @@ def told(
     return "; ".join([text, *equations])
 
 
-def polynomial(coefficients: Sequence[Any], name: str) -> str:
+def polynomial(coefficients: Sequence[int], name: str) -> str:
     """A polynomial in one variable, coefficients from the constant up, as text.
 
     >>> polynomial([-1, 7, 1, 1], "a")

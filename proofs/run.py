@@ -16,8 +16,10 @@ from collections.abc import Callable, Mapping, Sequence, Set
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
@@ -244,6 +246,7 @@ def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
 # every run reads everything.
 
 Checked = list[tuple[str, str, str]]  # name, outcome, reason
+Check = Callable[..., tuple[str, checker.Rejected | None]]  # as `checker.check_one`
 
 
 class Reading:
@@ -257,7 +260,7 @@ class Reading:
         self.folder, self.jobs = folder, jobs
         self.nothing = nothing or not (folder / STATEMENTS).exists()
         self.results: Checked = []
-        self._processes: list[tuple[Any, Any]] = []
+        self._processes: list[tuple[BaseProcess, Connection]] = []
 
     def __enter__(self) -> Reading:
         if self.jobs > 1 and not self.nothing:
@@ -336,7 +339,12 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str],
     """
     found, assumed = dict[str, str](), dict[str, str]()
 
-    def check_own(statement: Any, certificate: Any, known: Any, earlier: Any) -> tuple[str, Any]:
+    def check_own(
+        statement: checker.Statement,
+        certificate: object,
+        known: Mapping[str, checker.Statement],
+        earlier: Mapping[str, checker.Statement],
+    ) -> tuple[str, checker.Rejected | None]:
         if statement.name.split("/")[0] in share:
             outcome, reason = checker.check_one(statement, certificate, known, earlier)
             found[statement.name] = outcome
@@ -352,7 +360,7 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str],
     return _read(folder, check_own), found, assumed
 
 
-def _read(folder: Path, check: Any = checker.check_one) -> Checked:
+def _read(folder: Path, check: Check = checker.check_one) -> Checked:
     try:
         results: Checked = checker.check_folder(str(folder), check)
         return results
@@ -360,7 +368,7 @@ def _read(folder: Path, check: Any = checker.check_one) -> Checked:
         return []
 
 
-def _send(folder: Path, share: Set[str], sender: Any) -> None:
+def _send(folder: Path, share: Set[str], sender: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     gc.disable()  # the checker makes no cycles, and the process ends with its share
     sender.send(check_share(folder, share))
@@ -565,7 +573,7 @@ def _judge_one(index: int) -> tuple[Judgement, float]:
     return judge(_work[0][index], _work[1]), time.perf_counter() - began
 
 
-def stop(pool: Any) -> None:
+def stop(pool: ProcessPoolExecutor) -> None:
     """Ends the processes of a pool of our own at once."""
     for process in list((pool._processes or {}).values()):
         process.kill()

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from juggleproof.certificates.language import (
     Formula,
@@ -23,6 +23,7 @@ from juggleproof.certificates.language import (
 )
 from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs import claims
+from juggleproof.proofs.claims import ClaimHints
 from juggleproof.proofs.forms import Vocabulary, always
 from juggleproof.proofs.paper.names import derived, derived_vector
 
@@ -141,7 +142,7 @@ def a_product_of_two_numbers_and_a_square_is_not_negative() -> Statement:
     return always(p * q * d**2 >= 0, given=[p >= 0, q >= 0])
 
 
-def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
+def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> ClaimHints:
     """The hints of a claim: these products, each of two numbers that are not negative and what is
     squared.
     """

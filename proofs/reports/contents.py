@@ -26,6 +26,7 @@ from juggleproof.proofs.register import (
     load_register,
     registered,
 )
+from juggleproof.proofs.register import Entry as Registered
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of, results_of
@@ -158,7 +159,7 @@ def tool_versions() -> dict[str, str]:
     return found
 
 
-def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
+def entry(claim: Claim, judgement: Judgement) -> Registered:
     """What the register keeps of a judgement."""
     return registered(
         judgement.verdict.word,

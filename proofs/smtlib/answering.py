@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import cast
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
@@ -27,6 +27,7 @@ from juggleproof.certificates.language import (
     different,
     names_in,
 )
+from juggleproof.certificates.nodes import Certificate, Counterexample
 from juggleproof.certificates.search.certificate import (
     SQUARES_FIRST,
     search_certificate,
@@ -150,7 +151,7 @@ class Question:
     name: str
     texts: tuple[str, ...]
     budget: int = BUDGET
-    stored: Mapping[str, Any] = field(default_factory=dict)
+    stored: Mapping[str, Certificate] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -160,7 +161,7 @@ class Answer:
     name: str
     word: str
     text: str
-    certificate: Any
+    certificate: Certificate
 
     @property
     def reason(self) -> str:
@@ -168,14 +169,18 @@ class Answer:
         return str(self.certificate.get("unknown", ""))
 
     @property
+    def _counterexample(self) -> Counterexample:  # a list, where it comes from a file
+        return cast(Counterexample, self.certificate["refuted"])
+
+    @property
     def model(self) -> tuple[tuple[str, str], ...]:
         """The value of every variable of the statement, where there is a model."""
-        return tuple(sorted(self.certificate["refuted"][2].items())) if self.word == "sat" else ()
+        return tuple(sorted(self._counterexample[2].items())) if self.word == "sat" else ()
 
     @property
     def numbers(self) -> tuple[str, ...]:
         """The algebraic numbers in the model, each a root of a polynomial between two bounds."""
-        entries = self.certificate["refuted"][1] if self.word == "sat" else []
+        entries = self._counterexample[1] if self.word == "sat" else []
         return tuple(
             f"{low} <= {name} <= {high}, {poly} = 0" for name, poly, low, high, *_ in entries
         )
@@ -221,17 +226,18 @@ def answer(asked: Question) -> Answer:
     return first or Answer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
 
 
-def settled(name: str, text: str, certificate: Any) -> str:
+def settled(name: str, text: str, certificate: Certificate) -> str:
     """sat or unsat where the checker accepts the certificate, else unknown."""
     outcome, _ = checker.check_one(checker.read_statements(text)[name], certificate, {}, {})
     return WORDS.get(str(outcome), "unknown")
 
 
-def _searched(name: str, text: str, budget: int) -> dict[str, Any]:
+def _searched(name: str, text: str, budget: int) -> Certificate:
     try:
-        return search_certificate(
+        found = search_certificate(
             checker.read_statements(text)[name], {}, Budget(budget), attempts=SQUARES_FIRST
         )
+        return cast(Certificate, found)
     except Exhausted:
         return {"unknown": f"the budget of {budget} units ran out"}
     except (OverflowError, ValueError) as error:
@@ -396,7 +402,7 @@ def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
     """
     scripts = ", ".join(dict.fromkeys(ascii(one.path.name)[1:-1] for one in answered))
     blocks = [f"# {TITLE.format(scripts)}"]
-    certificates: dict[str, dict[str, object]] = {}
+    certificates: dict[str, dict[str, Certificate]] = {}
     for one in answered:
         renamed = [
             f"{variable.name} is {ascii(variable.symbol)[1:-1]}"

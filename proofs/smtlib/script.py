@@ -10,15 +10,23 @@ is the statement of the problem. Source: SMT-LIB 2.6, section 4.2, logics QF_NRA
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates.language import NAME, ClaimError, Formula, real
 from juggleproof.certificates.language import RESERVED as OUR_RESERVED
 from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Word
-from juggleproof.proofs.smtlib.terms import RESERVED, SORTS, Function, Reader, Value, brief, plain
+from juggleproof.proofs.smtlib.terms import (
+    RESERVED,
+    SORTS,
+    Function,
+    Reader,
+    Scope,
+    Value,
+    brief,
+    plain,
+)
 
 LOGICS = ("QF_NRA", "QF_LRA")
 # they ask for what is shown, and change nothing
@@ -113,7 +121,7 @@ class Problem:
 class Frame:
     """What was declared, defined and asserted since the last push, and by which commands."""
 
-    scope: dict[str, Any] = field(default_factory=dict)
+    scope: dict[str, Value | Function] = field(default_factory=dict)
     variables: list[Variable] = field(default_factory=list)
     assertions: list[tuple[int, Formula]] = field(default_factory=list)
     commands: list[Node] = field(default_factory=list)
@@ -128,7 +136,7 @@ class Session:
         self.status, self.name, self.source, self.ended = "", "", "", False
 
     @property
-    def scope(self) -> Mapping[str, Any]:
+    def scope(self) -> Scope:
         """Everything that is declared and defined."""
         return {name: value for frame in self.frames for name, value in frame.scope.items()}
 
@@ -267,7 +275,7 @@ class Session:
         value = self._of_sort(sort_name, body, {**function.scope, **inner})
         self.frames[-1].scope[symbol] = function if function.parameters else value
 
-    def _of_sort(self, sort: str, body: Expression, scope: Mapping[str, Any]) -> Value:
+    def _of_sort(self, sort: str, body: Expression, scope: Scope) -> Value:
         return self.reader.real(body, scope) if sort == "Real" else self.reader.formula(body, scope)
 
     def _define_const(

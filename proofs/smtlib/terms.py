@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import product
-from typing import Any, Union
+from typing import TypeVar, Union
 
 from juggleproof.certificates.language import (
     Formula,
@@ -214,13 +214,14 @@ class Function:
     parameters: tuple[tuple[str, str], ...]
     sort: str
     body: Expression
-    scope: Mapping[str, Any]
+    scope: Scope
 
 
-Scope = Mapping[str, Any]  # a name -> its value, or the function that it is
+Scope = Mapping[str, Union[Value, Function]]  # a name -> its value, or the function that it is
+Joined = TypeVar("Joined")
 
 
-def balanced(join: Callable[[Any, Any], Any], parts: Sequence[Any]) -> Any:
+def balanced(join: Callable[[Joined, Joined], Joined], parts: Sequence[Joined]) -> Joined:
     """The parts joined by an associative operation, so that no text grows deep."""
     if len(parts) <= 8:
         return reduce(join, parts)
@@ -297,8 +298,9 @@ class Reader:
                 f"{brief(head)} is not the name of a function",
                 "only functions of the theory of reals are known",
             )
-        if isinstance(scope.get(head.text), Function):
-            return self._call(node, scope[head.text], rest, scope)
+        meant = scope.get(head.text)
+        if isinstance(meant, Function):
+            return self._call(node, meant, rest, scope)
         if head.text in scope:
             self.script.fail(node, f"{head.text} is no function", "write it without parentheses")
         if head.text == "let":

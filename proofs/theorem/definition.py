@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
-from typing import Any
+from typing import Union
 
 from sympy import Expr, factor, fraction
 
@@ -241,7 +241,7 @@ NEARBY = Contraction(
 # have square roots in them.
 
 Point = Mapping[str, Fraction]
-_ARITHMETIC: dict[str, Callable[..., Any]] = {
+_ARITHMETIC: dict[str, Callable[..., Fraction]] = {
     "+": operator.add,
     "-": operator.sub,
     "*": operator.mul,
@@ -417,13 +417,18 @@ def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[st
     return [(name, setting.here(under)) for name, under in roots]
 
 
-def _terms(*things: Any) -> tuple[Term | Formula, ...]:
-    """The terms and formulas in these things and in sequences of such."""
-    return tuple(
-        one
-        for thing in things
-        for one in ((thing,) if isinstance(thing, (Term, Formula)) else _terms(*thing))
-    )
+Nested = Union[Term, Formula, Vector, Sequence["Nested"]]
+
+
+def _terms(*things: Nested) -> tuple[Term | Formula, ...]:
+    """The terms and formulas in these things, and in vectors and sequences of such."""
+    found: list[Term | Formula] = []
+    for thing in things:
+        if isinstance(thing, (Term, Formula)):
+            found.append(thing)
+        else:
+            found += map(term, thing) if isinstance(thing, Vector) else _terms(*thing)
+    return tuple(found)
 
 
 def descends(name: str, of: str, setting: Setting, of_alpha: Formula, descent: Descent) -> MapRule:
