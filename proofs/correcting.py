@@ -27,8 +27,7 @@ from juggleproof.proofs.reading.values import Value, Vector
 # terms, the derived form.
 #
 # Nothing here is believed: a candidate is a print (or a right-hand side) that the same claim
-# function
-# reads and the checker then judges.
+# function reads and the checker then judges.
 
 DERIVED = ("coefficients", "derived")
 LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
@@ -148,10 +147,10 @@ def coefficients_on_printed_terms(
     >>> str(coefficients_on_printed_terms((x + y) * 2, x * 2 + y))
     '(x + y*(1/2))*2'
     """
-    found = _sum_inside(printed)
-    if found is None:
+    split = _sum_inside(printed)
+    if split is None:
         return None
-    terms, rebuild = found
+    terms, rebuild = split
     names = sorted(names_in(printed) | names_in(truth))
     rows = []
     for seed in range(len(terms) + 4):
@@ -185,14 +184,14 @@ def _sum_inside(expression: Term) -> tuple[list[Term], Callable[[Sequence[Term]]
         return _terms_of(expression), _total
     if expression.op in ("*", "/"):
         left, right = expression.args
-        found = _sum_inside(left)
-        if found is not None:
-            terms, rebuild = found
+        inner = _sum_inside(left)
+        if inner is not None:
+            terms, rebuild = inner
             return terms, lambda new: Term(expression.op, rebuild(new), right)
         if expression.op == "*":
-            found = _sum_inside(right)
-            if found is not None:
-                terms, rebuild = found
+            inner = _sum_inside(right)
+            if inner is not None:
+                terms, rebuild = inner
                 return terms, lambda new: Term("*", left, rebuild(new))
     return None
 

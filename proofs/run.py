@@ -36,7 +36,7 @@ from juggleproof.certificates.store import (
 )
 from juggleproof.proofs.claims import (
     Claim,
-    Said,
+    FixedBody,
     assertions,
     claim_named,
     claims_in,
@@ -89,8 +89,8 @@ class Options:
 
 @dataclass(frozen=True)
 class Run:
-    """What a run came to: the claims and the judgements on them, the seconds they took, and what
-    the checker says of each stored statement.
+    """What a run came to: the claims and the judgements on them, the seconds they took, and the
+    checker's outcome of each stored statement.
     """
 
     claims: Sequence[Claim]
@@ -111,7 +111,7 @@ class Run:
 
 
 def no_progress(claim: Claim, judgement: Judgement) -> None:
-    """Tells nobody."""
+    """Reports nothing."""
 
 
 def run(
@@ -122,8 +122,8 @@ def run(
 ) -> Run:
     """Judges the claims, stores what was found, and has the checker read all that is stored.
 
-    `progress` hears of each judgement as it is ready; an executor judges in place of processes of
-    our own.  Claims that `options.only` leaves out keep what is stored of them.
+    `progress` is called with each judgement as it is ready; an executor judges in place of
+    processes of our own.  Claims that `options.only` leaves out keep what is stored of them.
 
     Raises ClaimError, one line, for two claims of one name, a name that no claim bears, and the
     first claim in order that cannot be stated.
@@ -144,7 +144,7 @@ def judge_stored(
     progress: Progress = no_progress,
     executor: Executor | None = None,
 ) -> Run:
-    """The same without writing anything: `checked` is what the checker says of the store as it is,
+    """The same without writing anything: `checked` is the checker's reading of the store as it is,
     and what waits for map rules of other claims is not settled.
     """
     refuse_duplicates(claims)
@@ -197,7 +197,7 @@ def findings_in(folder: Path) -> dict[str, Finding]:
 
 
 def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:
-    """The definitions of the statement file, as the first vocabulary that has some says."""
+    """The definitions of the statement file, those of the first vocabulary that has some."""
     sources = [one.vocabulary.defines for one in claims if one.vocabulary.defines is not None]
     return sources[0]() if sources else ()
 
@@ -250,8 +250,8 @@ Check = Callable[..., tuple[str, checker.Rejected | None]]  # as `checker.check_
 
 
 class Reading:
-    """What `checker.check_folder` says of a folder: with several jobs by shares, found out
-    meanwhile; with one, when it is asked for.
+    """The results of `checker.check_folder` on a folder: with several jobs by shares, worked out
+    meanwhile; with one, when they are asked for.
 
     A folder without statements, one that cannot be read, and `nothing` come to no results.
     """
@@ -286,7 +286,7 @@ class Reading:
 
     def _by_shares(self) -> Checked:
         """The results of all shares, if every outcome that one of them assumed is the one that
-        another found; else none.
+        another came to; else none.
 
         Then each statement was checked with the very lemmas that `check_folder` would have given
         it.
@@ -295,7 +295,7 @@ class Reading:
             parts = [receiver.recv() for _process, receiver in self._processes]
         except EOFError:  # a process died
             return []
-        true = {name: outcome for _, found, _ in parts for name, outcome in found.items()}
+        true = {name: outcome for _, checked, _ in parts for name, outcome in checked.items()}
         if not parts or any(
             outcome != true.get(name)
             for _, _, assumed in parts
@@ -304,9 +304,9 @@ class Reading:
             return []
         reasons = {
             (name, outcome): reason
-            for results, found, _ in parts
+            for results, checked, _ in parts
             for name, outcome, reason in results
-            if name in found
+            if name in checked
         }
         return [
             (name, outcome, reasons.get((name, outcome), reason))
@@ -324,20 +324,20 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
     for line in (one for one in lines if one.startswith(b'["')):
         claim = line[2:].split(b"/", 1)[0].decode("ascii", "replace")  # what follows `["`
         sizes[claim] = sizes.get(claim, 0) + len(line)
-    found: list[set[str]] = [set() for _ in range(count)]
+    split: list[set[str]] = [set() for _ in range(count)]
     weights = [0] * count
     for claim in sorted(sizes, key=lambda claim: (-sizes[claim], claim)):
         lightest = weights.index(min(weights))
-        found[lightest].add(claim)
+        split[lightest].add(claim)
         weights[lightest] += sizes[claim]
-    return [*found]
+    return [*split]
 
 
 def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str], dict[str, str]]:
-    """What `check_folder` says where outcomes outside the share are assumed to be what their
-    certificates claim; with what was found, and assumed.
+    """The results of `check_folder` where outcomes outside the share are assumed to be those that
+    their certificates claim; with the outcomes inside, and those assumed.
     """
-    found, assumed = dict[str, str](), dict[str, str]()
+    checked, assumed = dict[str, str](), dict[str, str]()
 
     def check_own(
         statement: checker.Statement,
@@ -347,7 +347,7 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str],
     ) -> tuple[str, checker.Rejected | None]:
         if statement.name.split("/")[0] in share:
             outcome, reason = checker.check_one(statement, certificate, known, earlier)
-            found[statement.name] = outcome
+            checked[statement.name] = outcome
             return outcome, reason
         claimed = [
             word
@@ -357,7 +357,7 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str],
         assumed[statement.name] = claimed[0] if claimed else "rejected"
         return assumed[statement.name], None
 
-    return _read(folder, check_own), found, assumed
+    return _read(folder, check_own), checked, assumed
 
 
 def _read(folder: Path, check: Check = checker.check_one) -> Checked:
@@ -452,7 +452,7 @@ def spread(
     done: Callable[[int, Result], None],
 ) -> list[Result]:
     """The results of the work on every item, in order; here where there is no executor.  `done`
-    hears of each as it is ready.
+    is called with each as it is ready.
 
     Raises what the work on the first item in order raised, when the others are finished.
     """
@@ -521,7 +521,7 @@ def sent(claim: Claim, resources: Resources) -> Sent:
             f"{claim.id} has a print to be corrected, which only this process can do; certify it"
             " without an executor"
         )
-    return Sent(replace(claim, read=Said(claim.body(), claim.where)), resources.only(claim))
+    return Sent(replace(claim, read=FixedBody(claim.body(), claim.where)), resources.only(claim))
 
 
 def judge_all(
@@ -538,9 +538,9 @@ def judge_all(
     """
     seconds: dict[str, float] = {}
 
-    def take(index: int, found: tuple[Judgement, float]) -> None:
-        seconds[found[0].id] = found[1]
-        progress(claims[index], found[0])
+    def take(index: int, timed: tuple[Judgement, float]) -> None:
+        judgement, seconds[claims[index].id] = timed
+        progress(claims[index], judgement)
 
     if executor is not None:
         return [

@@ -1,6 +1,5 @@
-"""Derived expressions as terms that say what made them; what a claim rests on in `symbolic`: each
-derivation that its statements contain, with what this says of itself, its result, and what it is
-made from.
+"""Derived expressions as terms that carry their origin; what a claim rests on in `symbolic`: each
+derivation that its statements contain, with its sentence, its result, and what it is made from.
 """
 
 from __future__ import annotations
@@ -136,29 +135,29 @@ class Derivation:
     """
 
     function: str
-    said: str
+    sentence: str
     rows: Rows
     shown: Rows
     uses: tuple[str, ...]
 
     @property
     def line(self) -> str:
-        """The derivation in one line, as `explain` tells it."""
+        """The derivation in one line, as `explain` prints it."""
         shown = "; ".join(
             "(" * (len(row) > 1) + ", ".join(row) + ")" * (len(row) > 1) for row in self.rows
         )
-        return f"symbolic.{self.function.partition('(')[0]}: {self.said} {shown}"
+        return f"symbolic.{self.function.partition('(')[0]}: {self.sentence} {shown}"
 
     @property
     def title(self) -> str:
         """What is derived, in words: the sentence up to its colon, without formula or source."""
         arguments = self.function.partition("(")[2].rstrip(")")
-        said = re.sub(
+        title = re.sub(
             r" \((section|equation|inequality|appendix|after|figure)[^()]*\)",
             "",
-            self.said.partition(":")[0],
+            self.sentence.partition(":")[0],
         ).rstrip(".")
-        return said + (f", for {arguments}" if arguments else "")
+        return title + (f", for {arguments}" if arguments else "")
 
 
 @cache
@@ -179,9 +178,9 @@ def derivation(origin: Origin) -> Derivation:
         for listed in (tuple(terms), tuple(manner))
     )
     summary = (inspect.getdoc(getattr(symbolic, name)) or "").partition("\n\n")[0]
-    said = " ".join(summary.split())
+    sentence = " ".join(summary.split())
     given = f"({', '.join(map(str, arguments))})" if arguments else ""
-    return Derivation(name + given, said, rows, shown, made_from(name))
+    return Derivation(name + given, sentence, rows, shown, made_from(name))
 
 
 @cache

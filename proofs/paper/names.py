@@ -247,18 +247,18 @@ def paper_names() -> Environment:
 # What happens within a period, in formulas of derived flight and impact: ball and table meet,
 # approach, collide, and fly on.
 #
-# A time at which something happens is left unknown and told by what happens then: nothing that was
-# solved for enters here.
+# A time at which something happens is left unknown and defined by what happens then: nothing that
+# was solved for enters here.
 
 
 def ball_at(time: Number, start: Vector = b) -> Vector:
     """The ball's state after free flight for this time."""
-    return vector(flight(time)(start))
+    return flight(time)(start)
 
 
 def table_at(time: Number, start: Vector | None = None) -> Vector:
-    """The table's state after free flight for this time, from its launch unless told otherwise."""
-    return vector(flight(time)(r_0 if start is None else start))
+    """The table's state after free flight for this time, from its launch if no state is given."""
+    return flight(time)(r_0 if start is None else start)
 
 
 def vector(value: object) -> Vector:
@@ -306,7 +306,7 @@ def strikes_at(time: Term) -> Formula:
 
 def after_impact(time: Number) -> Vector:
     """The ball's state just after an impact at this time."""
-    return vector(collide(table_at(time))(ball_at(time)))
+    return collide(table_at(time))(ball_at(time))
 
 
 def only_at(place: Vector, value: Result, factor: bool = False) -> StateFunction[Result]:
@@ -383,6 +383,6 @@ def _definitions() -> tuple[Definition, ...]:
 
 
 def sentence(function: str) -> str:
-    """What a function of `symbolic` says that it derives."""
-    said = inspect.getdoc(getattr(symbolic, function)) or ""
-    return " ".join(said.partition("\n\n")[0].split())
+    """What a function of `symbolic` derives: the first paragraph of its docstring."""
+    text = inspect.getdoc(getattr(symbolic, function)) or ""
+    return " ".join(text.partition("\n\n")[0].split())

@@ -46,10 +46,10 @@ def paper_form(expression: Expr) -> Term:
     return _equal_to(plain, _sum_in_paper_form(addends))
 
 
-def _equal_to(plain: Expr, found: Term) -> Term:
-    if cancel(_back(found).subs(Symbol("T"), symbolic.period()) - plain) != 0:
-        raise ClaimError(f"{plain} is not {found}")
-    return found
+def _equal_to(plain: Expr, written: Term) -> Term:
+    if cancel(_back(written).subs(Symbol("T"), symbolic.period()) - plain) != 0:
+        raise ClaimError(f"{plain} is not {written}")
+    return written
 
 
 def _sum_in_paper_form(addends: list[tuple[Expr, Expr]]) -> Term:
@@ -94,11 +94,11 @@ def _addends(above: Expr, below: Expr, states: list[Symbol]) -> list[tuple[Expr,
 
 
 def _by_monomial(above: Expr, states: list[Symbol]) -> dict[Expr, Expr]:
-    found: dict[Expr, Expr] = {}
+    coefficients: dict[Expr, Expr] = {}
     for part in above.as_ordered_terms():
         coefficient, monomial = part.as_independent(*states)
-        found[monomial] = found.get(monomial, 0) + coefficient
-    return found
+        coefficients[monomial] = coefficients.get(monomial, 0) + coefficient
+    return coefficients
 
 
 def _order(monomial: Expr, states: list[Symbol]) -> tuple[bool, int, int]:
@@ -129,11 +129,11 @@ def _coefficient(coefficient: Expr) -> tuple[bool, Term]:
     above, below = fraction(coefficient)
     negative = False
     upper, lower = list[tuple[Term, int]](), list[tuple[Term, int]]()
-    for side, found in ((above, upper), (below, lower)):
+    for side, factors in ((above, upper), (below, lower)):
         for base, exponent in _powers(side):
             if base.is_Rational:
                 negative ^= bool(base < 0) and exponent % 2 == 1
-                found.append((term(Fraction(abs(int(base.p)), int(base.q))), int(exponent)))
+                factors.append((term(Fraction(abs(int(base.p)), int(base.q))), int(exponent)))
                 continue
             flipped = (
                 base.is_Add and base.subs(symbolic.alpha, 0) < 0
@@ -142,7 +142,7 @@ def _coefficient(coefficient: Expr) -> tuple[bool, Term]:
             )
             if flipped:
                 negative ^= exponent % 2 == 1
-            found.append((_ascending(-base if flipped else base), int(exponent)))
+            factors.append((_ascending(-base if flipped else base), int(exponent)))
     upper, lower = _joined(upper), _joined(lower)
     if not lower:
         return negative, _product_in_paper_form(upper)
@@ -159,11 +159,11 @@ def _coefficient(coefficient: Expr) -> tuple[bool, Term]:
 
 def _powers(side: Expr) -> list[tuple[Expr, int]]:
     """The bases of a product with their exponents, numbers taken out of sums."""
-    found = []
+    factors = []
     for base, exponent in side.as_powers_dict().items():
         content, rest = base.primitive() if base.is_Add else (Rational(1), base)
-        found += [(content, exponent)] * (content != 1) + [(rest, exponent)] * (rest != 1)
-    return found
+        factors += [(content, exponent)] * (content != 1) + [(rest, exponent)] * (rest != 1)
+    return factors
 
 
 def _joined(factors: list[tuple[Term, int]]) -> list[tuple[Term, int]]:
@@ -206,20 +206,20 @@ def _times(left: Term, right: Term) -> Term:
     return right if left == term(1) else left if right == term(1) else left * right
 
 
-def _back(found: Term) -> Expr:
+def _back(value: Term) -> Expr:
     """The term as a SymPy expression again."""
-    if found.op == "var":
-        return _symbol(found.args[0])
-    if found.op == "num":
-        return Rational(found.args[0].numerator, found.args[0].denominator)
-    left = _back(found.args[0])
-    if found.op == "neg":
+    if value.op == "var":
+        return _symbol(value.args[0])
+    if value.op == "num":
+        return Rational(value.args[0].numerator, value.args[0].denominator)
+    left = _back(value.args[0])
+    if value.op == "neg":
         return -left
-    if found.op == "^":
-        return left ** found.args[1]
-    right = _back(found.args[1])
+    if value.op == "^":
+        return left ** value.args[1]
+    right = _back(value.args[1])
     return (
-        {"+": left + right, "-": left - right, "*": left * right}[found.op]
-        if found.op != "/"
+        {"+": left + right, "-": left - right, "*": left * right}[value.op]
+        if value.op != "/"
         else left / right
     )

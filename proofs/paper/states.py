@@ -130,12 +130,12 @@ def are_slopes(*slopes: Term, state: Vector = b) -> Formula:
     """Each of these names is the slope of its function at the state: by central differences of any
     width h.
     """
-    said = [different(h, 0)]
+    differences = [different(h, 0)]
     for slope in slopes:
         of = impact_energy_change if slope in (dE_dbeta, dE_dv) else function("region_margin")
         step = Vector((h, 0)) if slope in (dE_dbeta, dR_dbeta) else Vector((0, h))
-        said.append(equal(term(of(state + step)) - of(state - step), 2 * h * slope))
-    return conjunction(said)
+        differences.append(equal(term(of(state + step)) - of(state - step), 2 * h * slope))
+    return conjunction(differences)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -247,9 +247,9 @@ def eigenvalue_of(matrix: Matrix, real_part: Term, imaginary_part: Term) -> Form
     )
 
 
-def next_state_is(state: Vector, says: Callable[[Vector], Formula]) -> Formula:
+def next_state_is(state: Vector, holds: Callable[[Vector], Formula]) -> Formula:
     """The state one period later is such: with an impact or without."""
-    return (B1(state) & says(f1(state))) | (B2(state) & says(f2(state)))
+    return (B1(state) & holds(f1(state))) | (B2(state) & holds(f2(state)))
 
 
 def offset_with(time: Term) -> Vector:
@@ -270,16 +270,18 @@ def one_image_for_every_state(
     """What is printed for f holds of a state and of what becomes of the ball within a period, and
     of nothing else.
     """
-    says = printed.formula(environment.extended({r"\overline f": image}))
+    stated = printed.formula(environment.extended({r"\overline f": image}))
     return Assertion(
         (
             always(
-                iff(equals(image, next_bounce(b, t)), says),
+                iff(equals(image, next_bounce(b, t)), stated),
                 given=[*given, H(b), strikes_from(b, t)],
                 label="with-impact",
             ),
             always(
-                iff(equals(image, ball_at(T)), says), given=[*given, B2(b)], label="without-impact"
+                iff(equals(image, ball_at(T)), stated),
+                given=[*given, B2(b)],
+                label="without-impact",
             ),
         )
     )

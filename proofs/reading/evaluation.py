@@ -224,7 +224,7 @@ class Evaluation:
                 return applied(family, *map(self.here, tree.subscripts))
         raise self._without_meaning(tree)
 
-    def mark(self, tree: t.Mark) -> Value:
+    def sign(self, tree: t.Sign) -> Value:
         raise self._without_meaning(tree)
 
     def power(self, tree: t.Power) -> Value:
@@ -238,7 +238,7 @@ class Evaluation:
             )
             if family is not None:
                 return applied(family, *map(self.here, base.subscripts), self.here(exponent))
-        if isinstance(exponent, t.Mark):
+        if isinstance(exponent, t.Sign):
             raise self._without_meaning(tree)
         value = self.of(base)
         if isinstance(value, Region):
@@ -442,9 +442,9 @@ def _pairs(left: Value, right: Value) -> list[tuple[Scalar, Scalar]] | None:
 def _by_cases(value: Value, cases: Piecewise, state: Vector | None) -> Formula:
     stated = []
     for piece in cases.pieces:
-        says = relate(value, "=", piece.value, state)
+        line = relate(value, "=", piece.value, state)
         stated.append(
-            implies(piece.condition, says if piece.besides is None else says & piece.besides)
+            implies(piece.condition, line if piece.besides is None else line & piece.besides)
         )
     return conjunction(stated)
 

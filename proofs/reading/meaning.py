@@ -181,7 +181,7 @@ class Meaning(Evaluation):
 Meaning.rules = {
     t.Number: Meaning.number,
     t.Name: Meaning.name,
-    t.Mark: Meaning.mark,
+    t.Sign: Meaning.sign,
     t.Power: Meaning.power,
     t.Negative: Meaning.negative,
     t.Quotient: Meaning.quotient,

@@ -100,13 +100,13 @@ def used(problem: Problem, formulas: Sequence[Formula]) -> tuple[str, ...]:
     return tuple(variable.name for variable in problem.variables if variable.name in occurring)
 
 
-def divisors(thing: Term | Formula) -> Iterator[Term]:
+def divisors(expression: Term | Formula) -> Iterator[Term]:
     """The divisors in a term or formula, inner ones first; not numbers other than 0."""
-    for part in thing.args:
+    for part in expression.args:
         if isinstance(part, (Term, Formula)):
             yield from divisors(part)
-    if thing.op == "/" and not (thing.args[1].op == "num" and thing.args[1].args[0]):
-        yield thing.args[1]
+    if expression.op == "/" and not (expression.args[1].op == "num" and expression.args[1].args[0]):
+        yield expression.args[1]
 
 
 def _licence(problem: Problem, line: int, before: Statement, below: Term) -> list[Line]:
@@ -165,7 +165,7 @@ class Answer:
 
     @property
     def reason(self) -> str:
-        """Why nothing was found; nothing where something was."""
+        """Why the answer is unknown; empty where it is not."""
         return str(self.certificate.get("unknown", ""))
 
     @property

@@ -140,7 +140,7 @@ class Session:
         """Everything that is declared and defined."""
         return {name: value for frame in self.frames for name, value in frame.scope.items()}
 
-    def obey(self, command: Expression) -> None:
+    def execute(self, command: Expression) -> None:
         """Carries out one command."""
         if (
             not isinstance(command, Node)
@@ -151,14 +151,14 @@ class Session:
                 command, f"{brief(command)} is no command", "write commands as (assert ..)"
             )
         name = command.items[0].text
-        doer = getattr(self, "_" + name.replace("-", "_"), None) if name in COMMANDS else None
-        if doer is None and name not in IDLE:
+        handler = getattr(self, "_" + name.replace("-", "_"), None) if name in COMMANDS else None
+        if handler is None and name not in IDLE:
             self.script.fail(
                 command,
                 f"{name}: an unknown command",
                 "use declare-const, define-fun, assert, check-sat, push, pop, reset",
             )
-        if doer is not None:
+        if handler is not None:
             least, most = COMMANDS[name]
             if not least <= len(command.items) - 1 <= most:
                 self.script.fail(
@@ -167,7 +167,7 @@ class Session:
                     f" not {len(command.items) - 1}",
                     "mend the command",
                 )
-            doer(command, *command.items[1:])
+            handler(command, *command.items[1:])
             if name in KEPT:
                 self.frames[-1].commands.append(command)
 
@@ -365,7 +365,7 @@ def read_problems(text: str, file: str) -> list[Problem]:
     session = Session(Script(text, file))
     for command in session.script.expressions():
         if not session.ended:
-            session.obey(command)
+            session.execute(command)
     if not session.problems:
         session.script.fail(1, "no (check-sat)", "ask what is to be decided")
     return session.problems

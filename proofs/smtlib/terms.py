@@ -53,7 +53,7 @@ class Real:
 
     @property
     def plain(self) -> Term | None:
-        """The term, where there are no cases to tell apart."""
+        """The term, where there are no cases to distinguish."""
         return self.cases[0][1] if len(self.cases) == 1 and not self.cases[0][0] else None
 
 
@@ -136,16 +136,16 @@ class Sizes:
     def __init__(self) -> None:
         self.known: dict[int, tuple[object, int, int]] = {}
 
-    def of(self, thing: Term | Formula) -> tuple[int, int]:
+    def of(self, expression: Term | Formula) -> tuple[int, int]:
         """The size and the depth; raises TooLarge where they are beyond what we take on."""
-        if id(thing) not in self.known:
-            parts = [self.of(part) for part in thing.args if isinstance(part, (Term, Formula))]
+        if id(expression) not in self.known:
+            parts = [self.of(part) for part in expression.args if isinstance(part, (Term, Formula))]
             size, depth = (
                 1 + sum(size for size, _ in parts),
                 1 + max((depth for _, depth in parts), default=0),
             )
-            self.known[id(thing)] = thing, size, depth
-        _, size, depth = self.known[id(thing)]
+            self.known[id(expression)] = expression, size, depth
+        _, size, depth = self.known[id(expression)]
         if size > MOST_NODES or depth > DEEPEST_TERM:
             raise TooLarge(
                 f"an expression of more than {MOST_NODES} symbols, or {DEEPEST_TERM} levels, when"
@@ -356,7 +356,7 @@ class Reader:
         return self.value(node.items[2], {**scope, **values})
 
     def pairs(self, node: Expression, what: str) -> list[tuple[str, Expression]]:
-        """A list of (name thing), each name once."""
+        """A list of (name expression), each name once."""
         bound: dict[str, Expression] = {}
         for pair in node.items if isinstance(node, Node) else [node]:
             if (
