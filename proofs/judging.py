@@ -152,6 +152,9 @@ class Judge:
         return self.resources.findings.get(self.claim.id) or {}
 
     def run(self) -> Judgement:
+        """The claim stated, each of its statements settled, a refuted print corrected, and the
+        sharp ranges found.
+        """
         claim, judgement = self.claim, self.judgement
         for name in claim.hints.get("uses", ()):
             if name.split("/")[0] != claim.id:
@@ -206,6 +209,7 @@ class Judge:
             ) from problem
 
     def settle_all(self, prefix: str, assertion: Assertion) -> None:
+        """Settles the statements of an assertion, in order."""
         for statement in named_statements(self.claim.id, prefix, assertion):
             self.settle(statement)
 
@@ -286,6 +290,12 @@ class Judge:
     def search(
         self, statement: AnyStatement, parsed: checker.Statement, confirm: bool
     ) -> Certificate:
+        """A certificate by a search, or the reason why there is none; with `confirm` the checker
+        confirms each node before the search goes on.
+
+        Raises ClaimError where the hypotheses contradict one another, or do not keep a denominator
+        from vanishing.
+        """
         hints, budget = self.claim.hints, self.resources.budget
         if isinstance(statement, (Iterates, MapRule)):
             proofs = search_map_rule(parsed, self.known, budget, hints.get("premises"))
@@ -314,10 +324,12 @@ class Judge:
         return certificate
 
     def check(self, statement: checker.Statement, certificate: Certificate) -> str:
+        """The checker's outcome: certified, refuted, unknown or rejected."""
         outcome, _ = checker.check_one(statement, certificate, self.known, {})
         return str(outcome)
 
     def record(self, name: str, text: str, certificate: Certificate, outcome: str) -> None:
+        """Adds a settled statement to the judgement."""
         self.judgement.statements.append((name, text))
         self.judgement.certificates[name] = certificate
         self.judgement.outcomes[name] = outcome
@@ -421,6 +433,7 @@ class Judge:
         return trial
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
+        """Whether a quick search at sample points meets a counterexample; it proves nothing."""
         if parsed.kind != "universal":
             return False
         unfolded(parsed)

@@ -152,7 +152,10 @@ def _exact(latex: str, value: Value) -> Value:
 
 
 class Evaluation:
-    """The evaluation of trees in one environment: what holds for all of them, and arithmetic."""
+    """The evaluation of trees in one environment: what holds for all of them, and arithmetic.
+
+    `rules` has the method for each kind of node, which returns the value of the node.
+    """
 
     rules: ClassVar[dict[type[Tree], Callable[..., Value]]] = {}
 
@@ -213,6 +216,7 @@ class Evaluation:
         return PrintError(tree.at, f"{spelled(tree)} has no meaning here")
 
     def name(self, tree: t.Name) -> Value:
+        r"""The meaning of the name, or of its family, such as A_{\cdot}, at its subscripts."""
         value = self.meanings.get(tree)
         if value is not None:
             return value
@@ -225,9 +229,11 @@ class Evaluation:
         raise self._without_meaning(tree)
 
     def sign(self, tree: t.Sign) -> Value:
+        """Refused: a bare sign has a meaning as part of a key only."""
         raise self._without_meaning(tree)
 
     def power(self, tree: t.Power) -> Value:
+        r"""A family, such as F^{\cdot}, at its superscript, or a power with an integer exponent."""
         base, exponent = tree.base, tree.exponent
         family = self.meanings.get(t.Power(base, HOLE))
         if family is not None:
@@ -265,6 +271,10 @@ class Evaluation:
         return negate(self.here(tree.operand))
 
     def quotient(self, tree: t.Quotient) -> Value:
+        """A quotient of scalars, or a vector or matrix over a scalar.
+
+        A slash before a product is refused: what it divides by is ambiguous.
+        """
         if (
             tree.slash
             and isinstance(tree.bottom, t.Juxtaposition)
@@ -284,6 +294,7 @@ class Evaluation:
         )
 
     def binary(self, tree: t.Binary) -> Value:
+        """A sum, difference or product, a union or intersection, or a composition of functions."""
         sign = tree.sign
         if sign == r"\circ":
             return self._composed(self.of(tree.left), self.of(tree.right), tree)
@@ -317,6 +328,7 @@ class Evaluation:
         return StateFunction(lambda *arguments: applied(outer, applied(inner, *arguments)))
 
     def juxtaposition(self, tree: t.Juxtaposition) -> Value:
+        """Factors from left to right: a function takes the bracket after it; all is multiplied."""
         factors, values, i = tree.factors, list[Value](), 0
         while i < len(factors):
             first, value, i = factors[i], self._applied_key(factors, i), i + 1

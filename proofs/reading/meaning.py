@@ -38,6 +38,7 @@ class Meaning(Evaluation):
     # -----------------------------------------------------------------------------------------
 
     def group(self, tree: t.Group) -> Value:
+        """The content of a bracket: a value, a vector or row of values, or a rounded number."""
         if tree.bracket in (r"\lfloor", r"\lceil"):
             return self._with_hole(
                 t.Group(tree.bracket, (HOLE,)),
@@ -57,6 +58,7 @@ class Meaning(Evaluation):
         raise PrintError(tree.at, "an entry of a vector or matrix that is not a scalar")
 
     def array(self, tree: t.Array) -> Value:
+        """A matrix, or a vector where it has one column."""
         rows = tuple(tuple(self._entry(entry) for entry in row) for row in tree.rows)
         return Matrix(rows) if len(rows[0]) > 1 else Vector(tuple(row[0] for row in rows))
 
@@ -87,6 +89,7 @@ class Meaning(Evaluation):
         return self._with_hole(t.Absolute(HOLE), tree, tree.content)
 
     def set_builder(self, tree: t.SetBuilder) -> Value:
+        """The region {b in base | conditions}, of states whose components the environment names."""
         base: Region | None = None
         element = tree.element
         if isinstance(element, t.Chain) and len(element.rest) == 1 and element.rest[0][0] == r"\in":
@@ -112,6 +115,7 @@ class Meaning(Evaluation):
     # ----------------------------------------------------------------------------------
 
     def operator(self, tree: t.Operator) -> Value:
+        r"""The meaning of an operator, such as D_{\cdot} \cdot, at its operand."""
         family = self.meanings.get(t.Operator(tree.sign, tree.subscripts, HOLE))
         if family is not None:
             return applied(family, self.of(tree.operand))
@@ -131,6 +135,7 @@ class Meaning(Evaluation):
         return applied(call, self.of(tree.of), self.here(tree.by))
 
     def limit(self, tree: t.Limit) -> Value:
+        """A limit as a value of its own, or the meaning that the environment gives to it."""
         condition = tree.condition
         if not isinstance(condition, t.Chain) or [sign for sign, _ in condition.rest] != [
             r"\rightarrow"
@@ -143,12 +148,14 @@ class Meaning(Evaluation):
         return value if call is None else applied(call, value)
 
     def extremum(self, tree: t.Extremum) -> Value:
+        """An extremum as a value of its own, or the meaning that the environment gives to it."""
         condition = None if tree.condition is None else self.formula(tree.condition)
         value = ExtremalValue(tree.sign, condition, self.here(tree.body))
         call = self.meanings.get(t.Extremum(tree.sign, HOLE, HOLE))
         return value if call is None else applied(call, value)
 
     def restriction(self, tree: t.Restriction) -> Value:
+        """A function on a region only; a second restriction intersects the regions."""
         function = self.of(tree.function)
         region = self._region(tree.region)
         if not callable(function) or isinstance(function, Region):
@@ -169,6 +176,7 @@ class Meaning(Evaluation):
         return Piece(self.side(value.first), when, self.chain(value))
 
     def chain(self, tree: t.Chain) -> Formula:
+        """Every relation of the chain, between the values beside it."""
         state = self.environment.state
         return conjunction(
             [relate(left, sign, right, state) for left, sign, right in self.triples(tree)]
