@@ -434,8 +434,7 @@ def same_set(
 
 def read(text: str, name: str) -> checker.Statement:
     """The statement as the checker reads it."""
-    statement: checker.Statement = checker.read_statements(text)[name]
-    return statement
+    return checker.read_statements(text)[name]
 
 
 def domains_of(

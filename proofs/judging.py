@@ -325,8 +325,7 @@ class Judge:
 
     def check(self, statement: checker.Statement, certificate: Certificate) -> str:
         """The checker's outcome: certified, refuted, unknown or rejected."""
-        outcome, _ = checker.check_one(statement, certificate, self.known, {})
-        return str(outcome)
+        return checker.check_one(statement, certificate, self.known, {})[0]
 
     def record(self, name: str, text: str, certificate: Certificate, outcome: str) -> None:
         """Adds a settled statement to the judgement."""
@@ -551,14 +550,8 @@ class Judge:
             texts.get(part.name) == part.text() for part in ranged
         ):
             return "certified"
-        return str(
-            checker.check_one(
-                read(stored, name),
-                certificate,
-                self.known,
-                {one.name: read(one.text(), one.name) for one in ranged},
-            )[0]
-        )
+        earlier = {one.name: read(one.text(), one.name) for one in ranged}
+        return checker.check_one(read(stored, name), certificate, self.known, earlier)[0]
 
 
 def _renamed(statement: AnyStatement, name: str) -> AnyStatement:

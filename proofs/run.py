@@ -362,8 +362,7 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str],
 
 def _read(folder: Path, check: Check = checker.check_one) -> Checked:
     try:
-        results: Checked = checker.check_folder(str(folder), check)
-        return results
+        return checker.check_folder(str(folder), check)
     except checker.Rejected:
         return []
 

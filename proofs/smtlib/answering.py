@@ -128,8 +128,7 @@ def _licence(problem: Problem, line: int, before: Statement, below: Term) -> lis
 
 
 def _read(statement: Statement) -> checker.Statement:
-    parsed: checker.Statement = checker.read_statements(statement.text())[statement.name]
-    return parsed
+    return checker.read_statements(statement.text())[statement.name]
 
 
 # -------------------------------------------------------------------------------------------------
@@ -229,7 +228,7 @@ def answer(asked: Question) -> Answer:
 def settled(name: str, text: str, certificate: Certificate) -> str:
     """sat or unsat where the checker accepts the certificate, else unknown."""
     outcome, _ = checker.check_one(checker.read_statements(text)[name], certificate, {}, {})
-    return WORDS.get(str(outcome), "unknown")
+    return WORDS.get(outcome, "unknown")
 
 
 def _searched(name: str, text: str, budget: int) -> Certificate:
