@@ -13,7 +13,7 @@ from typing import Any, Union
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.judging import DEFAULT_BUDGET
+from juggleproof.proofs.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.run import Options, claims_of_file, run
 from juggleproof.proofs.smtlib.answering import BUDGET, answer_files, in_script
 

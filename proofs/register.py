@@ -8,17 +8,31 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Required, TypedDict
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
 from juggleproof.proofs.claims import VERDICTS
 
 PATH = Path(__file__).with_name("register.json")
-FIELDS = ("verdict", "detail", "correction", "sharp")
 
 
-def load_register(path: Path = PATH) -> dict[str, dict[str, Any]]:
+class Entry(TypedDict, total=False):
+    """What stands of a claim: its verdict, and what there is of its detail, the corrected print
+    and the sharp range.
+    """
+
+    verdict: Required[str]
+    detail: str
+    correction: str
+    sharp: str
+
+
+FIELDS = tuple(Entry.__annotations__)
+Entries = Mapping[str, Mapping[str, object]]  # by claim
+
+
+def load_register(path: Path = PATH) -> dict[str, Entry]:
     """The registered verdicts by claim; empty where there is no register yet.
 
     Raises ClaimError, one line that names file, claim and mend, where the file cannot be read as a
@@ -47,22 +61,22 @@ def load_register(path: Path = PATH) -> dict[str, dict[str, Any]]:
         if fault:
             shown = claim if claim.isprintable() else repr(claim)
             raise ClaimError(f"{path}: {shown}: {fault}, or restore the file from the repository")
-    return data
+    entries: dict[str, Entry] = data
+    return entries
 
 
 class _Twice(Exception):
     """A name that an object of the register has twice."""
 
 
-def _each_name_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        names = [name for name, _ in pairs]
+def _each_name_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    names = [name for name, _ in pairs]
+    if len(set(names)) < len(names):
         raise _Twice(next(name for name in names if names.count(name) > 1))
-    return found
+    return dict(pairs)
 
 
-def _fault(entry: Any) -> str:
+def _fault(entry: object) -> str:
     """What is wrong with an entry, and its mend; nothing where it is one."""
     if not isinstance(entry, dict):
         return 'not an object; write {"verdict": ...}'
@@ -81,16 +95,17 @@ def _fault(entry: Any) -> str:
 
 
 def registered(
-    verdict: str, detail: str, correction: Mapping[str, Any] | None, sharp: str
-) -> dict[str, Any]:
+    verdict: str, detail: str, correction: Mapping[str, object] | None, sharp: str
+) -> Entry:
     """The entry of a claim: its verdict, and what there is of the rest."""
-    told = {
-        "verdict": verdict,
-        "detail": detail,
-        "correction": correction["text"] if correction else "",
-        "sharp": sharp,
-    }
-    return {name: value for name, value in told.items() if value}
+    entry: Entry = {"verdict": verdict}
+    if detail:
+        entry["detail"] = detail
+    if correction:
+        entry["correction"] = str(correction["text"])
+    if sharp:
+        entry["sharp"] = sharp
+    return entry
 
 
 @dataclass(frozen=True)
@@ -100,8 +115,8 @@ class Change:
     """
 
     claim: str
-    before: Mapping[str, Any] | None
-    after: Mapping[str, Any] | None
+    before: Mapping[str, object] | None
+    after: Mapping[str, object] | None
 
     def __str__(self) -> str:
         old, new = self.before or {}, self.after or {}
@@ -111,9 +126,7 @@ class Change:
         )
 
 
-def differences(
-    before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool
-) -> list[Change]:
+def differences(before: Entries, after: Entries, partial: bool) -> list[Change]:
     """Each claim whose verdict, correction or sharp range differs, or that is new or gone;
     `partial` leaves absent claims alone.
     """
@@ -125,13 +138,11 @@ def differences(
     ]
 
 
-def changes(
-    before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool
-) -> list[str]:
+def changes(before: Entries, after: Entries, partial: bool) -> list[str]:
     """One line for each difference, before and after."""
     return [str(change) for change in differences(before, after, partial)]
 
 
-def write_register(entries: Mapping[str, Mapping[str, Any]], path: Path = PATH) -> bool:
+def write_register(entries: Entries, path: Path = PATH) -> bool:
     """Writes the register in canonical bytes; returns whether it changed."""
     return write_file(path, canonical(entries))

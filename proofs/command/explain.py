@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Mapping
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
-from juggleproof.proofs.derivations import derivations_of
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import derivations_of
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.errata import counterexample
 from juggleproof.proofs.reports.results import reading_of
@@ -62,7 +63,7 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
     for name in store.texts:
         if name.split("/")[0] == claim_id:
             _statement(name, store.texts[name], store)
-    entry = load_register().get(claim_id, {})
+    entry: Mapping[str, object] = load_register().get(claim_id) or {}
     print(f"sharp range {entry.get('sharp', 'none: the claim has no range of alpha to settle')}")
     if "correction" in entry:
         print(f"correction  {entry['correction']}")

@@ -15,9 +15,10 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import rests_on
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.derivations import Derivation, behind, derivations_of
-from juggleproof.proofs.judging import Judgement, settle_by_rules
+from juggleproof.proofs.judgement import Judgement
+from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
 from juggleproof.proofs.register import (
     PATH,
     Change,
@@ -25,6 +26,7 @@ from juggleproof.proofs.register import (
     load_register,
     registered,
 )
+from juggleproof.proofs.register import Entry as Registered
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of, results_of
@@ -157,7 +159,7 @@ def tool_versions() -> dict[str, str]:
     return found
 
 
-def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
+def entry(claim: Claim, judgement: Judgement) -> Registered:
     """What the register keeps of a judgement."""
     return registered(
         judgement.verdict.word,

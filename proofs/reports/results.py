@@ -22,8 +22,8 @@ from juggleproof.proofs.claims import (
     Following,
     Readings,
 )
-from juggleproof.proofs.judging import Judgement
-from juggleproof.proofs.register import Change, differences, load_register, registered
+from juggleproof.proofs.judgement import Judgement
+from juggleproof.proofs.register import Change, Entry, differences, load_register, registered
 from juggleproof.proofs.reports.errata import counterexample, group_of, what_is_wrong
 from juggleproof.proofs.reports.tables import plain
 from juggleproof.proofs.reports.tree import theorem_line
@@ -248,7 +248,7 @@ class Result:
     group: str
     statements: tuple[Stated, ...]
 
-    def registered(self) -> dict[str, Any]:
+    def registered(self) -> Entry:
         """What the register keeps of it."""
         return registered(
             self.verdict,
