@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import version
-from typing import Any
+from typing import Any, TypedDict
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
@@ -63,6 +63,30 @@ NOT_FOUND = "not found"
 SHARP = 3  # a sharp range takes many proofs and families, each with this part of the budget at most
 
 
+Correction = TypedDict(  # of a print: `text` is what should stand there
+    "Correction", {"kind": str, "change": str, "text": str, "possible transcription error": bool}
+)
+
+
+class Recorded(TypedDict):
+    """The votes on a text, which `on` is the digest of."""
+
+    on: str
+    votes: Sequence[Mapping[str, str]]
+
+
+Finding = TypedDict(  # of a claim; sharp ranges, and what had none, by reading; votes by statement
+    "Finding",
+    {
+        "sharp": Mapping[str, str],
+        "not found": Mapping[str, str],
+        "correction": Correction,
+        "votes": Mapping[str, Recorded],
+    },
+    total=False,
+)
+
+
 @dataclass(frozen=True)
 class Resources:
     """What a claim is judged with: which routes vote, how much counted work a statement may take,
@@ -75,7 +99,7 @@ class Resources:
     routes: tuple[str, ...] = ROUTES
     budget: int = DEFAULT_BUDGET
     store: Store | None = None
-    findings: Mapping[str, Any] = field(default_factory=dict)
+    findings: Mapping[str, Finding] = field(default_factory=dict)
     lemmas: Mapping[str, str] = field(default_factory=dict)
     checked: Mapping[str, str] = field(default_factory=dict)
 
@@ -122,8 +146,8 @@ class Judgement:
     votes: dict[str, Sequence[Vote]] = field(default_factory=dict)
     sharp: dict[str, Sharp] = field(default_factory=dict)  # by the prefix of an assertion
     verdict: Verdict = field(default_factory=lambda: Verdict("unknown"))
-    correction: dict[str, Any] | None = None
-    recorded: dict[str, Any] = field(default_factory=dict)
+    correction: Correction | None = None
+    recorded: dict[str, Recorded] = field(default_factory=dict)
     rests_on: tuple[str, ...] = ()  # map rules, as a rule of other claims
     by_rules: Verdict = field(
         default_factory=lambda: Verdict("unknown")
@@ -132,9 +156,9 @@ class Judgement:
     roles: Roles = NO_ROLES
     reused: int = 0
 
-    def finding(self) -> dict[str, Any]:
+    def finding(self) -> Finding:
         """What a later run may try first: the correction and the votes."""
-        data: dict[str, Any] = {"sharp": {prefix: one.text for prefix, one in self.sharp.items()}}
+        data: Finding = {"sharp": {prefix: one.text for prefix, one in self.sharp.items()}}
         tried = {prefix: one.tried for prefix, one in self.sharp.items() if one.tried}
         if tried:
             data["not found"] = tried
@@ -230,7 +254,7 @@ class Judge:
         self.is_trial = False
 
     @property
-    def finding(self) -> Mapping[str, Any]:
+    def finding(self) -> Finding:
         """What an earlier run found about the claim."""
         return self.resources.findings.get(self.claim.id) or {}
 

@@ -6,7 +6,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -18,6 +18,9 @@ from juggleproof.proofs.reports.ci import failing, fails_at
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, claims_of_files, refuse_duplicates, run
 
+if TYPE_CHECKING:
+    from _pytest._code.code import TerminalRepr, TracebackStyle  # which pytest does not export
+
 NAME = "juggleproof"
 
 
@@ -28,7 +31,7 @@ class Claims:
 
     def __init__(self, of_paper: bool, files: Sequence[Path], chosen: Sequence[str]) -> None:
         self.of_paper, self.files, self.chosen = of_paper, files, chosen
-        self.found: dict[bool, Any] = {}
+        self.found: dict[bool, Results | Exception] = {}
 
     def names(self) -> Iterator[tuple[str, bool]]:
         """The id of every claim, of the user's own or not, and of every claim that is registered
@@ -60,9 +63,9 @@ class Claims:
                 self.found[own] = _judged(self.files if own else [])
             except Exception as problem:
                 self.found[own] = problem
-        if isinstance(self.found[own], Exception):
-            raise self.found[own]
-        found: Results = self.found[own]
+        found = self.found[own]
+        if isinstance(found, Exception):
+            raise found
         return found
 
     def collector(self, session: pytest.Session) -> pytest.Collector:
@@ -101,8 +104,8 @@ class NotAsItShouldBe(Exception):
 class ClaimItem(pytest.Item):
     """One claim."""
 
-    def __init__(self, *, of: Claims, own: bool, **more: Any) -> None:
-        super().__init__(**more)
+    def __init__(self, *, name: str, parent: pytest.Collector, of: Claims, own: bool) -> None:
+        super().__init__(name, parent)
         self.of, self.own = of, own
 
     def runtest(self) -> None:
@@ -119,7 +122,9 @@ class ClaimItem(pytest.Item):
             else f"explain {self.name}"
         )
 
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+    def repr_failure(
+        self, excinfo: pytest.ExceptionInfo[BaseException], style: TracebackStyle | None = None
+    ) -> str | TerminalRepr:
         """Our own lines where they say all; no traceback through the prover."""
         return (
             str(excinfo.value)
@@ -137,8 +142,8 @@ class ClaimItem(pytest.Item):
 class ClaimCollector(pytest.Collector):
     """All claims that were asked for, as items."""
 
-    def __init__(self, *, of: Claims, **more: Any) -> None:
-        super().__init__(**more)
+    def __init__(self, *, name: str, parent: pytest.Session, nodeid: str, of: Claims) -> None:
+        super().__init__(name, parent, nodeid=nodeid)
         self.of = of
 
     def collect(self) -> Iterator[pytest.Item]:

@@ -43,6 +43,7 @@ from juggleproof.proofs.claims import (
 from juggleproof.proofs.judging import (
     DEFAULT_BUDGET,
     ROUTES,
+    Finding,
     Judgement,
     Resources,
     judge,
@@ -187,7 +188,7 @@ def _selected(claims: Sequence[Claim], only: Sequence[str]) -> Sequence[Claim]:
     return [claim for claim in claims if claim.id in wanted]
 
 
-def findings_in(folder: Path) -> dict[str, Any]:
+def findings_in(folder: Path) -> dict[str, Finding]:
     """What an earlier run found about each claim, to be tried first; nothing where the file cannot
     be read.
     """

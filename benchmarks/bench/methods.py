@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, Literal
+from typing import Literal
 
 from juggleproof.benchmarks.bench import numerics, solvers
 from juggleproof.benchmarks.bench.answers import (
@@ -22,6 +22,8 @@ from juggleproof.benchmarks.bench.answers import (
     GaveUp,
     Point,
     Problem,
+    Strayed,
+    Work,
     best_point,
 )
 from juggleproof.certificates import checker
@@ -98,6 +100,9 @@ some of its steps say trust), and QEPCAD, whose answers are taken at their word.
 and mpmath.iv are our own, measured beside."""
 
 
+Result = Answer | Strayed | Callable[[], Strayed]  # a distance that is computed untimed
+
+
 @dataclass(frozen=True)
 class Method:
     """A way to answer: `solve` gives the answer to a piece of work at a width (or for so much
@@ -108,20 +113,24 @@ class Method:
     name: str
     title: str
     worth: Worth
-    solve: Callable[[Any, Fraction], Any]
+    solve: Callable[..., Result]
     package: str = ""
     present: Callable[[], bool] = lambda: True
     peer: bool = False
 
 
-def later(place: str) -> Callable[[Any, Fraction], Any]:
+def later(place: str) -> Callable[[Work, Fraction], Result]:
     """The function that stands at "file:name" of this folder; its file is loaded when it is
     called.
     """
     file, _, name = place.partition(":")
-    return lambda work, size: getattr(import_module(f"juggleproof.benchmarks.bench.{file}"), name)(
-        work, size
-    )
+
+    def solve(work: Work, size: Fraction) -> Result:
+        module = import_module(f"juggleproof.benchmarks.bench.{file}")
+        result: Result = getattr(module, name)(work, size)
+        return result
+
+    return solve
 
 
 def has(module: str) -> Callable[[], bool]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from flint import arb, ctx, fmpq
@@ -18,6 +17,7 @@ from mpmath.libmp import to_rational
 from juggleproof.benchmarks.bench.answers import Ensemble, GaveUp, Start, Strayed
 from juggleproof.scenes import juggler
 from juggleproof.scenes.juggler.given import formulas
+from juggleproof.scenes.juggler.orbits import Orbits
 
 STATE_STEPS, SEED = 100, 1
 BITS = 256  # of a distance, rounded up
@@ -46,15 +46,15 @@ STARTS = {
 Later = Callable[[], Strayed]
 
 
-def _followed(start: Start, arithmetic: str, steps: int, **more: Any) -> Any:
+def _followed(start: Start, arithmetic: str, steps: int, precision: int | None = None) -> Orbits:
     scene = juggler.scene(start.alpha, juggler.point(start.x, start.w))
-    found = juggler.orbit(scene, arithmetic, steps, **more)
+    found: Orbits = juggler.orbit(scene, arithmetic, steps, precision=precision)
     if found.counts() != {"reached": 1}:
         raise GaveUp(", ".join(found.counts()))
     return found
 
 
-def _away(start: Start, steps: int, x: Any, w: Any, bound: Any, note: str = "") -> Strayed:
+def _away(start: Start, steps: int, x: fmpq, w: fmpq, bound: fmpq | None) -> Strayed:
     """How far (x, w), in rationals of python-flint, is from the exact state, in the sup norm."""
     true = _followed(start, "exact", steps).tracks[0].here
     distance = max(abs(x - true.x), abs(w - true.w))
@@ -64,8 +64,7 @@ def _away(start: Start, steps: int, x: Any, w: Any, bound: Any, note: str = "") 
     return Strayed(
         Fraction(int(above.p), int(above.q)),
         None if bound is None else Fraction(int(bound.p), int(bound.q)),
-        note,
-        bound is not None and distance > bound,
+        beyond=bound is not None and distance > bound,
     )
 
 
@@ -93,7 +92,7 @@ def fast(start: Start, size: Fraction) -> Later:
     """float64 with its running bound."""
     row = _followed(start, "fast", int(size)).row(0)
     return lambda: _away(
-        start, int(size), _of_float(row.x), _of_float(row.w), max(map(_of_float, row.error))
+        start, int(size), _of_float(row.x), _of_float(row.w), max(map(_of_float, row.error or ()))
     )
 
 
@@ -118,7 +117,7 @@ def floats(start: Start, size: Fraction) -> Later:
     return lambda: _away(start, int(size), _of_float(x), _of_float(w), None)
 
 
-def _of_float(value: float) -> Any:
+def _of_float(value: float) -> fmpq:
     return fmpq(*float(value).as_integer_ratio())
 
 
@@ -127,7 +126,7 @@ def ensemble(work: Ensemble, size: Fraction) -> Strayed:
     what is undecided.
     """
     scene = juggler.scene(work.alpha, juggler.random(int(size), seed=SEED))
-    found: Any = juggler.orbit(scene, "fast", STATE_STEPS)
+    found = juggler.orbit(scene, "fast", STATE_STEPS)
     here = found.ensemble
     decided = here.end == 1
     bound = float(np.maximum(here.error_x, here.error_w)[decided].max(initial=0.0))

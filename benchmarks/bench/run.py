@@ -4,7 +4,6 @@ judged against their closed forms, printed and drawn.
 
 from __future__ import annotations
 
-import json
 import os
 import pickle
 import re
@@ -14,10 +13,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 from juggleproof.benchmarks.bench import table
-from juggleproof.benchmarks.bench.answers import Ensemble, Measured, Start, read_answer
+from juggleproof.benchmarks.bench.answers import Ensemble, Measured, Start, Work
 from juggleproof.benchmarks.bench.methods import (
     ENSEMBLE,
     GROWTH,
@@ -41,7 +39,7 @@ START = 5.0  # seconds that a process may take to start and to end, on a busy ma
 Report = Callable[[str], None]
 
 
-def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measured:
+def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measured:
     """Cold and warm seconds and the answer of one method; `seconds` limits the cold answer, and all
     answers together.
     """
@@ -76,16 +74,14 @@ def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measur
         return Measured(
             method.name, size, reason=f"failed: {lines[-1] if lines else process.returncode}"[:200]
         )
-    found = json.loads(output)
-    if "gave_up" in found:
-        return Measured(method.name, size, reason=f"gave up: {found['gave_up']}")
-    if found["cold"] > seconds:
+    measured: Measured = pickle.loads(output)
+    if measured.cold is not None and measured.cold > seconds:
         return Measured(method.name, size, reason="gave up")
-    return Measured(method.name, size, found["cold"], found["warm"], read_answer(found["answer"]))
+    return measured
 
 
 def measure_all(
-    methods: Sequence[Method], work: Any, sizes: Sequence[Fraction], seconds: float, tell: Report
+    methods: Sequence[Method], work: Work, sizes: Sequence[Fraction], seconds: float, tell: Report
 ) -> Iterator[Measured]:
     """Every method at every size, easiest first; a method that gave up is not asked for more."""
     for method in methods:
@@ -171,7 +167,7 @@ def _seconds(text: str) -> float:
 class Run:
     """A run: prints as it goes, counts what is wrong."""
 
-    def __init__(self, wanted: Wish, folder: Path, tell: Any) -> None:
+    def __init__(self, wanted: Wish, folder: Path, tell: Report) -> None:
         self.wanted, self.folder, self.tell, self.wrong = wanted, folder, tell, 0
         self.judged: list[table.Judged] = []
 
@@ -275,7 +271,7 @@ class Run:
         ]
 
     def measure(
-        self, present: Sequence[Method], work: Any, sizes: Sequence[Fraction]
+        self, present: Sequence[Method], work: Work, sizes: Sequence[Fraction]
     ) -> table.Results:
         """All methods at all sizes."""
         return table.by_method(

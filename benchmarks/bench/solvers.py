@@ -12,7 +12,6 @@ from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from juggleproof.benchmarks.bench.answers import (
     SHARE,
@@ -138,7 +137,7 @@ def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
 
     solver = cvc5.Solver()
     solver.setOption("produce-proofs", "true" if proof else "false")
-    parser: Any = cvc5.InputParser(solver)
+    parser = cvc5.InputParser(solver)
     parser.setStringInput(
         cvc5.InputLanguage.SMT_LIB_2_6,
         f"(set-logic QF_NRA)\n{problem.asked(bound)}(check-sat)\n",

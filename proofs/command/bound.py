@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from collections.abc import Sequence
 from fractions import Fraction
 from math import ceil, floor
 from pathlib import Path
@@ -16,7 +17,7 @@ from juggleproof.proofs.bounds import BUDGET, enclose_minimum, refuse_other_file
 def command(parsed: argparse.Namespace) -> int:
     """Runs `bound` or `bench`; returns its exit code."""
     if parsed.command == "bench":
-        return bench(parsed)
+        return bench(parsed.question, parsed.widths, parsed.seconds, parsed.quick, parsed.output)
     return bound(parsed.polynomial, parsed.box, parsed.width, parsed.budget, parsed.output)
 
 
@@ -27,14 +28,20 @@ def command(parsed: argparse.Namespace) -> int:
 FOLDER = Path("juggleproof-bench")
 
 
-def bench(options: argparse.Namespace) -> int:
+def bench(
+    asked: Sequence[str] | None,
+    widths: str | None,
+    seconds: str | None,
+    quick: bool,
+    output: Path | None,
+) -> int:
     """Runs the benchmark; 1 where an enclosure does not hold the closed form.  Raises ClaimError,
     one line, for what cannot be measured.
     """
     from juggleproof.benchmarks.bench.run import Run, wish
 
-    wanted = wish(options.question, options.widths, options.seconds, options.quick)
-    folder = options.output or FOLDER
+    wanted = wish(asked, widths, seconds, quick)
+    folder = output or FOLDER
     fault = _fault(folder)
     if fault:
         raise ClaimError(f"-o {folder}: {fault}; name another folder")

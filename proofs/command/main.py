@@ -35,7 +35,7 @@ class _Parser(argparse.ArgumentParser):
     """
 
     def __init__(self, *given: Any, **named: Any) -> None:
-        super().__init__(*given, **named)
+        super().__init__(*given, **named)  # argparse itself makes those of the commands
         self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf)")
 
     def error(self, message: str) -> NoReturn:
@@ -61,7 +61,7 @@ def _count(text: str) -> int:
 
 def build_parser() -> argparse.ArgumentParser:
     """The commands and their options."""
-    parser = _Parser(
+    parser: argparse.ArgumentParser = _Parser(
         prog="juggleproof",
         description=(
             "Derives, proves or refutes, and independently checks what one paper on juggling"

@@ -8,13 +8,12 @@ from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree
 
 from juggleproof.proofs.register import FIELDS, Change
-from juggleproof.proofs.reports.contents import Contents
+from juggleproof.proofs.reports.contents import Contents, results_of
 from juggleproof.proofs.reports.results import (
     COLUMNS,
     OWN_COLUMNS,
     Result,
     Results,
-    results_of,
     writable,
 )
 

@@ -7,13 +7,14 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.judging import Correction, Finding
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import load_register
+from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.run import findings_in
 
 ERRORS = ("misprint", "false", "gap")
@@ -72,8 +73,8 @@ def as_text() -> str:
 
 def group_of(
     claim: Claim,
-    register: Mapping[str, Mapping[str, Any]],
-    findings: Mapping[str, Mapping[str, Any]],
+    register: Register,
+    findings: Mapping[str, Finding],
 ) -> str:
     """The group that lists the claim, or none: a repeat is one only of a print that is itself
     listed.
@@ -88,10 +89,9 @@ def group_of(
         return "repeats"
     if register[claim.id]["verdict"] == "ambiguous":
         return "readings"
+    correction = findings.get(claim.id, Finding()).get("correction")
     return (
-        "transcription"
-        if (findings.get(claim.id, {}).get("correction") or {}).get("possible transcription error")
-        else "errors"
+        "transcription" if correction and correction["possible transcription error"] else "errors"
     )
 
 
@@ -110,8 +110,8 @@ class Row(NamedTuple):
 
 def rows_of(
     claim: Claim,
-    register: Mapping[str, Mapping[str, Any]],
-    finding: Mapping[str, Any],
+    register: Register,
+    finding: Finding,
     store: Store,
 ) -> list[Row]:
     """One entry: a heading with place and verdict, then what is said, the print, what is wrong, the
@@ -152,8 +152,8 @@ def rows_of(
 
 def entry_of(
     claim: Claim,
-    register: Mapping[str, Mapping[str, Any]],
-    finding: Mapping[str, Any],
+    register: Register,
+    finding: Finding,
     store: Store,
 ) -> list[str]:
     """The lines of one entry, as `juggleproof errata` prints them."""
@@ -172,7 +172,7 @@ def entry_of(
     ]
 
 
-def restored(claims: Sequence[Claim], register: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def restored(claims: Sequence[Claim], register: Register) -> list[str]:
     """The claims whose print the transcription mangles, and which hold as restored."""
     return [
         claim.id
@@ -195,7 +195,7 @@ def _place(claim: Claim) -> str:
     )
 
 
-def what_is_wrong(entry: Mapping[str, Any], sharp: Mapping[str, str]) -> list[str]:
+def what_is_wrong(entry: Mapping[str, str], sharp: Mapping[str, str]) -> list[str]:
     """One line for each reading where there are several, else one in all, with the alpha for which
     it holds where that is known.
     """
@@ -232,7 +232,7 @@ def _for_alpha(sharp: str, word: str) -> str:
     return ", for every alpha" if sharp == "nowhere" else f"; it would be true exactly for {sharp}"
 
 
-def _roots_named(correction: Mapping[str, Any], claim: Claim, store: Store) -> Iterator[str]:
+def _roots_named(correction: Correction, claim: Claim, store: Store) -> Iterator[str]:
     """What a name of a root in a corrected term means: the statements say it."""
     lines = {
         line
@@ -249,16 +249,17 @@ def _roots_named(correction: Mapping[str, Any], claim: Claim, store: Store) -> I
             yield line.removeprefix("root ")
 
 
-def counterexample(found: Any) -> str:
-    """The values of a counterexample as text."""
-    if found[0] == "sign":
-        return f"a family by the sign of {found[1]}"
-    values = ", ".join(f"{name} = {value}" for name, value in found[2].items())
-    adjoined = "".join(
-        f" where {entry[0]} is a root of {entry[1]} between {entry[2]} and {entry[3]}"
-        for entry in found[1]
-    )
-    return values + adjoined
+def counterexample(refutation: object) -> str:
+    """The values of a counterexample as text; raises ClaimError where a certificate has none."""
+    match refutation:
+        case ["sign", polynomial, *_]:
+            return f"a family by the sign of {polynomial}"
+        case [_, list() | tuple() as adjoined, {**terms}, *_]:
+            return ", ".join(f"{name} = {value}" for name, value in terms.items()) + "".join(
+                f" where {root} is a root of {polynomial} between {low} and {high}"
+                for root, polynomial, low, high, *_ in adjoined
+            )
+    raise ClaimError("a refutation without values; `juggleproof certify --fresh` searches anew")
 
 
 def _counterexamples(claim: Claim, store: Store) -> list[str]:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
@@ -181,17 +180,15 @@ class Told:
 
 def told(entry: Entry) -> Told:
     """One claim for the page."""
-    claim, correction = entry.claim, entry.correction or {}
-    made = str(correction.get("text", ""))
+    claim, corrected, change = entry.claim, "", ""
+    roots: list[str] = []
     shared = shared_lines(entry.statements)
-    of_statements = correction.get("kind") in ("coefficients", "derived")
-    corrected = (
-        ""
-        if not made
-        else markup.formula(made, block=True)
-        if of_statements
-        else mathml(made, block=True)
-    )
+    if entry.correction:
+        text, change = entry.correction["text"], entry.correction["change"]
+        if entry.correction["kind"] in ("coefficients", "derived"):  # in the statement language
+            corrected, roots = markup.formula(text, block=True), list(_roots(entry, text))
+        else:
+            corrected = mathml(text, block=True)
     return Told(
         entry=entry,
         place=place(claim.section, claim.place),
@@ -200,8 +197,8 @@ def told(entry: Entry) -> Told:
         printed=mathml(claim.printed, block=True) if claim.printed else "",
         wrong=[markup.ranged(line) for line in entry.wrong],
         corrected=corrected,
-        change=markup.change(str(correction.get("change", ""))),
-        roots=list(_roots(entry, made)) if of_statements else [],
+        change=markup.change(change),
+        roots=roots,
         sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
         steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
         shared=_rows(shared),
@@ -448,8 +445,8 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
 
 
 def _shown(
-    contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Any
-) -> dict[str, Any]:
+    contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Callable[[str], str]
+) -> dict[str, object]:
     by_section = sections(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
     headline, *further = [

@@ -10,13 +10,13 @@ import re
 from collections import Counter
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.proofs.claims import VERDICTS, Claim
+from juggleproof.proofs.judging import Finding
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import load_register
+from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports import errata
 from juggleproof.proofs.reports import tex_words as words
 from juggleproof.proofs.reports.latex import latex_of
@@ -90,8 +90,8 @@ def printed_wrongly() -> str:
 
 def _entry(
     claim: Claim,
-    register: Mapping[str, Mapping[str, Any]],
-    finding: Mapping[str, Any],
+    register: Register,
+    finding: Finding,
     store: Store,
 ) -> list[str]:
     heading, *rows = errata.rows_of(claim, register, finding, store)

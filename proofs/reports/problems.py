@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from rich.console import Console
 from rich.table import Table
 
+from juggleproof.certificates.nodes import Json
 from juggleproof.proofs.smtlib.answering import Answered, in_script
 
 COLUMNS = ("problem", "answer", "settled by")
@@ -61,7 +61,7 @@ def summary(answered: Sequence[Answered]) -> str:
     )
 
 
-def data(one: Answered) -> dict[str, Any]:
+def data(one: Answered) -> dict[str, Json]:
     """An answer for other programs."""
     return {
         "file": one.path.name,

@@ -124,7 +124,7 @@ def correction(entry: Entry) -> str:
     """
     if entry.correction is None:
         raise ValueError(f"{entry.claim.id} has no correction")
-    text = str(entry.correction["text"])
+    text = entry.correction["text"]
     if entry.correction["kind"] not in ("coefficients", "derived"):
         return text
     left = entry.claim.printed.partition("=")[0].strip() if "=" in entry.claim.printed else ""
@@ -133,8 +133,8 @@ def correction(entry: Entry) -> str:
 
 def change(entry: Entry) -> str:
     """What the correction changes, the signs set as mathematics."""
-    said = str((entry.correction or {}).get("change", "")).partition(" at column")[0]
-    return re.sub(r"\\[A-Za-z]+|[<>]", lambda found: f"${found.group()}$", said)
+    text = entry.correction["change"].partition(" at column")[0] if entry.correction else ""
+    return re.sub(r"\\[A-Za-z]+|[<>]", lambda found: f"${found.group()}$", text)
 
 
 def number(claim: Claim) -> str:

@@ -14,8 +14,8 @@ from jsonschema import Draft202012Validator
 from juggleproof.proofs.command import report
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.ci import badge, markdown
-from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json
-from juggleproof.proofs.reports.results import Results, results_of
+from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json, results_of
+from juggleproof.proofs.reports.results import Results
 from tests.proofs.reports.runs import FALSE, OPEN, contents, own, paper
 
 DESCRIBED = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))
