@@ -28,9 +28,9 @@ from juggleproof.scenes.juggler.tables import (
     NAMES,
     UNITS,
     Finding,
+    as_text,
     finding,
     in_units,
-    written,
 )
 
 MOST_ROWS, SHORT_BITS, LONG_TEXT = 40, 4000, 100
@@ -63,7 +63,7 @@ def told(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.{DIGITS}g}"
     return (
-        written(value, None, DIGITS)[0]
+        as_text(value, None, DIGITS)[0]
         if not hasattr(value, "context")
         else str(value.context.nstr(value, DIGITS))
     )
@@ -278,7 +278,7 @@ def _short(value: Any) -> str:
         and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS
     ):
         return shown(value, 6)
-    return f"{value:.6g}" if isinstance(value, float) else written(value, None, 6)[0]
+    return f"{value:.6g}" if isinstance(value, float) else as_text(value, None, 6)[0]
 
 
 def _finding(one: Finding) -> tuple[str, ...]:

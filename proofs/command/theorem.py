@@ -30,7 +30,7 @@ from juggleproof.proofs.theorem.quantities import (
     into_core,
     into_region,
 )
-from juggleproof.scenes.juggler.exact import later as in_the_trap
+from juggleproof.scenes.juggler.exact import impact_power as in_the_trap
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof explain theorem --bounds`: the paper's bounds and ours, and where orbits violate

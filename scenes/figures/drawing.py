@@ -192,7 +192,7 @@ class Plane:
         places: Iterable[Point],
         name: str,
         size: float = 3.6,
-        mark: str = "o",
+        marker: str = "o",
         filled: bool = True,
         colour: str = INK,
     ) -> None:
@@ -203,7 +203,7 @@ class Plane:
                 xs,
                 ys,
                 linestyle="none",
-                marker=mark,
+                marker=marker,
                 markersize=size,
                 color=colour,
                 markeredgewidth=0.9,
