@@ -12,12 +12,14 @@ from fractions import Fraction
 
 import numpy as np
 from flint import arb, ctx, fmpq
+from mpmath import mpf
 from mpmath.libmp import to_rational
 
 from juggleproof.benchmarks.bench.answers import Ensemble, GaveUp, Start, Strayed
 from juggleproof.scenes import juggler
 from juggleproof.scenes.juggler.given import formulas
-from juggleproof.scenes.juggler.orbits import Orbits
+from juggleproof.scenes.juggler.orbits import Orbits, Value
+from juggleproof.scenes.juggler.track import Sample
 
 STATE_STEPS, SEED = 100, 1
 BITS = 256  # of a distance, rounded up
@@ -70,15 +72,15 @@ def _away(start: Start, steps: int, x: fmpq, w: fmpq, bound: fmpq | None) -> Str
 
 def exact(start: Start, size: Fraction) -> Later:
     """Exact rationals: what the others are measured against."""
-    found = _followed(start, "exact", int(size)).tracks[0].here
+    here: Sample[fmpq] = _followed(start, "exact", int(size)).tracks[0].here
     return lambda: Strayed(
-        Fraction(0), Fraction(0), f"{max(found.x.height_bits(), found.w.height_bits())} bits"
+        Fraction(0), Fraction(0), f"{max(here.x.height_bits(), here.w.height_bits())} bits"
     )
 
 
 def enclosed(start: Start, size: Fraction) -> Later:
     """Arb balls; their radius is the bound."""
-    here = _followed(start, "enclosed", int(size)).tracks[0].here
+    here: Sample[arb] = _followed(start, "enclosed", int(size)).tracks[0].here
 
     def later() -> Strayed:
         x, w = (arb(value) for value in (here.x, here.w))
@@ -98,7 +100,7 @@ def fast(start: Start, size: Fraction) -> Later:
 
 def mp(start: Start, size: Fraction) -> Later:
     """mpmath: nothing is proved."""
-    here = _followed(start, "mp", int(size), precision=DIGITS).tracks[0].here
+    here: Sample[mpf] = _followed(start, "mp", int(size), precision=DIGITS).tracks[0].here
 
     def later() -> Strayed:
         x, w = (fmpq(*map(int, to_rational(value._mpf_))) for value in (here.x, here.w))
@@ -117,7 +119,7 @@ def floats(start: Start, size: Fraction) -> Later:
     return lambda: _away(start, int(size), _of_float(x), _of_float(w), None)
 
 
-def _of_float(value: float) -> fmpq:
+def _of_float(value: Value) -> fmpq:
     return fmpq(*float(value).as_integer_ratio())
 
 
