@@ -94,7 +94,7 @@ def accuracy(
     """For each tolerance: the median error of place and angle against the reference, in metres, and
     nanoseconds an impact.
     """
-    found = []
+    rows = []
     for tolerance in tolerances:
         block = replace(THIRD_ROW, tolerance=tolerance, rest_speed=1e-6)
         states = np.zeros((len(KNOWN), body.STATE))
@@ -105,14 +105,14 @@ def accuracy(
         shaken = replace(block, rest_speed=1e-3)
         many = standing(shaken, np.radians(np.linspace(0, 90, parts)))
         seconds, done = least(partial(run, shaken, many, 1.0), runs)
-        found.append(
+        rows.append(
             (
                 tolerance,
                 float(np.median(errors.max(axis=1))),
                 seconds * 1e9 / float(done.notes[:, body.IMPACTS].sum()),
             )
         )
-    return found
+    return rows
 
 
 def scatter(sizes: Sequence[int], ensembles: int, horizon: float) -> list[tuple[int, float, float]]:
@@ -128,19 +128,19 @@ def scatter(sizes: Sequence[int], ensembles: int, horizon: float) -> list[tuple[
         .notes[:, body.LAST_UPRIGHT]
         .reshape(ensembles, ANGLES)
     )
-    found = []
+    rows = []
     for size in sizes:
         groups = [notes[k : k + size] for k in range(0, ensembles - size + 1, size)]
         onsets = [float(np.median(group.max(axis=1))) for group in groups]
         means = [float(group.mean()) for group in groups]
-        found.append(
+        rows.append(
             (
                 size,
                 statistics.stdev(onsets) / statistics.mean(onsets),
                 statistics.stdev(means) / statistics.mean(means),
             )
         )
-    return found
+    return rows
 
 
 def plot(

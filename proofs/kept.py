@@ -46,14 +46,14 @@ def key(*settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES)
     """A digest of the packages' sources, the versions of Python and of the libraries, and the
     settings.
     """
-    said = hashlib.sha256(
+    digest = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
     )
     for path in _sources(root, packages):
         content = path.read_bytes()
-        said.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
-        said.update(content)
-    return said.hexdigest()
+        digest.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
 
 
 def version_of(tool: str) -> str:
@@ -78,11 +78,11 @@ def load(key: str) -> list[Record]:
         return []
     path = place / f"{key}.json"
     try:
-        found = path.stat()
+        status = path.stat()
         if (
-            found.st_size > LARGEST
+            status.st_size > LARGEST
             or hasattr(os, "getuid")
-            and (found.st_uid != os.getuid() or found.st_mode & 0o022)
+            and (status.st_uid != os.getuid() or status.st_mode & 0o022)
         ):
             return []
         head, _, rest = path.read_bytes().partition(b"\n")

@@ -25,13 +25,13 @@ NAME = "juggleproof"
 
 
 class Claims:
-    """The claims that a session has asked for, and their results, which are found once, when the
+    """The claims that a session has asked for, and their results, which are made once, when the
     first item runs.
     """
 
     def __init__(self, of_paper: bool, files: Sequence[Path], chosen: Sequence[str]) -> None:
         self.of_paper, self.files, self.chosen = of_paper, files, chosen
-        self.found: dict[bool, Results | Exception] = {}
+        self.judged: dict[bool, Results | Exception] = {}
 
     def names(self) -> Iterator[tuple[str, bool]]:
         """The id of every claim, of the user's own or not, and of every claim that is registered
@@ -58,15 +58,15 @@ class Claims:
         """The results; the same problem is raised to every item where the claims cannot be
         judged.
         """
-        if own not in self.found:
+        if own not in self.judged:
             try:
-                self.found[own] = _judged(self.files if own else [])
+                self.judged[own] = _judged(self.files if own else [])
             except Exception as problem:
-                self.found[own] = problem
-        found = self.found[own]
-        if isinstance(found, Exception):
-            raise found
-        return found
+                self.judged[own] = problem
+        results = self.judged[own]
+        if isinstance(results, Exception):
+            raise results
+        return results
 
     def collector(self, session: pytest.Session) -> pytest.Collector:
         """All of them as items of a session."""
@@ -110,12 +110,12 @@ class ClaimItem(pytest.Item):
 
     def runtest(self) -> None:
         """Passes where the verdict is as registered, or the user's own claim holds."""
-        lines = told(self.of.results(self.own), self.name)
+        lines = faults(self.of.results(self.own), self.name)
         if lines:
             raise NotAsItShouldBe("\n".join([*lines, f"`juggleproof {self.hint()}` tells more"]))
 
     def hint(self) -> str:
-        """The command that tells more of the claim."""
+        """The command that shows more of the claim."""
         return (
             f"certify {' '.join(map(_short, self.of.files))} --only {self.name}"
             if self.own
@@ -156,7 +156,7 @@ class ClaimCollector(pytest.Collector):
             yield ClaimItem.from_parent(self, name=name, of=self.of, own=own)
 
 
-def told(results: Results, name: str) -> list[str]:
+def faults(results: Results, name: str) -> list[str]:
     """What is wrong with a claim, with before and after and where it fails; nothing where it is as
     it should be.
     """

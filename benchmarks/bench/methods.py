@@ -11,6 +11,7 @@ import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Literal
@@ -172,18 +173,32 @@ METHODS = {
             "coq",
             "coq-interval, one question",
             "rigorous",
-            solvers.coq_interval_once,
+            partial(solvers.asked_once, solvers.by_coq_interval),
             COQ,
             solvers.has_coq_interval,
             peer=True,
         ),
-        Method("z3", "Z3, bisection", "unchecked", solvers.z3_bisection, Z3, has("z3")),
-        Method("z3-once", "Z3, one question", "unchecked", solvers.z3_once, Z3, has("z3")),
+        Method(
+            "z3",
+            "Z3, bisection",
+            "unchecked",
+            partial(solvers.bisected, solvers.by_z3),
+            Z3,
+            has("z3"),
+        ),
+        Method(
+            "z3-once",
+            "Z3, one question",
+            "unchecked",
+            partial(solvers.asked_once, solvers.by_z3),
+            Z3,
+            has("z3"),
+        ),
         Method(
             "cvc5",
             "cvc5, bisection",
             "unchecked",
-            solvers.cvc5_bisection,
+            partial(solvers.bisected, solvers.by_cvc5),
             CVC5,
             has("cvc5"),
         ),
@@ -191,7 +206,7 @@ METHODS = {
             "cvc5-once",
             "cvc5, one question",
             "unchecked",
-            solvers.cvc5_once,
+            partial(solvers.asked_once, solvers.by_cvc5),
             CVC5,
             has("cvc5"),
         ),
@@ -199,7 +214,7 @@ METHODS = {
             "cvc5-proof",
             "cvc5, one question with its proof",
             "unchecked",
-            solvers.cvc5_proof_once,
+            partial(solvers.asked_once, solvers.by_cvc5_with_proof),
             CVC5,
             has("cvc5"),
             peer=True,
@@ -208,7 +223,7 @@ METHODS = {
             "qepcad",
             "QEPCAD B, bisection",
             "unchecked",
-            solvers.qepcad_bisection,
+            partial(solvers.bisected, solvers.by_qepcad),
             QEPCAD,
             _qepcad,
             peer=True,
@@ -217,7 +232,7 @@ METHODS = {
             "qepcad-once",
             "QEPCAD B, one question",
             "unchecked",
-            solvers.qepcad_once,
+            partial(solvers.asked_once, solvers.by_qepcad),
             QEPCAD,
             _qepcad,
             peer=True,

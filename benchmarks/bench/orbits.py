@@ -50,10 +50,10 @@ Later = Callable[[], Strayed]
 
 def _followed(start: Start, arithmetic: str, steps: int, precision: int | None = None) -> Orbits:
     scene = juggler.scene(start.alpha, juggler.point(start.x, start.w))
-    found: Orbits = juggler.orbit(scene, arithmetic, steps, precision=precision)
-    if found.counts() != {"reached": 1}:
-        raise GaveUp(", ".join(found.counts()))
-    return found
+    orbits: Orbits = juggler.orbit(scene, arithmetic, steps, precision=precision)
+    if orbits.counts() != {"reached": 1}:
+        raise GaveUp(", ".join(orbits.counts()))
+    return orbits
 
 
 def _away(start: Start, steps: int, x: fmpq, w: fmpq, bound: fmpq | None) -> Strayed:
@@ -128,8 +128,8 @@ def ensemble(work: Ensemble, size: Fraction) -> Strayed:
     what is undecided.
     """
     scene = juggler.scene(work.alpha, juggler.random(int(size), seed=SEED))
-    found = juggler.orbit(scene, "fast", STATE_STEPS)
-    here = found.ensemble
+    orbits = juggler.orbit(scene, "fast", STATE_STEPS)
+    here = orbits.ensemble
     decided = here.end == 1
     bound = float(np.maximum(here.error_x, here.error_w)[decided].max(initial=0.0))
-    return Strayed(Fraction(bound), Fraction(bound), f"{len(found.undecided)} undecided")
+    return Strayed(Fraction(bound), Fraction(bound), f"{len(orbits.undecided)} undecided")

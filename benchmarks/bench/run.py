@@ -87,9 +87,9 @@ def measure_all(
     for method in methods:
         for size in sizes:
             tell(f"{method.title}, {size}")
-            found = measure(method, work, size, seconds)
-            yield found
-            if found.answer is None:
+            measured = measure(method, work, size, seconds)
+            yield measured
+            if measured.answer is None:
                 break
 
 
@@ -141,7 +141,7 @@ def wish(asked: Sequence[str] | None, widths: str | None, seconds: str | None, q
 
 
 def _widths(text: str) -> tuple[Fraction, ...]:
-    found = []
+    chosen = []
     for part in text.split(","):
         try:
             width = Fraction(part.strip()) if _WIDTH.fullmatch(part.strip()) else Fraction(0)
@@ -152,8 +152,8 @@ def _widths(text: str) -> tuple[Fraction, ...]:
                 f"--widths {part.strip()[:40]!r}: a width is a number from 1e-40 to 1; write"
                 " 1e-1,1e-6"
             )
-        found.append(width)
-    return tuple(sorted(set(found), reverse=True))
+        chosen.append(width)
+    return tuple(sorted(set(chosen), reverse=True))
 
 
 def _seconds(text: str) -> float:
@@ -236,11 +236,11 @@ class Run:
             "sup of the sum of Delta E over so many balls on the table, and alpha besides; to a"
             f" width of {table.power(VARIABLE_WIDTH)}\n"
         )
-        found = []
+        measurements = []
         for size, (problem, truth) in problems.items():
             for one in self.measure(present, problem, [VARIABLE_WIDTH]).values():
-                found += [table.resized(each, size, truth) for each in one.values()]
-        results = table.by_method(found)
+                measurements += [table.resized(each, size, truth) for each in one.values()]
+        results = table.by_method(measurements)
         self.show("variables", "variables", present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "variables", False))
 

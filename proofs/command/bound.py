@@ -45,7 +45,7 @@ def bench(
     fault = _fault(folder)
     if fault:
         raise ClaimError(f"-o {folder}: {fault}; name another folder")
-    return Run(wanted, folder, _tell).all()
+    return Run(wanted, folder, _show_progress).all()
 
 
 def _fault(folder: Path) -> str:
@@ -59,7 +59,7 @@ def _fault(folder: Path) -> str:
     return ""
 
 
-def _tell(what: str) -> None:
+def _show_progress(what: str) -> None:
     """Progress, on a terminal only."""
     if sys.stderr.isatty():
         print(f"\r\x1b[K{what}", end="", file=sys.stderr, flush=True)
@@ -83,9 +83,9 @@ def number(text: str, name: str) -> Fraction:
 
     Raises ClaimError, one line, for anything else.
     """
-    found = _NUMBER.fullmatch(text.strip())
+    match = _NUMBER.fullmatch(text.strip())
     try:
-        if found and not ("/" in text and "e" in text.lower()):
+        if match and not ("/" in text and "e" in text.lower()):
             return Fraction(text.strip())
     except ZeroDivisionError:
         raise ClaimError(f"{name}: {text.strip()[:40]} divides by 0") from None
@@ -135,26 +135,26 @@ def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | N
     ends, sought = box(sides), number(width, "--width")
     if output is not None:
         refuse_other_files(output)
-    found = enclose_minimum(polynomial, ends, sought, budget or BUDGET)
+    enclosed = enclose_minimum(polynomial, ends, sought, budget or BUDGET)
     digits = SHOWN
     while sought and digits < 400 and Fraction(1, 10**digits) * 100 > sought:
         digits += 1
-    point = ", ".join(f"{name} = {value}" for name, value in found.point.items())
-    print(f"low     {found.low}  ({decimals(found.low, digits, False)}, rounded down)")
-    print(f"high    {found.high}  ({decimals(found.high, digits, True)}, rounded up)")
+    point = ", ".join(f"{name} = {value}" for name, value in enclosed.point.items())
+    print(f"low     {enclosed.low}  ({decimals(enclosed.low, digits, False)}, rounded down)")
+    print(f"high    {enclosed.high}  ({decimals(enclosed.high, digits, True)}, rounded up)")
     print(f"at      {point}")
-    print(f"width   {found.width}")
-    print(f"boxes   {found.boxes}")
-    print(f"bytes   {found.certificate_bytes} of certificates")
+    print(f"width   {enclosed.width}")
+    print(f"boxes   {enclosed.boxes}")
+    print(f"bytes   {enclosed.certificate_bytes} of certificates")
     print(
         "checked: the minimum is at least low everywhere on the box, and at most high at the point"
     )
     if output is not None:
-        found.write(output)
+        enclosed.write(output)
         print(f"written to {output}; `juggleproof check {output}` reads it again")
-    if not found.reached:
+    if not enclosed.reached:
         print(
-            f"the width {sought} is not reached within {found.boxes} boxes; the enclosure above is"
-            " certified all the same"
+            f"the width {sought} is not reached within {enclosed.boxes} boxes; the enclosure above"
+            " is certified all the same"
         )
-    return 0 if found.reached else 1
+    return 0 if enclosed.reached else 1

@@ -30,7 +30,7 @@ MODULES = {
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that tells a wrong argument in one line, and takes all that begins as a negative
+    """A parser that names a wrong argument in one line, and takes all that begins as a negative
     number, such as -1/3 or -1:2:5, for a value.
     """
 

@@ -84,28 +84,28 @@ def rounded_error(error: Error | None) -> str:
     return f"1e{power}"
 
 
-def orbits(found: Orbits, units: str) -> None:
+def orbits(run: Orbits, units: str) -> None:
     """The table: every state that was kept, or where each orbit stands; the first rows, and the
     first that were not decided.
     """
-    setting = found.scene
+    setting = run.scene
     print(
-        f"alpha = {_short(setting.alpha)}, {len(found)} start{'s' * (len(found) != 1)},"
-        f" {found.goal.steps} {found.goal.unit}{' or until the trap' * found.goal.until_trap};"
-        f" {PROVED[found.arithmetic].format(found.precision)}"
+        f"alpha = {_short(setting.alpha)}, {len(run)} start{'s' * (len(run) != 1)},"
+        f" {run.goal.steps} {run.goal.unit}{' or until the trap' * run.goal.until_trap};"
+        f" {PROVED[run.arithmetic].format(run.precision)}"
     )
     names = NAMES[units]
     heads = ("start", "periods", "impacts", names[0], names[1], "error", "")
     rows: list[tuple[str, ...]] = []
-    for index in range(min(found.followed, MOST_ROWS)):
-        kept = found.history(index) if found.keep else [found.row(index)]
-        rows += [_line(in_units(found, row, units), not found.keep) for row in kept]
+    for index in range(min(run.followed, MOST_ROWS)):
+        kept = run.history(index) if run.keep else [run.row(index)]
+        rows += [_line(in_units(run, row, units), not run.keep) for row in kept]
         if len(rows) >= MOST_ROWS:
             break
     _draw(heads, rows[:MOST_ROWS])
-    if len(rows) > MOST_ROWS or found.followed > MOST_ROWS:
+    if len(rows) > MOST_ROWS or run.followed > MOST_ROWS:
         print(f"the first {MOST_ROWS} rows; --output F.csv or F.npz writes all")
-    _print_ends(found)
+    _print_ends(run)
 
 
 def _line(row: Row, last: bool) -> tuple[str, ...]:
@@ -121,26 +121,26 @@ def _line(row: Row, last: bool) -> tuple[str, ...]:
     )
 
 
-def _print_ends(found: Orbits) -> None:
-    counts = found.counts()
-    if len(found) > 1:
+def _print_ends(orbits: Orbits) -> None:
+    counts = orbits.counts()
+    if len(orbits) > 1:
         print(", ".join(f"{count} {name or 'not at the end'}" for name, count in counts.items()))
     undecided = counts.get("undecided", 0)
     if undecided:
         first = ", ".join(
             f"{index} (period {shown(period)})"
-            for index, period in islice(found.each_undecided(), 10)
+            for index, period in islice(orbits.each_undecided(), 10)
         )
         more = f" and {undecided - 10} more" if undecided > 10 else ""
         print(
             f"undecided: {first}{more}; whether the table strikes there is not known from these"
             " numbers; --arithmetic enclosed or exact tells"
         )
-    edges = sum(track.edges for track in found.tracks)
+    edges = sum(track.edges for track in orbits.tracks)
     if edges:
         print(
             f"on x = w: {edges} state{'s' * (edges != 1)}, exactly"
-            if found.arithmetic != "mp"
+            if orbits.arithmetic != "mp"
             else f"on x = w: {edges} as rounded"
         )
 
@@ -149,18 +149,18 @@ def times(setting: Scene, low: Number, high: Number, count: int) -> int:
     """Heights of ball and table at times, in the units of r and g."""
     if setting.starts.count > 1:
         raise SceneError(f"times of {setting.starts.count} starts; give one start")
-    found = heights(
+    samples = heights(
         setting,
         list(axis(low, high, counted(count, "the number of times", 1, MOST_TIMES), "times")),
     )
     print(f"alpha = {_short(setting.alpha)}; exact heights, shown rounded to {DIGITS} digits")
-    _draw(("time", "ball", "table"), [tuple(map(rounded, one)) for one in found])
+    _draw(("time", "ball", "table"), [tuple(map(rounded, one)) for one in samples])
     return 0
 
 
 def words(alpha: Fraction, longest: int, flight: int | None) -> int:
     """All periodic orbits of up to so many impacts."""
-    found = search_words(alpha, longest, flight)
+    cycles = search_words(alpha, longest, flight)
     most = longest_flight(alpha) if flight is None else min(flight, longest_flight(alpha))
     print(
         f"alpha = {_short(alpha)}: every periodic orbit with at most {longest} impacts and flights"
@@ -172,7 +172,7 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
             " theorem-flights"
         )
     rows = []
-    for one in found:
+    for one in cycles:
         name = f"e_{one.word[0]}" if len(one.word) == 1 else ""
         verdict = (
             "attracts near states" if one.attracts else "on x = w: the affine map does not tell"

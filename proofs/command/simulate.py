@@ -199,16 +199,16 @@ def _whole(text: str, name: str) -> int:
 
 def _axes(text: str, option: str, parts: int) -> tuple[tuple[str, str], Axis, Axis]:
     """The names of both components, and the axis of each."""
-    found: dict[str, Axis] = {}
+    axes: dict[str, Axis] = {}
     for part in text.split(","):
         name, _, rest = part.partition("=")
         name = name.strip()
-        if name in found:
+        if name in axes:
             raise ClaimError(f"--{option}: {name[:20]} is given twice; give each component once")
-        found[name] = _axis(rest, f"--{option} {name[:20]}", parts)
+        axes[name] = _axis(rest, f"--{option} {name[:20]}", parts)
     for names in (NORMAL, PHYSICAL):
-        if set(found) == set(names):
-            return names, found[names[0]], found[names[1]]
+        if set(axes) == set(names):
+            return names, axes[names[0]], axes[names[1]]
     raise ClaimError(
         f"--{option} {text[:40]!r} has not x and w, nor beta and v; write x=..,w=.. or beta=..,v=.."
     )

@@ -159,7 +159,7 @@ def _vibration(text: str) -> tuple[float, float]:
 
 
 def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
-    found = table_one(
+    computed = table_one(
         setting,
         ensembles=options.ensembles,
         horizon=_number(options.horizon, "horizon"),
@@ -170,16 +170,20 @@ def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> i
     )
     clear()
     keep_results(
-        setting, found, options.amplitudes, options.seed
+        setting, computed, options.amplitudes, options.seed
     )  # before anything is printed, to a reader who may not stay
-    part_tables.table(found, setting, options.amplitudes, options.e is None and options.mu is None)
+    part_tables.table(
+        computed, setting, options.amplitudes, options.e is None and options.mu is None
+    )
     if options.output is not None:
         with written_aside(options.output) as file:
-            _writer(options.output)(found, file)
-        print(f"{options.output}: {len(found.rows)} rows of {options.ensembles} ensembles written")
+            _writer(options.output)(computed, file)
+        print(
+            f"{options.output}: {len(computed.rows)} rows of {options.ensembles} ensembles written"
+        )
     if not options.check:
         return 0
-    return 1 if part_tables.violations(found.run, setting) else 0
+    return 1 if part_tables.violations(computed.run, setting) else 0
 
 
 def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:

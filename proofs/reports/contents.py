@@ -34,7 +34,7 @@ from juggleproof.proofs.run import Options, findings_in, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
-# All that reports tell, gathered once: claims with verdicts, derivations and statements; the
+# All that reports show, gathered once: claims with verdicts, derivations and statements; the
 # theorem's tree; what differs from the register.
 #
 # Verdicts are judged again from the store, by what the checker said of these very files; nothing is
@@ -59,7 +59,7 @@ class Shown:
 
 @dataclass(frozen=True)
 class Entry:
-    """One claim as reports tell it; `wrong` and `group` are as in the errata, and empty where
+    """One claim as reports show it; `wrong` and `group` are as in the errata, and empty where
     nothing is wrong.
     """
 
@@ -95,7 +95,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Contents:
-    """Everything that reports tell; entries in the paper's order, derivations each after what it is
+    """Everything that reports show; entries in the paper's order, derivations each after what it is
     made from, rules with the theorem first.
     """
 
@@ -150,13 +150,13 @@ def gather(register: Path = PATH) -> Contents:
 
 def tool_versions() -> dict[str, str]:
     """The versions of the libraries that search and vote, and of this project."""
-    found = {}
+    versions = {}
     for tool in ("juggleproof", *TOOLS):
         try:
-            found[tool] = version(tool)
+            versions[tool] = version(tool)
         except PackageNotFoundError:
-            found[tool] = "not installed"
-    return found
+            versions[tool] = "not installed"
+    return versions
 
 
 def entry(claim: Claim, judgement: Judgement) -> dict[str, str]:
@@ -267,7 +267,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
         return contents
     if register is None:
         register = load_register()
-    found = [
+    results = [
         Result(
             one.claim.id,
             one.claim.section,
@@ -297,7 +297,9 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
         )
         for one in contents.entries
     ]
-    return table.compared(found, register, (), Results((), contents.theorem, tuple(contents.votes)))
+    return table.compared(
+        results, register, (), Results((), contents.theorem, tuple(contents.votes))
+    )
 
 
 def as_json(contents: Contents | Results) -> bytes:

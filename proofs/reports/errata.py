@@ -43,7 +43,7 @@ GROUPS = {
         " authors'"
     ),
 }
-WIDTH, SAYS_MORE = 124, 110  # characters of a formula that are still read at a glance
+WIDTH, LONGEST_GOAL = 124, 110  # characters of a formula that are still read at a glance
 
 
 def as_text() -> str:
@@ -59,9 +59,9 @@ def as_text() -> str:
     findings, claims = findings_in(DEFAULT), paper_claims()
     lines = [HEAD]
     for group, title in GROUPS.items():
-        found = [claim for claim in claims if group_of(claim, register, findings) == group]
-        lines.append(f"{title} ({len(found)})\n")
-        for claim in found:
+        members = [claim for claim in claims if group_of(claim, register, findings) == group]
+        lines.append(f"{title} ({len(members)})\n")
+        for claim in members:
             lines += [*entry_of(claim, register, findings.get(claim.id, {}), store), ""]
     names = restored(claims, register)
     mangled = (
@@ -207,7 +207,7 @@ def what_is_wrong(entry: Mapping[str, str], sharp: Mapping[str, str]) -> list[st
             f"read as {name}: {words[word]}{_for_alpha(sharp.get(name + '.', ''), word)}"
             for name, word in readings.items()
         ]
-    for pattern, told in (
+    for pattern, wording in (
         (r"^its conclusion is refuted(, and)?", r"the conclusion is false\1"),
         (r", and (step .*)", r", and so is \1"),
         (r"^step (.*,.*) is false", r"steps \1 are false"),
@@ -215,7 +215,7 @@ def what_is_wrong(entry: Mapping[str, str], sharp: Mapping[str, str]) -> list[st
         ("conclusion certified", "the conclusion is certified all the same"),
         ("conclusion by", "the conclusion stands by"),
     ):
-        detail = re.sub(pattern, told, detail)
+        detail = re.sub(pattern, wording, detail)
     if detail:
         return [detail]
     return [
@@ -266,7 +266,7 @@ def _counterexamples(claim: Claim, store: Store) -> list[str]:
     """The exact values of every refuted statement, with the part of the claim that fails there, and
     what it says where that is short.
     """
-    found = dict[str, str]()
+    goals = dict[str, str]()
     for name, text in store.texts.items():
         certificate = store.certificate(name, text) if name.split("/")[0] == claim.id else None
         if isinstance(certificate, dict) and "refuted" in certificate:
@@ -274,27 +274,27 @@ def _counterexamples(claim: Claim, store: Store) -> list[str]:
             values = counterexample(certificate["refuted"]) + (
                 "" if label == "main" else f"   [{label}]"
             )
-            found.setdefault(values, said_there(text))
-    return [values + (f"\nfalse there: {said}" if said else "") for values, said in found.items()]
+            goals.setdefault(values, goal_of(text))
+    return [values + (f"\nfalse there: {goal}" if goal else "") for values, goal in goals.items()]
 
 
-def said_there(text: str) -> str:
-    """What the statement says at a point of its givens, in the statement's own words; nothing where
-    that is long.
+def goal_of(text: str) -> str:
+    """What the statement shows at a point of its givens, in its own words; nothing where that is
+    long.
 
     >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nwith y > 0\\nshow y < x - 1"
-    >>> said_there(text)
+    >>> goal_of(text)
     'some y has y > 0 and y < x - 1'
     """
     lines = [line.partition(" ") for line in text.splitlines()]
-    chosen = " ".join(said for keyword, _, said in lines if keyword == "exists")
+    chosen = " ".join(names for keyword, _, names in lines if keyword == "exists")
     shown = (f"some {chosen} has " if chosen else "") + " and ".join(
-        said for keyword, _, said in lines if keyword in ("with", "show")
+        formula for keyword, _, formula in lines if keyword in ("with", "show")
     )
     lets = [
-        said
-        for keyword, _, said in lines
-        if keyword == "let" and re.search(rf"\b{said.split()[0]}\b", shown)
+        let
+        for keyword, _, let in lines
+        if keyword == "let" and re.search(rf"\b{let.split()[0]}\b", shown)
     ]
-    said = shown + "".join(f", where {let}" for let in lets)
-    return said if len(said) <= SAYS_MORE else ""
+    goal = shown + "".join(f", where {let}" for let in lets)
+    return goal if len(goal) <= LONGEST_GOAL else ""

@@ -414,17 +414,17 @@ def _numbers_added(addends: list[tuple[int, ast.AST]]) -> list[tuple[int, ast.AS
 
 def _powers_joined(factors: list[ast.AST]) -> list[ast.AST]:
     """Powers of one name as one power."""
-    found: dict[str, int] = {}
+    exponents: dict[str, int] = {}
     others = []
     for factor in factors:
         base, exponent = _power(factor)
         if isinstance(base, ast.Name) and exponent is not None:
-            found[base.id] = found.get(base.id, 0) + exponent
+            exponents[base.id] = exponents.get(base.id, 0) + exponent
         else:
             others.append(factor)
     joined = [
         ast.parse(f"{name}**{exponent}" if exponent != 1 else name, mode="eval").body
-        for name, exponent in found.items()
+        for name, exponent in exponents.items()
     ]
     return [*joined, *others]
 

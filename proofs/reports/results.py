@@ -1,4 +1,4 @@
-"""Rows of the table, the tree, the errata: said once."""
+"""The table of results, and the results of a run as data."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def reading_of(body: Body) -> str:
 
 
 def verdict_text(claim: Claim, judgement: Judgement) -> str:
-    """The verdict with what must be said beside it."""
+    """The verdict with its qualifications."""
     word = judgement.verdict.word
     notes = []
     if claim.repeats and word in ("misprint", "false"):
@@ -225,7 +225,7 @@ class Stated:
 
 @dataclass(frozen=True)
 class Result:
-    """A claim as it was judged; `wrong` and `group` tell what is not simply true, as `errata`
+    """A claim as it was judged; `wrong` and `group` show what is not simply true, as `errata`
     does.
     """
 
@@ -334,8 +334,8 @@ def results_of_run(
 ) -> Results:
     """The results of a run in hand; without a register they are about the user's own claims."""
     findings = {one.id: one.finding() for one in judgements}
-    found = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
-    entries = {**(register or {}), **{one.id: one.registered() for one in found}}
+    judged_claims = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
+    entries = {**(register or {}), **{one.id: one.registered() for one in judged_claims}}
     grouped = [
         replace(
             one,
@@ -346,7 +346,7 @@ def results_of_run(
                 else tuple(what_is_wrong(entries[one.id], findings[one.id]["sharp"]))
             ),
         )
-        for claim, one in zip(claims, found)
+        for claim, one in zip(claims, judged_claims)
     ]
     return compared(
         grouped,
@@ -404,7 +404,7 @@ def where(outcome: str, at: str) -> str:
 
 
 def compared(
-    found: Sequence[Result],
+    results: Sequence[Result],
     register: Register | None,
     rejected: Sequence[tuple[str, str]],
     about: Results,
@@ -413,7 +413,7 @@ def compared(
     can hold.
     """
     reasons = dict(rejected)
-    claims = tuple(_written(_without(one, reasons)) for one in found)
+    claims = tuple(_written(_without(one, reasons)) for one in results)
     changes = (
         ()
         if register is None

@@ -230,8 +230,8 @@ def test_points_depend_on_the_seed_alone_holds() -> None:
 # ------------------------------------------------------------ edits
 
 GLYPH = re.compile(
-    r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?|\\(?:alpha|gamma)\b"
-    r"|\b[xwutTK]\b(?!_)|\\tau_c"
+    r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?"
+    r"|\\(?:alpha|gamma)\b|\b[xwutTK]\b(?!_)|\\tau_c"
 )
 SWAPS = [
     (r"\\leq?\b", "<"), (r"\\geq?\b", ">"), ("<", r"\\le "), (">", r"\\ge "), ("<", ">"),
