@@ -10,7 +10,6 @@ import sys
 import time
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import pytest
 import sympy
@@ -32,7 +31,7 @@ from juggleproof.benchmarks.bench.methods import (
     Method,
     bernstein,
 )
-from juggleproof.benchmarks.bench.numerics import Arb, Mpmath, never_negative
+from juggleproof.benchmarks.bench.numerics import Arb, Intervals, Mpmath, never_negative
 from juggleproof.benchmarks.bench.orbits import STARTS
 from juggleproof.benchmarks.bench.questions import (
     ALPHAS,
@@ -151,7 +150,7 @@ def test_rejects_a_bound_that_is_exceeded(monkeypatch: pytest.MonkeyPatch, name:
 
 
 @pytest.mark.parametrize("numbers", [Arb(), Mpmath()])
-def test_rejects_a_bound_below_the_supremum_by_boxes(numbers: Any) -> None:
+def test_rejects_a_bound_below_the_supremum_by_boxes(numbers: Intervals) -> None:
     for name in ("E-B1zero", "p-outside-R", "DE-H"):
         problem = questions()[name].problem()
         assert (

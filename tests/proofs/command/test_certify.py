@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
@@ -41,7 +41,7 @@ def run(*arguments: str) -> Done:
     out, err = io.StringIO(), io.StringIO()
     with redirect_stdout(out), redirect_stderr(err):
         try:
-            code: Any = main.run(arguments)
+            code = main.run(arguments)
         except SystemExit as ended:  # argparse rejects arguments so
             code = ended.code
     return Done(code, out.getvalue(), err.getvalue())

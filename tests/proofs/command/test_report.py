@@ -5,7 +5,7 @@ nothing half-written.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import NoReturn
 
 import pytest
 
@@ -50,7 +50,7 @@ def test_rejects_a_folder_that_cannot_be_made(
 def test_missing_library_is_told_and_nothing_written_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def absent(name: str) -> Any:
+    def absent(name: str) -> NoReturn:
         raise ImportError(name)
 
     monkeypatch.setattr(report, "gather", contents)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from math import ceil, floor, isqrt
-from typing import Any
+from typing import Union
 
 LARGEST_EXPONENT = 400
 
@@ -107,7 +107,7 @@ class Implied(Formula):
     right: Formula
 
 
-Value = Any  # Fraction | bool | tuple of such: what a caller expects, it compares with
+Value = Union[Fraction, bool, tuple["Value", ...]]
 Root = Callable[[Fraction], Fraction]
 HOLDS: dict[str, Callable[[Fraction, Fraction], bool]] = {
     "<": lambda a, b: a < b,

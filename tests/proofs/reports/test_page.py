@@ -145,7 +145,7 @@ def test_statements_stand_as_the_checker_reads_them_holds() -> None:
 SAMPLE = {"eq-37/bound", "eq-26/sampled.enters-later", "theorem-in-units/descends"}
 
 
-def test_certificates_are_whole_or_told_where_they_stand_holds() -> None:
+def test_certificates_are_whole_or_named_by_their_file_holds() -> None:
     for block in document().with_class("statement"):
         name = block.attributes["id"]
         shown = (
@@ -164,7 +164,7 @@ def test_certificates_are_whole_or_told_where_they_stand_holds() -> None:
             ),
             None,
         )
-        told = next(
+        stored = next(
             (
                 re.fullmatch(r"certificate: (\d+) characters, in (\S+)", label)
                 for label in labels
@@ -172,15 +172,15 @@ def test_certificates_are_whole_or_told_where_they_stand_holds() -> None:
             ),
             None,
         )
-        assert bool(whole) != bool(told), name
+        assert bool(whole) != bool(stored), name
         if whole:
             assert len(list(block.all("pre"))[1].text()) == int(whole.group(1))
-        if told:
-            assert (ROOT / told.group(2)).is_file()
+        if stored:
+            assert (ROOT / stored.group(2)).is_file()
         if shown:
-            assert len(json.dumps(shown.certificate, separators=(",", ":"))) == int(
-                (whole or told)[1]
-            )  # type: ignore[index]
+            length = whole or stored
+            assert length
+            assert len(json.dumps(shown.certificate, separators=(",", ":"))) == int(length[1])
 
 
 def test_certificates_of_the_theorem_are_whole_holds() -> None:

@@ -8,12 +8,12 @@ from dataclasses import asdict, replace
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from juggleproof.proofs import kept as records
 from juggleproof.proofs.reports import part
+from juggleproof.proofs.reports.contents import Entry
 from juggleproof.proofs.reports.page import build
 from juggleproof.proofs.reports.part import HEADS, Results, kept_results
 from tests.proofs.reports.browser import Element, read_html
@@ -54,7 +54,7 @@ def told(scene: Results | None) -> Element:
 
 
 @cache
-def few() -> Any:
+def few() -> tuple[Entry, ...]:
     return tuple(entry for entry in contents().entries if entry.claim.section == "part")[:2]
 
 
@@ -149,7 +149,7 @@ def test_results_are_kept_under_the_sources_holds(
 
 @pytest.mark.parametrize("found", [[], [{}], [{"run": "", "more": ""}]])
 def test_rejects_records_that_are_no_results(
-    found: list[dict[str, Any]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    found: list[records.Record], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(records.VARIABLE, str(tmp_path))
     records.keep(part.key(), found)
