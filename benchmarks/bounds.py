@@ -100,7 +100,9 @@ PROBLEMS: dict[str, tuple[str, str, str]] = {
 
 
 def seconds_of_checking(enclosure: Enclosure) -> float:
-    """The time of both checks, the statements being read."""
+    """Seconds of both checks, the statements being read; raises ArithmeticError where the checker
+    does not certify both.
+    """
     statements = checker.read_statements(enclosure.statements)
     began = time.perf_counter()
     outcomes = [
@@ -135,7 +137,9 @@ def cold(polynomial: str, side: str, width: str) -> float:
 
 
 def row(name: str, width: str, runs: int) -> Sequence[str]:
-    """One problem: medians of so many runs."""
+    """One problem: medians of so many runs.  Raises ArithmeticError where the published minimum is
+    not within 10^-4 of the enclosure.
+    """
     polynomial, side, published = PROBLEMS[name]
     warm = []
     for _ in range(runs + 1):
@@ -165,6 +169,7 @@ def row(name: str, width: str, runs: int) -> Sequence[str]:
 
 
 def main() -> None:
+    """Prints the table."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

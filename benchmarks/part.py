@@ -183,6 +183,7 @@ def plot(
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Prints seconds, exponents of growth, errors and scatter; draws them where asked to."""
     parser = argparse.ArgumentParser(
         prog="python -m juggleproof.benchmarks.part", description=__doc__
     )

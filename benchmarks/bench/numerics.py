@@ -28,15 +28,19 @@ Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put
 
 
 class Intervals(Protocol):
-    """Numbers that enclose: made from rationals, and asked for their least and their greatest
-    value.
-    """
+    """Numbers that enclose, of one library."""
 
-    def over(self, low: Fraction, high: Fraction) -> Ball: ...
+    def over(self, low: Fraction, high: Fraction) -> Ball:
+        """A number that encloses [low, high]."""
+        ...
 
-    def least(self, value: Ball) -> Ball: ...
+    def least(self, value: Ball) -> Ball:
+        """Its lower end."""
+        ...
 
-    def most(self, value: Ball) -> Ball: ...
+    def most(self, value: Ball) -> Ball:
+        """Its upper end."""
+        ...
 
 
 class Arb:

@@ -95,7 +95,9 @@ Exceeds = Callable[[Problem, Fraction], bool]
 
 
 def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
-    """The range halved until it is as narrow as the width."""
+    """The range halved until it is as narrow as the width; raises GaveUp where the supremum is not
+    in [-START, START].
+    """
     low, high, asked = -START, START, 2
     if not exceeds(problem, low) or exceeds(problem, high):
         raise GaveUp("the supremum is not between -4 and 4")
@@ -107,7 +109,7 @@ def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
 
 def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
     """One question, a little above the value at a point, which floating point finds and exact
-    arithmetic evaluates.
+    arithmetic evaluates; raises GaveUp where the supremum exceeds it.
     """
     low = best_point(problem, width / SHARE)[1]
     high = low + width * (SHARE - 1) / SHARE
@@ -132,7 +134,9 @@ def by_z3(problem: Problem, bound: Fraction) -> bool:
 
 
 def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
-    """cvc5, in this process; if asked to, it writes its proof, in its own format."""
+    """cvc5, in this process; if asked to, it writes its proof, in its own format.  Raises GaveUp
+    where it does not decide, or writes none.
+    """
     import cvc5
 
     solver = cvc5.Solver()
@@ -171,7 +175,7 @@ def by_qepcad(problem: Problem, bound: Fraction) -> bool:
 
 def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
     """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
-    Its proof is checked by Coq's kernel.
+    Its proof is checked by Coq's kernel.  Raises GaveUp where there is none.
     """
     if not proves(goal(problem, bound), ENOUGH):
         raise GaveUp("no proof")

@@ -204,7 +204,9 @@ def are_scripts(files: Sequence[Path]) -> bool:
 
 
 def certify_problems(options: CertifyOptions) -> int:
-    """Answers the problems; 0 where all are answered, and as the scripts state, else 1."""
+    """Answers the problems; 0 where all are answered, and as the scripts state, else 1.  Raises
+    ClaimError for an option that goes with claims only.
+    """
     for option in NOT_FOR_SCRIPTS:
         if getattr(options, option):
             raise ClaimError(f"--{option}: not for scripts of SMT-LIB; leave it out")

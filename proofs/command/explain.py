@@ -18,7 +18,9 @@ from juggleproof.proofs.reports.tree import print_tree
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Explains a claim, or with options of its own the theorem; 0."""
+    """Explains a claim, or with options of its own the theorem; 0.  Raises ClaimError for options
+    that do not go together.
+    """
     of_theorem = [
         option
         for option in ("alpha", "state", "bounds")
@@ -41,7 +43,7 @@ def command(parsed: argparse.Namespace) -> int:
 
 def explain(claim_id: str, with_premises: bool = False) -> int:
     """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
-    sharp range, verdict; the tree of its rules.
+    sharp range, verdict; the tree of its rules.  Raises ClaimError for an unknown name.
     """
     claims = {claim.id: claim for claim in paper_claims()}
     claim_id = claim_named(claim_id, claims)

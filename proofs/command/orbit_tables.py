@@ -146,7 +146,9 @@ def _print_ends(orbits: Orbits) -> None:
 
 
 def times(setting: Scene, low: Number, high: Number, count: int) -> int:
-    """Heights of ball and table at times, in the units of r and g."""
+    """Heights of ball and table at times, in the units of r and g; raises SceneError for several
+    starts.
+    """
     if setting.starts.count > 1:
         raise SceneError(f"times of {setting.starts.count} starts; give one start")
     samples = heights(

@@ -95,7 +95,9 @@ def _part(parsed: argparse.Namespace) -> int:
 
 
 def juggler(options: JugglerOptions) -> int:
-    """The orbits of the paper's map, or one of the lists of the juggler."""
+    """The orbits of the paper's map, or one of the lists of the juggler; the exit code.  Raises
+    ClaimError for options that do not go together, and for a missing one.
+    """
     _refuse_what_does_not_go_together(options)
     if options.hard_cases:
         return orbit_tables.hard_cases()
@@ -134,7 +136,9 @@ def _refuse_what_does_not_go_together(options: JugglerOptions) -> None:
 
 
 def starts(options: JugglerOptions, alpha: Fraction) -> Starts:
-    """The starting states that were asked for."""
+    """The starting states that were asked for; raises ClaimError where they are none, or of two
+    kinds.
+    """
     given = [name for name in STARTS if getattr(options, name) is not None]
     if len(given) != 1:
         fault = (

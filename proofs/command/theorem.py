@@ -201,7 +201,7 @@ FOLLOWED = 200  # impacts that an orbit is followed for where nothing is certifi
 
 
 def read_alpha(text: str) -> Fraction:
-    """The restitution, strictly between 0 and 1."""
+    """The restitution; raises ClaimError unless 0 < alpha < 1."""
     alpha = exact(text, "alpha")
     if not 0 < alpha < 1:
         raise ClaimError(
@@ -212,7 +212,7 @@ def read_alpha(text: str) -> Fraction:
 
 def read_state(alpha: Fraction, text: str) -> State:
     """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the
-    normal form.
+    normal form.  Raises ClaimError for other components, r <= 0, g <= 0 or beta < 0.
     """
     given = components(text, NORMAL_FORM + UNITS)
     names = UNITS if set(given) & set(UNITS) else NORMAL_FORM

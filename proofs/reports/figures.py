@@ -114,7 +114,7 @@ def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, boo
 
 def margin(relation: Formula) -> tuple[Expr, bool]:
     """What is positive where a strict relation holds, or not negative where one that is not strict
-    does; and whether it is strict.
+    does; and whether it is strict.  Raises ClaimError for what is no inequality.
     """
     less, more = relation.args if relation.op in ("<", "<=") else reversed(relation.args)
     if relation.op not in ("<", "<=", ">", ">="):

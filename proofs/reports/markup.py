@@ -370,7 +370,7 @@ def picture(nodes: Sequence[Node], title: str) -> str:
 
 
 def depths(nodes: Sequence[Node]) -> Mapping[str, int]:
-    """The longest way from a node that nothing rests on; a circle is an error.
+    """The longest way from a node that nothing rests on; raises ValueError for a circle.
 
     >>> a, b = Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",))
     >>> depths([a, b, Node("c", "", "", "", "")])

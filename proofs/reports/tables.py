@@ -80,7 +80,9 @@ def exact(text: str, name: str) -> Fraction:
 
 
 def whole(text: str) -> int:
-    """A whole number, as an option of the command line takes it."""
+    """A whole number, as an option of the command line takes it; raises ArgumentTypeError for
+    another text.
+    """
     if not (text.isascii() and text.removeprefix("-").isdecimal()):
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number")
     if len(text) > 4000:
@@ -89,7 +91,8 @@ def whole(text: str) -> int:
 
 
 def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:
-    """The numbers of a text such as x=1000,w=-41, each of these names at most once.
+    """The numbers of a text such as x=1000,w=-41, each of these names at most once; raises
+    ClaimError for another name, or one that stands twice.
 
     >>> components("x=1/2,w=-3", ("x", "w", "r"))
     {'x': Fraction(1, 2), 'w': Fraction(-3, 1)}
