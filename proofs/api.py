@@ -14,7 +14,7 @@ from typing import Union
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.judging import DEFAULT_BUDGET
+from juggleproof.proofs.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.run import Options, claims_of_file, run
 from juggleproof.proofs.smtlib.answering import BUDGET, answer_files, in_script
 

@@ -19,9 +19,11 @@ from juggleproof.certificates.language import (
     Roles,
     SharpRange,
     Statement,
+    Term,
 )
 from juggleproof.proofs.forms import PLAIN, Vocabulary, domains_of
 from juggleproof.proofs.reading import meaning
+from juggleproof.proofs.reading.values import Matrix, Vector
 
 # -------------------------------------------------------------------------------------------------
 # Claims: an assertion with its place and print, and the formal reading that is judged.
@@ -102,7 +104,7 @@ class Claim:
     as_it_stands: str = ""
     repeats: str = ""
     parameters: tuple[str, ...] | None = None
-    derived: Callable[[], Any] | None = None
+    derived: Callable[[], Term | Vector | Matrix] | None = None
     true_nearby: tuple[str, Callable[[], Any]] | None = None
     hints: Mapping[str, Any] = field(default_factory=dict)
     source: str = ""
@@ -228,7 +230,7 @@ def claim(
     as_it_stands: str = "",
     repeats: str = "",
     parameters: Sequence[str] | None = None,
-    derived: Callable[[], Any] | None = None,
+    derived: Callable[[], Term | Vector | Matrix] | None = None,
     true_nearby: tuple[str, Callable[[], Any]] | None = None,
     hints: Mapping[str, Any] | None = None,
     vocabulary: Vocabulary = PLAIN,

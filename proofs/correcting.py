@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from juggleproof.certificates.language import (
     ClaimError,
@@ -21,6 +20,7 @@ from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.reading.edits import one_mark_changes
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.values import Value, Vector
 
 # -------------------------------------------------------------------------------------------------
 # Corrections of a print that is refuted: one mark changed, rational coefficients on the printed
@@ -58,11 +58,11 @@ class Amended(Printed):
 
     __slots__ = ("_right",)
 
-    def __init__(self, printed: Printed, right: Any) -> None:
+    def __init__(self, printed: Printed, right: Value) -> None:
         super().__init__(printed.latex)
         self._right = right
 
-    def relation_chain(self, environment: Environment) -> list[tuple[Any, str, Any]]:
+    def relation_chain(self, environment: Environment) -> list[tuple[Value, str, Value]]:
         """The printed chain with the amended value at its end."""
         chain = super().relation_chain(environment)
         left, relation, _ = chain[-1]
@@ -118,20 +118,21 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
             )
         shown = (
             ", ".join(str(term(e)) for e in truth.entries)
-            if hasattr(truth, "entries")
+            if isinstance(truth, Vector)
             else str(truth)
         )
         yield Candidate("derived", "the derived form", shown, Amended(claim.read_print(), truth))
 
 
-def _printed_right(claim: Claim) -> Any:
+def _printed_right(claim: Claim) -> Value | None:
     """The printed right-hand side in the names of the claim's vocabulary, where those suffice to
     read it.
     """
     if claim.vocabulary.reads is None:
         return None
     try:
-        return claim.read_print().right(claim.vocabulary.reads())
+        right: Value = claim.read_print().right(claim.vocabulary.reads())
+        return right
     except ClaimError:
         return None
 
@@ -176,7 +177,7 @@ def coefficients_on_printed_terms(
     return fitted
 
 
-def _sum_inside(expression: Term) -> tuple[list[Term], Any] | None:
+def _sum_inside(expression: Term) -> tuple[list[Term], Callable[[Sequence[Term]], Term]] | None:
     """The first sum inside products and quotients, as its terms with their signs, and how to put
     another sum in its place.
     """

@@ -22,6 +22,7 @@ from typing import Any, TypeVar
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import ClaimError, SharpRange
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import (
     CERTIFICATES,
     STATEMENTS,
@@ -40,15 +41,8 @@ from juggleproof.proofs.claims import (
     claims_of,
     named_statements,
 )
-from juggleproof.proofs.judging import (
-    DEFAULT_BUDGET,
-    ROUTES,
-    Finding,
-    Judgement,
-    Resources,
-    judge,
-    settle_by_rules,
-)
+from juggleproof.proofs.judgement import DEFAULT_BUDGET, ROUTES, Finding, Judgement, Resources
+from juggleproof.proofs.judging import judge, settle_by_rules
 
 FINDINGS = "findings"
 WIDTH = 96  # of a comment in the statement file
@@ -189,14 +183,15 @@ def _selected(claims: Sequence[Claim], only: Sequence[str]) -> Sequence[Claim]:
 
 
 def findings_in(folder: Path) -> dict[str, Finding]:
-    """What an earlier run found about each claim, to be tried first; nothing where the file cannot
-    be read.
+    """The findings of an earlier run by claim, which are tried first; none where the file cannot be
+    read.
     """
     try:
         data = json.loads((folder / FINDINGS).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    return data if isinstance(data, dict) else {}
+    findings: dict[str, Finding] = data if isinstance(data, dict) else {}
+    return findings
 
 
 def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:
@@ -218,8 +213,11 @@ def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
     stored of them.  Returns the files changed.
     """
     store, fresh = Store(folder), {judgement.id: judgement for judgement in done.judgements}
+    names: dict[str, list[str]] = {}  # of the stored statements, by claim
+    for name in store.texts:
+        names.setdefault(name.split("/")[0], []).append(name)
     chapters: list[tuple[str, Sequence[str]]] = []
-    certificates: dict[str, Mapping[str, Any]] = {}
+    certificates: dict[str, Mapping[str, Certificate]] = {}
     findings = findings_in(folder)
     for claim in everything:
         if claim.id in fresh:
@@ -229,13 +227,11 @@ def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
                 certificates[claim.id] = judgement.certificates
             findings[claim.id] = judgement.finding()
         else:
-            held = {
-                name: store.texts[name] for name in store.texts if name.split("/")[0] == claim.id
-            }
-            chapters.append((heading(claim), list(held.values())))
-            if held:
+            kept = {name: store.texts[name] for name in names.get(claim.id, ())}
+            chapters.append((heading(claim), list(kept.values())))
+            if kept:
                 certificates[claim.id] = {
-                    name: store.certificate(name, text) for name, text in held.items()
+                    name: store.certificate(name, text) for name, text in kept.items()
                 }
     findings = {claim.id: findings[claim.id] for claim in everything if claim.id in findings}
     text = statement_file(TITLE, chapters, _definitions(everything), store.texts)

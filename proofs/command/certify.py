@@ -18,7 +18,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, canonical, write_file
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command.outputs import fault_of
-from juggleproof.proofs.judging import DEFAULT_BUDGET, Judgement
+from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, Register, load_register, write_register
 from juggleproof.proofs.reports import pages, problems

@@ -9,8 +9,8 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
-from juggleproof.proofs.derivations import derivations_of
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import derivations_of
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.errata import counterexample
 from juggleproof.proofs.reports.results import reading_of

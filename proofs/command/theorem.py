@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from juggleproof.certificates.language import ClaimError, term
-from juggleproof.proofs.paper.names import derived
+from juggleproof.proofs.paper.names import derived_vector
 from juggleproof.proofs.reports.tables import DIGITS, components, exact, shown
 from juggleproof.proofs.theorem import quantities
 from juggleproof.proofs.theorem.definition import (
@@ -439,7 +439,7 @@ def follow(state: State) -> tuple[list[Move], int | None, str]:
 def _known_as(state: State) -> str:
     """Which fixed point of the paper has its impact at this state."""
     K = state.w * (1 + state.alpha) / 2
-    there = state.moved(derived("normal_impact_fixed_point"), K=K)
+    there = state.moved(derived_vector("normal_impact_fixed_point"), K=K)
     return (
         f", the orbit of e_{K}"
         if K.denominator == 1 and (there.x, there.w) == (state.x, state.w)

@@ -24,7 +24,7 @@ from juggleproof.certificates.language import (
 from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs import claims
 from juggleproof.proofs.forms import Vocabulary, always
-from juggleproof.proofs.paper.names import derived
+from juggleproof.proofs.paper.names import derived, derived_vector
 
 # -------------------------------------------------------------------------------------------------
 # What the claims about a corner's impact have in common: names, hypotheses, the five modes and
@@ -93,7 +93,7 @@ class Impulse(NamedTuple):
 
 def of(name: str, *arguments: str) -> Impulse:
     """A derived impulse or velocity."""
-    value = derived(name, *arguments)
+    value = derived_vector(name, *arguments)
     return Impulse(term(value.component(1)), term(value.component(2)))
 
 
@@ -159,7 +159,8 @@ x_c, y_c, J, h, k, mu = reals("x_c y_c J h k mu")
 c_x, c_y, omega, P_x, P_y = reals("c_x c_y omega P_x P_y")
 d_x, d_y, omega_after = reals("d_x d_y omega_after")  # the motion after the impulse
 COEFFICIENTS: dict[str, Term] = {
-    f"B{index}": term(derived("contact_coefficients").component(index)) for index in (1, 2, 3)
+    f"B{index}": term(derived_vector("contact_coefficients").component(index))
+    for index in (1, 2, 3)
 }
 B1, B2, B3 = reals("B1 B2 B3")
 NAMES = Vocabulary(abbreviations=COEFFICIENTS)

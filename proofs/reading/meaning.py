@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from juggleproof.certificates.language import Formula, Term, conjunction, implies, term
 from juggleproof.proofs.reading import tree as t
-from juggleproof.proofs.reading.evaluation import Environment, Evaluation, Value, relate
+from juggleproof.proofs.reading.evaluation import Environment, Evaluation, relate
 from juggleproof.proofs.reading.lexer import PrintError
 from juggleproof.proofs.reading.parser import parse, parse_name
 from juggleproof.proofs.reading.tree import HOLE, Tree, spelled
@@ -20,6 +19,8 @@ from juggleproof.proofs.reading.values import (
     Region,
     Restricted,
     Rounded,
+    Scalar,
+    Value,
     Vector,
     applied,
     is_scalar,
@@ -49,11 +50,11 @@ class Meaning(Evaluation):
         entries = tuple(self._entry(item) for item in tree.items)
         return Matrix((entries,)) if tree.bracket == "[" else Vector(entries)
 
-    def _entry(self, tree: Tree) -> Value:
+    def _entry(self, tree: Tree) -> Scalar:
         value = self.here(tree)
-        if not is_scalar(value):
-            raise PrintError(tree.at, "an entry of a vector or matrix that is not a scalar")
-        return value
+        if is_scalar(value):
+            return value
+        raise PrintError(tree.at, "an entry of a vector or matrix that is not a scalar")
 
     def array(self, tree: t.Array) -> Value:
         rows = tuple(tuple(self._entry(entry) for entry in row) for row in tree.rows)
@@ -253,22 +254,22 @@ class Printed:
             dict.fromkeys(spelled(name) for part in self._parts for name in _names_in(part))
         )
 
-    def relation_chain(self, environment: Environment) -> list[tuple[Any, str, Any]]:
+    def relation_chain(self, environment: Environment) -> list[tuple[Value, str, Value]]:
         """(left value, relation sign, right value) for each relation of the chain, in order."""
         chain = self._chain()
         return [
             (_as_term(a), sign, _as_term(b)) for a, sign, b in Meaning(environment).triples(chain)
         ]
 
-    def left(self, environment: Environment) -> Any:
+    def left(self, environment: Environment) -> Value:
         """The value of what stands before the first relation."""
         return self.relation_chain(environment)[0][0]
 
-    def right(self, environment: Environment) -> Any:
+    def right(self, environment: Environment) -> Value:
         """The value of what stands after the last relation."""
         return self.relation_chain(environment)[-1][2]
 
-    def definition(self, environment: Environment, of: str) -> Any:
+    def definition(self, environment: Environment, of: str) -> Value:
         """The value that the print gives to the expression `of`, which must stand before its only
         relation, := or =.
         """
@@ -281,7 +282,7 @@ class Printed:
             raise PrintError(chain.at, "a definition is one expression, one :=, one value")
         return _as_term(Meaning(environment).side(chain.rest[0][1]))
 
-    def value(self, environment: Environment) -> Any:
+    def value(self, environment: Environment) -> Value:
         """The value of a print that is a single expression, without a relation."""
         if isinstance(self.tree, (t.Chain, t.ForAll)):
             raise PrintError(
@@ -318,8 +319,9 @@ class Printed:
             point,
             components,
         ) in environment.points.items():  # refuse now, not when the region is first asked
-            if point in environment.meanings and len(components) > 1:
-                region(environment.meanings[point])
+            state = environment.meanings.get(point)
+            if isinstance(state, Vector) and len(components) > 1:
+                region(state)
         return region
 
     def _chain(self) -> t.Chain:
@@ -334,11 +336,11 @@ def read(latex: str) -> Printed:
     return Printed(latex)
 
 
-def _as_term(value: Any) -> Any:
+def _as_term(value: Value) -> Value:
     return term(value) if is_scalar(value) and not isinstance(value, Term) else value
 
 
-def _names_in(tree: Any) -> Iterator[Tree]:
+def _names_in(tree: object) -> Iterator[Tree]:
     if isinstance(tree, t.Name):
         yield tree
     elif isinstance(tree, tuple):

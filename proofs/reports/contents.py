@@ -16,9 +16,10 @@ from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.derivations import Derivation, behind, derivations_of
-from juggleproof.proofs.judging import Correction, Finding, Judgement, settle_by_rules
+from juggleproof.proofs.judgement import Correction, Finding, Judgement
+from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
 from juggleproof.proofs.register import (
     PATH,
     Change,

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.judging import Correction, Finding
+from juggleproof.proofs.judgement import Correction, Finding
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.run import findings_in

@@ -14,7 +14,7 @@ from pathlib import Path
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.judging import Finding
+from juggleproof.proofs.judgement import Finding
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports import errata

@@ -21,7 +21,7 @@ from juggleproof.proofs.claims import (
     Following,
     Readings,
 )
-from juggleproof.proofs.judging import Correction, Judgement
+from juggleproof.proofs.judgement import Correction, Judgement
 from juggleproof.proofs.register import Change, Register, differences, registered
 from juggleproof.proofs.reports.errata import counterexample, group_of, what_is_wrong
 from juggleproof.proofs.reports.tables import plain

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.derivations import Derivation
+from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import Contents, Entry
 from juggleproof.proofs.reports.errata import GROUPS

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.derivations import Derivation
+from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports.contents import Entry
 from juggleproof.proofs.reports.latex import latex_of, with_macros
 from juggleproof.proofs.reports.words import pieces

@@ -42,9 +42,6 @@ STATUSES = ("sat", "unsat", "unknown")
 # -------------------------------------------------------------------------------------------------
 # Names of a script in our language.
 
-# the search gives these favoured values, as the paper's parameter and units have them
-OURS = OUR_RESERVED | {"alpha", "r", "g"}
-
 
 def our_name(symbol: str, taken: Collection[str]) -> str:
     """A name for a variable of the script that our language allows and that no other bears.
@@ -53,7 +50,7 @@ def our_name(symbol: str, taken: Collection[str]) -> str:
     ('x', 'x_', 'lambda_', 'v')
     """
     base = re.sub(r"\W", "_", symbol, flags=re.ASCII).lstrip("_0123456789") or "v"
-    name = base if NAME.match(base) and base not in OURS else base + "_"
+    name = base if NAME.match(base) and base not in OUR_RESERVED else base + "_"
     count = 1
     while name in taken:
         count += 1

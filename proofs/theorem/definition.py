@@ -28,8 +28,8 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.certificates.search.closing import Hints
-from juggleproof.proofs.derivations import Origin, made_by
 from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.paper.derivations import Origin, made_by
 from juggleproof.proofs.paper.names import (
     H,
     Placed,
@@ -38,7 +38,7 @@ from juggleproof.proofs.paper.names import (
     at,
     b,
     claim,
-    derived,
+    derived_vector,
     g,
     r,
     w,
@@ -384,7 +384,7 @@ PHYSICAL = Setting(
     pieces=((STRIKES_HERE, tidied("f1")), (opposite(STRIKES_HERE), tidied("f2"))),
     fixed=tidied("e_1"),
     other=tidied("impact_fixed_point", K=2),
-    place=derived("scaling"),
+    place=derived_vector("scaling"),
     units=(2 * r**2 / g, r),
 )
 

@@ -13,7 +13,8 @@ from juggleproof.certificates.language import Roles, Statement, conjunction, rea
 from juggleproof.certificates.search.ranges import Line
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import read, speaks_of_range
-from juggleproof.proofs.judging import Resources, Sharp, judge
+from juggleproof.proofs.judgement import Resources, Sharp
+from juggleproof.proofs.judging import judge
 from juggleproof.proofs.ranges import search_sharp_range, told
 
 alpha, K, n, k, x = reals("alpha K n k x")
