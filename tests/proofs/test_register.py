@@ -89,13 +89,13 @@ def test_changed_verdict_fails_and_is_shown_before_and_after_everywhere_holds(
             f"{name}: " in line and f"verdict was {before}, is {after}" in line for line in lines
         ), name
     data = json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
-    told = {
+    output = {
         one["claim"]: tuple(
             (one[side] or {"verdict": "absent"})["verdict"] for side in ("before", "after")
         )
         for one in data["changes"]
     }
-    assert told == expected and data["exit"] == 1
+    assert output == expected and data["exit"] == 1
     suite = ElementTree.parse(tmp_path / "out.junit").getroot()[0]
     failures = {
         case.get("name"): case.find("failure").get("message", "")
@@ -138,10 +138,10 @@ def test_accepting_writes_this_register_and_shows_before_and_after_holds(
     committed = PATH.read_bytes()
     register, expected = changed()
     assert with_register(register)("--accept", *outputs(tmp_path)) == 0
-    told = capsys.readouterr().out
+    output = capsys.readouterr().out
     assert (
-        all(f"verdict was {before}, is {after}" in told for before, after in expected.values())
-        and "accepted  eq-1" in told
+        all(f"verdict was {before}, is {after}" in output for before, after in expected.values())
+        and "accepted  eq-1" in output
     )
     assert json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))["accepted"] is True
     assert (tmp_path / "register.json").read_bytes() == committed == PATH.read_bytes()
@@ -179,14 +179,14 @@ def test_rejects_register_with(
     monkeypatch.setattr(certify, "certify", partial(certify.certify, register=path))
     monkeypatch.setattr(certify, "run", _no_run)
     assert run(["certify", "--accept", *outputs(tmp_path)]) == 2
-    told = capsys.readouterr()
+    output = capsys.readouterr()
     assert (
-        not told.out
-        and len(told.err.splitlines()) == 1
-        and f"{path}: " in told.err
-        and reason in told.err
-    ), told.err
-    assert told.err.rstrip().endswith(
+        not output.out
+        and len(output.err.splitlines()) == 1
+        and f"{path}: " in output.err
+        and reason in output.err
+    ), output.err
+    assert output.err.rstrip().endswith(
         ("restore it from the repository", "restore the file from the repository")
     )
     assert [one.name for one in tmp_path.iterdir()] == ["register.json"]
@@ -246,12 +246,12 @@ def test_rejects_output_before_the_run(
     content, path = claims.read_bytes(), bad_path(kind, tmp_path)
     before = sorted(tmp_path.iterdir())
     assert run(["certify", str(claims), f"--{option}={path}"]) == 2
-    told = capsys.readouterr()
+    output = capsys.readouterr()
     assert (
-        not told.out
-        and len(told.err.splitlines()) == 1
-        and f"--{option} {path}: " in told.err
-        and told.err.endswith("name another file\n")
+        not output.out
+        and len(output.err.splitlines()) == 1
+        and f"--{option} {path}: " in output.err
+        and output.err.endswith("name another file\n")
     )
     assert sorted(tmp_path.iterdir()) == before and claims.read_bytes() == content
 

@@ -259,7 +259,7 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("body", "told"),
+    ("body", "reason"),
     [
         ("1 // 0", "mine raises ZeroDivisionError"),
         ("MapRule(over='a')", "mine raises TypeError"),
@@ -268,13 +268,13 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
         ("always(x == y)", "equal(a, b)"),
     ],
 )
-def test_rejects_claim_whose_function_fails(body: str, told: str, tmp_path: Path) -> None:
+def test_rejects_claim_whose_function_fails(body: str, reason: str, tmp_path: Path) -> None:
     done = certify(
         claim_file(tmp_path, body, more="from juggleproof.proofs import MapRule, exists_some")
     )
     assert (
         done.returncode == 2
-        and told in done.stderr
+        and reason in done.stderr
         and "mine.py:" in done.stderr
         and len(done.stderr.splitlines()) == 1
     ), done.stderr
