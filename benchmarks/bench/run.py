@@ -81,12 +81,12 @@ def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measu
 
 
 def measure_all(
-    methods: Sequence[Method], work: Work, sizes: Sequence[Fraction], seconds: float, tell: Report
+    methods: Sequence[Method], work: Work, sizes: Sequence[Fraction], seconds: float, report: Report
 ) -> Iterator[Measured]:
     """Every method at every size, easiest first; a method that gave up is not asked for more."""
     for method in methods:
         for size in sizes:
-            tell(f"{method.title}, {size}")
+            report(f"{method.title}, {size}")
             measured = measure(method, work, size, seconds)
             yield measured
             if measured.answer is None:
@@ -167,8 +167,8 @@ def _seconds(text: str) -> float:
 class Run:
     """A run: prints as it goes, counts what is wrong."""
 
-    def __init__(self, wanted: Wish, folder: Path, tell: Report) -> None:
-        self.wanted, self.folder, self.tell, self.wrong = wanted, folder, tell, 0
+    def __init__(self, wanted: Wish, folder: Path, report: Report) -> None:
+        self.wanted, self.folder, self.report, self.wrong = wanted, folder, report, 0
         self.judged: list[table.Judged] = []
 
     def all(self) -> int:
@@ -275,7 +275,7 @@ class Run:
     ) -> table.Results:
         """All methods at all sizes."""
         return table.by_method(
-            list(measure_all(present, work, sizes, self.wanted.seconds, self.tell))
+            list(measure_all(present, work, sizes, self.wanted.seconds, self.report))
         )
 
     def show(
@@ -288,7 +288,7 @@ class Run:
         truth: Fraction,
     ) -> None:
         """Prints the table and what is wrong, and writes the plot."""
-        self.tell("")
+        self.report("")
         print(table.measured(present, sizes, results, truth))
         for line in table.faults(present, results):
             print(line)

@@ -1,4 +1,4 @@
-"""Bound, bench."""
+"""`juggleproof bound` and `juggleproof bench`."""
 
 from __future__ import annotations
 

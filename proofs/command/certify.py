@@ -1,4 +1,4 @@
-"""Certify."""
+"""`juggleproof certify`: claims of the paper or of files, and problems of SMT-LIB."""
 
 from __future__ import annotations
 

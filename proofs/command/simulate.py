@@ -1,4 +1,4 @@
-"""Simulate juggler."""
+"""`juggleproof simulate juggler`: orbits of a scene, as a table or a file, with their error."""
 
 from __future__ import annotations
 
@@ -30,9 +30,6 @@ from juggleproof.scenes.juggler.starts import (
     scene,
 )
 from juggleproof.scenes.juggler.tables import NAMES, as_arrays, as_csv, as_npz
-
-# -------------------------------------------------------------------------------------------------
-# `juggleproof simulate`: orbits of a scene, as a table or a file, with their error.
 
 NORMAL, PHYSICAL = NAMES["normal"], NAMES["physical"]
 FORMATS = (".csv", ".npz", ".svg")

@@ -1,4 +1,4 @@
-"""Simulate part."""
+"""`juggleproof simulate part`: table I, a sweep, the still table, figure 2 and its animation."""
 
 from __future__ import annotations
 
@@ -34,9 +34,6 @@ from juggleproof.scenes.part.onsets import (
     table_one,
 )
 from juggleproof.scenes.part.setting import Launch, Scene, scene
-
-# -------------------------------------------------------------------------------------------------
-# `juggleproof simulate part`: table I, a sweep, the still table, figure 2 and its animation.
 
 T = TypeVar("T")
 WISHES = ("sweep", "still", "figure", "animation")

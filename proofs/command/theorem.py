@@ -1,4 +1,4 @@
-"""Explain theorem."""
+"""`juggleproof explain theorem`: the paper's bounds and ours, and one state with its orbit."""
 
 from __future__ import annotations
 
