@@ -6,7 +6,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import pytest
 
@@ -17,9 +17,6 @@ from juggleproof.proofs.register import PATH, load_register
 from juggleproof.proofs.reports.ci import failing, fails_at
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, claims_of_files, refuse_duplicates, run
-
-if TYPE_CHECKING:
-    from _pytest._code.code import TerminalRepr, TracebackStyle  # which pytest does not export
 
 NAME = "juggleproof"
 
@@ -122,9 +119,8 @@ class ClaimItem(pytest.Item):
             else f"explain {self.name}"
         )
 
-    def repr_failure(
-        self, excinfo: pytest.ExceptionInfo[BaseException], style: TracebackStyle | None = None
-    ) -> str | TerminalRepr:
+    # pytest does not export the types of a style and of what is shown
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Our own lines where they say all; no traceback through the prover."""
         return (
             str(excinfo.value)
