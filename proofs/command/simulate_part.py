@@ -163,7 +163,7 @@ def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> i
         seed=options.seed,
         peak=AMPLITUDES[options.amplitudes],
         executor=executor,
-        tell=progress(),
+        report=progress(),
     )
     clear()
     keep_results(
@@ -218,7 +218,7 @@ def _sweep(options: PartOptions, setting: Scene, executor: Executor | None) -> i
     horizon = _number(options.horizon, "horizon")
     points: list[Point] = []
 
-    def tell(point: Point) -> None:
+    def report(point: Point) -> None:
         points.append(point)
         print(part_tables.point(point), flush=True)
 
@@ -234,7 +234,7 @@ def _sweep(options: PartOptions, setting: Scene, executor: Executor | None) -> i
             seed=options.seed,
             peak=AMPLITUDES[options.amplitudes],
             executor=executor,
-            tell=tell,
+            report=report,
         )
     except KeyboardInterrupt:
         interrupted = True

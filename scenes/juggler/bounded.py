@@ -70,8 +70,8 @@ class Bounded:
     @staticmethod
     def of(value: Fraction) -> Bounded:
         """The float next to a rational, with what it misses."""
-        found, missed = nearest(value)
-        return Bounded(np.array(found), np.array(missed))
+        rounded, missed = nearest(value)
+        return Bounded(np.array(rounded), np.array(missed))
 
     def __add__(self, other: Bounded | int | Floats) -> Bounded:
         two = _bounded(other)
@@ -140,15 +140,15 @@ def _bounded(value: Bounded | int | Floats) -> Bounded:
 
 def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
     """The number, one for all, to each of the whole exponents >= 0, shape (n,), by squaring."""
-    found = Bounded(np.ones(len(exponents)), np.zeros(len(exponents)))
+    power = Bounded(np.ones(len(exponents)), np.zeros(len(exponents)))
     left = exponents.copy()
     while left.any():
         odd = (left & 1) == 1
-        found.put(odd, found.at(odd) * value)
+        power.put(odd, power.at(odd) * value)
         left >>= 1
         if left.any():
             value = value * value
-    return found
+    return power
 
 
 # -------------------------------------------------------------------------------------------------
@@ -160,7 +160,7 @@ def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
 # Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses. The
 # margin w - x of a ball that holds 0 is settled by the exact orbit from the rational start, as long
 # as that stays about as short as the balls; otherwise the orbit begins again with twice the bits.
-# So a state is said to lie on x = w only where that is proved, and nothing is guessed.  In the trap
+# So a state counts as on x = w only where that is proved, and nothing is guessed.  In the trap
 # the closed form holds for any number of periods at once.
 
 BITS = 128  # to begin with
@@ -174,7 +174,7 @@ class _MoreBits(Stop):
 
 
 class Enclosed:
-    """Balls of the present precision, with the exact orbit at hand for what they cannot tell."""
+    """Balls of the present precision, with the exact orbit for what they cannot decide."""
 
     def __init__(self, alpha: Fraction, checkpoint: Track[Rational], bits: int) -> None:
         self.alpha, self.checkpoint, self.bits = alpha, checkpoint, bits
@@ -297,6 +297,8 @@ ROUND_MEMORY = 64 * 8 * CHUNK  # at most so many temporaries of one chunk are al
 HISTORY_MEMORY = 1 << 30
 MOST_PERIODS = 1 << 52  # counted; whole floats
 NOT_DONE, REACHED, TRAP, UNDECIDED = range(4)
+# of results: float64, int64, uint8, or text for whole numbers that are longer
+Column: TypeAlias = NDArray[np.generic]
 ENDS = ("", "reached", "trap", "undecided", "too long")  # the last in exact arithmetic only
 
 
@@ -500,7 +502,7 @@ class _Chunk:
 
 def certain_flights(x: Bounded, w: Bounded) -> NDArray[np.int64]:
     """For states that are proved to fly on: a number K >= 1 of periods that certainly have no
-    impact, the whole flight where the bound can tell; all of shape (n,).
+    impact, the whole flight where the bound decides it; all of shape (n,).
 
     The margin after k periods is a convex parabola in k, negative at k = 0: where it is proved not
     to be positive at K - 1, it is not between.
@@ -510,13 +512,12 @@ def certain_flights(x: Bounded, w: Bounded) -> NDArray[np.int64]:
     guess = np.floor((np.sqrt(np.maximum(square.v, 0)) - b.v) / 2) + 1
     guess = np.fmax(np.fmin(guess, MOST_PERIODS / 4), 1)  # 1 where it is not a number
     length = np.ones(len(guess))
-    for wish in (
+    for guessed in (
         np.floor(guess * (1 - 2.0**-20)),
         guess - 1,
         guess,
     ):  # the last that is certain stays
-        wish = np.maximum(wish, 1)
-        sure = map_.margin(*map_.flight(x, w, Bounded(wish - 1, EXACT))).is_negative()
-        length = np.where(sure & (wish > length), wish, length)
-    found: NDArray[np.int64] = length.astype(np.int64)
-    return found
+        guessed = np.maximum(guessed, 1)
+        sure = map_.margin(*map_.flight(x, w, Bounded(guessed - 1, EXACT))).is_negative()
+        length = np.where(sure & (guessed > length), guessed, length)
+    return length.astype(np.int64)

@@ -34,13 +34,13 @@ class Powers:
         self.q, self.recent = fmpz(q), {0: fmpz(1)}
 
     def __getitem__(self, k: int) -> fmpz:
-        found = self.recent.get(k)
-        if found is None:
+        power = self.recent.get(k)
+        if power is None:
             before = self.recent.get(k - 1)
-            found = self.recent[k] = self.q**k if before is None else before * self.q
+            power = self.recent[k] = self.q**k if before is None else before * self.q
             if len(self.recent) > RECENT:
                 self.recent.pop(next(iter(self.recent)))
-        return found
+        return power
 
 
 class Ratio:
@@ -303,7 +303,7 @@ def flight_length(x: Fraction, w: Fraction) -> int:
     while not strikes(*flight(x, w, length)):
         length += 1
     if length > 1 and strikes(*flight(x, w, length - 1)):
-        raise SceneError("the closed form of a flight does not tell its end")
+        raise SceneError("the closed form of a flight does not give its end")
     return length
 
 

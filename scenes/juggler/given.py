@@ -107,13 +107,13 @@ def compiled(name: str, names: str, *expressions: Expr, first: Symbol = alpha) -
     >>> compiled("impact", "alpha x w", *normal_f1()).__doc__
     'lambda alpha, x, w: ((alpha*(w - x)), (2 - (alpha*w)))'
     """
-    found = [plain(expression, first) for expression in expressions]
+    texts = [plain(expression, first) for expression in expressions]
     allowed = set(names.split())
     for expression in expressions:
         if {str(symbol) for symbol in expression.free_symbols} - allowed:
             raise DerivationError(f"{name}: {expression} has other symbols than {names}")
     source = f"lambda {', '.join(names.split())}: " + (
-        f"({', '.join(found)})" if len(found) > 1 else found[0]
+        f"({', '.join(texts)})" if len(texts) > 1 else texts[0]
     )
     function: Compiled = eval(compile(source, f"<{name}>", "eval"), {"__builtins__": {}})
     function.__doc__, function.__name__ = source, name
@@ -238,40 +238,40 @@ def rational(value: Number, name: str) -> Fraction:
     if isinstance(value, str) and (len(value) > BITS or _LONG_POWER.search(value)):
         raise too_long
     try:
-        found = Fraction(value)
+        number = Fraction(value)
     except (ValueError, OverflowError, ZeroDivisionError):
         raise SceneError(f"{name} = {brief(value)} {_FINITE}") from None
-    if max(found.numerator.bit_length(), found.denominator.bit_length()) > BITS:
+    if max(number.numerator.bit_length(), number.denominator.bit_length()) > BITS:
         raise too_long
-    return found
+    return number
 
 
 def height(value: Number, name: str = "x") -> Fraction:
     """A height, which is at least 0; SceneError for others."""
-    found = rational(value, name)
-    if found < 0:
-        raise SceneError(f"{name} = {brief(found)} is below the table; a state has {name} >= 0")
-    return found
+    number = rational(value, name)
+    if number < 0:
+        raise SceneError(f"{name} = {brief(number)} is below the table; a state has {name} >= 0")
+    return number
 
 
 def positive(value: Number, name: str) -> Fraction:
     """The launch speed r or gravity g, which are greater than 0; SceneError for others."""
-    found = rational(value, name)
-    if found <= 0:
+    number = rational(value, name)
+    if number <= 0:
         raise SceneError(
-            f"{name} = {brief(found)} is not positive; the launch speed r and gravity g are"
+            f"{name} = {brief(number)} is not positive; the launch speed r and gravity g are"
         )
-    return found
+    return number
 
 
 def restitution(alpha: Number) -> Fraction:
     """The restitution, strictly between 0 and 1; SceneError for others."""
-    found = rational(alpha, "alpha")
-    if not 0 < found < 1:
+    number = rational(alpha, "alpha")
+    if not 0 < number < 1:
         raise SceneError(
-            f"alpha = {brief(found)} is not between 0 and 1; the restitution has 0 < alpha < 1"
+            f"alpha = {brief(number)} is not between 0 and 1; the restitution has 0 < alpha < 1"
         )
-    return found
+    return number
 
 
 def counted(value: int, name: str, least: int, most: int) -> int:
@@ -305,8 +305,8 @@ def nearest(value: Fraction) -> tuple[float, float]:
     ((0.5, 0.0), True)
     """
     try:
-        found = float(value)
+        rounded = float(value)
     except OverflowError:
         return math.inf, math.inf
-    missed = abs(value - Fraction(found))
-    return found, math.nextafter(float(missed), math.inf) if missed else 0.0
+    missed = abs(value - Fraction(rounded))
+    return rounded, math.nextafter(float(missed), math.inf) if missed else 0.0

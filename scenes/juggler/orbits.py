@@ -76,7 +76,7 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
         raise SceneError(f"times are to be a list of at most {MOST_TIMES} numbers >= 0")
     asked = sorted({_time(one) for one in times})
     x, w = scene.starts.exact(counted(index, "index", 0, scene.starts.count - 1))
-    found: dict[Fraction, Heights] = {}
+    path: dict[Fraction, Heights] = {}
     passed, struck = 0, 0
     for time in asked:
         now = int(time / whole // 1)
@@ -99,8 +99,8 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
             if hit
             else before(within, height, speed, scene.r, scene.g)
         )
-        found[time] = Heights(time, ball, table(within, scene.r, scene.g))
-    return [found[_time(one)] for one in times]
+        path[time] = Heights(time, ball, table(within, scene.r, scene.g))
+    return [path[_time(one)] for one in times]
 
 
 def _time(value: Number) -> Fraction:
@@ -287,8 +287,8 @@ class Orbits:
     def each_undecided(self) -> Iterator[tuple[int, int]]:
         """The same, one by one."""
         if self.ensemble is not None:
-            found = (self.ensemble.end[: self.followed] == bounded.UNDECIDED).nonzero()[0]
-            yield from ((int(index), int(self.ensemble.periods[index])) for index in found)
+            undecided = (self.ensemble.end[: self.followed] == bounded.UNDECIDED).nonzero()[0]
+            yield from ((int(index), int(self.ensemble.periods[index])) for index in undecided)
         yield from (
             (index, track.here.periods)
             for index, track in enumerate(self.tracks)
@@ -298,13 +298,15 @@ class Orbits:
     def counts(self) -> dict[str, int]:
         """How many orbits have each end."""
         if self.ensemble is not None:
-            found = {
+            counts = {
                 name: int((self.ensemble.end[: self.followed] == code).sum())
                 for code, name in enumerate(bounded.ENDS)
             }
         else:
-            found = {name: sum(track.end == name for track in self.tracks) for name in bounded.ENDS}
-        return {name: found[name] for name in (*bounded.ENDS[1:], "") if found[name]}
+            counts = {
+                name: sum(track.end == name for track in self.tracks) for name in bounded.ENDS
+            }
+        return {name: counts[name] for name in (*bounded.ENDS[1:], "") if counts[name]}
 
 
 def _finished(value: Unfinished) -> Value:
@@ -409,7 +411,7 @@ def orbit(
     >>> row = orbit(scene("1/3", point(0, 3)), steps=3).row(0)
     >>> row.x, row.w, row.periods, row.impacts
     (Fraction(1, 1), Fraction(1, 1), 3, 2)
-    >>> # (1, 1) lies on x = w, which no float bound can tell
+    >>> # (1, 1) lies on x = w, which no float bound can decide
     >>> orbit(scene("1/3", point(0, 3)), "fast", steps=3).undecided
     [(0, 1)]
     """

@@ -77,12 +77,12 @@ def _rational(value: Fraction) -> Rational:
 
 def irreducible(polynomials: Sequence[Expr]) -> list[Poly]:
     """The irreducible factors of the polynomials, each once."""
-    found = {
+    factors = {
         Poly(factor, alpha).monic(): None
         for one in polynomials
         for factor, _ in factor_list(one, alpha)[1]
     }
-    return [Poly(one.clear_denoms()[1], alpha) for one in found]
+    return [Poly(one.clear_denoms()[1], alpha) for one in factors]
 
 
 def roots_between(polynomials: Sequence[Expr]) -> list[Root]:
@@ -95,15 +95,15 @@ def roots_between(polynomials: Sequence[Expr]) -> list[Root]:
     factors = irreducible([*polynomials, alpha, alpha - 1])
     if not factors:
         return []
-    found = []
+    roots = []
     for (low, high), owners in isolating([one.as_expr() for one in factors], strict=True):
         factor, ends = factors[next(iter(owners))], [low, high]
         if factor.degree() == 1:  # a rational root, as it is
             ends = [-factor.nth(0) / factor.nth(1)] * 2
-        found.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
+        roots.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
     return [
         root
-        for root in found
+        for root in roots
         if root.low >= 0 and root.high <= 1 and root.polynomial.as_expr() not in (alpha, alpha - 1)
     ]
 
@@ -159,17 +159,17 @@ def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Ra
         )
         cells.append(holds([_sign_at(part, (left.high + right.low) / 2) for part, _ in conditions]))
     cells.append(False)
-    found, begun = [], None
+    ranges, begun = [], None
     for place, inside in enumerate([*cells, False]):
         if inside and begun is None:
             begun = place
         elif not inside and begun is not None:
             low, last = begun, place - 1
-            found.append(
+            ranges.append(
                 Range(roots[low // 2], roots[(last + 1) // 2], low % 2 == 0, last % 2 == 0)
             )
             begun = None
-    return found
+    return ranges
 
 
 # -------------------------------------------------------------------------------------------------
@@ -210,7 +210,7 @@ class Orbit:
     @property
     def attracts(self) -> bool | None:
         """True where it attracts a neighbourhood; None where it lies on x = w, where the affine map
-        does not tell.
+        does not decide it.
         """
         return True if self.inside else None
 
@@ -397,4 +397,4 @@ def search_words(alpha: Number, longest: int, flight: int | None = None) -> list
             f"up to {longest} flights of up to {most} periods are more than {MOST_WORDS} words;"
             " give a smaller --longest or --flight"
         )
-    return [found for word in words(longest, most) if (found := orbit_of(word, at)) is not None]
+    return [one for word in words(longest, most) if (one := orbit_of(word, at)) is not None]

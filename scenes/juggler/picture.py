@@ -15,10 +15,9 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.arcs import straight
 from juggleproof.scenes.figures.drawing import Plane, blank, styled, svg, ticks
 from juggleproof.scenes.figures.look import B1
-from juggleproof.scenes.juggler.bounded import ENDS
+from juggleproof.scenes.juggler.bounded import ENDS, Column
 from juggleproof.scenes.juggler.orbits import Orbits, heights
 from juggleproof.scenes.juggler.starts import Scene
-from juggleproof.scenes.juggler.tables import Column
 
 MOST_PERIODS, A_PERIOD, MOST_DOTS = 40, 32, 5000
 
@@ -55,8 +54,8 @@ def spaced(low: float, high: float) -> list[float]:
 def against_time(scene: Scene, periods: int) -> Figure:
     """Heights in units of r T against time in periods."""
     units = Scene(scene.alpha, Fraction(1), Fraction(2), scene.starts)  # in which r T = T = 1
-    found = heights(units, [Fraction(k, A_PERIOD) for k in range(periods * A_PERIOD + 1)])
-    top = 1.05 * max(max(float(one.ball) for one in found), 0.25)
+    path = heights(units, [Fraction(k, A_PERIOD) for k in range(periods * A_PERIOD + 1)])
+    top = 1.05 * max(max(float(one.ball) for one in path), 0.25)
     figure = blank(6.4, 3.2)
     plane = Plane(figure, (0.1, 0.16, 0.87, 0.8), (0, periods), (-0.02 * top, top))
     plane.frame(
@@ -66,10 +65,10 @@ def against_time(scene: Scene, periods: int) -> Figure:
         r"height$\,/\,(\dot\rho_0 T)$",
         26,
     )
-    times = [float(one.time) for one in found]
+    times = [float(one.time) for one in path]
     for name, values, look in (
-        ("table", [float(one.table) for one in found], None),
-        ("ball", [float(one.ball) for one in found], B1),
+        ("table", [float(one.table) for one in path], None),
+        ("ball", [float(one.ball) for one in path], B1),
     ):
         points = list(zip(times, values))
         plane.line([straight(a, b) for a, b in zip(points, points[1:])], name, look, linewidth=1.2)
@@ -88,8 +87,7 @@ def in_the_plane(arrays: Mapping[str, Column]) -> Figure:
     finite = np.flatnonzero(np.abs(xs) + np.abs(ws) < 1e300)
     drawn = np.unravel_index(finite[:: -(-len(finite) // MOST_DOTS) or 1], xs.shape)
     states = [
-        (float(x), float(w), bool(odd))
-        for x, w, odd in zip(xs[drawn], ws[drawn], undecided[drawn])
+        (float(x), float(w), bool(odd)) for x, w, odd in zip(xs[drawn], ws[drawn], undecided[drawn])
     ]
     if not states:
         raise SceneError("no state is near enough to be drawn; choose a table instead")

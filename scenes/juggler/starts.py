@@ -313,12 +313,12 @@ def _grid_of(heights: Axis, speeds: Axis, names: tuple[str, str]) -> Grid:
     for one, name in zip((heights, speeds), names):
         _refuse_other_parts(one, 3, name)
     (low, high, count), (low_speed, high_speed, count_speeds) = heights, speeds
-    found = Grid(
+    states = Grid(
         axis(low, high, count, names[0]), axis(low_speed, high_speed, count_speeds, names[1])
     )
-    height(found.heights.first, names[0])
-    counted(found.count, "the number of states", 1, MOST)
-    return found
+    height(states.heights.first, names[0])
+    counted(states.count, "the number of states", 1, MOST)
+    return states
 
 
 def _refuse_other_parts(given: object, count: int, name: str) -> None:

@@ -8,15 +8,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, nan, nextafter
-from typing import BinaryIO, NamedTuple, TypeAlias
+from typing import BinaryIO, NamedTuple
 
 import numpy as np
 from flint import arb, ctx
 from mpmath import mpf
-from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.bounded import CHUNK, ENDS, Bounded, radius_of
+from juggleproof.scenes.juggler.bounded import CHUNK, ENDS, Bounded, Column, radius_of
 from juggleproof.scenes.juggler.exact import as_fraction, flight, impact, lifted, strikes
 from juggleproof.scenes.juggler.given import brief, formulas, nearest
 from juggleproof.scenes.juggler.orbits import Error, Orbits, Row, Value, orbit
@@ -142,12 +141,8 @@ def _as_float(value: Value, error: Error | None) -> tuple[float, float]:
         return value, float(error)
     if isinstance(value, Fraction):
         return nearest(value)
-    found, missed = nearest(as_fraction(value.mid().fmpq()))
-    return found, nextafter(nextafter(nearest(Fraction(error))[0], inf) + missed, inf)
-
-
-# of float64, int64, uint8, or text for whole numbers that are longer
-Column: TypeAlias = NDArray[np.generic]
+    middle, missed = nearest(as_fraction(value.mid().fmpq()))
+    return middle, nextafter(nextafter(nearest(Fraction(error))[0], inf) + missed, inf)
 
 
 def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Column]:
@@ -183,7 +178,7 @@ def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Column]:
         [_as_float(value, error) for value, error in zip((row.x, row.w), row.error or (None, None))]
         for row in shown
     ]
-    found = {
+    columns = {
         "start": np.array([row.start for row in shown]),
         "end": np.array([ENDS.index(row.end) for row in shown], dtype=np.uint8),
     }
@@ -191,15 +186,15 @@ def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Column]:
         ("periods", [row.periods for row in shown]),
         ("impacts", [row.impacts for row in shown]),
     ):
-        found[name] = (
+        columns[name] = (
             np.array(counts)
             if all(count < 2**63 for count in counts)
             else np.array([str(count) for count in counts])
         )
     for place, name in enumerate(names):
-        found[name] = np.array([pair[place][0] for pair in pairs], dtype=np.float64)
-        found[f"error_{name}"] = np.array([pair[place][1] for pair in pairs], dtype=np.float64)
-    return found
+        columns[name] = np.array([pair[place][0] for pair in pairs], dtype=np.float64)
+        columns[f"error_{name}"] = np.array([pair[place][1] for pair in pairs], dtype=np.float64)
+    return columns
 
 
 def _unscaled(x: Bounded, w: Bounded, r: Bounded, g: Bounded) -> tuple[Bounded, Bounded]:
@@ -210,9 +205,9 @@ def _unscaled(x: Bounded, w: Bounded, r: Bounded, g: Bounded) -> tuple[Bounded, 
     for low in range(0, len(x.v), CHUNK):
         part = slice(low, low + CHUNK)
         with np.errstate(all="ignore"):
-            found = formulas().unscaled(x.at(part), w.at(part), r, g)
-        beta.put(part, found[0])
-        v.put(part, found[1])
+            some_beta, some_v = formulas().unscaled(x.at(part), w.at(part), r, g)
+        beta.put(part, some_beta)
+        v.put(part, some_v)
     return beta, v
 
 
@@ -347,7 +342,7 @@ def _branches(case: Case) -> Iterator[bool]:
 
 
 def finding(case: Case) -> Finding:
-    """All that is found of a case."""
+    """The case in plain floats and in three arithmetics."""
     floats, wrong = plain_floats(case)
     balls = orbit(case.scene, "enclosed", case.steps, impacts=case.impacts)
     return Finding(

@@ -33,7 +33,7 @@ class Arithmetic(Protocol[N]):
         """The number in this arithmetic."""
 
     def sign(self, value: N) -> int | None:
-        """1, 0 or -1; None where the arithmetic cannot tell."""
+        """1, 0 or -1; None where the arithmetic cannot decide it."""
 
     def middle(self, value: N) -> fmpq:
         """A rational close to the value: the midpoint of a ball."""
@@ -47,7 +47,7 @@ class Arithmetic(Protocol[N]):
         """
 
     def decide(self, track: Track[N]) -> int:
-        """The sign of the margin where `sign` cannot tell it, by other means; raises Stop where
+        """The sign of the margin where `sign` does not decide it, by other means; raises Stop where
         there are none.
         """
 
@@ -163,7 +163,7 @@ def _fly(track: Track[N], arithmetic: Arithmetic[N], most: int | None) -> None:
 
 def certain_flight(arithmetic: Arithmetic[N], x: N, w: N) -> int:
     """A number K >= 1 of periods without an impact from a state whose margin is not positive; the
-    whole flight where the arithmetic can tell it.  Raises Stop where it can tell no K.
+    whole flight where the arithmetic can decide it.  Raises Stop where it can decide no K.
 
     The margin after k periods is a convex parabola in k, not positive at k = 0: where it is not
     positive at K - 1 it is not between.

@@ -70,6 +70,7 @@ def mode_of(
     S0: float, C0: float, B1: float, B2: float, B3: float, e: float, mu: float, sigma: int
 ) -> int:
     """The mode of an impact in which the corner slides in the direction sigma at first; C0 < 0.
+    JAMMING where friction keeps it from leaving.
 
     P_d and P_q are the closing rate times sigma S0, and the stopping rate times -C0.
     """
@@ -107,7 +108,7 @@ def impulse(
     mu: float,
     sigma: int,
 ) -> tuple[float, float]:
-    """The impulse (P_x, P_y) at the corner, per unit of mass."""
+    """The impulse (P_x, P_y) at the corner, per unit of mass (m/s), in a mode of `mode_of`."""
     if mode == STICKING_IN_COMPRESSION:
         P_y = (1 + e) * -(B1 * C0 + B3 * S0) / (B1 * B2 - B3 * B3)
     elif mode == REVERSED_IN_COMPRESSION:
@@ -190,7 +191,7 @@ SLACK, ROUNDING = 1e-12, 1e-14
 
 @compiled
 def energy(p: Floats, z: Floats, glide: float, rise: float) -> float:
-    """The kinetic energy in the table's frame, per unit of mass."""
+    """The kinetic energy in the table's frame, in joules per kilogram."""
     across, up = z[V_X] - glide, z[V_Y] - rise
     return (across * across + up * up + p[GYRATION] * z[OMEGA] * z[OMEGA]) / 2
 
