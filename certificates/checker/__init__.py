@@ -11,7 +11,8 @@ certificate rejected or missing; 2: unusable input.  The files, in reading order
 those before it:
 
     algebra.py   polynomials, Sturm's theorem, Bernstein coefficients; knows of no proof
-    language.py  what a file of statements means: text, definitions, statements, unfolding
+    text.py      terms and formulas as syntax trees; definitions, written out where they are used
+    language.py  what a file of statements means: formulas, statements, unfolding
     rules.py     states, the rules that close them, proofs, witnesses and counterexamples
     settling.py  the rules for orbits of maps, one statement, and a folder of them
 
@@ -26,9 +27,10 @@ from .algebra import (
     BITS, MAX_VARIABLES, MAX_WORK, Kind, Poly, Rejected, Work, bernstein, count_roots, number,
     variable,
 )
+from .text import Definitions, names_in, parse, rational
 from .language import (
-    Context, Definitions, Statement, Unfolding, conjuncts, fold, join, names_in, negate, parse,
-    rational, read_statements, univariate, variables_of,
+    Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
+    read_statements, univariate, variables_of,
 )
 from .settling import (
     CERTIFICATES, STATEMENTS, check_folder, check_one, closes, finds, load, main, orbit_rules,
@@ -40,8 +42,8 @@ __all__ = [
     "CERTIFICATES", "Kind", "Rejected", "STATEMENTS", "check_folder", "check_one", "closes",
     "finds", "load", "main", "orbit_rules", "premises_of", "proves", "read_certificates", "report",
     # the language: text, statements and polynomials, for who writes statements or searches
-    "BITS", "Context", "Definitions", "MAX_VARIABLES", "MAX_WORK", "Poly", "Statement",
-    "Unfolding", "Work", "bernstein", "conjuncts", "count_roots", "fold", "join", "names_in",
-    "negate", "number", "parse", "rational", "read_statements", "univariate", "variable",
-    "variables_of",
+    "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
+    "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "count_roots", "fold",
+    "join", "names_in", "negate", "number", "parse", "rational", "read_statements",
+    "univariate", "variable", "variables_of",
 ]

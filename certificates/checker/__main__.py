@@ -6,6 +6,7 @@ What it runs is the package `checker`, the same files that others import under a
 # The standard library comes first, from its own place: no file beside this folder can stand in for
 # a part of it.
 import ast  # noqa: F401
+import collections.abc  # noqa: F401
 import enum  # noqa: F401
 import fractions  # noqa: F401
 import functools  # noqa: F401
@@ -15,6 +16,7 @@ import math  # noqa: F401
 import os
 import re  # noqa: F401
 import sys
+import typing  # noqa: F401
 
 # What is run from here on is the text of the files: no compiled code that lies beside it, stale or
 # forged.  This file alone can be replaced by such code, in __pycache__, before it says so: who
@@ -24,7 +26,7 @@ sys.pycache_prefix = os.devnull
 # The package is found as this folder, before any other of its name; nothing else is found there.
 sys.path[:0] = [os.path.dirname(os.path.dirname(os.path.abspath(__file__)))]
 
-from checker import main  # noqa: E402
+from checker import main  # type: ignore[import-not-found]  # noqa: E402
 
 del sys.path[0]
 gc.disable()  # the checker makes no cycles: looking for them is a fifth of the time

@@ -5,10 +5,14 @@ is no float.  It begins with what all files share: why something is rejected (`K
 `require`), and the meter of one check (`Work`).
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 from enum import Enum
 from fractions import Fraction
 from functools import reduce
 from math import comb, gcd, lcm, prod
+from typing import Union
 
 MAX_DEGREE = 4000
 MAX_VARIABLES = 60
@@ -17,6 +21,11 @@ MAX_BITS = 40000
 MAX_WORK = 2 * 10**7
 BITS = 16  # of one exponent inside a packed monomial; MAX_DEGREE < 2**BITS keeps exponents apart
 MASK = (1 << BITS) - 1
+
+Rational = Union[int, Fraction]
+Terms = dict[int, int]  # {packed exponents: integer other than 0}
+Under = dict[tuple["Poly", bool], int]  # {licence: exponent}
+Coefficients = Sequence[int]  # of a polynomial in one variable, from the constant up
 
 
 # ------------------------------------------------------------ what is rejected, and why
@@ -48,6 +57,7 @@ class Kind(Enum):
     POLYNOMIAL = "expected a polynomial"
     ONE_VARIABLE = "expected a polynomial in one variable alone"
     RATIONAL = "expected an exact rational"
+    NO_NUMBER = "an end of a number is not a rational number"
     DIVISION = "division by what may vanish; no strict line before it makes this nonzero"
     ZERO_DIVISION = "division by zero"
     # definitions
@@ -117,7 +127,7 @@ class Rejected(Exception):
     for the offender.
     """
 
-    def __init__(self, kind, offender="", place=""):
+    def __init__(self, kind: Kind, offender: object = "", place: str = "") -> None:
         self.kind = kind
         self.offender = str(offender() if callable(offender) else offender)
         self.place = place
@@ -126,15 +136,15 @@ class Rejected(Exception):
             shown = ascii(shown)[1:-1]
         super().__init__((f"{place}: " if place else "") + kind.value + shown)
 
-    def within(self, place):
+    def within(self, place: str) -> Rejected:
         """The same, for a part of something that has a name."""
         return Rejected(self.kind, self.offender, f"{place}: {self.place}" if self.place else place)
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type[Rejected], tuple[Kind, str, str]]:
         return Rejected, (self.kind, self.offender, self.place)
 
 
-def require(holds, kind, offender=""):
+def require(holds: object, kind: Kind, offender: object = "") -> None:
     """A check on which soundness rests: unlike `assert`, it cannot be switched off.  An offender
     that is long to write is a function.
     """
@@ -151,10 +161,10 @@ class Work:
 
     __slots__ = ("left",)
 
-    def __init__(self, limit=MAX_WORK):
+    def __init__(self, limit: int = MAX_WORK) -> None:
         self.left = limit
 
-    def spend(self, amount):
+    def spend(self, amount: int) -> None:
         """Counts work before it is done, so that a hostile file ends as a rejection, no hang."""
         self.left -= amount
         if self.left < 0:
@@ -175,7 +185,9 @@ class Poly:
 
     __slots__ = ("terms", "den", "deg", "work", "under")
 
-    def __init__(self, terms, den, deg, work, under=None):
+    def __init__(
+        self, terms: Terms, den: int, deg: int, work: Work, under: Under | None = None
+    ) -> None:
         # a degree beyond the limit would carry into the exponent of the next variable
         if deg > MAX_DEGREE or den.bit_length() > MAX_BITS:
             raise Rejected(Kind.SIZE, f"degree {deg}")
@@ -185,18 +197,18 @@ class Poly:
         self.work = work
         self.under = under or {}
 
-    def over(self, under):
+    def over(self, under: Under) -> Poly:
         """The same terms, over other polynomials."""
         return Poly(self.terms, self.den, self.deg, self.work, under)
 
-    def numerator(self, under):
+    def numerator(self, under: Under) -> Poly:
         """The numerator over a denominator that is a multiple of the present one."""
         missing = (
             poly ** (e - self.under.get((poly, sign), 0)) for (poly, sign), e in under.items()
         )
         return prod(missing, start=self.over({}))
 
-    def plus(self, other, factor=1):
+    def plus(self, other: Poly, factor: Rational = 1) -> Poly:
         """self + factor * other, for a rational factor other than 0."""
         if self.under or other.under:
             under = merged(max, self.under, other.under)
@@ -213,24 +225,24 @@ class Poly:
 
     __add__ = plus
 
-    def __sub__(self, other):
+    def __sub__(self, other: Poly) -> Poly:
         return self.plus(other, -1)
 
-    def __neg__(self):
+    def __neg__(self) -> Poly:
         negative = {m: -c for m, c in self.terms.items()}
         return Poly(negative, self.den, self.deg, self.work, self.under)
 
-    def __mul__(self, other):
+    def __mul__(self, other: Poly) -> Poly:
         few, many = self.terms, other.terms
         if len(many) < len(few):
             few, many = many, few
-        terms = {}
+        terms: Terms = {}
         for m, c in few.items():
             add_multiple(terms, c, many, self.work, m)
         under = merged(sum, self.under, other.under) if self.under or other.under else None
         return Poly(terms, self.den * other.den, self.deg + other.deg, self.work, under)
 
-    def __pow__(self, exponent):
+    def __pow__(self, exponent: int) -> Poly:
         # asked for before the first product: x^(10^9) must not begin
         require(exponent * max(self.deg, 1) <= MAX_DEGREE, Kind.EXPONENT, exponent)
         if exponent == 0:
@@ -241,13 +253,13 @@ class Poly:
                 return Poly({m * exponent: 1}, 1, self.deg * exponent, self.work)
         return prod([self] * (exponent - 1), start=self)
 
-    def constant(self):
+    def constant(self) -> Fraction | None:
         """The value of a constant; None for anything else."""
         if self.under or not self.terms.keys() <= {0}:
             return None
         return Fraction(self.terms.get(0, 0), self.den)
 
-    def primitive(self):
+    def primitive(self) -> tuple[int, Poly]:
         """(c, p) with terms = c * p, where p has coprime integer coefficients, that of the largest
         monomial positive.
         """
@@ -257,7 +269,7 @@ class Poly:
         terms = {m: c // content for m, c in self.terms.items()}
         return content, Poly(terms, 1, self.deg, self.work)
 
-    def places(self):
+    def places(self) -> set[int]:
         """The numbers of the variables that occur."""
         together = 0
         for m in self.terms:
@@ -265,7 +277,7 @@ class Poly:
         return {i for i in range(MAX_VARIABLES) if together >> (BITS * i) & MASK}
 
 
-def add_multiple(terms, factor, others, work, shift=0):
+def add_multiple(terms: Terms, factor: int, others: Terms, work: Work, shift: int = 0) -> Terms:
     """terms += factor * x^shift * others, for an integer factor other than 0; the work on
     polynomials is counted and limited here.
 
@@ -293,17 +305,17 @@ def add_multiple(terms, factor, others, work, shift=0):
     return terms
 
 
-def merged(rule, one, other):
+def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> Under:
     """Exponents of licences, brought together by a rule: max or sum."""
     return {x: rule((one.get(x, 0), other.get(x, 0))) for x in {**one, **other}}
 
 
-def number(value, work):
+def number(value: Rational, work: Work) -> Poly:
     """A rational number as a polynomial."""
     return Poly({0: value.numerator} if value else {}, value.denominator, 0, work)
 
 
-def variable(place, work):
+def variable(place: int, work: Work) -> Poly:
     """The variable of this number as a polynomial."""
     return Poly({1 << (BITS * place): 1}, 1, 1, work)
 
@@ -311,7 +323,7 @@ def variable(place, work):
 # ------------------------------ polynomials in one variable: lists of integers from the constant up
 
 
-def sign_at(p, at, work):
+def sign_at(p: Coefficients, at: Fraction, work: Work) -> int:
     """The sign of p at a rational number."""
     value, scale = 0, 1
     length = sum(map(int.bit_length, at.as_integer_ratio()))
@@ -323,7 +335,7 @@ def sign_at(p, at, work):
     return (value > 0) - (value < 0)
 
 
-def remainder(p, q, work):
+def remainder(p: Coefficients, q: Coefficients, work: Work) -> list[int]:
     """A positive multiple of the remainder of p by q, without common factors."""
     rest = list(p)
     size = abs(q[-1])  # never q[-1] itself: a negative multiple would turn the signs of the chain
@@ -341,7 +353,7 @@ def remainder(p, q, work):
     return rest
 
 
-def count_roots(p, low, high, work):
+def count_roots(p: list[int], low: Fraction, high: Fraction, work: Work) -> int:
     """The number of distinct real roots between two numbers where p is not 0, by Sturm's
     theorem.
     """
@@ -356,7 +368,7 @@ def count_roots(p, low, high, work):
     return sign_changes(below) - sign_changes(above)
 
 
-def sign_changes(signs):
+def sign_changes(signs: list[int]) -> int:
     """How often the sign changes in a sequence, zeros left out."""
     signs = [sign for sign in signs if sign]
     return sum(a != b for a, b in zip(signs, signs[1:]))
@@ -365,13 +377,15 @@ def sign_changes(signs):
 # ------------------------------------------------------------ Bernstein coefficients on a box
 
 
-def times(p, factor):
+def times(p: list[int], factor: tuple[int, int]) -> list[int]:
     """p times first + last T, where (first, last) is the factor."""
     first, last = factor
     return [first * x + last * y for x, y in zip([*p, 0], [0, *p])]
 
 
-def bernstein(poly, axes):
+def bernstein(
+    poly: Poly, axes: Sequence[tuple[int, Fraction, Fraction]]
+) -> tuple[list[int], list[int]]:
     """(sizes, coefficients): the Bernstein coefficients of poly on a box, up to one positive
     factor, the first axis varying slowest.
 
@@ -379,7 +393,7 @@ def bernstein(poly, axes):
     [low, high] to T >= 0; in degree n, the coefficient of T^j in (d + d T)^n poly is d^n C(n, j)
     times the j-th Bernstein coefficient.
     """
-    sizes = []
+    sizes: list[int] = []
     parts = {m: [c] for m, c in poly.terms.items()}
     bits = max(map(int.bit_length, poly.terms.values()))
     # parts: by what is left of a monomial, the coefficients along the axes that are done
@@ -409,10 +423,11 @@ def bernstein(poly, axes):
             if rest in parts:
                 image = [x + y for x, y in zip(parts[rest], image)]
             parts[rest] = image
-    return (sizes, *parts.values())
+    (coefficients,) = parts.values()
+    return sizes, coefficients
 
 
-def halved(c, size):
+def halved(c: list[int], size: int) -> tuple[list[int], list[int]]:
     """The Bernstein coefficients on the lower and the upper half of the first axis, along which
     they come in blocks of this size, by de Casteljau's triangle, up to one positive factor.
     """
@@ -425,7 +440,7 @@ def halved(c, size):
     return lower, upper
 
 
-def axis_first(sizes, c, place):
+def axis_first(sizes: list[int], c: list[int], place: int) -> list[int]:
     """The same coefficients with the axis at `place` varying slowest."""
     step = prod(sizes[place + 1 :])
     jump = sizes[place] * step

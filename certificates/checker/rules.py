@@ -6,12 +6,18 @@ states.  Every rule is stated in full where it is applied.  A certificate is rea
 rule takes from it is either checked, or cannot make a false step true.
 """
 
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
+from typing import Any, TypeVar
 
 from .algebra import (
     BITS,
     MAX_DEGREE,
     Kind,
+    Poly,
     Rejected,
     Work,
     axis_first,
@@ -23,17 +29,25 @@ from .algebra import (
     variable,
 )
 from .language import (
+    Atom,
     Context,
+    Formula,
+    Join,
+    Known,
+    Range,
+    Statement,
     Unfolding,
     conjuncts,
     fold,
     join,
     negate,
-    parse,
-    rational,
     univariate,
     variables_of,
 )
+from .text import parse, rational
+
+Hint = Any  # of a certificate, which anyone may have written: what does not fit is refused
+T = TypeVar("T")
 
 # ------------------------------------------------------------ states
 
@@ -46,31 +60,31 @@ class State:
     nothing that is yet to be shown.
     """
 
-    def __init__(self, variables, parent=None):
+    def __init__(self, variables: Context, parent: State | None = None) -> None:
         values = {key: variable(place, variables.work) for key, place in variables.index.items()}
         self.context = Context(variables, values)
         self.context.licensed = dict(parent.context.licensed) if parent else {}
-        self.facts = list(parent.facts) if parent else []
-        self.choices = list(parent.choices) if parent else []
-        self.closed = parent.closed if parent else False
+        self.facts: list[tuple[Poly, str]] = list(parent.facts) if parent else []
+        self.choices: list[list[Atom | Join]] = list(parent.choices) if parent else []
+        self.closed: bool = parent.closed if parent else False
 
-    def assume(self, formula):
+    def assume(self, formula: Formula) -> State:
         """Adds a formula to what holds here."""
         for part in conjuncts(formula):
             if isinstance(part, bool):
                 self.closed = self.closed or not part
             elif part[0] == "atom":
-                self.facts.append(part[1:])
+                self.facts.append((part[1], part[2]))
                 self.context.license(part)
             else:
                 self.choices.append(part[1])
         return self
 
-    def branch(self, formula=True, variables=None):
+    def branch(self, formula: Formula = True, variables: Context | None = None) -> State:
         """A state of its own that assumes one more formula."""
         return State(variables or self.context, self).assume(formula)
 
-    def by_sign(self, text):
+    def by_sign(self, text: str) -> list[State]:
         """The three states in which the polynomial is < 0, = 0 and > 0."""
         poly = self.context.polynomial(text)
         return [
@@ -80,30 +94,33 @@ class State:
         ]
 
 
-def state_of(unfolding, count=None):
+def state_of(unfolding: Unfolding, count: int | None = None) -> State:
     """The state that assumes the premises of an unfolding, or the first `count` of them."""
     return State(unfolding.context).assume(join("and", unfolding.premises[:count]))
 
 
-def at(sequence, index):
+def at(sequence: Sequence[T], index: Hint) -> T:
     """An entry by its number: True is no number, and -1 is not the last one."""
     require(type(index) is int and 0 <= index < len(sequence), Kind.INDEX, index)
-    return sequence[index]
+    entry: T = sequence[index]
+    return entry
 
 
 # ---------------------------- PROOF RULES: each closes a state, that is, shows that it has no point
 
 
-def close_at_once(state, known):
+def close_at_once(state: State, known: Known) -> None:
     """["close"]: the state assumes a false constant, such as 1 < 0."""
 
-    def facts():
+    def facts() -> str:
         return "; ".join(f"{state.context.show(p)} {relation} 0" for p, relation in state.facts)
 
     require(state.closed, Kind.NOTHING_FALSE, facts)
 
 
-def close_by_positivstellensatz(state, known, products, equations):
+def close_by_positivstellensatz(
+    state: State, known: Known, products: Hint, equations: Hint
+) -> None:
     """["psatz", [[c, [[i, e], ...], q], ...], [[j, m], ...]]:
 
     sum c * prod fact_i^e * q^2  +  sum m * fact_j  =  0 identically, where every c is a rational >
@@ -142,7 +159,7 @@ def close_by_positivstellensatz(state, known, products, equations):
     require(strict, Kind.STRICT)
 
 
-def close_by_cases(state, known, index, nodes):
+def close_by_cases(state: State, known: Known, index: Hint, nodes: Hint) -> None:
     """["cases", k, [node, ...]]: one node for each alternative of the k-th open disjunction."""
     alternatives = at(state.choices, index)
     rest = state.branch()
@@ -153,13 +170,15 @@ def close_by_cases(state, known, index, nodes):
         close(rest.branch(alternative), node, known)
 
 
-def close_by_sign(state, known, text, below, zero, above):
+def close_by_sign(
+    state: State, known: Known, text: Hint, below: Hint, zero: Hint, above: Hint
+) -> None:
     """["sign", p, node, node, node]: p < 0, p = 0 or p > 0."""
     for case, node in zip(state.by_sign(text), (below, zero, above)):
         close(case, node, known)
 
 
-def bound(state, index, name, side):
+def bound(state: State, index: Hint, name: str, side: int) -> Fraction:
     """The number c of fact `index`, which says c <= the variable (side 1) or the variable <= c
     (side -1), or strictly.
     """
@@ -171,7 +190,7 @@ def bound(state, index, name, side):
     return Fraction(-constant, slope)
 
 
-def close_by_interval(state, known, index, low, high):
+def close_by_interval(state: State, known: Known, index: Hint, low: Hint, high: Hint) -> None:
     """["interval", i, j, k]: fact i is p > 0 or p >= 0 in one variable; facts j and k say low <= it
     and it <= high (or strictly).
 
@@ -191,7 +210,9 @@ def close_by_interval(state, known, index, low, high):
     require(fails, Kind.INTERVAL, lambda: state.context.show(poly))
 
 
-def parts_of_box(sizes, c, letter, work):
+def parts_of_box(
+    sizes: list[int], c: list[int], letter: str, work: Work
+) -> list[tuple[list[int], list[int]]]:
     """The boxes, with their Bernstein coefficients, that a letter of a box tree asks to look at:
     see `close_by_boxes`.
     """
@@ -212,7 +233,7 @@ def parts_of_box(sizes, c, letter, work):
     return [([count, *rest], upper), ([count, *rest], lower)]
 
 
-def close_by_boxes(state, known, index, bounds, tree):
+def close_by_boxes(state: State, known: Known, index: Hint, bounds: Hint, tree: Hint) -> None:
     """["boxes", i, [[j, k], ...], "tree"]: fact i is p > 0 or p >= 0; for each variable of p in
     order, facts j and k say low <= it and it <= high (or strictly).  The tree shows that p < 0 (p
     <= 0, where fact i is strict) on the box of these bounds, so that the facts have no point.
@@ -246,7 +267,7 @@ def close_by_boxes(state, known, index, bounds, tree):
     require(not boxes, Kind.BOX_SHORT, tree)  # a box that no letter looks at is not covered
 
 
-def close_by_integrality(state, known, index, node):
+def close_by_integrality(state: State, known: Known, index: Hint, node: Hint) -> None:
     """["integral", i, node]: fact i is p > 0 with integer coefficients in integer variables only,
     so p - 1 >= 0.
     """
@@ -257,7 +278,9 @@ def close_by_integrality(state, known, index, node):
     close(state.branch(fold(poly - state.context.number(1), ">=")), node, known)
 
 
-def close_by_use(state, known, name, arguments, fresh, node):
+def close_by_use(
+    state: State, known: Known, name: Hint, arguments: Hint, fresh: Hint, node: Hint
+) -> None:
     """["use", name, {variable: term}, {variable: fresh name}, node]: an instance of an earlier
     certified statement.
 
@@ -280,7 +303,13 @@ def close_by_use(state, known, name, arguments, fresh, node):
     close(state.branch(instance, context), node, known)
 
 
-def one_value_each(context, story, terms, others, needed):
+def one_value_each(
+    context: Context,
+    story: Unfolding,
+    terms: Mapping[str, str],
+    others: Collection[str],
+    needed: Collection[str],
+) -> None:
     """Every variable has one value, by a term or otherwise, and every integer variable with a term
     an integer polynomial in integers.
     """
@@ -293,7 +322,7 @@ def one_value_each(context, story, terms, others, needed):
     require(once and whole, Kind.VALUES, sorted(terms))
 
 
-RULES = {
+RULES: Mapping[str, Callable[..., None]] = {
     "close": close_at_once,
     "psatz": close_by_positivstellensatz,
     "cases": close_by_cases,
@@ -305,7 +334,7 @@ RULES = {
 }
 
 
-def close(state, node, known):
+def close(state: State, node: Hint, known: Known) -> None:
     """Shows that the state has no point, by the rule that the node names."""
     named = isinstance(node, (list, tuple)) and node and isinstance(node[0], str)
     require(named and node[0] in RULES, Kind.RULE, node)
@@ -315,7 +344,13 @@ def close(state, node, known):
 # -------------------------------------------------------- STATEMENT RULES: what settles a statement
 
 
-def prove(statement, certificate, known, sharp=None, work=None):
+def prove(
+    statement: Statement,
+    certificate: Hint,
+    known: Known,
+    sharp: Range | None = None,
+    work: Work | None = None,
+) -> None:
     """For all variables: premises => goals.  ["proof", [node, ...], node] or ["witness", [node,
     ...], found].
 
@@ -337,7 +372,15 @@ def prove(statement, certificate, known, sharp=None, work=None):
         find(state_of(story), last, known, "witness", {statement.name: statement}, own, sharp)
 
 
-def find(state, found, known, purpose, statements, base, sharp=None):
+def find(
+    state: State,
+    found: Hint,
+    known: Known,
+    purpose: str,
+    statements: Known,
+    base: Mapping[str, Poly],
+    sharp: Range | None = None,
+) -> None:
     """Values for variables of a statement, given all that the state assumes, with nodes that show
     what they are for.
 
@@ -354,7 +397,8 @@ def find(state, found, known, purpose, statements, base, sharp=None):
             find(case, part, known, purpose, statements, base, sharp)
         return
     if found[0] == "empty":
-        close(state, *found[1:], known)
+        _, node = found
+        close(state, node, known)
         return
     name, adjoined, terms, node, *rest = found
     # a counterexample needs both nodes: one whose premises fail refutes nothing
@@ -376,7 +420,24 @@ def find(state, found, known, purpose, statements, base, sharp=None):
         close(state.branch(story.goal(True), story.context), last, known)
 
 
-def adjoin(state, known, name, text, low, high, below, above):
+def rational_value(context: Context, node: ast.expr) -> Fraction:
+    """The value of a term that is a number."""
+    value = context.value(node).constant()
+    if value is None:
+        raise Rejected(Kind.NO_NUMBER, ast.unparse(node))
+    return value
+
+
+def adjoin(
+    state: State,
+    known: Known,
+    name: Hint,
+    text: Hint,
+    low: Hint,
+    high: Hint,
+    below: Hint,
+    above: Hint,
+) -> None:
     """Adds a variable with p = 0 and low <= it <= high, after showing that low <= high and p(low)
     <= 0, and that p(high) >= 0.
     """
@@ -396,7 +457,13 @@ def adjoin(state, known, name, text, low, high, below, above):
     state.assume(context.atom(context.value(tree), "=", zero))
 
 
-def check_sharp(statement, certificate, known, statements, work=None):
+def check_sharp(
+    statement: Statement,
+    certificate: Hint,
+    known: Known,
+    statements: Known,
+    work: Work | None = None,
+) -> None:
     """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).
     [{name: prove}, found, sample].
 
@@ -429,7 +496,7 @@ def check_sharp(statement, certificate, known, statements, work=None):
     require(met, Kind.SAMPLE, sample)
     for name, (tree, *ends) in statement.get("number"):
         poly = state.context.value(tree)
-        low, high = (state.context.value(end).constant() for end in ends)
+        low, high = (rational_value(state.context, end) for end in ends)
         p = univariate(state.context, poly, *variables_of(state.context, poly))
         once = low < high and count_roots(p, low, high, work) == 1
         once = once and sign_at(p, low, work) != sign_at(p, high, work)

@@ -4,24 +4,42 @@ ORBIT RULES say what holds of every orbit of a map.  Each writes its premises it
 certificate has to prove exactly these.
 """
 
+from __future__ import annotations
+
 import json
 import os
 import re
 import sys
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from typing import Literal, NoReturn, TypeVar
 
 from .algebra import MAX_WORK, Kind, Poly, Rejected, Work, require
-from .language import Context, names_in, put, read_statements
-from .rules import State, at, check_sharp, close, find, prove
+from .language import (
+    Atom,
+    Context,
+    Formula,
+    Join,
+    Known,
+    Range,
+    Statement,
+    read_statements,
+)
+from .rules import Hint, State, at, check_sharp, close, find, prove
+from .text import names_in, put
 
 MAX_FILE = 16 << 20
 STATEMENTS = "statements.txt"
 CERTIFICATES = "certificates.jsonl"
 
+Premises = Mapping[str, list[str]]  # {name: lines of a statement}
+Check = Callable[[Statement, Hint, Known, Known], tuple[str, Rejected | None]]
+T = TypeVar("T")
+
 
 # ------------- ORBIT RULES: what holds of every orbit of a map, from premises that this file writes
 
 
-def premises_of_iterates(statement, known):
+def premises_of_iterates(statement: Statement, known: Known) -> Premises:
     """The K-th iterate of the map, for every integer K >= 0.  Premises: P(0) is the identity, and
     map(P(K)) = P(K + 1).
     """
@@ -59,7 +77,7 @@ class Orbits:
     written.
     """
 
-    def __init__(self, statement, known):
+    def __init__(self, statement: Statement, known: Known) -> None:
         self.own = statement
         if statement.kind == "map":
             self.map = statement
@@ -87,20 +105,20 @@ class Orbits:
         named = names_in(*(text for piece in self.pieces for side in piece for text in side))
         require(fits and named <= {*self.parameters, *self.state}, Kind.PIECE, self.map.name)
 
-    def next(self, text):
+    def next(self, text: str) -> str:
         """The same of the next state."""
         return put(text, {name: name + "_next" for name in self.moving})
 
-    def for_all(self, *rows, extra=()):
+    def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain, with the roots of parameters."""
         forall = "forall " + " ".join([*self.parameters, *extra])
         return [forall, f"range {self.domain}", *self.fixed, *rows]
 
-    def at(self, *rows, extra=()):
+    def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain and all states of the space."""
         return self.for_all(f"given {self.space}", *self.roots, *rows, extra=[*self.state, *extra])
 
-    def step(self, k, *rows, show, extra=()):
+    def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
         """Where the k-th piece applies: something of the next state, which is in the space by the
         map's premises.
         """
@@ -111,8 +129,9 @@ class Orbits:
             known = ["given " + self.next(self.space), *map(self.next, self.roots)]
         return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
 
-    def terms(self, keyword):
+    def terms(self, keyword: str) -> list[str]:
         """One term for each state variable, in the parameters."""
+        terms: list[str]
         (terms,) = self.own.get(keyword)
         constants = {*self.parameters, *(line.split(" ")[1] for line in self.fixed)}
         # with a state variable in it, the point would move with the state
@@ -120,7 +139,7 @@ class Orbits:
         require(fits, Kind.STATE_TERMS, self.own.name)
         return terms
 
-    def with_domain(self, premises):
+    def with_domain(self, premises: Premises) -> Premises:
         """Beside other premises: the domain is not empty, and is part of the map's."""
         possible = ["exists " + " ".join(self.parameters), f"show {self.domain}"]
         inside = {}
@@ -130,17 +149,17 @@ class Orbits:
         return {"possible": possible, **inside, **premises}
 
 
-def earlier_of(kind, name, known):
+def earlier_of(kind: str, name: str, known: Known) -> Statement:
     """A statement that another rests on: an earlier one, certified, of the kind that it needs."""
     require(name in known and known[name].kind == kind, Kind.EARLIER, f"{kind} {name}")
     return known[name]
 
 
-def all_of(parts, op=" and "):
+def all_of(parts: Iterable[str], op: str = " and ") -> str:
     return op.join(f"({part})" for part in parts)
 
 
-def premises_of_map(statement, known):
+def premises_of_map(statement: Statement, known: Known) -> Premises:
     """A map f of the space into itself: for all parameters in the domain, each state of the space
     has exactly one piece whose guard holds, f(state) is given by that piece, and f(state) is in the
     space.
@@ -157,7 +176,7 @@ def premises_of_map(statement, known):
     return f.with_domain(premises)
 
 
-def premises_of_descent(statement, known):
+def premises_of_descent(statement: Statement, known: Known) -> Premises:
     """Descent of a rank to a trap: stages A_1, .., A_m.  For all parameters in the domain and all
     states s of the space, f^N(s) is in A_m for every integer N >= rank(s) + m - 1.
 
@@ -178,7 +197,7 @@ def premises_of_descent(statement, known):
     return f.with_domain(premises)
 
 
-def premises_of_contraction(statement, known):
+def premises_of_contraction(statement: Statement, known: Known) -> Premises:
     """Contraction in a weighted sup norm, |s - e| = max |s_j - e_j| / weight_j, e the point.  For
     all parameters in the domain: f(e) = e; for all states s of the space in the set `on` and all
     integers n >= 0, f^n(s) is in it and |f^n(s) - e| <= rate^n |s - e| <= rate^n size; and all
@@ -193,7 +212,7 @@ def premises_of_contraction(statement, known):
     point = f.terms("point")
     weights = f.terms("weights")
 
-    def within(distance, names):
+    def within(distance: str, names: Sequence[str]) -> str:
         parts = []
         for name, e, weight in zip(names, point, weights):
             reach = f"({distance})*({weight})"
@@ -218,7 +237,7 @@ def premises_of_contraction(statement, known):
     return f.with_domain(premises)
 
 
-def premises_of_attraction(statement, known):
+def premises_of_attraction(statement: Statement, known: Known) -> Premises:
     """A descent whose last stage lies in the set of a contraction of the same map.  For all
     parameters in the descent's domain, the point is stable, f^n(s) tends to it for all states s of
     the space, and |f^(N+k)(s) - e| <= rate^k size for all integers N >= rank(s) + m - 1, k >= 0.
@@ -236,7 +255,7 @@ def premises_of_attraction(statement, known):
     }
 
 
-def premises_of_escape(statement, known):
+def premises_of_escape(statement: Statement, known: Known) -> Premises:
     """A periodic orbit: for all parameters in the domain the start is in the space, f^n(start) =
     start for the length n of the word of pieces, and start is not the point; so the orbit of the
     start does not tend to the point.
@@ -261,7 +280,7 @@ def premises_of_escape(statement, known):
     return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
 
 
-def premises_of_sharpness(statement, known):
+def premises_of_sharpness(statement: Statement, known: Known) -> Premises:
     """An attraction and an escape, from the same point of the same map, on domains that make up the
     map's.  For all parameters in the map's domain: the point is stable and attracts every state of
     the space <=> the parameters are in the domain of the attraction's descent.
@@ -291,12 +310,12 @@ ORBIT_RULES = {
 }
 
 
-def orbit_rules():
+def orbit_rules() -> dict[str, str]:
     """{kind of statement: what its rule says}, for the rules for orbits of maps."""
-    return {kind: rule.__doc__ for kind, rule in ORBIT_RULES.items()}
+    return {kind: rule.__doc__ or "" for kind, rule in ORBIT_RULES.items()}
 
 
-def premises_of(statement, known):
+def premises_of(statement: Statement, known: Known) -> dict[str, Statement]:
     """The premises of an orbit rule, as statements that a certificate has to prove: {name:
     statement}.
     """
@@ -307,7 +326,9 @@ def premises_of(statement, known):
     return premises
 
 
-def check_orbit_rule(statement, certificate, known, work=None):
+def check_orbit_rule(
+    statement: Statement, certificate: Hint, known: Known, work: Work | None = None
+) -> None:
     """{premise: prove}: each of the premises that the rule asks for is proved, and there is no
     other.
     """
@@ -326,7 +347,13 @@ def check_orbit_rule(statement, certificate, known, work=None):
 # ------------------------------------------------------------ one statement
 
 
-def settle(statement, certificate, known, statements, work=None):
+def settle(
+    statement: Statement,
+    certificate: Hint,
+    known: Known,
+    statements: Known,
+    work: Work | None = None,
+) -> str:
     """The outcome: {"unknown": why}, {"refuted": found}, {"certified": proof} or, for all but sharp
     and the orbit rules, {.., "point": found}.
 
@@ -356,7 +383,9 @@ def settle(statement, certificate, known, statements, work=None):
     return "certified"
 
 
-def check_one(statement, certificate, known, earlier, limit=MAX_WORK):
+def check_one(
+    statement: Statement, certificate: Hint, known: Known, earlier: Known, limit: int = MAX_WORK
+) -> tuple[str, Rejected | None]:
     """(outcome, None), or ("rejected", why).
 
     known: the certified statements before it, by name; earlier: all statements before it; limit:
@@ -365,7 +394,9 @@ def check_one(statement, certificate, known, earlier, limit=MAX_WORK):
     return verdict(settle, statement, certificate, known, earlier, Work(limit))
 
 
-def verdict(check, *arguments):
+def verdict(
+    check: Callable[..., T], *arguments: object
+) -> tuple[T | Literal["rejected"], Rejected | None]:
     """(what the check returns, None), or ("rejected", why): whatever is wrong with a certificate is
     a rejection, never a crash.
     """
@@ -380,14 +411,23 @@ def verdict(check, *arguments):
 # ------------------------------ parts of a certificate, for who searches: no outcome rests on these
 
 
-def closes(context, formulas, node, known):
+def closes(context: Context, formulas: Sequence[Formula], node: Hint, known: Known) -> bool:
     """Whether the node closes the state that assumes the formulas over the variables of a
     context.
     """
     return not verdict(close, state_from(context, formulas), node, known)[1]
 
 
-def finds(context, formulas, found, known, purpose, statement, base=(), sharp=None):
+def finds(
+    context: Context,
+    formulas: Sequence[Formula],
+    found: Hint,
+    known: Known,
+    purpose: str,
+    statement: Statement,
+    base: Collection[str] = (),
+    sharp: Range | None = None,
+) -> bool:
     """Whether values found serve their purpose in the state that assumes the formulas over the
     variables of a context; base: the variables of the statement that are also the state's.
     """
@@ -397,24 +437,25 @@ def finds(context, formulas, found, known, purpose, statement, base=(), sharp=No
     return not verdict(find, state, found, known, purpose, named, own, sharp)[1]
 
 
-def proves(statement, proof, known, sharp=None):
+def proves(statement: Statement, proof: Hint, known: Known, sharp: Range | None = None) -> bool:
     """Whether the proof, of a whole statement or inside a sharp range, is one."""
     return not verdict(prove, statement, proof, known, sharp)[1]
 
 
-def state_from(context, formulas):
+def state_from(context: Context, formulas: Sequence[Formula]) -> State:
     """A state that assumes formulas of others, on a meter of its own."""
     work = Work()
     variables = Context(work=work)
     for key in context.index:
         variables.declare(key, key in context.integers)
-    return State(variables).assume(on_meter(("and", formulas), work))
+    state = State(variables)
+    for formula in formulas:
+        state.assume(formula if isinstance(formula, bool) else on_meter(formula, work))
+    return state
 
 
-def on_meter(formula, work):
+def on_meter(formula: Atom | Join, work: Work) -> Atom | Join:
     """The same formula, whose polynomials spend from this meter."""
-    if isinstance(formula, bool):
-        return formula
     if formula[0] == "atom":
         _, poly, relation = formula
         return ("atom", Poly(poly.terms, poly.den, poly.deg, work), relation)
@@ -424,7 +465,7 @@ def on_meter(formula, work):
 # ------------------------------------------------------------ files
 
 
-def load(path):
+def load(path: str) -> str:
     """The text of a file of printable ASCII, whose lines end in a newline alone."""
     try:
         with open(path, "rb") as file:
@@ -437,7 +478,7 @@ def load(path):
     return content.decode("ascii")
 
 
-def unique(pairs):
+def unique(pairs: list[tuple[str, Hint]]) -> dict[str, Hint]:
     """A JSON object: a key that stands twice would mean one thing to one reader, and another to
     the next.
     """
@@ -445,11 +486,11 @@ def unique(pairs):
     return dict(pairs)
 
 
-def refuse(text):
+def refuse(text: str) -> NoReturn:
     raise Rejected(Kind.INEXACT, text)
 
 
-def read_certificate(line):
+def read_certificate(line: str) -> tuple[str, Hint]:
     """(name, certificate) of one line, ["ID/part", {...}]."""
     try:
         data = json.loads(line, object_pairs_hook=unique, parse_float=refuse, parse_constant=refuse)
@@ -457,17 +498,18 @@ def read_certificate(line):
         raise Rejected(Kind.CERTIFICATE_LINE, error) from None
     pair = isinstance(data, list) and len(data) == 2 and isinstance(data[0], str)
     require(pair, Kind.CERTIFICATE_LINE)
-    return data
+    name, certificate = data
+    return name, certificate
 
 
-def read_certificates(text):
+def read_certificates(text: str) -> tuple[dict[str, Hint], list[tuple[int, Rejected]]]:
     """({name: certificate}, [(line, reason)]): what the lines say, and those that are refused.
 
     The lines are sorted by name, and end in a newline, so that none can be added, doubled or cut
     unseen.
     """
-    certificates = {}
-    refused = []
+    certificates: dict[str, Hint] = {}
+    refused: list[tuple[int, Rejected]] = []
     last = ""
     lines = text.split("\n")
     if lines.pop():
@@ -484,35 +526,35 @@ def read_certificates(text):
     return certificates, refused
 
 
-def check_folder(folder, check=check_one):
+def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, str]]:
     """[(name, outcome, reason)] for every statement of a folder in order, then for every line of
     certificates that is refused or has no statement.
     """
     statements = read_statements(load(os.path.join(folder, STATEMENTS)))
-    results = []
-    certificates = {}
-    rest = []
+    results: list[tuple[str, str, str]] = []
+    certificates: dict[str, Hint] = {}
+    rest: list[tuple[str, Rejected]] = []
     try:
         certificates, refused = read_certificates(load(os.path.join(folder, CERTIFICATES)))
         rest += [(f"{CERTIFICATES}, line {count}", reason) for count, reason in refused]
-    except Rejected as reason:
-        rest.append((CERTIFICATES, reason))
-    known = {}
-    earlier = {}
+    except Rejected as unread:
+        rest.append((CERTIFICATES, unread))
+    known: dict[str, Statement] = {}
+    earlier: dict[str, Statement] = {}
     for name, statement in statements.items():
+        outcome: str = "rejected"
+        reason: Rejected | None = Rejected(Kind.NO_CERTIFICATE)
         if name in certificates:
             outcome, reason = check(statement, certificates.pop(name), known, earlier)
-        else:
-            outcome, reason = "rejected", Rejected(Kind.NO_CERTIFICATE)
         results.append((name, outcome, str(reason) if reason else ""))
         earlier[name] = statement
         if outcome == "certified":
             known[name] = statement
     rest += [(name, Rejected(Kind.LEFT_OVER)) for name in certificates]
-    return results + [(name, "rejected", str(reason)) for name, reason in rest]
+    return results + [(name, "rejected", str(why)) for name, why in rest]
 
 
-def report(results):
+def report(results: list[tuple[str, str, str]]) -> int:
     """Prints what is rejected, and how many statements have which outcome; 0 where nothing is
     rejected, else 1.
     """
@@ -527,12 +569,12 @@ def report(results):
     return int(not results or any(outcome == "rejected" for _, outcome, _ in results))
 
 
-def main(arguments):
+def main(arguments: list[str]) -> int:
     """Checks the folder named, or the store beside this folder; the exit code."""
     beside = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "store")
     try:
         require(len(arguments) < 2, Kind.FILE, "name one folder")
-        return report(check_folder(*arguments or [beside]))
+        return report(check_folder(arguments[0] if arguments else beside))
     except Rejected as reason:
         print("checker:", ascii(str(reason))[1:-1], file=sys.stderr)
         return 2

@@ -68,7 +68,7 @@ UP = {  # arrows up that are left; nothing is added here
     ("proofs.command.bound", "benchmarks.bench.run"),  # the only door
 }
 CIRCLES: list[list[str]] = []  # circles that are left; nothing is added here
-LONGEST = {"symbolic": 6, "certificates": 19, "scenes": 8, "proofs": 17, "benchmarks": 6}
+LONGEST = {"symbolic": 6, "certificates": 20, "scenes": 8, "proofs": 17, "benchmarks": 6}
 MOST_FILES, ALSO = 20, {"certificates/search": 25}
 MOST_INSIDE = 19  # a ratchet; libraries of the optional extras count too
 

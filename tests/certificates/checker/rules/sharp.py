@@ -297,6 +297,12 @@ REJECTED = [
         over(*SHARP[:3], "number c = root((a - 1)^2, 0, 2)", SHARP[3]),
     ),
     case(
+        "a number between a parameter and 2",
+        VALID,
+        Kind.NO_NUMBER,
+        over(*SHARP[:3], "number c = root(a - 1, a, 2)", SHARP[3]),
+    ),
+    case(
         "a number with an empty interval",
         VALID,
         Kind.ONE_ROOT,

@@ -153,7 +153,7 @@ REJECTED = [
         "an empty case with something left over",
         INVERSE,
         by(["empty", CLOSE, CLOSE], {"x": "1"}),
-        (Kind.MALFORMED, "TypeError"),
+        (Kind.MALFORMED, "ValueError"),
     ),
     Case(
         "a real for an integer",
