@@ -34,7 +34,10 @@ HEART = (
         "-x1*x6^3 + 3*x1*x6*x7^2 - x3*x7^3 + 3*x3*x7*x6^2 - x2*x5^3 + 3*x2*x5*x8^2 - x4*x8^3 +"
         " 3*x4*x8*x5^2 - 0.9563453"
     ),
-    "x1=-0.1..0.4,x2=0.4..1,x3=-0.7..-0.4,x4=-0.7..0.4,x5=0.1..0.2,x6=-0.1..0.2,x7=-0.3..1.1,x8=-1.1..-0.3",
+    (
+        "x1=-0.1..0.4,x2=0.4..1,x3=-0.7..-0.4,x4=-0.7..0.4,x5=0.1..0.2,x6=-0.1..0.2,x7=-0.3..1.1,"
+        "x8=-1.1..-0.3"
+    ),
 )
 
 
@@ -97,7 +100,9 @@ PROBLEMS: dict[str, tuple[str, str, str]] = {
 
 
 def seconds_of_checking(enclosure: Enclosure) -> float:
-    """The time of both checks, the statements being read."""
+    """Seconds of both checks, the statements being read; raises ArithmeticError where the checker
+    does not certify both.
+    """
     statements = checker.read_statements(enclosure.statements)
     began = time.perf_counter()
     outcomes = [
@@ -132,7 +137,9 @@ def cold(polynomial: str, side: str, width: str) -> float:
 
 
 def row(name: str, width: str, runs: int) -> Sequence[str]:
-    """One problem: medians of so many runs."""
+    """One problem: medians of so many runs.  Raises ArithmeticError where the published minimum is
+    not within 10^-4 of the enclosure.
+    """
     polynomial, side, published = PROBLEMS[name]
     warm = []
     for _ in range(runs + 1):
@@ -162,6 +169,7 @@ def row(name: str, width: str, runs: int) -> Sequence[str]:
 
 
 def main() -> None:
+    """Prints the table."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

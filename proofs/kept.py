@@ -10,14 +10,15 @@ import hashlib
 import json
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any  # of JSON
+from typing import Any
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
 
+Record = dict[str, Any]  # plain data, as JSON has it
 VARIABLE = "JUGGLEPROOF_CACHE"
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ("symbolic", "proofs", "certificates")
@@ -68,7 +69,7 @@ def _sources(root: Path, packages: Sequence[str] = SOURCES) -> Iterator[Path]:
         yield from sorted((root / package).rglob("*.py"))
 
 
-def load(key: str) -> list[dict[str, Any]]:
+def load(key: str) -> list[Record]:
     """The records that were kept under the key; none where there is no such file, or it is not
     whole, or not the user's own.
     """
@@ -97,7 +98,7 @@ def load(key: str) -> list[dict[str, Any]]:
         return []
 
 
-def keep(key: str, records: Sequence[Mapping[str, object]]) -> None:
+def keep(key: str, records: Sequence[Record]) -> None:
     """Keeps the records under the key, and only the latest few files; a folder that cannot be
     written is let be.
     """

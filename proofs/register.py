@@ -8,31 +8,17 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Required, TypedDict
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
 from juggleproof.proofs.claims import VERDICTS
 
 PATH = Path(__file__).with_name("register.json")
+FIELDS = ("verdict", "detail", "correction", "sharp")
+Register = Mapping[str, Mapping[str, str]]  # the entry of each claim: a text for some of FIELDS
 
 
-class Entry(TypedDict, total=False):
-    """What stands of a claim: its verdict, and what there is of its detail, the corrected print
-    and the sharp range.
-    """
-
-    verdict: Required[str]
-    detail: str
-    correction: str
-    sharp: str
-
-
-FIELDS = tuple(Entry.__annotations__)
-Entries = Mapping[str, Mapping[str, object]]  # by claim
-
-
-def load_register(path: Path = PATH) -> dict[str, Entry]:
+def load_register(path: Path = PATH) -> dict[str, dict[str, str]]:
     """The registered verdicts by claim; empty where there is no register yet.
 
     Raises ClaimError, one line that names file, claim and mend, where the file cannot be read as a
@@ -41,7 +27,9 @@ def load_register(path: Path = PATH) -> dict[str, Entry]:
     if not path.exists():
         return {}
     try:
-        data = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_each_name_once)
+        data: object = json.loads(
+            path.read_text(encoding="utf-8"), object_pairs_hook=_each_name_once
+        )
     except _Twice as problem:
         raise ClaimError(
             f"{path}: {problem} stands there twice; keep one, or restore the file from the"
@@ -61,8 +49,8 @@ def load_register(path: Path = PATH) -> dict[str, Entry]:
         if fault:
             shown = claim if claim.isprintable() else repr(claim)
             raise ClaimError(f"{path}: {shown}: {fault}, or restore the file from the repository")
-    entries: dict[str, Entry] = data
-    return entries
+    register: dict[str, dict[str, str]] = data
+    return register
 
 
 class _Twice(Exception):
@@ -70,10 +58,11 @@ class _Twice(Exception):
 
 
 def _each_name_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    names = [name for name, _ in pairs]
-    if len(set(names)) < len(names):
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
         raise _Twice(next(name for name in names if names.count(name) > 1))
-    return dict(pairs)
+    return found
 
 
 def _fault(entry: object) -> str:
@@ -94,18 +83,10 @@ def _fault(entry: object) -> str:
     return ""
 
 
-def registered(
-    verdict: str, detail: str, correction: Mapping[str, object] | None, sharp: str
-) -> Entry:
+def registered(verdict: str, detail: str, correction: str, sharp: str) -> dict[str, str]:
     """The entry of a claim: its verdict, and what there is of the rest."""
-    entry: Entry = {"verdict": verdict}
-    if detail:
-        entry["detail"] = detail
-    if correction:
-        entry["correction"] = str(correction["text"])
-    if sharp:
-        entry["sharp"] = sharp
-    return entry
+    values = zip(FIELDS, (verdict, detail, correction, sharp))
+    return {name: value for name, value in values if value}
 
 
 @dataclass(frozen=True)
@@ -115,8 +96,8 @@ class Change:
     """
 
     claim: str
-    before: Mapping[str, object] | None
-    after: Mapping[str, object] | None
+    before: Mapping[str, str] | None
+    after: Mapping[str, str] | None
 
     def __str__(self) -> str:
         old, new = self.before or {}, self.after or {}
@@ -126,7 +107,7 @@ class Change:
         )
 
 
-def differences(before: Entries, after: Entries, partial: bool) -> list[Change]:
+def differences(before: Register, after: Register, partial: bool) -> list[Change]:
     """Each claim whose verdict, correction or sharp range differs, or that is new or gone;
     `partial` leaves absent claims alone.
     """
@@ -138,11 +119,11 @@ def differences(before: Entries, after: Entries, partial: bool) -> list[Change]:
     ]
 
 
-def changes(before: Entries, after: Entries, partial: bool) -> list[str]:
+def changes(before: Register, after: Register, partial: bool) -> list[str]:
     """One line for each difference, before and after."""
     return [str(change) for change in differences(before, after, partial)]
 
 
-def write_register(entries: Entries, path: Path = PATH) -> bool:
+def write_register(entries: Register, path: Path = PATH) -> bool:
     """Writes the register in canonical bytes; returns whether it changed."""
     return write_file(path, canonical(entries))

@@ -19,7 +19,9 @@ from juggleproof.proofs.reports.tree import print_tree
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Explains a claim, or with options of its own the theorem; 0."""
+    """Explains a claim, or with options of its own the theorem; 0.  Raises ClaimError for options
+    that do not go together.
+    """
     of_theorem = [
         option
         for option in ("alpha", "state", "bounds")
@@ -42,15 +44,19 @@ def command(parsed: argparse.Namespace) -> int:
 
 def explain(claim_id: str, with_premises: bool = False) -> int:
     """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
-    sharp range, verdict; the tree of its rules.
+    sharp range, verdict; the tree of its rules.  Raises ClaimError for an unknown name.
     """
     claims = {claim.id: claim for claim in paper_claims()}
     claim_id = claim_named(claim_id, claims)
     if claim_id not in claims:
-        near = [name for name in claims if claim_id in name][:5]
+        similar = [name for name in claims if claim_id in name][:5]
         raise ClaimError(
             f"{claim_id}: no such claim"
-            + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them")
+            + (
+                f"; did you mean {', '.join(similar)}?"
+                if similar
+                else "; `juggleproof list` names them"
+            )
         )
     claim, store = claims[claim_id], Store(DEFAULT)
     body = claim.body()

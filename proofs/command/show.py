@@ -20,7 +20,7 @@ from juggleproof.proofs.reports.contents import gather
 from juggleproof.proofs.reports.tex import equation
 
 # -------------------------------------------------------------------------------------------------
-# `juggleproof list` and `errata`: what is stored, told without searching again.
+# `juggleproof list` and `errata`: what is stored, without a search.
 
 
 def command(parsed: argparse.Namespace) -> int:

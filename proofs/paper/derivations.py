@@ -95,8 +95,9 @@ def made_by(origin: Origin, value: Made) -> Made:
     if isinstance(value, Term):
         return value.made_by(origin)
     if isinstance(value, Formula):
-        parts = [made_by(origin, part) for part in value.parts]
-        return Formula(value.op, *(parts or [made_by(origin, side) for side in value.sides]))
+        if value.parts:
+            return Formula(value.op, *(made_by(origin, part) for part in value.parts))
+        return Formula(value.op, *(made_by(origin, side) for side in value.sides))
     if isinstance(value, Vector):
         return Vector(tuple(made_by(origin, term(entry)) for entry in value.entries))
     return Matrix(tuple(tuple(made_by(origin, term(one)) for one in row) for row in value.rows))

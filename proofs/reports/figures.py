@@ -24,7 +24,7 @@ FORMS = ("svg", "pdf")
 
 
 class Saved(NamedTuple):
-    """A figure as a file, with what is said beside it."""
+    """A figure as a file, with what stands beside it."""
 
     slug: str
     title: str
@@ -43,10 +43,10 @@ def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, 
         "fig-ranges": lambda: (rows(entries), without_alpha(entries)),
         "fig-trap": what_the_trap_shows,
     }
-    return [(*said(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
+    return [(*labels(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
 
 
-def said(one: Entry) -> tuple[str, str, str, str]:
+def labels(one: Entry) -> tuple[str, str, str, str]:
     """Slug, title, caption and alternative text of a figure."""
     return (
         one.slug,
@@ -83,7 +83,7 @@ def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
                     for slug, data in kept.items()
                 ],
             )
-    return [Saved(*said(one), kept[one.slug]) for one in TABLE]
+    return [Saved(*labels(one), kept[one.slug]) for one in TABLE]
 
 
 def _kept(records: list[dict[str, str]]) -> dict[str, bytes]:
@@ -114,7 +114,7 @@ def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, boo
 
 def margin(relation: Formula) -> tuple[Expr, bool]:
     """What is positive where a strict relation holds, or not negative where one that is not strict
-    does; and whether it is strict.
+    does; and whether it is strict.  Raises ClaimError for what is no inequality.
     """
     less, more = relation.sides if relation.op in ("<", "<=") else reversed(relation.sides)
     if relation.op not in ("<", "<=", ">", ">="):
