@@ -34,7 +34,10 @@ HEART = (
         "-x1*x6^3 + 3*x1*x6*x7^2 - x3*x7^3 + 3*x3*x7*x6^2 - x2*x5^3 + 3*x2*x5*x8^2 - x4*x8^3 +"
         " 3*x4*x8*x5^2 - 0.9563453"
     ),
-    "x1=-0.1..0.4,x2=0.4..1,x3=-0.7..-0.4,x4=-0.7..0.4,x5=0.1..0.2,x6=-0.1..0.2,x7=-0.3..1.1,x8=-1.1..-0.3",
+    (
+        "x1=-0.1..0.4,x2=0.4..1,x3=-0.7..-0.4,x4=-0.7..0.4,x5=0.1..0.2,x6=-0.1..0.2,x7=-0.3..1.1,"
+        "x8=-1.1..-0.3"
+    ),
 )
 
 
@@ -96,13 +99,15 @@ PROBLEMS: dict[str, tuple[str, str, str]] = {
 }
 
 
-def seconds_of_checking(found: Enclosure) -> float:
-    """The time of both checks, the statements being read."""
-    statements = checker.read_statements(found.statements)
+def seconds_of_checking(enclosure: Enclosure) -> float:
+    """Seconds of both checks, the statements being read; raises ArithmeticError where the checker
+    does not certify both.
+    """
+    statements = checker.read_statements(enclosure.statements)
     began = time.perf_counter()
     outcomes = [
         checker.check_one(statements[name], certificate, {}, {})
-        for name, certificate in found.certificates.items()
+        for name, certificate in enclosure.certificates.items()
     ]
     if any(outcome != "certified" for outcome, _ in outcomes):
         raise ArithmeticError(f"not certified: {outcomes}")
@@ -132,36 +137,39 @@ def cold(polynomial: str, side: str, width: str) -> float:
 
 
 def row(name: str, width: str, runs: int) -> Sequence[str]:
-    """One problem: medians of so many runs."""
+    """One problem: medians of so many runs.  Raises ArithmeticError where the published minimum is
+    not within 10^-4 of the enclosure.
+    """
     polynomial, side, published = PROBLEMS[name]
     warm = []
     for _ in range(runs + 1):
         began = time.perf_counter()
-        found = enclose_minimum(polynomial, box(side), number(width, "--width"))
+        enclosure = enclose_minimum(polynomial, box(side), number(width, "--width"))
         warm.append(time.perf_counter() - began)
     whole = statistics.median(cold(polynomial, side, width) for _ in range(runs))
-    checking = statistics.median(seconds_of_checking(found) for _ in range(runs))
-    if published and not found.low - Fraction(1, 10**4) <= Fraction(
+    checking = statistics.median(seconds_of_checking(enclosure) for _ in range(runs))
+    if published and not enclosure.low - Fraction(1, 10**4) <= Fraction(
         published
-    ) <= found.high + Fraction(1, 10**4):
+    ) <= enclosure.high + Fraction(1, 10**4):
         raise ArithmeticError(
-            f"{name}: {published} is published, [{found.low}, {found.high}] is certified"
+            f"{name}: {published} is published, [{enclosure.low}, {enclosure.high}] is certified"
         )
-    reached = f"{float(found.width):.1e}" if found.width else "0"
+    reached = f"{float(enclosure.width):.1e}" if enclosure.width else "0"
     return (
         name,
         published,
-        f"{float(found.low):.10g}",
+        f"{float(enclosure.low):.10g}",
         reached,
         f"{whole:.2f}",
         f"{statistics.median(warm[1:]):.3f}",
-        str(found.boxes),
-        str(found.certificate_bytes),
+        str(enclosure.boxes),
+        str(enclosure.certificate_bytes),
         f"{checking * 1000:.1f}",
     )
 
 
 def main() -> None:
+    """Prints the table."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

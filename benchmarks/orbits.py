@@ -14,24 +14,30 @@ import resource
 import time
 from collections.abc import Sequence
 from fractions import Fraction
+from multiprocessing.queues import Queue
 from pathlib import Path
-from typing import Any
 
-from juggleproof.scenes.juggler import orbit, point, random, scene
+from flint import arb
+from mpmath import mpf
+
 from juggleproof.scenes.juggler.bounded import bytes_needed
 from juggleproof.scenes.juggler.exact import as_fraction
+from juggleproof.scenes.juggler.orbits import Orbits, Row, orbit
+from juggleproof.scenes.juggler.starts import Scene, point, random, scene
 
 ALPHAS = ("3/10", "9/10")  # in the trap after a few impacts; out of it for long
 STEPS, STATES, RANDOM_STEPS = (100, 1000, 10000), (1000, 10000, 100000), 100
 MEMORY = (10**6, 20)
 
 
-def seconds(setting: Any, *how: Any, **more: Any) -> tuple[float, Any]:
+def seconds(
+    setting: Scene, arithmetic: str, steps: int, to_the_trap: bool = False
+) -> tuple[float, Orbits]:
     """The least seconds of three runs of `orbit`, and its result."""
-    best, found = math.inf, None
+    best = math.inf
     for _ in range(3):
         began = time.perf_counter()
-        found = orbit(setting, *how, **more)
+        found = orbit(setting, arithmetic, steps, impacts=to_the_trap, until_trap=to_the_trap)
         best = min(best, time.perf_counter() - began)
     return best, found
 
@@ -43,16 +49,18 @@ def slope(sizes: Sequence[float], times: Sequence[float]) -> float:
     return sum((a - x) * (b - y) for a, b in zip(xs, ys)) / sum((a - x) ** 2 for a in xs)
 
 
-def error(kind: str, row: Any, exact: Any) -> str:
+def _rational(value: Fraction | float | arb | mpf) -> Fraction:
+    if isinstance(value, arb):
+        return as_fraction(value.mid().fmpq())
+    return Fraction(value if isinstance(value, (Fraction, float)) else str(value))
+
+
+def error(row: Row, exact: Row) -> str:
     """The distance of a state from the exact one, and the bound that the run gives of it."""
     if row.end != "reached" or exact.end != "reached":
-        return str(row.end or exact.end)
-    values: tuple[Any, ...] = (row.x, row.w)
-    if kind == "enclosed":
-        values = tuple(as_fraction(value.mid().fmpq()) for value in values)
-    elif kind == "mp":
-        values = tuple(Fraction(str(value)) for value in values)
-    off = max(abs(Fraction(value) - true) for value, true in zip(values, (exact.x, exact.w)))
+        return row.end or exact.end
+    pairs = ((row.x, exact.x), (row.w, exact.w))
+    off = max(abs(_rational(value) - true) for value, true in pairs)
     bound = "" if row.error is None else f" <= {float(max(row.error)):.1e}"
     return f"{float(off):.1e}{bound}"
 
@@ -74,11 +82,11 @@ def by_steps() -> None:
         exact = orbit(setting, "exact", STEPS[1]).row(0)
         for kind in ("exact", "enclosed", "mp", "fast"):
             times = [seconds(setting, kind, steps)[0] for steps in STEPS]
-            told_error = error(kind, orbit(setting, kind, STEPS[1]).row(0), exact)
+            off = error(orbit(setting, kind, STEPS[1]).row(0), exact)
             print(
                 f"{alpha:>6} {kind:>10} "
                 + " ".join(f"{one:16.5f}" for one in times)
-                + f" {slope(STEPS, times):6.2f}  {told_error}"
+                + f" {slope(STEPS, times):6.2f}  {off}"
             )
     print()
     energies = (10, 10**3, 10**6, 10**12)
@@ -87,9 +95,7 @@ def by_steps() -> None:
     )
     for kind in ("exact", "enclosed", "fast"):
         times = [
-            seconds(scene("3/10", point(energy, "1/7")), kind, 1000, impacts=True, until_trap=True)[
-                0
-            ]
+            seconds(scene("3/10", point(energy, "1/7")), kind, 1000, to_the_trap=True)[0]
             for energy in energies
         ]
         print(
@@ -109,16 +115,14 @@ def by_states() -> None:
     )
     for alpha in ALPHAS:
         runs = [seconds(scene(alpha, random(count, 1)), "fast", RANDOM_STEPS) for count in STATES]
-        ensemble = runs[-1][1].ensemble
-        worst = max(
-            float(ensemble.error_x[ensemble.end == 1].max()),
-            float(ensemble.error_w[ensemble.end == 1].max()),
-        )
+        last = runs[-1][1]
+        rows = map(last.row, range(last.followed))
+        worst = max(max(row.error) for row in rows if row.end == "reached" and row.error)
         print(
             f"{alpha:>6} {'':>10} "
             + " ".join(f"{one:16.4f}" for one, _ in runs)
             + f" {slope(STATES, [one for one, _ in runs]):6.2f}  "
-            f"{len(runs[-1][1].undecided)}, {worst:.1e}"
+            f"{len(last.undecided)}, {worst:.1e}"
         )
     print()
 
@@ -136,7 +140,7 @@ def peak() -> float:
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
-def _memory(queue: Any) -> None:
+def _memory(queue: Queue[tuple[float, float]]) -> None:
     count, steps = MEMORY
     orbit(scene("9/10", random(10, 1)), "fast", 1)
     before = peak()

@@ -22,7 +22,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from flint import fmpz_mpoly
 
@@ -116,7 +116,7 @@ def has_coq() -> bool:
     return shutil.which("coqc") is not None
 
 
-def coq_nra(statement: Any, seconds: float) -> Answer:
+def coq_nra(statement: checker.Statement, seconds: float) -> Answer:
     """Whether coqc accepts the goals of the statement, each by nra in every case."""
     goals = [goal(question) for question in questions(statement)]
     if None in goals:
@@ -166,7 +166,7 @@ def has_qepcad() -> bool:
     return shutil.which("qepcad") is not None
 
 
-def qepcad(statement: Any, seconds: float) -> Answer:
+def qepcad(statement: checker.Statement, seconds: float) -> Answer:
     """QEPCAD's answer to the questions in turn, as one program each, which is how it is used."""
     clock, asked, answers = Clock(seconds), questions(statement), list[str]()
     texts = [prenex(question) for question in asked]
@@ -241,17 +241,17 @@ def has_cvc5() -> bool:
     return find_spec("cvc5") is not None
 
 
-def z3(statement: Any, seconds: float) -> Answer:
+def z3(statement: checker.Statement, seconds: float) -> Answer:
     """Z3's answer to the whole script."""
     return _answer([str(z3_command()), "-in"], statement, seconds)
 
 
-def cvc5(statement: Any, seconds: float) -> Answer:
+def cvc5(statement: checker.Statement, seconds: float) -> Answer:
     """cvc5's answer to the whole script."""
     return _answer([sys.executable, "-c", CVC5], statement, seconds)
 
 
-def _answer(command: list[str], statement: Any, seconds: float) -> Answer:
+def _answer(command: list[str], statement: checker.Statement, seconds: float) -> Answer:
     output = Clock(seconds).output_of(command, script(statement)) or ""
     answers = [line for line in output.split() if line in ("sat", "unsat", "unknown")]
     asked = questions(statement)
@@ -278,12 +278,12 @@ class Method:
     """A way to settle statements, and its answers with their seconds, by the statement's name."""
 
     title: str
-    settle: Callable[[Any, float], Answer]
+    settle: Callable[[checker.Statement, float], Answer]
     present: bool = True
     package: str = ""
     answers: dict[str, tuple[Answer, float]] = field(default_factory=dict)
 
-    def run(self, name: str, statement: Any, seconds: float) -> None:
+    def run(self, name: str, statement: checker.Statement, seconds: float) -> None:
         """Asks about one statement; an answer that comes too late does not count."""
         began = time.perf_counter()
         answer = self.settle(statement, seconds)
@@ -309,7 +309,7 @@ class Method:
         )
 
 
-def ours(statement: Any, seconds: float) -> Answer:
+def ours(statement: checker.Statement, seconds: float) -> Answer:
     """The checker's verdict on the certificate that our search finds; nothing else is believed."""
 
     def late(*_: object) -> None:
@@ -339,12 +339,14 @@ def methods() -> list[Method]:
     ]
 
 
-def contradictions(name: str, stored: Any, asked: Sequence[Method]) -> list[str]:
+def contradictions(
+    name: str, stored: Mapping[str, object] | None, asked: Sequence[Method]
+) -> list[str]:
     """One line where the stored certificate and the methods do not all say the same of a
     statement.
     """
     words: dict[str, Answer] = {method.title: method.answers[name][0] for method in asked}
-    if isinstance(stored, dict):
+    if stored is not None:
         words["the stored certificate"] = next(
             (word for key, word in WORDS.items() if key in stored), "unsettled"
         )

@@ -8,7 +8,6 @@ import os
 import signal
 import subprocess
 import time
-from typing import Any
 
 GRACE = 2.0  # seconds that a process has to end its own children
 
@@ -37,7 +36,7 @@ class Clock:
             kill_with_children(process)
 
 
-def kill_with_children(process: subprocess.Popen[Any]) -> None:
+def kill_with_children(process: subprocess.Popen[str] | subprocess.Popen[bytes]) -> None:
     """Kills a process that leads a session, and those that it started in that session; nothing
     where it has ended.
     """
@@ -46,7 +45,7 @@ def kill_with_children(process: subprocess.Popen[Any]) -> None:
         process.communicate()
 
 
-def end_with_children(process: subprocess.Popen[Any]) -> None:
+def end_with_children(process: subprocess.Popen[str] | subprocess.Popen[bytes]) -> None:
     """Asks a process to end, which gives it time to end what it started; kills it where it does
     not.
     """

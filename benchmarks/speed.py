@@ -33,6 +33,7 @@ def measure(arguments: list[str]) -> tuple[float, float]:
 
 
 def main() -> None:
+    """Prints seconds and memory of each command beside its aim."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=3)
     runs = parser.parse_args().runs

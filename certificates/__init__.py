@@ -5,7 +5,9 @@ In reading order:
 
 - `checker`: reads statements and certificates, and says whether these prove those;
 - `nodes`: the shape of certificates;
-- `language`: terms, formulas and statements as values, and their text;
+- `formulas`: terms and formulas as values, and their text;
+- `language`: statements as values, and their text; all names of the language stand here;
+- `definitions`: the names by which a file of statements is shorter;
 - `algebra`: arithmetic that the search and the votes share;
 - `work`: counted work, and statements unfolded once;
 - `states`: what a search assumes on one branch, and the branches below it;

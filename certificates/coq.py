@@ -1,16 +1,17 @@
-"""Certified statements as Coq lemmas."""
+"""Certified statements as lemmas of Coq, each proved by its certificate; see `lemma`."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import lcm
-from typing import Any
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.algebra.polynomials import monomials
+from juggleproof.certificates.formulas import ClaimError
+from juggleproof.certificates.nodes import Certificate, Cofactor, Node, Power, Product
 
 # -------------------------------------------------------------------------------------------------
 # The checker's polynomials and formulas as Coq text over the reals, with integer coefficients
@@ -90,45 +91,49 @@ def coq_name(name: str) -> str:
     return name + "_" if name in TAKEN or name.startswith("of_") else name
 
 
-def polynomial(names: dict[str, int], poly: Any, factor: int = 1) -> str:
+def polynomial(names: Mapping[str, int], poly: checker.Poly, factor: int = 1) -> str:
     """The numerator of a polynomial, its integer coefficients times the factor, as a sum of
-    monomials.
+    monomials, lexicographically from the largest down, where the last variable counts most;
+    `names` gives the number of each variable.
     """
     rows = []
-    for packed in sorted(poly.terms, reverse=True):
-        coefficient = poly.terms[packed] * factor
-        exponents = [
-            (name, (packed >> (checker.BITS * i)) % (1 << checker.BITS))
-            for name, i in names.items()
-        ]
+    terms = monomials(poly, len(names))
+    for exponents in sorted(terms, key=lambda powers: powers[::-1], reverse=True):
+        coefficient = terms[exponents] * factor
         powers = [
-            coq_name(name) if e == 1 else f"{coq_name(name)} ^ {e}" for name, e in exponents if e
+            coq_name(name) if exponents[i] == 1 else f"{coq_name(name)} ^ {exponents[i]}"
+            for name, i in names.items()
+            if exponents[i]
         ]
         size = [] if abs(coefficient) == 1 and powers else [str(abs(coefficient))]
         rows.append(("- " if coefficient < 0 else "+ ") + " * ".join([*size, *powers]))
     return " ".join(rows).removeprefix("+ ") or "0"
 
 
-def proposition(names: dict[str, int], formula: Any) -> str:
+def proposition(names: Mapping[str, int], formula: checker.Formula) -> str:
     """A formula of the checker; each polynomial stands for itself times its denominator, which is
     positive.
     """
     if isinstance(formula, bool):
         return str(formula)
     if formula[0] == "atom":
-        text = polynomial(names, formula[1])
-        return {">": f"0 < {text}", ">=": f"0 <= {text}", "=": f"{text} = 0", "!=": f"{text} <> 0"}[
-            formula[2]
-        ]
-    parts = [proposition(names, part) for part in formula[1]]
-    enclosed = [
-        part if inner[0] == "atom" else f"({part})" for part, inner in zip(parts, formula[1])
-    ]
-    return (" /\\ " if formula[0] == "and" else " \\/ ").join(enclosed)
+        _, poly, relation = formula
+        text = polynomial(names, poly)
+        shapes = {">": f"0 < {text}", ">=": f"0 <= {text}", "=": f"{text} = 0"}
+        return shapes.get(relation, f"{text} <> 0")
+    parts = []
+    for part in formula[1]:
+        text = proposition(names, part)
+        parts.append(text if isinstance(part, bool) or part[0] == "atom" else f"({text})")
+    return (" /\\ " if formula[0] == "and" else " \\/ ").join(parts)
 
 
-def common_factor(numbers: list[Fraction]) -> int:
-    """The least positive integer that makes all the numbers whole."""
+def common_factor(numbers: Iterable[Fraction]) -> int:
+    """The least positive integer that makes all the numbers whole.
+
+    >>> common_factor([Fraction(1, 4), Fraction(5, 6)])
+    12
+    """
     return lcm(1, *(number.denominator for number in numbers))
 
 
@@ -140,11 +145,14 @@ SUPPORTED = "psatz, cases, sign, close and integral"
 
 @dataclass
 class Branch:
-    """A state of the checker beside the names of its hypotheses in Coq."""
+    """A state of the checker beside the names of its hypotheses in Coq: facts as (polynomial,
+    relation, hypothesis), disjunctions as (alternatives, hypothesis), both numbered as the checker
+    has them, and a hypothesis that is false.
+    """
 
     names: dict[str, int]
-    facts: list[tuple[Any, str, str]] = field(default_factory=list)
-    choices: list[tuple[Any, str]] = field(default_factory=list)
+    facts: list[tuple[checker.Poly, str, str]] = field(default_factory=list)
+    choices: list[tuple[Sequence[checker.Formula], str]] = field(default_factory=list)
     absurd: str = ""
     count: list[int] = field(default_factory=lambda: [0])
 
@@ -157,7 +165,7 @@ class Branch:
         """The same state, to be changed on its own."""
         return Branch(self.names, list(self.facts), list(self.choices), self.absurd, self.count)
 
-    def assume(self, formula: Any, name: str) -> list[str]:
+    def assume(self, formula: checker.Formula, name: str) -> list[str]:
         """Takes a hypothesis apart in the order of the checker; returns the tactics."""
         if isinstance(formula, bool):
             self.absurd = self.absurd or ("" if formula else name)
@@ -175,36 +183,40 @@ class Branch:
         return rows
 
 
-def lemma(statement: Any, certificate: Any) -> str:
-    """The Coq lemma of a certified statement without `exists`, with its proof; ClaimError where a
-    rule is not written for Coq.
+def lemma(statement: checker.Statement, certificate: Certificate | None) -> str:
+    """The Coq lemma of a certified statement without `exists`, with its proof.
+
+    Raises ClaimError, one line, for any other statement, and where the certificate has a rule that
+    is not written for Coq.
     """
+    proof = (certificate or {}).get("certified")
     if (
         statement.kind != "universal"
         or sorted(certificate or {}) != ["certified", "point"]
-        or certificate["certified"][0] != "proof"
+        or not isinstance(proof, Sequence)
+        or proof[0] != "proof"
     ):
         raise ClaimError(
             f"{statement.name}: only certified statements without `exists` are written for Coq, not"
             " sharp ranges or rules on orbits"
         )
-    _, steps, last = certificate["certified"]
-    story = checker.Unfolding(statement, checker.Context())
-    names = story.context.index
+    _, steps, last = proof
+    unfolding = checker.Unfolding(statement, checker.Context())
+    names = unfolding.context.index
     branch = Branch(names)
     derived = {
         count
-        for (count, _), (keyword, _) in zip(story.obligations, _obliging(statement))
+        for (count, _), keyword in zip(unfolding.obligations, _obliging(statement))
         if keyword == "have"
     }
-    given = [k for k in range(len(story.premises)) if k not in derived]
+    given = [k for k in range(len(unfolding.premises)) if k not in derived]
     hypotheses = {k: branch.fresh() for k in given}
     whole = {
         coq_name(name): branch.fresh()
         for name in names
-        if name in story.context.integers and _uses("integral", [steps, last])
+        if name in unfolding.context.integers and any(_rounds(node) for node in (*steps, last))
     }
-    goal, denied = story.goal(True), story.goal(False)
+    goal, denied = unfolding.goal(True), unfolding.goal(False)
     binder = f"forall ({' '.join(map(coq_name, names))} : R), " if names else ""
     rows = [
         f"(* {statement.name}{'' if whole else _over_the_reals(statement)} *)",
@@ -212,24 +224,24 @@ def lemma(statement: Any, certificate: Any) -> str:
         f"  {binder}".rstrip(),
     ]
     rows += [f"  whole {name} ->" for name in whole]
-    rows += [f"  ({proposition(names, story.premises[k])}) ->" for k in given]
+    rows += [f"  ({proposition(names, unfolding.premises[k])}) ->" for k in given]
     introduced = [*map(coq_name, names), *whole.values(), *hypotheses.values()]
     rows += [
         f"  ({proposition(names, goal)}).",
         "Proof.",
         "  " + " ".join(["intros", *introduced]) + ".",
     ]
-    waiting = list(zip(story.obligations, steps, strict=True))
-    for k in range(len(story.premises) + 1):
+    waiting = list(zip(unfolding.obligations, steps, strict=True))
+    for k in range(len(unfolding.premises) + 1):
         while waiting and waiting[0][0][0] == k:
             (_, denial), node = waiting.pop(0)
-            shown = story.premises[k] if k in derived else checker.negate(denial)
+            shown = unfolding.premises[k] if k in derived else checker.negate(denial)
             name = branch.fresh()
             rows += _shown(branch, shown, denial, node, name, statement.name)
             if k in derived:
                 hypotheses[k] = name
-        if k < len(story.premises):
-            rows += branch.assume(story.premises[k], hypotheses[k])
+        if k < len(unfolding.premises):
+            rows += branch.assume(unfolding.premises[k], hypotheses[k])
     final = branch.fresh()
     rows += [*_shown(branch, goal, denied, last, final, statement.name), f"exact {final}.", "Qed."]
     return "\n".join(rows) + "\n"
@@ -239,17 +251,23 @@ def _lemma_name(name: str) -> str:
     return "statement_" + re.sub(r"\W", "_", name)
 
 
-def _over_the_reals(statement: Any) -> str:
+def _over_the_reals(statement: checker.Statement) -> str:
     whole = [name for line in statement.get("integer") for name in line]
     return f", shown for all reals {', '.join(whole)}, not for integers only" if whole else ""
 
 
-def _obliging(statement: Any) -> list[tuple[str, Any]]:
-    return [line for line in statement.lines if line[0] in ("have", "root")]
+def _obliging(statement: checker.Statement) -> list[str]:
+    """The keywords of the lines that have to be proved, in order."""
+    return [keyword for keyword, _ in statement.lines if keyword in ("have", "root")]
 
 
 def _shown(
-    branch: Branch, shown: Any, denied: Any, node: Any, name: str, statement: str
+    branch: Branch,
+    shown: checker.Formula,
+    denied: checker.Formula,
+    node: Node,
+    name: str,
+    statement: str,
 ) -> list[str]:
     inner, against = branch.copy(), branch.fresh()
     rows = [
@@ -264,27 +282,24 @@ def _shown(
     return [*rows, *inner.assume(denied, against), *_closed(inner, node, statement), "}"]
 
 
-def _closed(branch: Branch, node: Any, statement: str) -> list[str]:
-    rules: dict[str, Callable[..., list[str]]] = {
-        "psatz": _psatz,
-        "cases": _cases,
-        "sign": _sign,
-        "close": _close,
-        "integral": _integral,
-    }
-    if node[0] not in rules:
-        raise ClaimError(
-            f"{statement}: its certificate uses the rule {node[0]}; only {SUPPORTED} are written"
-            " for Coq"
-        )
-    return rules[node[0]](branch, statement, *node[1:])
+def _closed(branch: Branch, node: Node, statement: str) -> list[str]:
+    if node[0] == "psatz":
+        return _psatz(branch, *node[1:])
+    if node[0] == "cases":
+        return _cases(branch, statement, *node[1:])
+    if node[0] == "sign":
+        return _sign(branch, statement, *node[1:])
+    if node[0] == "integral":
+        return _integral(branch, statement, *node[1:])
+    if node[0] == "close":
+        return [f"exact {branch.absurd}."]
+    raise ClaimError(
+        f"{statement}: its certificate uses the rule {node[0]}; only {SUPPORTED} are written for"
+        " Coq"
+    )
 
 
-def _close(branch: Branch, statement: str) -> list[str]:
-    return [f"exact {branch.absurd}."]
-
-
-def _cases(branch: Branch, statement: str, index: int, nodes: list[Any]) -> list[str]:
+def _cases(branch: Branch, statement: str, index: int, nodes: Sequence[Node]) -> list[str]:
     alternatives, name = branch.choices[index]
     parts = [branch.fresh() for _ in alternatives]
     rows = [f"destruct {name} as {_disjunctive(parts)}."]
@@ -295,7 +310,7 @@ def _cases(branch: Branch, statement: str, index: int, nodes: list[Any]) -> list
     return rows
 
 
-def _sign(branch: Branch, statement: str, text: str, *nodes: Any) -> list[str]:
+def _sign(branch: Branch, statement: str, text: str, *nodes: Node) -> list[str]:
     poly = _poly(branch, text)
     parts = [branch.fresh() for _ in nodes]
     formulas = [
@@ -314,18 +329,15 @@ def _sign(branch: Branch, statement: str, text: str, *nodes: Any) -> list[str]:
     return rows
 
 
-def _integral(branch: Branch, statement: str, index: int, node: Any) -> list[str]:
+def _integral(branch: Branch, statement: str, index: int, node: Node) -> list[str]:
     poly, _, name = branch.facts[index]
     if poly.den != 1:
         raise ClaimError(
             f"{statement}: its certificate rounds a polynomial with a denominator, which is not"
             " written for Coq"
         )
-    formula, stronger, rest = (
-        checker.fold(poly - checker.number(1, poly.work), ">="),
-        branch.fresh(),
-        branch.copy(),
-    )
+    formula = checker.fold(poly - checker.number(1, poly.work), ">=")
+    stronger, rest = branch.fresh(), branch.copy()
     rows = [
         f"assert ({stronger} : {proposition(branch.names, formula)}).",
         (
@@ -336,13 +348,16 @@ def _integral(branch: Branch, statement: str, index: int, node: Any) -> list[str
     return [*rows, *rest.assume(formula, stronger), *_closed(rest, node, statement)]
 
 
-def _uses(rule: str, node: Any) -> bool:
-    return isinstance(node, (list, tuple)) and (
-        tuple(node[:1]) == (rule,) or any(_uses(rule, part) for part in node)
-    )
+def _rounds(node: Node) -> bool:
+    """Whether the rule `integral` is used in the proof."""
+    if node[0] == "cases":
+        return any(map(_rounds, node[2]))
+    if node[0] == "sign":
+        return any(map(_rounds, node[2:]))
+    return node[0] == "integral"
 
 
-def _psatz(branch: Branch, statement: str, products: list[Any], equations: list[Any]) -> list[str]:
+def _psatz(branch: Branch, products: Sequence[Product], equations: Sequence[Cofactor]) -> list[str]:
     """The products' signs as one proof term, the sum's being 0 by ring; everything is multiplied
     until it is whole.
     """
@@ -365,33 +380,23 @@ def _psatz(branch: Branch, statement: str, products: list[Any], equations: list[
     return [f"exact (no_positive_zero _ {proof}\n  ltac:(ring))."]
 
 
-Factors = list[tuple[str, bool]]
+Factors = list[tuple[str, bool]]  # a proof of the sign of each, and whether it is strict
 
 
 def _product(
-    branch: Branch, coefficient: Any, factors: list[Any], root: str
+    branch: Branch, coefficient: str, factors: Sequence[Power], root: str
 ) -> tuple[Fraction, Factors, bool]:
-    """The weight of a product of numerators, a proof of the sign of each (and whether it is
-    strict), and whether all are strict.
-    """
-    weight, signs = Fraction(checker.rational(coefficient)), []
+    """The weight of a product of numerators, its factors, and whether all are strict."""
+    weight, signs = Fraction(checker.rational(coefficient)), Factors()
     for index, exponent in factors:
         poly, relation, name = branch.facts[index]
         weight /= poly.den**exponent
+        strict = relation in (">", "!=")
         if relation == "!=":
-            signs.append((f"(pow_lt _ {exponent // 2} (square_of_nonzero _ {name}))", True))
-        else:
-            strict = relation == ">"
-            signs.append(
-                (
-                    (
-                        name
-                        if exponent == 1
-                        else f"({'pow_lt' if strict else 'pow_le'} _ {exponent} {name})"
-                    ),
-                    strict,
-                )
-            )
+            name = f"(pow_lt _ {exponent // 2} (square_of_nonzero _ {name}))"
+        elif exponent != 1:
+            name = f"({'pow_lt' if strict else 'pow_le'} _ {exponent} {name})"
+        signs.append((name, strict))
     square = _poly(branch, root)
     constant = square.constant()
     if constant:
@@ -417,7 +422,7 @@ def _nonnegative(weight: int, factors: Factors) -> str:
     return proof
 
 
-def _poly(branch: Branch, text: str) -> Any:
+def _poly(branch: Branch, text: str) -> checker.Poly:
     context = checker.Context()
     context.index = dict(branch.names)
     context.values = {key: checker.variable(i, context.work) for key, i in branch.names.items()}

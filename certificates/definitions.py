@@ -14,11 +14,12 @@ import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar, Union
+from typing import Union, overload
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import (
+from juggleproof.certificates.formulas import (
     ClaimError,
+    Expression,
     Formula,
     Term,
     conjunction,
@@ -29,7 +30,6 @@ from juggleproof.certificates.language import (
 
 MOST_WORK = 10**9  # of writing out a file: a bound against definitions that double
 Body = Union[Term, Formula, tuple[Term, ...]]
-Expression = TypeVar("Expression", bound=Union[Term, Formula])
 
 # -------------------------------------------------------------------------------------------------
 # Trees of the checker as terms and formulas
@@ -48,7 +48,8 @@ RELATIONS: Mapping[type, str] = {
 def term_of(node: ast.expr) -> Term:
     """The term that a tree of `checker.parse` is; its text is the text that was read.
 
-    A sign before a product is that of the product, as terms are written.
+    A sign before a product is that of the product, as terms are written.  Raises ClaimError for
+    what is not a term.
 
     >>> str(term_of(checker.parse("-(x + 1)/2*y^2")))
     '-(x + 1)/2*y^2'
@@ -64,13 +65,13 @@ def term_of(node: ast.expr) -> Term:
     if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
         op, left = OPERATORS[type(node.op)], term_of(node.left)
         if op in "*/" and left.op == "neg":
-            return -Term(op, left.args[0], term_of(node.right))
+            return -Term(op, *left.operands, term_of(node.right))
         return Term(op, left, term_of(node.right))
     raise ClaimError(f"{ast.unparse(node)!r} is not a term")
 
 
 def formula_of(node: ast.expr) -> Formula:
-    """The formula that a tree of `checker.parse` is.
+    """The formula that a tree of `checker.parse` is; raises ClaimError for what is not a formula.
 
     >>> str(formula_of(checker.parse("not x < 1 and implies(x = 2, y != 0)")))
     'not x < 1 and implies(x = 2, y != 0)'
@@ -78,12 +79,14 @@ def formula_of(node: ast.expr) -> Formula:
     if isinstance(node, ast.Compare):
         sides = [term_of(side) for side in (node.left, *node.comparators)]
         signs = [RELATIONS[type(op)] for op in node.ops]
-        return conjunction(Formula(sign, *pair) for sign, *pair in zip(signs, sides, sides[1:]))
+        return conjunction(
+            Formula(op, left, right) for op, left, right in zip(signs, sides, sides[1:])
+        )
     if isinstance(node, ast.BoolOp):
         op = "and" if isinstance(node.op, ast.And) else "or"
         parts: list[Formula] = []
         for part in map(formula_of, node.values):  # a definition within is joined to what is around
-            parts += part.args if part.op == op else (part,)
+            parts += part.parts if part.op == op else (part,)
         return Formula(op, *parts)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
         return Formula("not", formula_of(node.operand))
@@ -130,39 +133,44 @@ class Definition:
         return f"define {self.name}{inner}{outer} := {body}"
 
 
-def _matched(pattern: object, thing: object, values: dict[str, Term], free: frozenset[str]) -> bool:
+def _matches(pattern: object, thing: object, values: dict[str, Term], free: frozenset[str]) -> bool:
     """Whether the thing is the pattern with terms in place of the free names, which `values`
-    collects."""
-    if isinstance(pattern, Term) and pattern.op == "var" and pattern.args[0] in free:
-        name = pattern.args[0]
-        if not isinstance(thing, Term) or name in values and values[name] != thing:
+    collects.
+    """
+    if isinstance(pattern, Term) and pattern.op == "var" and pattern.name in free:
+        if not isinstance(thing, Term) or values.get(pattern.name, thing) != thing:
             return False
-        values[name] = thing
+        values[pattern.name] = thing
         return True
-    if isinstance(pattern, (Term, Formula)):
+    if isinstance(pattern, Expression):
         return (
-            isinstance(thing, (Term, Formula))
+            isinstance(thing, Expression)
             and (pattern.op, len(pattern.args)) == (thing.op, len(thing.args))
-            and all(_matched(one, two, values, free) for one, two in zip(pattern.args, thing.args))
+            and all(_matches(one, two, values, free) for one, two in zip(pattern.args, thing.args))
         )
     return pattern == thing
 
 
 def _call(one: Definition, values: Mapping[str, Term], rest: Sequence[Definition]) -> str:
     """The definition applied to shortened arguments; components of a tuple, in order and all with
-    the same arguments, are the tuple."""
+    the same arguments, are the tuple.
+    """
     if not one.parameters:
         return one.name
     terms = [values[name] for name in one.parameters]
     for pair in rest:
         if isinstance(pair.body, tuple) and len(pair.body) == len(terms):
-            found: dict[str, Term] = {}
+            inner: dict[str, Term] = {}
             free = frozenset(pair.parameters)
-            if all(_matched(*both, found, free) for both in zip(pair.body, terms)):
-                return f"{one.name}({_call(pair, found, rest)})"
+            if all(_matches(*both, inner, free) for both in zip(pair.body, terms)):
+                return f"{one.name}({_call(pair, inner, rest)})"
     return f"{one.name}({', '.join(str(shortened(entry, rest)) for entry in terms)})"
 
 
+@overload
+def shortened(thing: Term, definitions: Sequence[Definition]) -> Term: ...
+@overload
+def shortened(thing: Formula, definitions: Sequence[Definition]) -> Formula: ...
 def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expression:
     """The same term or formula with definitions by name; the first that fits, from the outside in.
 
@@ -175,30 +183,28 @@ def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expressio
         if isinstance(one.body, tuple):
             continue
         values: dict[str, Term] = {}
-        if _matched(one.body, thing, values, frozenset(one.parameters)):
+        if _matches(one.body, thing, values, frozenset(one.parameters)):
             return type(thing)("call", _call(one, values, definitions))
         if thing.op == one.body.op == "and":
             within = _part_of_conjunction(one, thing, definitions)
             if within is not None:
-                return within  # type: ignore[return-value]
-    return type(thing)(
-        thing.op,
-        *(
-            shortened(part, definitions) if isinstance(part, (Term, Formula)) else part
-            for part in thing.args
-        ),
+                return within
+    args = (
+        shortened(part, definitions) if isinstance(part, (Term, Formula)) else part
+        for part in thing.args
     )
+    return type(thing)(thing.op, *args)
 
 
 def _part_of_conjunction(
-    one: Definition, thing: Term | Formula, definitions: Sequence[Definition]
+    one: Definition, thing: Expression, definitions: Sequence[Definition]
 ) -> Formula | None:
     """A conjunction of which some neighbours are the body; None where none are."""
     body, free = one.parts[0].args, frozenset(one.parameters)
     width = len(body)
     for at in range(len(thing.args) - width + 1):
         values: dict[str, Term] = {}
-        if all(_matched(*both, values, free) for both in zip(body, thing.args[at : at + width])):
+        if all(_matches(*both, values, free) for both in zip(body, thing.args[at : at + width])):
             named = Formula("call", _call(one, values, definitions))
             rest = Formula("and", *thing.args[:at], named, *thing.args[at + width :])
             return shortened(rest, definitions)
@@ -208,7 +214,7 @@ def _part_of_conjunction(
 # -------------------------------------------------------------------------------------------------
 # Lines of the statement file
 
-WIDTH = 97  # of a comment, beside its mark
+WIDTH = 97  # of a comment, without its "# "
 FORMULAS = ("range", "given", "have", "with", "show")  # keywords of lines that are shortened: these
 TERMS = ("let",)  # and NAME = TERM
 
@@ -220,11 +226,11 @@ def short_line(line: str, definitions: Sequence[Definition]) -> str:
     >>> short_line("let e = g*x + y^2/2", [Definition("E", ("x", "y"), g * x + y**2 / 2)])
     'let e = E(x, y)'
     """
-    keyword, _, said = line.partition(" ")
+    keyword, _, text = line.partition(" ")
     if keyword in FORMULAS:
-        return f"{keyword} {shortened(formula_of(checker.parse(said)), definitions)}"
+        return f"{keyword} {shortened(formula_of(checker.parse(text)), definitions)}"
     if keyword in TERMS:
-        name, _, value = said.partition(" = ")
+        name, _, value = text.partition(" = ")
         return f"{keyword} {name} = {shortened(term_of(checker.parse(value)), definitions)}"
     return line
 
@@ -259,12 +265,12 @@ class Reader:
 
     def long_line(self, line: str) -> str:
         """The line with definitions written out."""
-        keyword, _, said = line.partition(" ")
-        if keyword not in FORMULAS + TERMS or not self._uses.search(said):
+        keyword, _, text = line.partition(" ")
+        if keyword not in FORMULAS + TERMS or not self._uses.search(text):
             return line
         if line not in self._written:
-            name, equals, value = said.partition(" = ") if keyword in TERMS else ("", "", said)
+            name, equals, value = text.partition(" = ") if keyword in TERMS else ("", "", text)
             tree = self.definitions.read(value, self.over)
-            text = term_of(tree) if keyword in TERMS else formula_of(tree)
-            self._written[line] = f"{keyword} {name}{equals}{text}"
+            written_out = term_of(tree) if keyword in TERMS else formula_of(tree)
+            self._written[line] = f"{keyword} {name}{equals}{written_out}"
         return self._written[line]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
+import ast
+from collections.abc import Collection, Mapping, Sequence
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.nodes import Node, Values
 
 
 class State:
@@ -31,7 +32,7 @@ class State:
         self.context.index.update(variables.index)
         self.context.integers.update(variables.integers)
         self.facts: list[tuple[checker.Poly, str]] = []
-        self.choices: list[list[Any]] = []
+        self.choices: list[list[checker.Atom | checker.Join]] = []
         self.closed = False  # whether something false is assumed
         if parent is not None:
             self.context.licensed.update(parent.context.licensed)
@@ -40,12 +41,13 @@ class State:
             self.closed = parent.closed
 
     @property
-    def formulas(self) -> list[Any]:
+    def formulas(self) -> list[checker.Formula]:
         """All that is assumed: what is false, the facts and the disjunctions, in this order."""
-        facts = [("atom", poly, relation) for poly, relation in self.facts]
-        return [*[False] * self.closed, *facts, *(("or", list(one)) for one in self.choices)]
+        facts: list[checker.Formula] = [("atom", poly, relation) for poly, relation in self.facts]
+        choices: list[checker.Formula] = [("or", list(one)) for one in self.choices]
+        return [*[False] * self.closed, *facts, *choices]
 
-    def assume(self, formula: Any) -> State:
+    def assume(self, formula: checker.Formula) -> State:
         """The same state, in which one more formula holds."""
         for part in checker.conjuncts(formula):
             if isinstance(part, bool):
@@ -57,12 +59,19 @@ class State:
                 self.choices.append(part[1])
         return self
 
-    def branch(self, formula: Any = True, variables: checker.Context | None = None) -> State:
-        """A state of its own that assumes one more formula."""
+    def branch(
+        self, formula: checker.Formula = True, variables: checker.Context | None = None
+    ) -> State:
+        """A state of its own that assumes one more formula; `variables`: a context with more of
+        them.
+        """
         return State(variables or self.context, self).assume(formula)
 
     def by_sign(self, text: str) -> list[State]:
-        """The three states in which the polynomial is < 0, = 0 and > 0."""
+        """The three states in which the polynomial is < 0, = 0 and > 0.
+
+        Raises Rejected where the text is no polynomial in the variables.
+        """
         poly = self.context.polynomial(text)
         cases = ((-poly, ">"), (poly, "="), (poly, ">"))
         return [self.branch(checker.fold(*case)) for case in cases]
@@ -80,24 +89,25 @@ class State:
         self.assume(context.atom(root, "<=", ends[1]))
         self.assume(context.atom(context.value(checker.parse(text)), "=", context.number(0)))
 
-    def is_closed_by(self, node: Any, known: dict[str, checker.Statement]) -> bool:
+    def is_closed_by(self, node: Node, known: Mapping[str, checker.Statement]) -> bool:
         """Whether the checker accepts the node for what is assumed here."""
         return bool(checker.closes(self.context, self.formulas, node, known))
 
     def is_served_by(
         self,
-        found: Any,
-        known: dict[str, checker.Statement],
+        values: Values,
+        known: Mapping[str, checker.Statement],
         purpose: str,
         statement: checker.Statement,
-        base: Iterable[str] = (),
-        sharp: list[Any] | None = None,
+        base: Collection[str] = (),
+        sharp: Sequence[ast.expr] | None = None,
     ) -> bool:
-        """Whether the checker accepts the values for what is assumed here; base: the variables of
-        the statement that keep the value they have here.
+        """Whether the checker accepts the values for what is assumed here, as a "point", a
+        "witness" or a "counterexample"; base: the variables of the statement that keep the value
+        they have here.
         """
         assumed = self.context, self.formulas
-        return bool(checker.finds(*assumed, found, known, purpose, statement, base, sharp))
+        return bool(checker.finds(*assumed, values, known, purpose, statement, base, sharp))
 
 
 def state_of(unfolding: checker.Unfolding, count: int | None = None) -> State:

@@ -11,24 +11,26 @@ import tempfile
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition, Reader, defining_lines, short_line
-from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.formulas import ClaimError
+from juggleproof.certificates.nodes import Certificate
 
 STATEMENTS, CERTIFICATES = checker.STATEMENTS, checker.CERTIFICATES
 DEFAULT = Path(__file__).resolve().parent / "store"
 
 
-def canonical(data: Any) -> bytes:
+def canonical(data: object) -> bytes:
     """JSON with sorted keys, ASCII only, and a newline at the end: equal data, equal bytes.
+
+    Raises TypeError for what JSON cannot hold.
 
     >>> canonical({"b": [1, "x"], "a": {}})
     b'{"a":{},\\n"b":[1,"x"]}\\n'
     """
 
-    def write(value: Any) -> str:
+    def write(value: object) -> str:
         return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
 
     if not isinstance(data, Mapping):
@@ -63,7 +65,7 @@ def write_file(path: Path, content: bytes) -> bool:
     return True
 
 
-def certificate_lines(certificates: Mapping[str, Any]) -> bytes:
+def certificate_lines(certificates: Mapping[str, Certificate]) -> bytes:
     """A line ["ID/part", certificate] for each statement, sorted by name, as the checker reads it.
 
     >>> certificate_lines({"b/main": {"unknown": ""}, "a/main": {"refuted": []}})
@@ -120,14 +122,14 @@ class Store:
     def __init__(self, folder: Path = DEFAULT) -> None:
         self.folder = folder
         self.texts: Mapping[str, str] = {}
-        self._certificates: dict[str, Any] | None = None
+        self._certificates: dict[str, Certificate | None] | None = None
         path = folder / STATEMENTS
         if path.exists():
             self.texts = written_out(checker.load(str(path)))
 
-    def certificate(self, name: str, text: str) -> Any:
+    def certificate(self, name: str, text: str) -> Certificate | None:
         """The stored certificate of a statement, if the stored statement has this very text; else
-        None.
+        None.  It is what the file holds, with lists for tuples, and not checked.
         """
         if self.texts.get(name) != text:
             return None
@@ -198,9 +200,11 @@ def comment(text: str) -> str:
 
 
 def write_store(
-    folder: Path, statements: str, certificates: Mapping[str, Mapping[str, Any]]
+    folder: Path, statements: str, certificates: Mapping[str, Mapping[str, Certificate]]
 ) -> int:
-    """Writes the statement file and the certificates of every claim; returns the files changed."""
+    """Writes the statement file and the certificates of every claim; returns how many of the two
+    files are changed.  Raises ClaimError where the folder cannot be written.
+    """
     lines = {name: one for entries in certificates.values() for name, one in entries.items()}
     changed = write_file(folder / STATEMENTS, statements.encode())
     return changed + write_file(folder / CERTIFICATES, certificate_lines(lines))

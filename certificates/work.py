@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+import ast
+from collections.abc import Sequence
 
 from juggleproof.certificates import checker
 
@@ -46,12 +47,17 @@ class Budget:
 # makes of a text.
 
 MOST = 32
-_kept: dict[tuple[int, ...], tuple[Any, ...]] = {}
+# by ids; the statement and the trees are kept with it, so that their ids stay theirs
+_kept: dict[
+    tuple[int, ...], tuple[checker.Unfolding, checker.Statement, Sequence[ast.expr] | None]
+] = {}
 
 
-def unfolded(statement: checker.Statement, sharp: list[Any] | None = None) -> checker.Unfolding:
+def unfolded(
+    statement: checker.Statement, sharp: Sequence[ast.expr] | None = None
+) -> checker.Unfolding:
     """The statement's variables, premises, obligations and goals in a context of its own; not to be
-    changed.
+    changed.  `sharp` has the domain of a sharp range, and its condition where that is assumed.
 
     >>> text = "statement a/b\\nforall x\\ngiven x > 1\\nshow x > 0"
     >>> unfolding = unfolded(checker.read_statements(text)["a/b"])
@@ -62,10 +68,6 @@ def unfolded(statement: checker.Statement, sharp: list[Any] | None = None) -> ch
     if key not in _kept:
         while len(_kept) >= MOST:
             del _kept[next(iter(_kept))]
-        # the statement and the trees are kept with it, so that their ids stay theirs
-        _kept[key] = (
-            checker.Unfolding(statement, checker.Context(), sharp),
-            statement,
-            sharp and list(sharp),
-        )
+        unfolding = checker.Unfolding(statement, checker.Context(), sharp)
+        _kept[key] = unfolding, statement, sharp and list(sharp)
     return _kept[key][0]

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import re
 from html import unescape
-from typing import Any
 
 from latex2mathml.converter import convert
 
@@ -14,12 +13,12 @@ DISPLAY = re.compile(r"^```math\n(.*?)\n```$", re.M | re.S)
 INLINE = re.compile(r'<span class="arithmatex">\\\((.*?)\\\)</span>', re.S)
 
 
-def on_page_markdown(markdown: str, **_: Any) -> str:
+def on_page_markdown(markdown: str, **_: object) -> str:
     """The page with every display as MathML."""
     return DISPLAY.sub(lambda found: f"<div>{_mathml(found[1], 'block')}</div>", markdown)
 
 
-def on_page_content(html: str, **_: Any) -> str:
+def on_page_content(html: str, **_: object) -> str:
     """The page with every formula of its text as MathML."""
     return INLINE.sub(lambda found: _mathml(unescape(found[1]), "inline"), html)
 

@@ -5,9 +5,10 @@ In reading order, each importing those before it only:
 
 - `reading`: a print's LaTeX becomes values and formulas.
 - `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
-- `encoding`, `derivations`: SymPy expressions as terms that say what made them.
+- `encoding`: SymPy expressions as terms.
 - `correcting`, `rules`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
-- `judging`: one claim, stated, settled by the checker, corrected, with its sharp range.
+- `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
+  range.
 - `register`, `run`: the verdicts that stand; many claims over processes, and what is stored.
 - `bounds`, `kept`: certified enclosures of minima; figures kept between runs.
 - `paper`, `theorem`, `part`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.

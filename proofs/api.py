@@ -9,11 +9,12 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Union
+from typing import Union
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.judging import DEFAULT_BUDGET
+from juggleproof.proofs.judgement import DEFAULT_BUDGET
 from juggleproof.proofs.run import Options, claims_of_file, run
 from juggleproof.proofs.smtlib.answering import BUDGET, answer_files, in_script
 
@@ -32,7 +33,7 @@ class Result:
     name: str
     answer: str
     statements: Mapping[str, str]
-    certificates: Mapping[str, Any]
+    certificates: Mapping[str, Certificate]
     model: Mapping[str, str]
     numbers: tuple[str, ...] = ()
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.algebra.polynomials import Monomial, monomials
 from juggleproof.certificates.language import ClaimError, Term, real
 from juggleproof.certificates.nodes import Certificate, Node, Point
 from juggleproof.certificates.search.boxes.enclosures import Bounds, Problem, search_enclosure
@@ -28,10 +28,10 @@ from juggleproof.certificates.store import (
 BUDGET = 20000  # boxes
 MOST_PRODUCTS, MOST_DEGREE, MOST_VALUE = 10**6, 60, 10**100
 LOWER, ATTAINED = "bound/lower", "bound/attained"
-Box = Mapping[str, Sequence[Any]]
-Ends = dict[str, tuple[Fraction, Fraction]]
 Number = int | Fraction
-Terms = dict[tuple[int, ...], Fraction]
+Box = Mapping[str, Sequence[Number]]  # the low and the high end of each variable
+Ends = dict[str, tuple[Fraction, Fraction]]
+Terms = dict[Monomial, Fraction]
 
 
 @dataclass(frozen=True)
@@ -130,9 +130,7 @@ def enclose_minimum(
 
 
 class _Question:
-    """The two statements about a polynomial on a box, and what the checker says of their
-    certificates.
-    """
+    """The two statements about a polynomial on a box, and the checks of their certificates."""
 
     def __init__(self, text: str, ends: Ends) -> None:
         self.text, self.ends = text, ends
@@ -188,32 +186,32 @@ class _Question:
             return ""
         return str(reason or outcome)
 
-    def enclosure(self, found: Bounds, used: list[int]) -> Enclosure:
+    def enclosure(self, bounds: Bounds, used: list[int]) -> Enclosure:
         """The enclosure, once the checker has accepted both statements; raises ArithmeticError
         where it does not.
         """
         point = {name: first for name, (first, _) in self.ends.items()} | dict(
-            zip((list(self.ends)[k] for k in used), found.point)
+            zip((list(self.ends)[k] for k in used), bounds.point)
         )
         values = {name: str(value) for name, value in point.items()}
         certificates: dict[str, Certificate] = {
-            LOWER: self._lower_certificate(found.node),
+            LOWER: self._lower_certificate(bounds.node),
             ATTAINED: {
                 "certified": ("witness", [], Point(ATTAINED, [], values, ("close",))),
                 "point": Point(ATTAINED, [], {}, ("close",)),
             },
         }
-        texts = {LOWER: self.lower(found.low), ATTAINED: self.attained(found.high)}
+        texts = {LOWER: self.lower(bounds.low), ATTAINED: self.attained(bounds.high)}
         for name, text in texts.items():
             reason = self._reason(text, certificates[name])
             if reason:
                 raise ArithmeticError(f"the checker rejects {name}: {reason}")
         return Enclosure(
-            found.low,
-            found.high,
+            bounds.low,
+            bounds.high,
             point,
-            found.boxes,
-            found.reached,
+            bounds.boxes,
+            bounds.reached,
             "\n".join(texts.values()),
             certificates,
         )
@@ -260,11 +258,8 @@ def _terms(text: str, names: list[str]) -> Terms:
             f"not a polynomial in {', '.join(names)}: {str(reason)[:200]}; write it as x^2 -"
             " 3/2*x*y"
         ) from None
-    shifts = [checker.BITS * context.index[name] for name in names]
-    return {
-        tuple((m >> shift) % (1 << checker.BITS) for shift in shifts): Fraction(c, poly.den)
-        for m, c in poly.terms.items()
-    }
+    terms = monomials(poly, len(names))
+    return {exponents: Fraction(c, poly.den) for exponents, c in terms.items()}
 
 
 def _refuse_large(terms: Terms, ends: Ends, used: Sequence[int]) -> None:
@@ -298,5 +293,5 @@ def _readable(text: str) -> str:
     """The text in the checker's notation: ^ for powers, and 0.1 for exactly 1/10."""
     text = " ".join(text.replace("**", "^").split())
     return re.sub(
-        r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])", lambda found: f"({Fraction(found[0])})", text
+        r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])", lambda decimal: f"({Fraction(decimal[0])})", text
     )

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Union
+from typing import TYPE_CHECKING, TypedDict, TypeVar, Union
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -19,17 +19,23 @@ from juggleproof.certificates.language import (
     Roles,
     SharpRange,
     Statement,
+    Term,
 )
 from juggleproof.proofs.forms import PLAIN, Vocabulary, domains_of
 from juggleproof.proofs.reading import meaning
+from juggleproof.proofs.reading.values import Matrix, Vector
+
+if TYPE_CHECKING:
+    from juggleproof.certificates.search.closing import Hints
+
+Read = TypeVar("Read", bound=Callable[..., object])
 
 # -------------------------------------------------------------------------------------------------
 # Claims: an assertion with its place and print, and the formal reading that is judged.
 #
 # A claim is a function from its parsed print to statements.  What it returns is an assertion (all
-# its
-# statements hold), readings (a sentence that can be read in several ways), an argument (steps and a
-# conclusion), or what follows from map rules.
+# its statements hold), readings (a sentence that can be read in several ways), an argument (steps
+# and a conclusion), or what follows from map rules.
 
 
 @dataclass(frozen=True)
@@ -48,7 +54,7 @@ class Readings:
 
 @dataclass(frozen=True)
 class Argument:
-    """Steps, each with its label, that are said to give the conclusion.
+    """Steps, each with its label, from which the conclusion is argued.
 
     If a step fails, the conclusion stands by its own certificate, by the claim `proved_by`, or by
     the map rules that it `rests_on`.
@@ -77,8 +83,8 @@ Body = Union[Assertion, Readings, Argument, Following]
 
 
 @dataclass(frozen=True)
-class Said:
-    """What a claim was read to assert, in place of its function: data, which passes between
+class FixedBody:
+    """What a claim asserts, in place of the function that reads it: data, which passes between
     processes.
     """
 
@@ -89,6 +95,16 @@ class Said:
         return self.body
 
 
+class ClaimHints(TypedDict, total=False):
+    """What a claim may tell the search: the names of the statements that its proofs use, and how
+    they are used; of a map rule, by the name of the premise.
+    """
+
+    uses: Sequence[str]
+    search: Hints
+    premises: Mapping[str, Hints]
+
+
 @dataclass(frozen=True)
 class Claim:
     """One assertion: id, place, what is printed, and the function that reads it."""
@@ -97,14 +113,14 @@ class Claim:
     section: str
     place: str
     says: str
-    read: Callable[..., Any]
+    read: Callable[..., object]
     printed: str = ""
     as_it_stands: str = ""
     repeats: str = ""
     parameters: tuple[str, ...] | None = None
-    derived: Callable[[], Any] | None = None
-    true_nearby: tuple[str, Callable[[], Any]] | None = None
-    hints: Mapping[str, Any] = field(default_factory=dict)
+    derived: Callable[[], Term | Vector | Matrix] | None = None
+    true_nearby: tuple[str, Callable[[], object]] | None = None
+    hints: ClaimHints = field(default_factory=lambda: ClaimHints())
     source: str = ""
     vocabulary: Vocabulary = PLAIN
 
@@ -125,8 +141,8 @@ class Claim:
 
     @property
     def where(self) -> str:
-        """File and line of the claim, the file as short as it can be told."""
-        if isinstance(self.read, Said):
+        """File and line of the claim, relative to the working directory where it is below it."""
+        if isinstance(self.read, FixedBody):
             return self.read.where
         code = self.read.__code__
         path = Path(code.co_filename)
@@ -136,7 +152,7 @@ class Claim:
             shown = path
         return f"{shown}:{code.co_firstlineno}"
 
-    def body(self, printed: Any = None) -> Body:
+    def body(self, printed: meaning.Printed | None = None) -> Body:
         """What the claim asserts, with its own print or with another one in its place.
 
         Raises ClaimError, naming the claim, where what it returns is not a claim.
@@ -145,12 +161,12 @@ class Claim:
             return as_body(self.read(), self.id)
         return as_body(self.read(self.read_print() if printed is None else printed), self.id)
 
-    def read_print(self, latex: str = "") -> Any:
+    def read_print(self, latex: str = "") -> meaning.Printed:
         """The print, or another LaTeX text, as the reader reads it."""
         return meaning.read(latex or self.printed)
 
 
-def as_body(returned: Any, claim_id: str) -> Body:
+def as_body(returned: object, claim_id: str) -> Body:
     """What a claim function returned, as a body."""
     if isinstance(returned, (Assertion, Readings, Argument, Following)):
         return returned
@@ -160,13 +176,10 @@ def as_body(returned: Any, claim_id: str) -> Body:
         parts: list[AnyStatement] = []
         for item in returned:
             body = item if isinstance(item, Statement) else as_body(item, claim_id)
-            parts += (
-                [body]
-                if isinstance(body, Statement)
-                else body.parts
-                if isinstance(body, Assertion)
-                else []
-            )
+            if isinstance(body, Statement):
+                parts.append(body)
+            elif isinstance(body, Assertion):
+                parts += body.parts
         if parts:
             return Assertion(tuple(parts))
     raise ClaimError(
@@ -228,23 +241,23 @@ def claim(
     as_it_stands: str = "",
     repeats: str = "",
     parameters: Sequence[str] | None = None,
-    derived: Callable[[], Any] | None = None,
-    true_nearby: tuple[str, Callable[[], Any]] | None = None,
-    hints: Mapping[str, Any] | None = None,
+    derived: Callable[[], Term | Vector | Matrix] | None = None,
+    true_nearby: tuple[str, Callable[[], object]] | None = None,
+    hints: ClaimHints | None = None,
     vocabulary: Vocabulary = PLAIN,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+) -> Callable[[Read], Read]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription
     has where it mangles the print. `derived` gives the true right-hand side, and `true_nearby` a
     true assertion near a false one, with its text: both are tried as corrections where no change of
     one mark mends the print.  `parameters` are the variables that sharp ranges are sought over,
-    none where it is empty; without it the vocabulary tells them, else `forms.domains_of`.  Raises
+    none where it is empty; without it those of the vocabulary, else of `forms.domains_of`.  Raises
     ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, -
     and dots.
     """
 
-    def register(read: Callable[..., Any]) -> Callable[..., Any]:
+    def register(read: Read) -> Read:
         if not re.fullmatch(r"[A-Za-z0-9.\-]+", id):
             raise ClaimError(f"{id!r} is no name for a claim; use letters, digits, - and .")
         if any(known.id == id for known in _registry):
@@ -264,7 +277,7 @@ def claim(
             None if parameters is None else tuple(parameters),
             derived,
             true_nearby,
-            dict(hints or {}),
+            hints or {},
             f"{read.__module__}.{read.__qualname__}",
             vocabulary,
         )
@@ -307,14 +320,14 @@ def claim_named(text: str, known: Collection[str]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# From outcomes to verdicts: what the checker accepted says what is to be thought of a print.
+# From the outcomes of statements, which the checker accepted, to the verdict on a print.
 
 VERDICTS = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is to be thought of a print, and the detail that a table can show beside it."""
+    """The verdict on a print, one of `VERDICTS`, and a detail that a table can show beside it."""
 
     word: str
     detail: str = ""
@@ -326,16 +339,12 @@ def outcome_of(
     """certified, refuted or unknown: an assertion is refuted by any of its statements, and
     certified by all.
     """
-    found = [
+    parts = [
         outcomes.get(part.name, "unknown") for part in named_statements(claim_id, prefix, assertion)
     ]
-    return (
-        "refuted"
-        if "refuted" in found
-        else "certified"
-        if all(o == "certified" for o in found)
-        else "unknown"
-    )
+    if "refuted" in parts:
+        return "refuted"
+    return "certified" if all(part == "certified" for part in parts) else "unknown"
 
 
 _WORD = {"certified": "holds", "refuted": "false", "unknown": "unknown"}
@@ -352,32 +361,23 @@ def verdict_of(
         return _WORD[outcome_of(claim_id, prefix, assertion, outcomes)]
 
     if isinstance(body, Assertion):
-        found = word("", body)
-        return Verdict("misprint" if found == "false" and corrected else found)
+        single = word("", body)
+        return Verdict("misprint" if single == "false" and corrected else single)
     if isinstance(body, Readings):
         words = {name: word(f"{name}.", assertion) for name, assertion in body.of.items()}
         detail = "; ".join(f"{name}: {one}" for name, one in words.items())
         if "unknown" in words.values():
             return Verdict("unknown", detail)
-        same = len(set(words.values())) == 1
-        return Verdict(
-            (
-                (
-                    "misprint"
-                    if corrected and "holds" not in words.values()
-                    else next(iter(words.values()))
-                )
-                if same
-                else "ambiguous"
-            ),
-            detail,
-        )
+        if len(set(words.values())) != 1:
+            return Verdict("ambiguous", detail)
+        (common,) = set(words.values())
+        return Verdict("misprint" if corrected and common != "holds" else common, detail)
     if isinstance(body, Following):
         beside = word("beside.", body.beside) if body.beside else "holds"
-        found = by_rules(body.rests_on, outcomes)
+        rules = by_rules(body.rests_on, outcomes)
         return Verdict(
-            beside if beside != "holds" else found,
-            ("by " if found == "holds" else "awaits ") + ", ".join(body.rests_on),
+            beside if beside != "holds" else rules,
+            ("by " if rules == "holds" else "awaits ") + ", ".join(body.rests_on),
         )
     return _argument(body, word, by_rules(body.rests_on, outcomes))
 
@@ -400,22 +400,15 @@ def _argument(body: Argument, word: Callable[[str, Assertion], str], rules: str)
             "false", "its conclusion is refuted" + (f", and step {broken[0]}" if broken else "")
         )
     if broken:
-        stands = (
-            "conclusion certified"
-            if conclusion == "holds"
-            else (
-                f"conclusion by {body.proved_by}"
-                if body.proved_by
-                else (
-                    f"conclusion by {', '.join(body.rests_on)}"
-                    if rules == "holds"
-                    else "conclusion open"
-                )
-            )
-        )
-        return Verdict("gap", f"step {', '.join(broken)} is false; {stands}")
+        if conclusion == "holds":
+            stands = "certified"
+        elif body.proved_by:
+            stands = f"by {body.proved_by}"
+        else:
+            stands = f"by {', '.join(body.rests_on)}" if rules == "holds" else "open"
+        return Verdict("gap", f"step {', '.join(broken)} is false; conclusion {stands}")
     if "unknown" in (*steps.values(), conclusion):
         return Verdict("unknown")
-    return (
-        Verdict("holds") if conclusion or body.proved_by else Verdict("unknown", "conclusion open")
-    )
+    if conclusion or body.proved_by:
+        return Verdict("holds")
+    return Verdict("unknown", "conclusion open")

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from juggleproof.certificates.language import (
     ClaimError,
@@ -21,14 +20,14 @@ from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.reading.edits import one_mark_changes
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
+from juggleproof.proofs.reading.values import Value, Vector
 
 # -------------------------------------------------------------------------------------------------
 # Corrections of a print that is refuted: one mark changed, rational coefficients on the printed
 # terms, the derived form.
 #
 # Nothing here is believed: a candidate is a print (or a right-hand side) that the same claim
-# function
-# reads and the checker then judges.
+# function reads and the checker then judges.
 
 DERIVED = ("coefficients", "derived")
 LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
@@ -58,11 +57,11 @@ class Amended(Printed):
 
     __slots__ = ("_right",)
 
-    def __init__(self, printed: Printed, right: Any) -> None:
+    def __init__(self, printed: Printed, right: Value) -> None:
         super().__init__(printed.latex)
         self._right = right
 
-    def relation_chain(self, environment: Environment) -> list[tuple[Any, str, Any]]:
+    def relation_chain(self, environment: Environment) -> list[tuple[Value, str, Value]]:
         """The printed chain with the amended value at its end."""
         chain = super().relation_chain(environment)
         left, relation, _ = chain[-1]
@@ -118,20 +117,21 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
             )
         shown = (
             ", ".join(str(term(e)) for e in truth.entries)
-            if hasattr(truth, "entries")
+            if isinstance(truth, Vector)
             else str(truth)
         )
         yield Candidate("derived", "the derived form", shown, Amended(claim.read_print(), truth))
 
 
-def _printed_right(claim: Claim) -> Any:
+def _printed_right(claim: Claim) -> Value | None:
     """The printed right-hand side in the names of the claim's vocabulary, where those suffice to
     read it.
     """
     if claim.vocabulary.reads is None:
         return None
     try:
-        return claim.read_print().right(claim.vocabulary.reads())
+        right: Value = claim.read_print().right(claim.vocabulary.reads())
+        return right
     except ClaimError:
         return None
 
@@ -147,10 +147,10 @@ def coefficients_on_printed_terms(
     >>> str(coefficients_on_printed_terms((x + y) * 2, x * 2 + y))
     '(x + y*(1/2))*2'
     """
-    found = _sum_inside(printed)
-    if found is None:
+    split = _sum_inside(printed)
+    if split is None:
         return None
-    terms, rebuild = found
+    terms, rebuild = split
     names = sorted(names_in(printed) | names_in(truth))
     rows = []
     for seed in range(len(terms) + 4):
@@ -176,56 +176,59 @@ def coefficients_on_printed_terms(
     return fitted
 
 
-def _sum_inside(expression: Term) -> tuple[list[Term], Any] | None:
+def _sum_inside(expression: Term) -> tuple[list[Term], Callable[[Sequence[Term]], Term]] | None:
     """The first sum inside products and quotients, as its terms with their signs, and how to put
     another sum in its place.
     """
     if expression.op in ("+", "-"):
         return _terms_of(expression), _total
     if expression.op in ("*", "/"):
-        left, right = expression.args
-        found = _sum_inside(left)
-        if found is not None:
-            terms, rebuild = found
+        left, right = expression.operands
+        inner = _sum_inside(left)
+        if inner is not None:
+            terms, rebuild = inner
             return terms, lambda new: Term(expression.op, rebuild(new), right)
         if expression.op == "*":
-            found = _sum_inside(right)
-            if found is not None:
-                terms, rebuild = found
+            inner = _sum_inside(right)
+            if inner is not None:
+                terms, rebuild = inner
                 return terms, lambda new: Term("*", left, rebuild(new))
     return None
 
 
 def _terms_of(expression: Term) -> list[Term]:
     if expression.op == "+":
-        return _terms_of(expression.args[0]) + _terms_of(expression.args[1])
+        left, right = expression.operands
+        return _terms_of(left) + _terms_of(right)
     if expression.op == "-":
-        return _terms_of(expression.args[0]) + [-one for one in _terms_of(expression.args[1])]
+        left, right = expression.operands
+        return _terms_of(left) + [-one for one in _terms_of(right)]
     return [expression]
 
 
 def _total(terms: Sequence[Term]) -> Term:
     total = terms[0]
     for one in terms[1:]:
-        total = total - one.args[0] if one.op == "neg" else total + one
+        total = total - one.operands[0] if one.op == "neg" else total + one
     return total
 
 
 def _value(expression: Term, point: dict[str, Fraction]) -> Fraction:
     if expression.op == "var":
-        return point[str(expression.args[0])]
+        return point[expression.name]
     if expression.op == "num":
-        return Fraction(expression.args[0])
-    parts = [_value(part, point) if isinstance(part, Term) else part for part in expression.args]
+        return expression.value
+    parts = [_value(part, point) for part in expression.operands]
     if expression.op == "neg":
-        return -Fraction(parts[0])
+        return -parts[0]
+    if expression.op == "^":
+        return parts[0] ** expression.exponent
     a, b = parts
     arithmetic = {
         "+": operator.add,
         "-": operator.sub,
         "*": operator.mul,
         "/": operator.truediv,
-        "^": operator.pow,
     }
     return Fraction(arithmetic[expression.op](a, b))
 

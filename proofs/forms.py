@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import ast
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
@@ -25,26 +24,25 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
+from juggleproof.proofs.reading.evaluation import Environment
 
 # -------------------------------------------------------------------------------------------------
 # The forms that an assertion takes: for all, there is, maximum, supremum, equal sets; each makes
 # plain statements.
 #
-# A vocabulary says what is understood without being said: the standing assumption on a parameter (0
-# <
-# alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a name is.  The
-# lines
-# it adds stand in the statement, where an auditor reads them.
+# A vocabulary has what is understood where nothing is stated: the standing assumption on a
+# parameter (0 < alpha < 1), what an abbreviation stands for (T = 2 r/g) and which square root a
+# name is.  The lines it adds stand in the statement, where an auditor reads them.
 
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """What names mean where nothing is said: order of variables, standing assumptions,
+    """What names mean where nothing is stated: order of variables, standing assumptions,
     abbreviations and roots.
 
     `domains` has the parameters over which sharp ranges are sought, the first one first, each with
     what is assumed of it alone; `scales` the positive variables that a change of units makes 1,
-    which homogeneity tells where it is None; `sample` a point at which signs of denominators are
+    which homogeneity decides where it is None; `sample` a point at which signs of denominators are
     guessed; `reads` gives the environment in which a print is read that is to be corrected, and
     `defines` the definitions of the statement file.
     """
@@ -58,7 +56,7 @@ class Vocabulary:
     sample: Mapping[str, Fraction] = field(default_factory=dict)
     domains: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
     scales: frozenset[str] | None = None
-    reads: Callable[[], Any] | None = None
+    reads: Callable[[], Environment] | None = None
     defines: Callable[[], Sequence[Definition]] | None = None
 
 
@@ -86,35 +84,44 @@ class _Writer:
         self.later: list[Callable[[checker.Context], None]] = []
         self.lines: list[Line] = []
         self.sample = dict(vocabulary.sample)
-        self.said: dict[str, list[Formula]] = {}
+        self.alone: dict[str, list[Formula]] = {}  # the lines about one variable only
 
     def declare(self, names: Sequence[str]) -> None:
         for name in names:
             self.known.add(name)
-            self.later.append(
-                lambda context, name=name: context.declare(name, name in self.vocabulary.integers)  # type: ignore[misc]
-            )
+            self._declare(name, name in self.vocabulary.integers)
 
     def add(self, keyword: str, formula: Formula) -> None:
         self.prepare(formula)
         self.lines.append((keyword, formula))
         self._sample(formula)
-        self.later.append(
-            lambda context: context.license(context.formula(checker.parse(str(formula))))
-        )
+        self._license(formula)
 
     def _sample(self, formula: Formula) -> None:
-        """Moves the sample value of a variable to the first one that meets what is said of it
-        alone, where the vocabulary gives none.
+        """Moves the sample value of a variable to the first one that meets the lines about
+        it alone, where the vocabulary gives none.
         """
         names = names_in(formula)
         if len(names) == 1 and not names & set(self.vocabulary.sample):
             (name,) = names
-            self.said.setdefault(name, []).append(formula)
+            self.alone.setdefault(name, []).append(formula)
             for value in SAMPLES:
-                if all(_meets(one, {name: value}) for one in self.said[name]):
+                if all(_meets(one, {name: value}) for one in self.alone[name]):
                     self.sample[name] = value
                     return
+
+    def _declare(self, name: str, integer: bool = False) -> None:
+        self.later.append(lambda context: context.declare(name, integer))
+
+    def _define(self, name: str, value: Term) -> None:
+        self.later.append(
+            lambda context: context.define(name, context.value(checker.parse(str(value))))
+        )
+
+    def _license(self, formula: Formula) -> None:
+        self.later.append(
+            lambda context: context.license(context.formula(checker.parse(str(formula))))
+        )
 
     def by_now(self) -> checker.Context:
         """What the checker knows after the lines so far."""
@@ -133,16 +140,12 @@ class _Writer:
                 under = self.vocabulary.roots[name]
                 self.prepare(under)
                 self.lines.append(("root", (name, under)))
-                self.later.append(lambda context, name=name: context.declare(name))  # type: ignore[misc]
+                self._declare(name)
             else:
                 value = self.vocabulary.abbreviations[name]
                 self.prepare(value)
                 self.lines.append(("let", (name, value)))
-                self.later.append(
-                    lambda context, name=name, value=value: (  # type: ignore[misc]
-                        context.define(name, context.value(checker.parse(str(value))))
-                    )
-                )
+                self._define(name, value)
         for below in _denominators(thing):
             self.license(below)
 
@@ -158,28 +161,24 @@ class _Writer:
             return
         except checker.Rejected:
             pass
-        if below.op in ("*", "/"):
-            self.license(below.args[0])
-            self.license(below.args[1])
-        elif below.op == "^":
-            self.license(below.args[0])
+        if below.op in ("*", "/", "^"):
+            for part in below.operands:
+                self.license(part)
         else:
             sign = _likely_sign(below, self.vocabulary, self.sample)
             formula = below > 0 if sign > 0 else below < 0
             self.lines.append(("have", formula))
-            self.later.append(
-                lambda context: context.license(context.formula(checker.parse(str(formula))))
-            )
+            self._license(formula)
 
 
 def _denominators(thing: Term | Formula) -> list[Term]:
-    found: list[Term] = []
+    denominators: list[Term] = []
     for part in thing.args:
         if isinstance(part, (Term, Formula)):
-            found += _denominators(part)
+            denominators += _denominators(part)
     if isinstance(thing, Term) and thing.op == "/":
-        found.append(thing.args[1])
-    return found
+        denominators.append(thing.operands[1])
+    return denominators
 
 
 SAMPLES = tuple(Fraction(p, q) for p, q in ((2, 1), (3, 11), (5, 2), (10, 1), (-1, 1), (-10, 1)))
@@ -188,10 +187,10 @@ SAMPLES = tuple(Fraction(p, q) for p, q in ((2, 1), (3, 11), (5, 2), (10, 1), (-
 def _meets(formula: Formula, sample: Mapping[str, Fraction]) -> bool:
     """Whether a relation holds at a sample; any other formula counts as met."""
     if formula.op == "and":
-        return all(_meets(part, sample) for part in formula.args)
+        return all(_meets(part, sample) for part in formula.parts)
     if formula.op not in COMPARISONS:
         return True
-    left, right = (_evaluate(side, sample) for side in formula.args)
+    left, right = (_evaluate(side, sample) for side in formula.sides)
     return COMPARISONS[formula.op](left, right)
 
 
@@ -211,12 +210,12 @@ def _likely_sign(value: Term, vocabulary: Vocabulary, sample: Mapping[str, Fract
 
 def _evaluate(value: Term, sample: Mapping[str, Fraction]) -> Fraction:
     if value.op == "num":
-        return Fraction(value.args[0])
+        return value.value
     if value.op == "var":
-        return sample.get(str(value.args[0]), Fraction(2))
-    parts = [_evaluate(part, sample) for part in value.args if isinstance(part, Term)]
+        return sample.get(value.name, Fraction(2))
+    parts = [_evaluate(part, sample) for part in value.operands]
     if value.op == "^":
-        return parts[0] ** int(value.args[1])
+        return parts[0] ** value.exponent
     if value.op == "neg":
         return -parts[0]
     if value.op == "/":
@@ -433,14 +432,13 @@ def same_set(
 
 def read(text: str, name: str) -> checker.Statement:
     """The statement as the checker reads it."""
-    statement: checker.Statement = checker.read_statements(text)[name]
-    return statement
+    return checker.read_statements(text)[name]
 
 
 def domains_of(
     statements: Sequence[Statement], named: Sequence[str] | None = None
 ) -> dict[str, tuple[Formula, ...]]:
-    """The parameters of a claim whose vocabulary says nothing of them, each with its domain.
+    """The parameters of a claim whose vocabulary has none, each with its domain.
 
     They are the variables that the claim names; else those of which a range line speaks alone; else
     the one variable of which the givens say that it lies between 0 and 1, and no more.  The domain
@@ -450,20 +448,20 @@ def domains_of(
     >>> from juggleproof.certificates.language import reals
     >>> a, q = reals("a q")
     >>> claimed = always(a * q < 1, given=[a > 0, a < 1, q > 2, q < 3])
-    >>> {name: [str(one) for one in said] for name, said in domains_of([claimed]).items()}
+    >>> {name: list(map(str, domain)) for name, domain in domains_of([claimed]).items()}
     {'a': ['a > 0', 'a < 1']}
     """
-    said = [(_alone(one, "range"), _alone(one, "given")) for one in statements]
-    names: Sequence[str] = list(dict.fromkeys(name for ranges, _ in said for name in ranges))
+    hypotheses = [(_alone(one, "range"), _alone(one, "given")) for one in statements]
+    names: Sequence[str] = list(dict.fromkeys(name for ranges, _ in hypotheses for name in ranges))
     if named is not None:
         names = named
     elif not names:
         names = list(
             dict.fromkeys(
                 name
-                for _, givens in said
+                for _, givens in hypotheses
                 for name, formulas in givens.items()
-                if _say_the_same([name], formulas, [f"{name} > 0", f"{name} < 1"])
+                if _agree([name], formulas, [f"{name} > 0", f"{name} < 1"])
             )
         )
         names = names if len(names) == 1 else []
@@ -471,7 +469,7 @@ def domains_of(
     for name in names:
         texts: dict[tuple[str, ...], tuple[Formula, ...]] = {}
         for kind in (0, 1):
-            for both in said if not texts else ():
+            for both in hypotheses if not texts else ():
                 if name in both[kind]:
                     texts[tuple(map(str, both[kind][name]))] = both[kind][name]
         if len(texts) == 1:
@@ -481,13 +479,14 @@ def domains_of(
 
 def _alone(statement: Statement, keyword: str) -> dict[str, tuple[Formula, ...]]:
     """What the lines of a keyword say of one variable alone, by variable in order."""
-    found: dict[str, tuple[Formula, ...]] = {}
-    for kind, said in statement.lines:
-        names = _names_of(str(said)) if kind == keyword else set()
-        if len(names) == 1 and names <= set(statement.forall):
-            (name,) = names
-            found[name] = (*found.get(name, ()), said)  # type: ignore[arg-type]
-    return {name: found[name] for name in statement.forall if name in found}
+    alone: dict[str, tuple[Formula, ...]] = {}
+    for kind, formula in statement.lines:
+        if kind == keyword and isinstance(formula, Formula):
+            names = _names_of(str(formula))
+            if len(names) == 1 and names <= set(statement.forall):
+                (name,) = names
+                alone[name] = (*alone.get(name, ()), formula)
+    return {name: alone[name] for name in statement.forall if name in alone}
 
 
 def speaks_of_range(statement: Statement, domains: Mapping[str, tuple[Formula, ...]]) -> bool:
@@ -498,26 +497,26 @@ def speaks_of_range(statement: Statement, domains: Mapping[str, tuple[Formula, .
         return True
     first = next(iter(domains), "")
     given = _alone(statement, "given").get(first, ())
-    return bool(given) and _say_the_same(statement.forall, given, domains[first])
+    return bool(given) and _agree(statement.forall, given, domains[first])
 
 
 def has_whole_range(statement: Statement, domains: Mapping[str, tuple[Formula, ...]]) -> bool:
     """Whether the range lines say the domains of the statement's parameters and nothing else,
-    however they are written; what the givens say need not be said again.
+    however they are written; what the givens state need not be repeated.
     """
-    given = {str(said) for keyword, said in statement.lines if keyword == "given"}
+    given = {str(line) for keyword, line in statement.lines if keyword == "given"}
     whole = [
         formula
         for name in statement.forall
         for formula in domains.get(name, ())
         if str(formula) not in given
     ]
-    ranges = [said for keyword, said in statement.lines if keyword == "range"]
-    return _say_the_same(statement.forall, ranges, whole)
+    ranges = [line for keyword, line in statement.lines if keyword == "range"]
+    return _agree(statement.forall, ranges, whole)
 
 
-def _say_the_same(variables: Sequence[str], left: Sequence[Any], right: Sequence[Any]) -> bool:
-    return _are_the_same(tuple(variables), tuple(map(str, left)), tuple(map(str, right)))
+def _agree(variables: Sequence[str], left: Sequence[object], right: Sequence[object]) -> bool:
+    return _texts_agree(tuple(variables), tuple(map(str, left)), tuple(map(str, right)))
 
 
 @cache
@@ -526,9 +525,7 @@ def _names_of(text: str) -> set[str]:
 
 
 @cache
-def _are_the_same(
-    variables: tuple[str, ...], left: tuple[str, ...], right: tuple[str, ...]
-) -> bool:
+def _texts_agree(variables: tuple[str, ...], left: tuple[str, ...], right: tuple[str, ...]) -> bool:
     context = checker.Context()
     for name in variables:
         context.declare(name)
@@ -537,17 +534,17 @@ def _are_the_same(
     )
 
 
-def _atoms(context: checker.Context, trees: list[Any]) -> set[Any]:
+def _atoms(context: checker.Context, trees: list[ast.expr]) -> set[Hashable]:
     """The atoms of a conjunction, each as its primitive polynomial and relation; anything else as
     itself.
     """
     joined = checker.join("and", [context.formula(tree) for tree in trees])
     parts = [joined] if isinstance(joined, bool) or joined[0] != "and" else joined[1]
-    found: set[Any] = set()
+    atoms: set[Hashable] = set()
     for part in parts:
         if isinstance(part, bool) or part[0] != "atom":
-            found.add(repr(part))
+            atoms.add(repr(part))
         else:
             content, primitive = part[1].primitive()
-            found.add((tuple(sorted(primitive.terms.items())), content > 0, part[2]))
-    return found
+            atoms.add((tuple(sorted(primitive.terms.items())), content > 0, part[2]))
+    return atoms

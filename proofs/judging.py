@@ -4,12 +4,9 @@ what is refuted, finds sharp ranges.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cache
-from importlib.metadata import version
-from typing import Any
+from dataclasses import replace
+from typing import cast
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
@@ -24,11 +21,11 @@ from juggleproof.certificates.language import (
     Statement,
     disjunction,
 )
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
-from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.vote import Vote, compare
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
@@ -39,7 +36,6 @@ from juggleproof.proofs.claims import (
     Claim,
     Following,
     Readings,
-    Verdict,
     as_body,
     assertions,
     named_statements,
@@ -52,97 +48,14 @@ from juggleproof.proofs.forms import (
     read,
     speaks_of_range,
 )
+from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
 from juggleproof.proofs.ranges import search_sharp_range
 from juggleproof.proofs.rules import range_of_rule, whole_text
 
-ROUTES = ("exact", "z3", "boxes")
-DEFAULT_BUDGET = 2_000_000
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
 NOT_FOUND = "not found"
 SHARP = 3  # a sharp range takes many proofs and families, each with this part of the budget at most
-
-
-@dataclass(frozen=True)
-class Resources:
-    """What a claim is judged with: which routes vote, how much counted work a statement may take,
-    and what an earlier run found.
-
-    `checked` is what the checker said of the stored statements, by name, when it read the whole
-    store at the start of this run.
-    """
-
-    routes: tuple[str, ...] = ROUTES
-    budget: int = DEFAULT_BUDGET
-    store: Store | None = None
-    findings: Mapping[str, Any] = field(default_factory=dict)
-    lemmas: Mapping[str, str] = field(default_factory=dict)
-    checked: Mapping[str, str] = field(default_factory=dict)
-
-    def only(self, claim: Claim) -> Resources:
-        """What these are for one claim, with the stored certificates read, so that no folder
-        is needed.
-        """
-        used = {claim.id, *(name.split("/")[0] for name in claim.hints.get("uses", ()))}
-        ours = {name: said for name, said in self.checked.items() if name.split("/")[0] in used}
-        findings = {claim.id: self.findings[claim.id]} if claim.id in self.findings else {}
-        return replace(
-            self,
-            store=self.store.only(used) if self.store else None,
-            findings=findings,
-            checked=ours,
-            lemmas={
-                name: text
-                for name, text in self.lemmas.items()
-                if name in claim.hints.get("uses", ())
-            },
-        )
-
-
-@dataclass(frozen=True)
-class Sharp:
-    """A sharp range of the parameters: as text, and the statements that settle it.
-
-    Where the search found none, `tried` says for what: the same search is not made again.
-    """
-
-    text: str
-    by: tuple[str, ...] = ()
-    tried: str = ""
-
-
-@dataclass
-class Judgement:
-    """Everything found about one claim; plain data, so that it passes between processes."""
-
-    id: str
-    statements: list[tuple[str, str]] = field(default_factory=list)
-    certificates: dict[str, Any] = field(default_factory=dict)
-    outcomes: dict[str, str] = field(default_factory=dict)
-    votes: dict[str, Sequence[Vote]] = field(default_factory=dict)
-    sharp: dict[str, Sharp] = field(default_factory=dict)  # by the prefix of an assertion
-    verdict: Verdict = field(default_factory=lambda: Verdict("unknown"))
-    correction: dict[str, Any] | None = None
-    recorded: dict[str, Any] = field(default_factory=dict)
-    rests_on: tuple[str, ...] = ()  # map rules, as a rule of other claims
-    by_rules: Verdict = field(
-        default_factory=lambda: Verdict("unknown")
-    )  # the verdict if they are certified
-    follows: bool = False
-    roles: Roles = NO_ROLES
-    reused: int = 0
-
-    def finding(self) -> dict[str, Any]:
-        """What a later run may try first: the correction and the votes."""
-        data: dict[str, Any] = {"sharp": {prefix: one.text for prefix, one in self.sharp.items()}}
-        tried = {prefix: one.tried for prefix, one in self.sharp.items() if one.tried}
-        if tried:
-            data["not found"] = tried
-        if self.correction:
-            data["correction"] = self.correction
-        if self.recorded:
-            data["votes"] = self.recorded
-        return data
 
 
 def judge(claim: Claim, resources: Resources) -> Judgement:
@@ -175,7 +88,7 @@ def settle_by_rules(
             one.sharp[""] = Sharp(text, one.rests_on)
 
 
-def refuse_what_says_nothing(
+def refuse_vacuous(
     statement: Statement,
     outcome: str,
     known: dict[str, checker.Statement],
@@ -186,22 +99,26 @@ def refuse_what_says_nothing(
     a denominator from vanishing.
     """
 
-    def settles(part: Statement, outcome: str) -> bool:
+    def is_refuted(part: Statement) -> bool:
         try:
-            return outcome in search_certificate(
+            return "refuted" in search_certificate(
                 read(part.text(), part.name), known, Budget(budget), roles=roles
             )
         except Exhausted:
             return False
 
-    for index, (keyword, said) in enumerate(statement.lines):
-        if keyword == "have" and isinstance(said, Formula):
+    for index, (keyword, formula) in enumerate(statement.lines):
+        if keyword == "have" and isinstance(formula, Formula):
             before = Statement(
-                statement.name, statement.forall, statement.lines[:index], said, statement.integer
+                statement.name,
+                statement.forall,
+                statement.lines[:index],
+                formula,
+                statement.integer,
             )
-            if settles(before, "refuted"):
+            if is_refuted(before):
                 raise ClaimError(
-                    f"{statement.name}: division by what may vanish ({said} does not follow); "
+                    f"{statement.name}: division by what may vanish ({formula} does not follow); "
                     "add a given that keeps it from 0"
                 )
     if outcome == "refuted":
@@ -209,9 +126,9 @@ def refuse_what_says_nothing(
     impossible = Statement(
         statement.name, statement.forall, statement.lines, disjunction([]), statement.integer
     )
-    story = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
+    unfolding = checker.Unfolding(read(impossible.text(), impossible.name), checker.Context())
     try:
-        impossible_for_all = search_closing(state_of(story), known, Budget(budget)) is not None
+        impossible_for_all = search_closing(state_of(unfolding), known, Budget(budget)) is not None
     except Exhausted:
         impossible_for_all = False
     if impossible_for_all:
@@ -225,23 +142,25 @@ class Judge:
     """One claim on its way to a judgement."""
 
     def __init__(self, claim: Claim, resources: Resources) -> None:
-        self.claim, self.resources, self.found = claim, resources, Judgement(claim.id)
+        self.claim, self.resources, self.judgement = claim, resources, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
         self.is_trial = False
 
     @property
-    def finding(self) -> Mapping[str, Any]:
+    def finding(self) -> Finding:
         """What an earlier run found about the claim."""
         return self.resources.findings.get(self.claim.id) or {}
 
     def run(self) -> Judgement:
-        claim, found = self.claim, self.found
-        for name in (
-            name for name in claim.hints.get("uses", ()) if name.split("/")[0] != claim.id
-        ):
-            self.known[name] = read(self.resources.lemmas[name], name)
+        """The claim stated, each of its statements settled, a refuted print corrected, and the
+        sharp ranges found.
+        """
+        claim, judgement = self.claim, self.judgement
+        for name in claim.hints.get("uses", ()):
+            if name.split("/")[0] != claim.id:
+                self.known[name] = read(self.resources.lemmas[name], name)
         body = self.body()
-        found.roles = claim.roles(
+        judgement.roles = claim.roles(
             [
                 part
                 for _, assertion in assertions(body)
@@ -251,27 +170,27 @@ class Judge:
         )
         for prefix, assertion in assertions(body):
             self.settle_all(prefix, assertion)
-        found.verdict = verdict_of(claim.id, body, found.outcomes)
+        judgement.verdict = verdict_of(claim.id, body, judgement.outcomes)
         if (
-            found.verdict.word == "false"
+            judgement.verdict.word == "false"
             and (claim.printed or claim.true_nearby)
             and isinstance(body, (Assertion, Readings))
         ):
             self.correct()
-            found.verdict = verdict_of(
-                claim.id, body, found.outcomes, corrected=found.correction is not None
+            judgement.verdict = verdict_of(
+                claim.id, body, judgement.outcomes, corrected=judgement.correction is not None
             )
         if isinstance(body, (Following, Argument)):
-            found.rests_on, found.follows = body.rests_on, isinstance(body, Following)
-            found.by_rules = verdict_of(
-                claim.id, body, {**found.outcomes, **dict.fromkeys(body.rests_on, "certified")}
+            judgement.rests_on, judgement.follows = body.rests_on, isinstance(body, Following)
+            judgement.by_rules = verdict_of(
+                claim.id, body, {**judgement.outcomes, **dict.fromkeys(body.rests_on, "certified")}
             )
-        if not found.follows:  # what stands beside a conclusion of map rules has no range
+        if not judgement.follows:  # what stands beside a conclusion of map rules has no range
             for prefix, assertion in assertions(body):
                 sharp = self.find_sharp_range(prefix, assertion)
                 if sharp is not None:
-                    found.sharp[prefix] = sharp
-        return found
+                    judgement.sharp[prefix] = sharp
+        return judgement
 
     def body(self) -> Body:
         """What the claim asserts.
@@ -290,6 +209,7 @@ class Judge:
             ) from problem
 
     def settle_all(self, prefix: str, assertion: Assertion) -> None:
+        """Settles the statements of an assertion, in order."""
         for statement in named_statements(self.claim.id, prefix, assertion):
             self.settle(statement)
 
@@ -298,10 +218,11 @@ class Judge:
         search.
         """
         name, text = statement.name, statement.text()
-        certificate = self.resources.store.certificate(name, text) if self.resources.store else None
+        store = self.resources.store
+        certificate: Certificate | None = store.certificate(name, text) if store else None
         outcome = self.stored_outcome(name, text, certificate)
-        self.found.reused += outcome != "rejected"
-        if outcome == "rejected":
+        self.judgement.reused += outcome != "rejected"
+        if certificate is None or outcome == "rejected":
             parsed = read(text, name)
             certificate = self.search(statement, parsed, confirm=False)
             outcome = self.check(parsed, certificate)
@@ -310,20 +231,22 @@ class Judge:
                 outcome = self.check(parsed, certificate)
             if outcome == "rejected":
                 certificate, outcome = {"unknown": "the search found no certificate"}, "unknown"
-        self.keep(name, text, certificate, outcome)
+        self.record(name, text, certificate, outcome)
         if isinstance(statement, Statement):
-            self.found.votes[name] = self.votes(name, text, outcome)
+            self.judgement.votes[name] = self.votes(name, text, outcome)
         if isinstance(statement, MapRule) and outcome == "certified":
             self.known[name] = read(text, name)
             for premise in checker.premises_of(self.known[name], self.known).values():
-                self.found.votes[premise.name] = self.votes(premise.name, premise.text(), outcome)
+                self.judgement.votes[premise.name] = self.votes(
+                    premise.name, premise.text(), outcome
+                )
         elif outcome == "certified" and name in self.claim.hints.get("uses", ()):
             self.known[name] = read(text, name)
         return outcome
 
-    def stored_outcome(self, name: str, text: str, certificate: Any) -> str:
-        """What the checker said of the stored certificate when it read the store; asked again where
-        it rejected it there, or read other lemmas.
+    def stored_outcome(self, name: str, text: str, certificate: Certificate | None) -> str:
+        """The checker's outcome of the stored certificate when it read the store; it is asked again
+        where it rejected the certificate there, or read other lemmas.
         """
         if certificate is None:
             return "rejected"
@@ -342,7 +265,7 @@ class Judge:
         earlier = self.finding.get("votes", {}).get(name)
         if (
             earlier
-            and earlier.get("on") == _voted_on(text)
+            and earlier.get("on") == digest(text)
             and set(routes) <= {one["route"] for one in earlier["votes"]}
         ):
             recorded = [
@@ -351,12 +274,12 @@ class Judge:
                 if one["route"] in routes
             ]
             compare(name, outcome, recorded)
-            self.found.recorded[name] = earlier
+            self.judgement.recorded[name] = earlier
             return recorded
         cast = cast_votes(read(text, name), outcome, routes, None) if routes else ()
         if set(routes) == {"z3", "boxes"}:
-            self.found.recorded[name] = {
-                "on": _voted_on(text),
+            self.judgement.recorded[name] = {
+                "on": digest(text),
                 "votes": [
                     {"route": vote.route, "answer": vote.answer, "detail": str(vote)}
                     for vote in cast
@@ -364,41 +287,53 @@ class Judge:
             }
         return cast
 
-    def search(self, statement: AnyStatement, parsed: checker.Statement, confirm: bool) -> Any:
+    def search(
+        self, statement: AnyStatement, parsed: checker.Statement, confirm: bool
+    ) -> Certificate:
+        """A certificate by a search, or the reason why there is none; with `confirm` the checker
+        confirms each node before the search goes on.
+
+        Raises ClaimError where the hypotheses contradict one another, or do not keep a denominator
+        from vanishing.
+        """
         hints, budget = self.claim.hints, self.resources.budget
         if isinstance(statement, (Iterates, MapRule)):
             return search_map_rule(parsed, self.known, budget, hints.get("premises"))
+        certificate: Certificate
         try:
-            found = search_certificate(
+            certificate = search_certificate(
                 parsed,
                 self.known,
                 Budget(budget),
                 hints.get("search"),
                 confirm,
-                roles=self.found.roles,
+                roles=self.judgement.roles,
             )
         except Exhausted:
-            found = {"unknown": f"the budget of {budget} units ran out"}
-        if "certified" not in found and isinstance(statement, Statement) and not self.is_trial:
-            refuse_what_says_nothing(
-                statement, next(iter(found)), self.known, budget // TRIAL, self.found.roles
-            )
-        return found
+            certificate = {"unknown": f"the budget of {budget} units ran out"}
+        if "certified" not in certificate and isinstance(statement, Statement):
+            if not self.is_trial:
+                outcome = "refuted" if "refuted" in certificate else "unknown"
+                refuse_vacuous(
+                    statement, outcome, self.known, budget // TRIAL, self.judgement.roles
+                )
+        return certificate
 
-    def check(self, statement: checker.Statement, certificate: Any) -> str:
-        outcome, _ = checker.check_one(statement, certificate, self.known, {})
-        return str(outcome)
+    def check(self, statement: checker.Statement, certificate: Certificate) -> str:
+        """The checker's outcome: certified, refuted, unknown or rejected."""
+        return checker.check_one(statement, certificate, self.known, {})[0]
 
-    def keep(self, name: str, text: str, certificate: Any, outcome: str) -> None:
-        self.found.statements.append((name, text))
-        self.found.certificates[name] = certificate
-        self.found.outcomes[name] = outcome
+    def record(self, name: str, text: str, certificate: Certificate, outcome: str) -> None:
+        """Adds a settled statement to the judgement."""
+        self.judgement.statements.append((name, text))
+        self.judgement.certificates[name] = certificate
+        self.judgement.outcomes[name] = outcome
 
     # -------------------------------------------------------------- corrections
 
     def correct(self) -> None:
         """Keeps the first correction that is certified: a candidate print, or the true assertion
-        nearby; what an earlier run found is tried first, of whichever kind.
+        nearby; the one that an earlier run found is tried first, of whichever kind.
         """
         remembered = self.finding.get("correction")
         is_nearby = remembered is not None and remembered["kind"] == "nearby"
@@ -407,7 +342,7 @@ class Judge:
         first = None if remembered is None else (remembered["kind"], remembered["text"])
         for candidate in candidates(self.claim, first) if self.claim.printed else ():
             if self.candidate_is_certified(candidate):
-                self.found.correction = {
+                self.judgement.correction = {
                     "kind": candidate.kind,
                     "change": candidate.change,
                     "text": candidate.text,
@@ -426,7 +361,7 @@ class Judge:
         text, state = self.claim.true_nearby
         if not self.correction_is_certified(as_body(state(), self.claim.id)):
             return False
-        self.found.correction = {
+        self.judgement.correction = {
             "kind": "nearby",
             "change": "a true assertion nearby",
             "text": text,
@@ -463,13 +398,13 @@ class Judge:
                 return False
         except ClaimError:  # it contradicts itself, or divides by what may vanish
             return False
-        found, tried = self.found, trial.found
-        found.statements += tried.statements
-        found.certificates.update(tried.certificates)
-        found.outcomes.update(tried.outcomes)
+        judgement, tried = self.judgement, trial.judgement
+        judgement.statements += tried.statements
+        judgement.certificates.update(tried.certificates)
+        judgement.outcomes.update(tried.outcomes)
         for name, text in tried.statements:
-            found.votes[name] = self.votes(name, text, tried.outcomes[name])
-        found.reused += tried.reused
+            judgement.votes[name] = self.votes(name, text, tried.outcomes[name])
+        judgement.reused += tried.reused
         return True
 
     def is_stored_certified(self, statement: AnyStatement) -> bool:
@@ -489,15 +424,16 @@ class Judge:
             self.claim,
             replace(self.resources, routes=("exact",), budget=self.resources.budget // TRIAL),
         )
-        trial.known, trial.is_trial, trial.found.roles = self.known, True, self.found.roles
+        trial.known, trial.is_trial, trial.judgement.roles = self.known, True, self.judgement.roles
         return trial
 
     def is_refuted_by_sampling(self, parsed: checker.Statement) -> bool:
+        """Whether a quick search at sample points meets a counterexample; it proves nothing."""
         if parsed.kind != "universal":
             return False
         unfolded(parsed)
         start = State(checker.Context())
-        found = search_values(
+        values = search_values(
             parsed,
             start,
             "counterexample",
@@ -505,9 +441,9 @@ class Judge:
             self.known,
             Budget(QUICK_BUDGET),
             effort=0,
-            roles=self.found.roles,
+            roles=self.judgement.roles,
         )
-        return found is not None
+        return values is not None
 
     # -------------------------------------------------------------- sharp ranges
 
@@ -518,11 +454,11 @@ class Judge:
         Statements that are certified with the whole domain as their range hold on all of it: the
         others decide.
         """
-        roles = self.found.roles
+        roles = self.judgement.roles
         sought = self.claim.over(roles)
         domains = {name: roles.domains.get(name, ()) for name in sought or (roles.parameter,)}
         named = named_statements(self.claim.id, prefix, assertion)
-        outcomes = self.found.outcomes
+        outcomes = self.judgement.outcomes
         rules = [part.name for part in named if isinstance(part, MapRule)]
         if rules:
             return self.sharp_range_of_rule(rules[-1])
@@ -546,16 +482,16 @@ class Judge:
         over = tuple(name for name in sought if all(name in part.forall for part in open_parts))
         if not over:
             return None
-        found = self.stored_sharp_range(prefix, open_parts) or self.new_sharp_range(
+        sharp = self.stored_sharp_range(prefix, open_parts) or self.new_sharp_range(
             prefix, open_parts, over
         )
-        return replace(found, by=(*found.by, *everywhere)) if found.by else found
+        return replace(sharp, by=(*sharp.by, *everywhere)) if sharp.by else sharp
 
     def sharp_range_of_rule(self, name: str) -> Sharp | None:
         """The range for which the conclusion of a map rule of this claim is proved."""
-        if self.found.outcomes[name] != "certified":
+        if self.judgement.outcomes[name] != "certified":
             return None
-        text = range_of_rule(name, dict(self.found.statements), self.found.roles)
+        text = range_of_rule(name, dict(self.judgement.statements), self.judgement.roles)
         return Sharp(text, (name,)) if text else None
 
     def stored_sharp_range(self, prefix: str, parts: Sequence[Statement]) -> Sharp | None:
@@ -568,10 +504,10 @@ class Judge:
         if text.splitlines()[1] != "sharp " + " ".join(part.name for part in parts):
             return None
         certificate = store.certificate(name, text)
-        if self.sharp_outcome(name, text, certificate, parts) != "certified":
+        if certificate is None or self.sharp_outcome(name, text, certificate, parts) != "certified":
             return None
-        self.keep(name, text, certificate, "certified")
-        self.found.reused += 1
+        self.record(name, text, certificate, "certified")
+        self.judgement.reused += 1
         return Sharp(remembered, (name,))
 
     def new_sharp_range(
@@ -581,27 +517,28 @@ class Judge:
         run.
         """
         name, budget = f"{self.claim.id}/{prefix}sharp", self.resources.budget
-        tried = _voted_on(f"{budget}\n" + "\n".join(part.text() for part in parts))
+        roles = self.judgement.roles
+        tried = digest(f"{budget}\n" + "\n".join(part.text() for part in parts))
         if self.finding.get("not found", {}).get(prefix) == tried:
             return Sharp(NOT_FOUND, tried=tried)
-        result = search_sharp_range(name, parts, over, self.known, SHARP * budget, self.found.roles)
+        result = search_sharp_range(name, parts, over, self.known, SHARP * budget, roles)
         if result is None:
             return Sharp(NOT_FOUND, tried=tried)
         sharp, proof, shown = result
-        certificate = {"certified": proof}
+        certificate = cast(Certificate, {"certified": proof})
         earlier = {part.name: read(part.text(), part.name) for part in parts}
         outcome, reason = checker.check_one(
             read(sharp.text(), name), certificate, self.known, earlier
         )
         if outcome != "certified":
             return Sharp(f"{NOT_FOUND} ({reason})")
-        self.keep(name, sharp.text(), certificate, outcome)
+        self.record(name, sharp.text(), certificate, outcome)
         return Sharp(shown, (name,))
 
     def sharp_outcome(
-        self, name: str, stored: str, certificate: Any, ranged: Sequence[Statement]
+        self, name: str, stored: str, certificate: Certificate, ranged: Sequence[Statement]
     ) -> str:
-        """What the checker said of a stored sharp range; it is asked again where a statement that
+        """The checker's outcome of a stored sharp range; it is asked again where a statement that
         is ranged over is not as stored.
         """
         texts = self.resources.store.texts if self.resources.store else {}
@@ -609,27 +546,11 @@ class Judge:
             texts.get(part.name) == part.text() for part in ranged
         ):
             return "certified"
-        return str(
-            checker.check_one(
-                read(stored, name),
-                certificate,
-                self.known,
-                {one.name: read(one.text(), one.name) for one in ranged},
-            )[0]
-        )
+        earlier = {one.name: read(one.text(), one.name) for one in ranged}
+        return checker.check_one(read(stored, name), certificate, self.known, earlier)[0]
 
 
 def _renamed(statement: AnyStatement, name: str) -> AnyStatement:
     if isinstance(statement, SharpRange):
         raise ClaimError("a sharp range cannot be renamed")
     return replace(statement, name=name)
-
-
-@cache
-def _tools() -> str:
-    return " ".join(version(tool) for tool in ("z3-solver", "python-flint"))
-
-
-def _voted_on(text: str) -> str:
-    """What a vote is about: the text of the statement, and the versions of the tools that voted."""
-    return hashlib.sha256(f"{_tools()}\n{text}".encode()).hexdigest()[:16]

@@ -18,6 +18,7 @@ from typing import Any
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
 
+Record = dict[str, Any]  # plain data, as JSON has it
 VARIABLE = "JUGGLEPROOF_CACHE"
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ("symbolic", "proofs", "certificates")
@@ -45,14 +46,14 @@ def key(*settings: object, root: Path = ROOT, packages: Sequence[str] = SOURCES)
     """A digest of the packages' sources, the versions of Python and of the libraries, and the
     settings.
     """
-    said = hashlib.sha256(
+    digest = hashlib.sha256(
         repr((sys.version, [(tool, version_of(tool)) for tool in TOOLS], settings)).encode()
     )
     for path in _sources(root, packages):
         content = path.read_bytes()
-        said.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
-        said.update(content)
-    return said.hexdigest()
+        digest.update(f"\n{path.relative_to(root).as_posix()} {len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
 
 
 def version_of(tool: str) -> str:
@@ -68,7 +69,7 @@ def _sources(root: Path, packages: Sequence[str] = SOURCES) -> Iterator[Path]:
         yield from sorted((root / package).rglob("*.py"))
 
 
-def load(key: str) -> list[dict[str, Any]]:
+def load(key: str) -> list[Record]:
     """The records that were kept under the key; none where there is no such file, or it is not
     whole, or not the user's own.
     """
@@ -77,11 +78,11 @@ def load(key: str) -> list[dict[str, Any]]:
         return []
     path = place / f"{key}.json"
     try:
-        found = path.stat()
+        status = path.stat()
         if (
-            found.st_size > LARGEST
+            status.st_size > LARGEST
             or hasattr(os, "getuid")
-            and (found.st_uid != os.getuid() or found.st_mode & 0o022)
+            and (status.st_uid != os.getuid() or status.st_mode & 0o022)
         ):
             return []
         head, _, rest = path.read_bytes().partition(b"\n")
@@ -97,7 +98,7 @@ def load(key: str) -> list[dict[str, Any]]:
         return []
 
 
-def keep(key: str, records: Sequence[dict[str, Any]]) -> None:
+def keep(key: str, records: Sequence[Record]) -> None:
     """Keeps the records under the key, and only the latest few files; a folder that cannot be
     written is let be.
     """

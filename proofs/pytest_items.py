@@ -22,13 +22,13 @@ NAME = "juggleproof"
 
 
 class Claims:
-    """The claims that a session has asked for, and their results, which are found once, when the
+    """The claims that a session has asked for, and their results, which are made once, when the
     first item runs.
     """
 
     def __init__(self, of_paper: bool, files: Sequence[Path], chosen: Sequence[str]) -> None:
         self.of_paper, self.files, self.chosen = of_paper, files, chosen
-        self.found: dict[bool, Any] = {}
+        self.judged: dict[bool, Results | Exception] = {}
 
     def names(self) -> Iterator[tuple[str, bool]]:
         """The id of every claim, of the user's own or not, and of every claim that is registered
@@ -55,15 +55,15 @@ class Claims:
         """The results; the same problem is raised to every item where the claims cannot be
         judged.
         """
-        if own not in self.found:
+        if own not in self.judged:
             try:
-                self.found[own] = _judged(self.files if own else [])
+                self.judged[own] = _judged(self.files if own else [])
             except Exception as problem:
-                self.found[own] = problem
-        if isinstance(self.found[own], Exception):
-            raise self.found[own]
-        found: Results = self.found[own]
-        return found
+                self.judged[own] = problem
+        results = self.judged[own]
+        if isinstance(results, Exception):
+            raise results
+        return results
 
     def collector(self, session: pytest.Session) -> pytest.Collector:
         """All of them as items of a session."""
@@ -101,24 +101,25 @@ class NotAsItShouldBe(Exception):
 class ClaimItem(pytest.Item):
     """One claim."""
 
-    def __init__(self, *, of: Claims, own: bool, **more: Any) -> None:
-        super().__init__(**more)
+    def __init__(self, *, name: str, parent: pytest.Collector, of: Claims, own: bool) -> None:
+        super().__init__(name, parent)
         self.of, self.own = of, own
 
     def runtest(self) -> None:
         """Passes where the verdict is as registered, or the user's own claim holds."""
-        lines = told(self.of.results(self.own), self.name)
+        lines = faults(self.of.results(self.own), self.name)
         if lines:
             raise NotAsItShouldBe("\n".join([*lines, f"`juggleproof {self.hint()}` tells more"]))
 
     def hint(self) -> str:
-        """The command that tells more of the claim."""
+        """The command that shows more of the claim."""
         return (
             f"certify {' '.join(map(_short, self.of.files))} --only {self.name}"
             if self.own
             else f"explain {self.name}"
         )
 
+    # pytest does not export the types of a style and of what is shown
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Our own lines where they say all; no traceback through the prover."""
         return (
@@ -137,8 +138,8 @@ class ClaimItem(pytest.Item):
 class ClaimCollector(pytest.Collector):
     """All claims that were asked for, as items."""
 
-    def __init__(self, *, of: Claims, **more: Any) -> None:
-        super().__init__(**more)
+    def __init__(self, *, name: str, parent: pytest.Session, nodeid: str, of: Claims) -> None:
+        super().__init__(name, parent, nodeid=nodeid)
         self.of = of
 
     def collect(self) -> Iterator[pytest.Item]:
@@ -151,7 +152,7 @@ class ClaimCollector(pytest.Collector):
             yield ClaimItem.from_parent(self, name=name, of=self.of, own=own)
 
 
-def told(results: Results, name: str) -> list[str]:
+def faults(results: Results, name: str) -> list[str]:
     """What is wrong with a claim, with before and after and where it fails; nothing where it is as
     it should be.
     """

@@ -1,15 +1,16 @@
-"""Sharp ranges: asks the search for one, and tells it as intervals with exact end points."""
+"""Sharp ranges: the search for one, and its text as intervals with exact end points."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from fractions import Fraction
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
 from juggleproof.certificates.language import (
     End,
     Formula,
+    Number,
     Roles,
     SharpRange,
     Statement,
@@ -36,8 +37,8 @@ def search_sharp_range(
     known: Mapping[str, checker.Statement],
     budget: int,
     roles: Roles,
-) -> tuple[SharpRange, Any, str] | None:
-    """The sharp range of the statements, its certificate and how it is told; None where the search
+) -> tuple[SharpRange, Sequence[object], str] | None:
+    """The sharp range of the statements, its certificate and its text; None where the search
     does not find one.
 
     It is sought in the domains of the parameters that it is over.  A whole number that the
@@ -51,28 +52,28 @@ def search_sharp_range(
     if first == roles.parameter:
         tied = _tied(parsed, first, domains[first], budget, roles)
         if tied is not None:
-            number, said = tied
-            domain = conjunction([domains[first], said])
+            number, hypothesis = tied
+            domain = conjunction([domains[first], hypothesis])
             region = find_sharp_region(
                 parsed, (first, number), domain, name, known, Budget(budget // 3), roles
             )
             if region.statement is not None and region.certificate is not None:
-                return region.statement, region.certificate, told_of_pairs(region.statement, number)
+                return region.statement, region.certificate, paired_text(region.statement, number)
     if first == roles.parameter and not whole:
         try:
-            found = find_sharp_range(
+            sharp = find_sharp_range(
                 parsed, first, domains[first], name, known, Budget(budget), roles=roles
             )
         except Exhausted:
-            found = Range()
-        if found.statement is not None and found.certificate is not None and found.line is not None:
+            sharp = Range()
+        if sharp.statement is not None and sharp.certificate is not None and sharp.line is not None:
             return (
-                found.statement,
-                found.certificate,
-                told(
-                    found.line.simplified(),
+                sharp.statement,
+                sharp.certificate,
+                line_text(
+                    sharp.line.simplified(),
                     first,
-                    found.statement.numbers,
+                    sharp.statement.numbers,
                     bounds_of(str(domains[first]), first) or (None, None),
                 ),
             )
@@ -80,7 +81,7 @@ def search_sharp_range(
         domain = conjunction([domains[parameter] for parameter in over])
         region = find_sharp_region(parsed, over, domain, name, known, Budget(budget), roles)
         if region.statement is not None and region.certificate is not None:
-            return region.statement, region.certificate, told_plainly(region.statement, whole)
+            return region.statement, region.certificate, region_text(region.statement, whole)
     return None
 
 
@@ -97,14 +98,14 @@ def _tied(
         return None
 
 
-def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
+def region_text(statement: SharpRange, whole: Collection[str] = ()) -> str:
     """A range over several parameters as a person reads it: solved for the first, or its condition,
     or that it is everything or nothing.
 
     >>> from juggleproof.certificates.language import reals
     >>> a, size = reals("a eps")
     >>> domain = (a > 0) & (size > 0)
-    >>> told_plainly(SharpRange("x/sharp", (), ("a", "eps"), domain, a**2 * size > 1))
+    >>> region_text(SharpRange("x/sharp", (), ("a", "eps"), domain, a**2 * size > 1))
     'a^2*eps > 1'
     """
     text = str(statement.condition)
@@ -116,11 +117,11 @@ def told_plainly(statement: SharpRange, whole: Collection[str] = ()) -> str:
     return plain.get(text) or solved(statement, statement.over[0], whole) or text
 
 
-def told_of_pairs(statement: SharpRange, number: str) -> str:
-    """A range over a parameter and a whole number that is tied to it; what ties them is told where
-    the condition does not say it.
+def paired_text(statement: SharpRange, number: str) -> str:
+    """A range over a parameter and a whole number that is tied to it; what ties them is added
+    where the condition does not imply it.
     """
-    text = told_plainly(statement, [number])
+    text = region_text(statement, [number])
     if text == "nowhere":
         return text
     return (
@@ -130,17 +131,17 @@ def told_of_pairs(statement: SharpRange, number: str) -> str:
     )
 
 
-def told(
+def line_text(
     line: Line,
     parameter: str,
-    numbers: Sequence[tuple[str, Term, Any, Any]] = (),
+    numbers: Sequence[tuple[str, Term, Number, Number]] = (),
     ends: tuple[End | None, End | None] = (None, None),
 ) -> str:
     """The set as a person reads it: intervals, up to the ends of the domain, and for each
     irrational end its 12 decimals and its equation, under its name in `numbers`.
 
     >>> from fractions import Fraction
-    >>> told(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "a")
+    >>> line_text(Line((AlgebraicNumber.rational(Fraction(1, 3)),), (True, False, False)), "a")
     'a < 1/3'
     """
     names = {
@@ -148,7 +149,8 @@ def told(
             (
                 name
                 for name, poly, low, high in numbers
-                if str(poly) == str(polynomial_term(n.coefficients, parameter)) and low < n < high
+                if str(poly) == str(polynomial_term(n.coefficients, parameter))
+                and Fraction(str(low)) < n < Fraction(str(high))
             ),
             f"c{k + 1}",
         )
@@ -177,7 +179,7 @@ def told(
     return "; ".join([text, *equations])
 
 
-def polynomial(coefficients: Sequence[Any], name: str) -> str:
+def polynomial(coefficients: Sequence[int], name: str) -> str:
     """A polynomial in one variable, coefficients from the constant up, as text.
 
     >>> polynomial([-1, 7, 1, 1], "a")

@@ -8,7 +8,6 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import canonical, write_file
@@ -16,9 +15,10 @@ from juggleproof.proofs.claims import VERDICTS
 
 PATH = Path(__file__).with_name("register.json")
 FIELDS = ("verdict", "detail", "correction", "sharp")
+Register = Mapping[str, Mapping[str, str]]  # the entry of each claim: a text for some of FIELDS
 
 
-def load_register(path: Path = PATH) -> dict[str, dict[str, Any]]:
+def load_register(path: Path = PATH) -> dict[str, dict[str, str]]:
     """The registered verdicts by claim; empty where there is no register yet.
 
     Raises ClaimError, one line that names file, claim and mend, where the file cannot be read as a
@@ -27,7 +27,9 @@ def load_register(path: Path = PATH) -> dict[str, dict[str, Any]]:
     if not path.exists():
         return {}
     try:
-        data = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_each_name_once)
+        data: object = json.loads(
+            path.read_text(encoding="utf-8"), object_pairs_hook=_each_name_once
+        )
     except _Twice as problem:
         raise ClaimError(
             f"{path}: {problem} stands there twice; keep one, or restore the file from the"
@@ -47,14 +49,15 @@ def load_register(path: Path = PATH) -> dict[str, dict[str, Any]]:
         if fault:
             shown = claim if claim.isprintable() else repr(claim)
             raise ClaimError(f"{path}: {shown}: {fault}, or restore the file from the repository")
-    return data
+    register: dict[str, dict[str, str]] = data
+    return register
 
 
 class _Twice(Exception):
     """A name that an object of the register has twice."""
 
 
-def _each_name_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _each_name_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
     found = dict(pairs)
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
@@ -62,7 +65,7 @@ def _each_name_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def _fault(entry: Any) -> str:
+def _fault(entry: object) -> str:
     """What is wrong with an entry, and its mend; nothing where it is one."""
     if not isinstance(entry, dict):
         return 'not an object; write {"verdict": ...}'
@@ -80,17 +83,10 @@ def _fault(entry: Any) -> str:
     return ""
 
 
-def registered(
-    verdict: str, detail: str, correction: Mapping[str, Any] | None, sharp: str
-) -> dict[str, Any]:
+def registered(verdict: str, detail: str, correction: str, sharp: str) -> dict[str, str]:
     """The entry of a claim: its verdict, and what there is of the rest."""
-    told = {
-        "verdict": verdict,
-        "detail": detail,
-        "correction": correction["text"] if correction else "",
-        "sharp": sharp,
-    }
-    return {name: value for name, value in told.items() if value}
+    values = zip(FIELDS, (verdict, detail, correction, sharp))
+    return {name: value for name, value in values if value}
 
 
 @dataclass(frozen=True)
@@ -100,8 +96,8 @@ class Change:
     """
 
     claim: str
-    before: Mapping[str, Any] | None
-    after: Mapping[str, Any] | None
+    before: Mapping[str, str] | None
+    after: Mapping[str, str] | None
 
     def __str__(self) -> str:
         old, new = self.before or {}, self.after or {}
@@ -111,9 +107,7 @@ class Change:
         )
 
 
-def differences(
-    before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool
-) -> list[Change]:
+def differences(before: Register, after: Register, partial: bool) -> list[Change]:
     """Each claim whose verdict, correction or sharp range differs, or that is new or gone;
     `partial` leaves absent claims alone.
     """
@@ -125,13 +119,11 @@ def differences(
     ]
 
 
-def changes(
-    before: Mapping[str, Mapping[str, Any]], after: Mapping[str, Mapping[str, Any]], partial: bool
-) -> list[str]:
+def changes(before: Register, after: Register, partial: bool) -> list[str]:
     """One line for each difference, before and after."""
     return [str(change) for change in differences(before, after, partial)]
 
 
-def write_register(entries: Mapping[str, Mapping[str, Any]], path: Path = PATH) -> bool:
+def write_register(entries: Register, path: Path = PATH) -> bool:
     """Writes the register in canonical bytes; returns whether it changed."""
     return write_file(path, canonical(entries))

@@ -1,4 +1,4 @@
-"""The range of alpha for which a map rule speaks."""
+"""The range of the parameter for which the conclusion of a map rule is proved."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from juggleproof.certificates.language import NO_ROLES, End, Roles, bounds_of, i
 
 
 def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
-    """The domain of a map rule's conclusion as text, and whether the rule says that outside of it
-    the conclusion is false.
+    """The domain of a map rule's conclusion as text, and whether the rule refutes the
+    conclusion outside of it.
     """
     rows = dict(row.partition(" ")[::2] for row in texts[name].splitlines())
     for inner in ("attraction", "descent"):
@@ -20,16 +20,16 @@ def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
 
 
 def range_of_rule(name: str, texts: Mapping[str, str], roles: Roles = NO_ROLES) -> str:
-    """The parameters for which the rule's conclusion is proved, told as sharp where it is refuted
-    for all others of their domain.
+    """The parameters for which the rule's conclusion is proved; `at least` stands before them
+    unless it is refuted for all others of their domain.
 
     >>> text = "statement t/map\\nover a r\\ndomain a > 0 and 3*a < 1 and r > 0"
     >>> range_of_rule("t/map", {"t/map": text})
     'at least 0 < a < 1/3'
 
-    The parameter is the first of the roles, else the first that the map is over.  Nothing is told
-    where the domain does not speak of it, and the domain itself where its conditions on it are not
-    linear.
+    The parameter is the first of the roles, else the first that the map is over.  The text
+    is empty where the domain does not name it, and the domain itself where its conditions on it are
+    not linear.
     """
     domain, is_sharp = rule_domain(name, texts)
     parameter = roles.parameter or _first_over(name, texts)
@@ -56,15 +56,8 @@ def _first_over(name: str, texts: Mapping[str, str]) -> str:
 
 def _ends(roles: Roles) -> tuple[End | None, End | None]:
     """The ends of the first parameter's domain."""
-    said = roles.domains.get(roles.parameter, ())
-    return (
-        bounds_of(" and ".join(map(str, said)), roles.parameter) or (None, None)
-        if said
-        else (
-            None,
-            None,
-        )
-    )
+    domain = " and ".join(map(str, roles.domains.get(roles.parameter, ())))
+    return (bounds_of(domain, roles.parameter) if domain else None) or (None, None)
 
 
 def whole_text(roles: Roles) -> str:

@@ -16,12 +16,15 @@ from collections.abc import Callable, Mapping, Sequence, Set
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
 from juggleproof.certificates.language import ClaimError, SharpRange
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import (
     CERTIFICATES,
     STATEMENTS,
@@ -33,21 +36,15 @@ from juggleproof.certificates.store import (
 )
 from juggleproof.proofs.claims import (
     Claim,
-    Said,
+    FixedBody,
     assertions,
     claim_named,
     claims_in,
     claims_of,
     named_statements,
 )
-from juggleproof.proofs.judging import (
-    DEFAULT_BUDGET,
-    ROUTES,
-    Judgement,
-    Resources,
-    judge,
-    settle_by_rules,
-)
+from juggleproof.proofs.judgement import DEFAULT_BUDGET, ROUTES, Finding, Judgement, Resources
+from juggleproof.proofs.judging import judge, settle_by_rules
 
 FINDINGS = "findings"
 WIDTH = 96  # of a comment in the statement file
@@ -92,8 +89,8 @@ class Options:
 
 @dataclass(frozen=True)
 class Run:
-    """What a run came to: the claims and the judgements on them, the seconds they took, and what
-    the checker says of each stored statement.
+    """What a run came to: the claims and the judgements on them, the seconds they took, and the
+    checker's outcome of each stored statement.
     """
 
     claims: Sequence[Claim]
@@ -114,7 +111,7 @@ class Run:
 
 
 def no_progress(claim: Claim, judgement: Judgement) -> None:
-    """Tells nobody."""
+    """Reports nothing."""
 
 
 def run(
@@ -125,8 +122,8 @@ def run(
 ) -> Run:
     """Judges the claims, stores what was found, and has the checker read all that is stored.
 
-    `progress` hears of each judgement as it is ready; an executor judges in place of processes of
-    our own.  Claims that `options.only` leaves out keep what is stored of them.
+    `progress` is called with each judgement as it is ready; an executor judges in place of
+    processes of our own.  Claims that `options.only` leaves out keep what is stored of them.
 
     Raises ClaimError, one line, for two claims of one name, a name that no claim bears, and the
     first claim in order that cannot be stated.
@@ -147,7 +144,7 @@ def judge_stored(
     progress: Progress = no_progress,
     executor: Executor | None = None,
 ) -> Run:
-    """The same without writing anything: `checked` is what the checker says of the store as it is,
+    """The same without writing anything: `checked` is the checker's reading of the store as it is,
     and what waits for map rules of other claims is not settled.
     """
     refuse_duplicates(claims)
@@ -187,19 +184,20 @@ def _selected(claims: Sequence[Claim], only: Sequence[str]) -> Sequence[Claim]:
     return [claim for claim in claims if claim.id in wanted]
 
 
-def findings_in(folder: Path) -> dict[str, Any]:
-    """What an earlier run found about each claim, to be tried first; nothing where the file cannot
-    be read.
+def findings_in(folder: Path) -> dict[str, Finding]:
+    """The findings of an earlier run by claim, which are tried first; none where the file cannot be
+    read.
     """
     try:
         data = json.loads((folder / FINDINGS).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    return data if isinstance(data, dict) else {}
+    findings: dict[str, Finding] = data if isinstance(data, dict) else {}
+    return findings
 
 
 def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:
-    """The definitions of the statement file, as the first vocabulary that has some says."""
+    """The definitions of the statement file, those of the first vocabulary that has some."""
     sources = [one.vocabulary.defines for one in claims if one.vocabulary.defines is not None]
     return sources[0]() if sources else ()
 
@@ -217,8 +215,11 @@ def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
     stored of them.  Returns the files changed.
     """
     store, fresh = Store(folder), {judgement.id: judgement for judgement in done.judgements}
+    names: dict[str, list[str]] = {}  # of the stored statements, by claim
+    for name in store.texts:
+        names.setdefault(name.split("/")[0], []).append(name)
     chapters: list[tuple[str, Sequence[str]]] = []
-    certificates: dict[str, Mapping[str, Any]] = {}
+    certificates: dict[str, Mapping[str, Certificate]] = {}
     findings = findings_in(folder)
     for claim in everything:
         if claim.id in fresh:
@@ -228,14 +229,11 @@ def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
                 certificates[claim.id] = judgement.certificates
             findings[claim.id] = judgement.finding()
         else:
-            held = {
-                name: store.texts[name] for name in store.texts if name.split("/")[0] == claim.id
-            }
-            chapters.append((heading(claim), list(held.values())))
-            if held:
-                certificates[claim.id] = {
-                    name: store.certificate(name, text) for name, text in held.items()
-                }
+            kept = {name: store.texts[name] for name in names.get(claim.id, ())}
+            chapters.append((heading(claim), list(kept.values())))
+            if kept:
+                found = ((name, store.certificate(name, text)) for name, text in kept.items())
+                certificates[claim.id] = {name: one for name, one in found if one is not None}
     findings = {claim.id: findings[claim.id] for claim in everything if claim.id in findings}
     text = statement_file(TITLE, chapters, _definitions(everything), store.texts)
     changed = write_store(folder, text, certificates)
@@ -247,11 +245,12 @@ def _write(folder: Path, everything: Sequence[Claim], done: Run) -> int:
 # every run reads everything.
 
 Checked = list[tuple[str, str, str]]  # name, outcome, reason
+Check = Callable[..., tuple[str, checker.Rejected | None]]  # as `checker.check_one`
 
 
 class Reading:
-    """What `checker.check_folder` says of a folder: with several jobs by shares, found out
-    meanwhile; with one, when it is asked for.
+    """The results of `checker.check_folder` on a folder: with several jobs by shares, worked out
+    meanwhile; with one, when they are asked for.
 
     A folder without statements, one that cannot be read, and `nothing` come to no results.
     """
@@ -260,7 +259,7 @@ class Reading:
         self.folder, self.jobs = folder, jobs
         self.nothing = nothing or not (folder / STATEMENTS).exists()
         self.results: Checked = []
-        self._processes: list[tuple[Any, Any]] = []
+        self._processes: list[tuple[BaseProcess, Connection]] = []
 
     def __enter__(self) -> Reading:
         if self.jobs > 1 and not self.nothing:
@@ -286,7 +285,7 @@ class Reading:
 
     def _by_shares(self) -> Checked:
         """The results of all shares, if every outcome that one of them assumed is the one that
-        another found; else none.
+        another came to; else none.
 
         Then each statement was checked with the very lemmas that `check_folder` would have given
         it.
@@ -295,7 +294,7 @@ class Reading:
             parts = [receiver.recv() for _process, receiver in self._processes]
         except EOFError:  # a process died
             return []
-        true = {name: outcome for _, found, _ in parts for name, outcome in found.items()}
+        true = {name: outcome for _, checked, _ in parts for name, outcome in checked.items()}
         if not parts or any(
             outcome != true.get(name)
             for _, _, assumed in parts
@@ -304,9 +303,9 @@ class Reading:
             return []
         reasons = {
             (name, outcome): reason
-            for results, found, _ in parts
+            for results, checked, _ in parts
             for name, outcome, reason in results
-            if name in found
+            if name in checked
         }
         return [
             (name, outcome, reasons.get((name, outcome), reason))
@@ -324,25 +323,30 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
     for line in (one for one in lines if one.startswith(b'["')):
         claim = line[2:].split(b"/", 1)[0].decode("ascii", "replace")  # what follows `["`
         sizes[claim] = sizes.get(claim, 0) + len(line)
-    found: list[set[str]] = [set() for _ in range(count)]
+    split: list[set[str]] = [set() for _ in range(count)]
     weights = [0] * count
     for claim in sorted(sizes, key=lambda claim: (-sizes[claim], claim)):
         lightest = weights.index(min(weights))
-        found[lightest].add(claim)
+        split[lightest].add(claim)
         weights[lightest] += sizes[claim]
-    return [*found]
+    return [*split]
 
 
 def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str], dict[str, str]]:
-    """What `check_folder` says where outcomes outside the share are assumed to be what their
-    certificates claim; with what was found, and assumed.
+    """The results of `check_folder` where outcomes outside the share are assumed to be those that
+    their certificates claim; with the outcomes inside, and those assumed.
     """
-    found, assumed = dict[str, str](), dict[str, str]()
+    checked, assumed = dict[str, str](), dict[str, str]()
 
-    def check_own(statement: Any, certificate: Any, known: Any, earlier: Any) -> tuple[str, Any]:
+    def check_own(
+        statement: checker.Statement,
+        certificate: object,
+        known: Mapping[str, checker.Statement],
+        earlier: Mapping[str, checker.Statement],
+    ) -> tuple[str, checker.Rejected | None]:
         if statement.name.split("/")[0] in share:
             outcome, reason = checker.check_one(statement, certificate, known, earlier)
-            found[statement.name] = outcome
+            checked[statement.name] = outcome
             return outcome, reason
         claimed = [
             word
@@ -352,18 +356,17 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str],
         assumed[statement.name] = claimed[0] if claimed else "rejected"
         return assumed[statement.name], None
 
-    return _read(folder, check_own), found, assumed
+    return _read(folder, check_own), checked, assumed
 
 
-def _read(folder: Path, check: Any = checker.check_one) -> Checked:
+def _read(folder: Path, check: Check = checker.check_one) -> Checked:
     try:
-        results: Checked = checker.check_folder(str(folder), check)
-        return results
+        return checker.check_folder(str(folder), check)
     except checker.Rejected:
         return []
 
 
-def _send(folder: Path, share: Set[str], sender: Any) -> None:
+def _send(folder: Path, share: Set[str], sender: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     gc.disable()  # the checker makes no cycles, and the process ends with its share
     sender.send(check_share(folder, share))
@@ -447,7 +450,7 @@ def spread(
     done: Callable[[int, Result], None],
 ) -> list[Result]:
     """The results of the work on every item, in order; here where there is no executor.  `done`
-    hears of each as it is ready.
+    is called with each as it is ready.
 
     Raises what the work on the first item in order raised, when the others are finished.
     """
@@ -516,7 +519,7 @@ def sent(claim: Claim, resources: Resources) -> Sent:
             f"{claim.id} has a print to be corrected, which only this process can do; certify it"
             " without an executor"
         )
-    return Sent(replace(claim, read=Said(claim.body(), claim.where)), resources.only(claim))
+    return Sent(replace(claim, read=FixedBody(claim.body(), claim.where)), resources.only(claim))
 
 
 def judge_all(
@@ -533,9 +536,9 @@ def judge_all(
     """
     seconds: dict[str, float] = {}
 
-    def take(index: int, found: tuple[Judgement, float]) -> None:
-        seconds[found[0].id] = found[1]
-        progress(claims[index], found[0])
+    def take(index: int, timed: tuple[Judgement, float]) -> None:
+        judgement, seconds[claims[index].id] = timed
+        progress(claims[index], judgement)
 
     if executor is not None:
         return [
@@ -568,7 +571,7 @@ def _judge_one(index: int) -> tuple[Judgement, float]:
     return judge(_work[0][index], _work[1]), time.perf_counter() - began
 
 
-def stop(pool: Any) -> None:
+def stop(pool: ProcessPoolExecutor) -> None:
     """Ends the processes of a pool of our own at once."""
     for process in list((pool._processes or {}).values()):
         process.kill()

@@ -1,4 +1,4 @@
-"""The one error of the scenes: a scene, a state or a wish that cannot be carried out, in one
+"""The one error of the scenes: a scene, a state or a run that cannot be carried out, in one
 line.
 """
 

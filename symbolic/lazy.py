@@ -14,7 +14,8 @@ def lazy_names(
     """`__all__`, `__getattr__` and `__dir__` of a package whose files, named relative to it, define
     these names, parted by spaces.
 
-    `__getattr__` raises AttributeError for any other name.
+    `__getattr__` raises AttributeError for any other name.  What it returns is Any: a name that is
+    looked up by its text has no type.
 
     >>> names, load, _ = lazy_names("juggleproof.symbolic", {".algebra": "alpha state"})
     >>> names, load("alpha")

@@ -10,7 +10,6 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import permutations, product
 from math import inf, lcm
-from typing import Any
 
 from juggleproof.certificates.search.boxes.small import Exponents, Terms, simple_points, value_at
 
@@ -158,6 +157,8 @@ class Ensemble:
     alpha: Fraction = Fraction(3, 10)
 
 
+Work = Problem | Start | Ensemble
+
 # -------------------------------------------------------------------------------------------------
 # Answers, and what was measured of them.
 
@@ -175,14 +176,6 @@ class Answer:
     low: Fraction
     high: Fraction | None = None
     note: str = ""
-
-    def as_json(self) -> dict[str, Any]:
-        """For another process."""
-        return {
-            "low": str(self.low),
-            "high": None if self.high is None else str(self.high),
-            "note": self.note,
-        }
 
     def error(self, truth: Fraction) -> Fraction:
         """The width of the enclosure; the distance to the truth where there is none."""
@@ -204,16 +197,6 @@ class Strayed:
     note: str = ""
     beyond: bool = False  # whether the distance exceeds the bound
 
-    def as_json(self) -> dict[str, Any]:
-        """For another process."""
-        bound = None if self.bound is None else str(self.bound)
-        return {
-            "distance": str(self.distance),
-            "bound": bound,
-            "note": self.note,
-            "beyond": self.beyond,
-        }
-
     def error(self, truth: Fraction) -> Fraction:
         """The bound where there is one."""
         return self.distance if self.bound is None else self.bound
@@ -221,17 +204,6 @@ class Strayed:
     def wrong(self, truth: Fraction) -> bool:
         """Whether the distance exceeds the bound."""
         return self.beyond
-
-
-def read_answer(data: dict[str, Any]) -> Answer | Strayed:
-    """What `as_json` wrote."""
-
-    def number(key: str) -> Fraction | None:
-        return None if data[key] is None else Fraction(data[key])
-
-    if "distance" in data:
-        return Strayed(Fraction(data["distance"]), number("bound"), data["note"], data["beyond"])
-    return Answer(Fraction(data["low"]), number("high"), data["note"])
 
 
 @dataclass(frozen=True)
@@ -275,9 +247,9 @@ def best_point(problem: Problem, slack: Fraction) -> tuple[Point, Fraction]:
     quotient = _Quotient(problem)
     value, place = quotient.greatest_near(float(slack))
     best: tuple[Point, Fraction] | None = None
-    near = value - max(2 * float(slack), CLOSE)
+    least = value - max(2 * float(slack), CLOSE)
     for point in simple_points(place, problem.box):
-        if quotient.at([float(v) for v in point]) < near:
+        if quotient.at([float(v) for v in point]) < least:
             continue  # too simple
         exact = problem.at(point)
         if exact is not None and (best is None or exact > best[1]):

@@ -1,20 +1,19 @@
 """One method on one piece of work, in a process of its own:
 `python -m juggleproof.benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
 
-Prints one JSON object.  `cold` is the first answer, with everything that the method has to load;
-`warm` the least of what follows, if time is left.
+Writes what was measured, pickled.  `cold` is the first answer, with everything that the method has
+to load; `warm` the least of what follows, if time is left.
 """
 
 from __future__ import annotations
 
-import json
 import pickle
 import signal
 import sys
 import time
 from fractions import Fraction
 
-from juggleproof.benchmarks.bench.answers import GaveUp
+from juggleproof.benchmarks.bench.answers import GaveUp, Measured
 from juggleproof.benchmarks.bench.methods import ENSEMBLE, METHODS, ORBITS
 
 # more than so many repeats only while they take less than so many seconds: answers of a millisecond
@@ -32,8 +31,8 @@ def _over(*_: object) -> None:
     raise Over
 
 
-def main() -> int:
-    """Answers, times, prints."""
+def measured() -> Measured:
+    """The answer with its seconds, or why there is none."""
     name, size, seconds = sys.argv[1], Fraction(sys.argv[2]), float(sys.argv[3])
     work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE)[name]
     signal.signal(signal.SIGTERM, _over)
@@ -51,26 +50,17 @@ def main() -> int:
             answer = method.solve(work, size)
             took.append(time.perf_counter() - start)
     except GaveUp as reason:
-        print(json.dumps({"gave_up": str(reason)}))
-        return 0
+        return Measured(name, size, reason=f"gave up: {reason}")
     except Over:
         if not took:
-            print(json.dumps({"gave_up": f"{seconds:g} s"}))
-            return 0
+            return Measured(name, size, reason=f"gave up: {seconds:g} s")
     signal.setitimer(signal.ITIMER_REAL, seconds)  # as much to compare an orbit with the exact one
     try:
-        data = (answer() if callable(answer) else answer).as_json()
+        answer = answer() if callable(answer) else answer
     except (Over, GaveUp):
-        data = None
-    print(
-        json.dumps(
-            {"gave_up": "no exact orbit to compare with"}
-            if data is None
-            else {"cold": took[0], "warm": min(took[1:], default=None), "answer": data}
-        )
-    )
-    return 0
+        return Measured(name, size, reason="gave up: no exact orbit to compare with")
+    return Measured(name, size, took[0], min(took[1:], default=None), answer)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    pickle.dump(measured(), sys.stdout.buffer)

@@ -43,14 +43,14 @@ def scipy_optimize(problem: Problem, width: Fraction) -> Answer:
         below = under(x)
         return -over(x) / below if below > 0 else np.inf
 
-    found = differential_evolution(
+    minimum = differential_evolution(
         loss,
         [(float(low), float(high)) for low, high in problem.box],
         tol=float(width),
         atol=float(width),
         seed=1,
     )
-    return Answer(Fraction(-float(found.fun)), None, f"{found.nfev} values")
+    return Answer(Fraction(-float(minimum.fun)), None, f"{minimum.nfev} values")
 
 
 def values(terms: Terms, points: Array) -> Array:

@@ -11,9 +11,10 @@ import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, Literal
+from typing import Literal
 
 from juggleproof.benchmarks.bench import numerics, solvers
 from juggleproof.benchmarks.bench.answers import (
@@ -22,6 +23,8 @@ from juggleproof.benchmarks.bench.answers import (
     GaveUp,
     Point,
     Problem,
+    Strayed,
+    Work,
     best_point,
 )
 from juggleproof.certificates import checker
@@ -98,6 +101,9 @@ some of its steps say trust), and QEPCAD, whose answers are taken at their word.
 and mpmath.iv are our own, measured beside."""
 
 
+Result = Answer | Strayed | Callable[[], Strayed]  # a distance that is computed untimed
+
+
 @dataclass(frozen=True)
 class Method:
     """A way to answer: `solve` gives the answer to a piece of work at a width (or for so much
@@ -108,20 +114,24 @@ class Method:
     name: str
     title: str
     worth: Worth
-    solve: Callable[[Any, Fraction], Any]
+    solve: Callable[..., Result]
     package: str = ""
     present: Callable[[], bool] = lambda: True
     peer: bool = False
 
 
-def later(place: str) -> Callable[[Any, Fraction], Any]:
+def later(place: str) -> Callable[[Work, Fraction], Result]:
     """The function that stands at "file:name" of this folder; its file is loaded when it is
     called.
     """
     file, _, name = place.partition(":")
-    return lambda work, size: getattr(import_module(f"juggleproof.benchmarks.bench.{file}"), name)(
-        work, size
-    )
+
+    def solve(work: Work, size: Fraction) -> Result:
+        module = import_module(f"juggleproof.benchmarks.bench.{file}")
+        result: Result = getattr(module, name)(work, size)
+        return result
+
+    return solve
 
 
 def has(module: str) -> Callable[[], bool]:
@@ -163,18 +173,32 @@ METHODS = {
             "coq",
             "coq-interval, one question",
             "rigorous",
-            solvers.coq_interval_once,
+            partial(solvers.asked_once, solvers.by_coq_interval),
             COQ,
             solvers.has_coq_interval,
             peer=True,
         ),
-        Method("z3", "Z3, bisection", "unchecked", solvers.z3_bisection, Z3, has("z3")),
-        Method("z3-once", "Z3, one question", "unchecked", solvers.z3_once, Z3, has("z3")),
+        Method(
+            "z3",
+            "Z3, bisection",
+            "unchecked",
+            partial(solvers.bisected, solvers.by_z3),
+            Z3,
+            has("z3"),
+        ),
+        Method(
+            "z3-once",
+            "Z3, one question",
+            "unchecked",
+            partial(solvers.asked_once, solvers.by_z3),
+            Z3,
+            has("z3"),
+        ),
         Method(
             "cvc5",
             "cvc5, bisection",
             "unchecked",
-            solvers.cvc5_bisection,
+            partial(solvers.bisected, solvers.by_cvc5),
             CVC5,
             has("cvc5"),
         ),
@@ -182,7 +206,7 @@ METHODS = {
             "cvc5-once",
             "cvc5, one question",
             "unchecked",
-            solvers.cvc5_once,
+            partial(solvers.asked_once, solvers.by_cvc5),
             CVC5,
             has("cvc5"),
         ),
@@ -190,7 +214,7 @@ METHODS = {
             "cvc5-proof",
             "cvc5, one question with its proof",
             "unchecked",
-            solvers.cvc5_proof_once,
+            partial(solvers.asked_once, solvers.by_cvc5_with_proof),
             CVC5,
             has("cvc5"),
             peer=True,
@@ -199,7 +223,7 @@ METHODS = {
             "qepcad",
             "QEPCAD B, bisection",
             "unchecked",
-            solvers.qepcad_bisection,
+            partial(solvers.bisected, solvers.by_qepcad),
             QEPCAD,
             _qepcad,
             peer=True,
@@ -208,7 +232,7 @@ METHODS = {
             "qepcad-once",
             "QEPCAD B, one question",
             "unchecked",
-            solvers.qepcad_once,
+            partial(solvers.asked_once, solvers.by_qepcad),
             QEPCAD,
             _qepcad,
             peer=True,

@@ -13,25 +13,34 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Protocol, Union
 
 from juggleproof.benchmarks.bench.answers import SHARE, Answer, GaveUp, Problem, best_point
 from juggleproof.certificates.search.boxes.small import Terms
 
+if TYPE_CHECKING:
+    from flint import arb
+    from mpmath.ctx_iv import ivmpf
+
+Ball = Union["arb", "ivmpf"]  # a number that encloses
 BITS = 128
 Side = tuple[Fraction, Fraction]  # both ends the same where the variable is put to an end
 
 
 class Intervals(Protocol):
-    """Numbers that enclose: made from rationals, and asked for their least and their greatest
-    value.
-    """
+    """Numbers that enclose, of one library."""
 
-    def over(self, low: Fraction, high: Fraction) -> Any: ...
+    def over(self, low: Fraction, high: Fraction) -> Ball:
+        """A number that encloses [low, high]."""
+        ...
 
-    def least(self, value: Any) -> Any: ...
+    def least(self, value: Ball) -> Ball:
+        """Its lower end."""
+        ...
 
-    def most(self, value: Any) -> Any: ...
+    def most(self, value: Ball) -> Ball:
+        """Its upper end."""
+        ...
 
 
 class Arb:
@@ -43,16 +52,16 @@ class Arb:
         ctx.prec = BITS
         self._arb, self._fmpq = arb, fmpq
 
-    def _of(self, value: Fraction) -> Any:
+    def _of(self, value: Fraction) -> arb:
         return self._arb(self._fmpq(value.numerator, value.denominator))
 
-    def over(self, low: Fraction, high: Fraction) -> Any:
+    def over(self, low: Fraction, high: Fraction) -> arb:
         return self._of(low) if low == high else self._of(low).union(self._of(high))
 
-    def least(self, value: Any) -> Any:
+    def least(self, value: arb) -> arb:
         return value.lower()
 
-    def most(self, value: Any) -> Any:
+    def most(self, value: arb) -> arb:
         return value.upper()
 
 
@@ -65,14 +74,14 @@ class Mpmath:
         iv.prec = BITS
         self._iv = iv
 
-    def over(self, low: Fraction, high: Fraction) -> Any:
+    def over(self, low: Fraction, high: Fraction) -> ivmpf:
         first, last = (self._iv.mpf(value.numerator) / value.denominator for value in (low, high))
         return self._iv.mpf([first.a, last.b])
 
-    def least(self, value: Any) -> Any:
+    def least(self, value: ivmpf) -> ivmpf:
         return value.a
 
-    def most(self, value: Any) -> Any:
+    def most(self, value: ivmpf) -> ivmpf:
         return value.b
 
 
@@ -92,11 +101,11 @@ class Enclosed:
         self.most = [max((e[i] for e in terms), default=0) for i in range(size)]
         self.zero = numbers.over(Fraction(0), Fraction(0))
 
-    def powers(self, sides: Sequence[Side]) -> list[list[Any]]:
+    def powers(self, sides: Sequence[Side]) -> list[list[Ball]]:
         """The powers of each variable, as products: quicker here than powers of rational ends, and
         no box has a variable of both signs.
         """
-        table = []
+        table: list[list[Ball]] = []
         for side, most in zip(sides, self.most):
             row = [None, self.numbers.over(*side)]
             for k in range(2, most + 1):
@@ -104,7 +113,7 @@ class Enclosed:
             table.append(row)
         return table
 
-    def value(self, part: int, powers: list[list[Any]]) -> Any:
+    def value(self, part: int, powers: list[list[Ball]]) -> Ball:
         """The polynomial (part 0) or its slope along axis part - 1."""
         total = self.zero
         for c, factors in self.parts[part]:
@@ -158,7 +167,7 @@ def never_negative(terms: Terms, box: tuple[Side, ...], numbers: Intervals) -> i
 
 
 def _by_mean_value(
-    excess: Enclosed, sides: Sequence[Side], slopes: Mapping[int, Any], numbers: Intervals
+    excess: Enclosed, sides: Sequence[Side], slopes: Mapping[int, Ball], numbers: Intervals
 ) -> bool:
     middles = [(low + high) / 2 for low, high in sides]
     value = excess.value(0, excess.powers([(middle, middle) for middle in middles]))

@@ -9,15 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from flint import arb, ctx, fmpq
+from mpmath import mpf
 from mpmath.libmp import to_rational
 
 from juggleproof.benchmarks.bench.answers import Ensemble, GaveUp, Start, Strayed
 from juggleproof.scenes import juggler
 from juggleproof.scenes.juggler.given import formulas
+from juggleproof.scenes.juggler.orbits import Orbits, Value
+from juggleproof.scenes.juggler.track import Sample
 
 STATE_STEPS, SEED = 100, 1
 BITS = 256  # of a distance, rounded up
@@ -46,15 +48,15 @@ STARTS = {
 Later = Callable[[], Strayed]
 
 
-def _followed(start: Start, arithmetic: str, steps: int, **more: Any) -> Any:
+def _followed(start: Start, arithmetic: str, steps: int, precision: int | None = None) -> Orbits:
     scene = juggler.scene(start.alpha, juggler.point(start.x, start.w))
-    found = juggler.orbit(scene, arithmetic, steps, **more)
-    if found.counts() != {"reached": 1}:
-        raise GaveUp(", ".join(found.counts()))
-    return found
+    orbits: Orbits = juggler.orbit(scene, arithmetic, steps, precision=precision)
+    if orbits.counts() != {"reached": 1}:
+        raise GaveUp(", ".join(orbits.counts()))
+    return orbits
 
 
-def _away(start: Start, steps: int, x: Any, w: Any, bound: Any, note: str = "") -> Strayed:
+def _away(start: Start, steps: int, x: fmpq, w: fmpq, bound: fmpq | None) -> Strayed:
     """How far (x, w), in rationals of python-flint, is from the exact state, in the sup norm."""
     true = _followed(start, "exact", steps).tracks[0].here
     distance = max(abs(x - true.x), abs(w - true.w))
@@ -64,22 +66,21 @@ def _away(start: Start, steps: int, x: Any, w: Any, bound: Any, note: str = "") 
     return Strayed(
         Fraction(int(above.p), int(above.q)),
         None if bound is None else Fraction(int(bound.p), int(bound.q)),
-        note,
-        bound is not None and distance > bound,
+        beyond=bound is not None and distance > bound,
     )
 
 
 def exact(start: Start, size: Fraction) -> Later:
     """Exact rationals: what the others are measured against."""
-    found = _followed(start, "exact", int(size)).tracks[0].here
+    here: Sample[fmpq] = _followed(start, "exact", int(size)).tracks[0].here
     return lambda: Strayed(
-        Fraction(0), Fraction(0), f"{max(found.x.height_bits(), found.w.height_bits())} bits"
+        Fraction(0), Fraction(0), f"{max(here.x.height_bits(), here.w.height_bits())} bits"
     )
 
 
 def enclosed(start: Start, size: Fraction) -> Later:
     """Arb balls; their radius is the bound."""
-    here = _followed(start, "enclosed", int(size)).tracks[0].here
+    here: Sample[arb] = _followed(start, "enclosed", int(size)).tracks[0].here
 
     def later() -> Strayed:
         x, w = (arb(value) for value in (here.x, here.w))
@@ -93,13 +94,13 @@ def fast(start: Start, size: Fraction) -> Later:
     """float64 with its running bound."""
     row = _followed(start, "fast", int(size)).row(0)
     return lambda: _away(
-        start, int(size), _of_float(row.x), _of_float(row.w), max(map(_of_float, row.error))
+        start, int(size), _of_float(row.x), _of_float(row.w), max(map(_of_float, row.error or ()))
     )
 
 
 def mp(start: Start, size: Fraction) -> Later:
     """mpmath: nothing is proved."""
-    here = _followed(start, "mp", int(size), precision=DIGITS).tracks[0].here
+    here: Sample[mpf] = _followed(start, "mp", int(size), precision=DIGITS).tracks[0].here
 
     def later() -> Strayed:
         x, w = (fmpq(*map(int, to_rational(value._mpf_))) for value in (here.x, here.w))
@@ -118,7 +119,7 @@ def floats(start: Start, size: Fraction) -> Later:
     return lambda: _away(start, int(size), _of_float(x), _of_float(w), None)
 
 
-def _of_float(value: float) -> Any:
+def _of_float(value: Value) -> fmpq:
     return fmpq(*float(value).as_integer_ratio())
 
 
@@ -127,8 +128,8 @@ def ensemble(work: Ensemble, size: Fraction) -> Strayed:
     what is undecided.
     """
     scene = juggler.scene(work.alpha, juggler.random(int(size), seed=SEED))
-    found: Any = juggler.orbit(scene, "fast", STATE_STEPS)
-    here = found.ensemble
+    orbits = juggler.orbit(scene, "fast", STATE_STEPS)
+    here = orbits.ensemble
     decided = here.end == 1
     bound = float(np.maximum(here.error_x, here.error_w)[decided].max(initial=0.0))
-    return Strayed(Fraction(bound), Fraction(bound), f"{len(found.undecided)} undecided")
+    return Strayed(Fraction(bound), Fraction(bound), f"{len(orbits.undecided)} undecided")

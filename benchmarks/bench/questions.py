@@ -15,7 +15,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 import sympy
 
@@ -53,10 +52,10 @@ class Question:
     name: str
     title: str
     how: str
-    fraction: Any
-    variables: tuple[Any, ...]
+    fraction: sympy.Expr
+    variables: tuple[sympy.Symbol, ...]
     sign: int
-    closed_form: Any
+    closed_form: sympy.Expr
     given: tuple[Formula, ...]
     sought: tuple[Term, Term]
 
@@ -132,7 +131,7 @@ def denial(statement: str) -> str:
     )
 
 
-def truth_at_ends(closed_form: Any, sign: int) -> Fraction:
+def truth_at_ends(closed_form: sympy.Expr, sign: int) -> Fraction:
     """The greatest value (least, where sign is -1) on ALPHAS of a function that is monotone there;
     DerivationError where it may not be.
     """
@@ -140,7 +139,7 @@ def truth_at_ends(closed_form: Any, sign: int) -> Fraction:
     return fraction(closed_form.subs(alpha, rational(ALPHAS[1 if rises else 0])))
 
 
-def fraction(value: Any) -> Fraction:
+def fraction(value: sympy.Expr) -> Fraction:
     """A rational of SymPy as a Fraction; raises ClaimError for what is none."""
     value = sympy.nsimplify(value) if value.is_Rational else sympy.radsimp(value)
     if not value.is_Rational:
@@ -148,7 +147,7 @@ def fraction(value: Any) -> Fraction:
     return Fraction(int(value.p), int(value.q))
 
 
-def rational(value: Fraction) -> Any:
+def rational(value: Fraction) -> sympy.Rational:
     """A Fraction as SymPy's rational."""
     return sympy.Rational(value.numerator, value.denominator)
 
@@ -157,26 +156,26 @@ def _root(value: Fraction) -> Fraction:
     return fraction(sympy.sqrt(rational(2 * (1 + value))))
 
 
-def _ends(variable: Any) -> tuple[Fraction, Fraction]:
+def _ends(variable: sympy.Symbol) -> tuple[Fraction, Fraction]:
     if variable == alpha:
         return ALPHAS
     return (_root(ALPHAS[0]), _root(ALPHAS[1])) if variable == s else (Fraction(0), Fraction(1))
 
 
-def as_terms(poly: Any) -> dict[tuple[int, ...], Fraction]:
+def as_terms(poly: sympy.Poly) -> dict[tuple[int, ...], Fraction]:
     """A polynomial of SymPy as plain data."""
     return {
         tuple(map(int, exponents)): Fraction(int(c.p), int(c.q)) for exponents, c in poly.terms()
     }
 
 
-def put(expression: Any, height: Any, speed: Any) -> Any:
+def put(expression: sympy.Expr, height: sympy.Expr, speed: sympy.Expr) -> sympy.Expr:
     """The expression at a state (x, w)."""
     return lowest_terms(expression.subs({x: height, w: speed}, simultaneous=True))
 
 
 @cache
-def kept_curve() -> tuple[Any, Any]:
+def kept_curve() -> tuple[sympy.Expr, sympy.Expr]:
     """(x, w): the curve B1^0, where the energy change is 0, from the origin (p = 0) to its other
     zero on x = 0 (p = 1).
     """
@@ -186,7 +185,7 @@ def kept_curve() -> tuple[Any, Any]:
 
 
 @cache
-def outside_region() -> tuple[Any, Any]:
+def outside_region() -> tuple[sympy.Expr, sympy.Expr]:
     """(x, w): B1 beyond the edge of R. U = sqrt(2 E) is its value on that edge divided by p; w = U
     - 1 + 2 q, from x = w (q = 0) to x = 0 (q = 1).
     """
@@ -202,11 +201,11 @@ def outside_region() -> tuple[Any, Any]:
     return tuple(lowest_terms(one.subs(U, edge / p)) for one in (height, speed))
 
 
-def _in_units(energy: Any) -> Any:
+def _in_units(energy: sympy.Expr) -> sympy.Expr:
     return scaled(energy, r**2) if energy.is_rational_function(alpha) else (energy / r**2).expand()
 
 
-def cleared(expression: Any) -> tuple[Term, Term]:
+def cleared(expression: sympy.Expr) -> tuple[Term, Term]:
     """Numerator and denominator, the latter positive for 0 < alpha < 1."""
     over, under = lowest_terms(expression).as_numer_denom()
     sign = sign_for_lossy_impacts(under)

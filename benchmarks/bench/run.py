@@ -4,7 +4,6 @@ judged against their closed forms, printed and drawn.
 
 from __future__ import annotations
 
-import json
 import os
 import pickle
 import re
@@ -14,10 +13,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 from juggleproof.benchmarks.bench import table
-from juggleproof.benchmarks.bench.answers import Ensemble, Measured, Start, read_answer
+from juggleproof.benchmarks.bench.answers import Ensemble, Measured, Start, Work
 from juggleproof.benchmarks.bench.methods import (
     ENSEMBLE,
     GROWTH,
@@ -41,7 +39,7 @@ START = 5.0  # seconds that a process may take to start and to end, on a busy ma
 Report = Callable[[str], None]
 
 
-def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measured:
+def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measured:
     """Cold and warm seconds and the answer of one method; `seconds` limits the cold answer, and all
     answers together.
     """
@@ -76,24 +74,22 @@ def measure(method: Method, work: Any, size: Fraction, seconds: float) -> Measur
         return Measured(
             method.name, size, reason=f"failed: {lines[-1] if lines else process.returncode}"[:200]
         )
-    found = json.loads(output)
-    if "gave_up" in found:
-        return Measured(method.name, size, reason=f"gave up: {found['gave_up']}")
-    if found["cold"] > seconds:
+    measured: Measured = pickle.loads(output)
+    if measured.cold is not None and measured.cold > seconds:
         return Measured(method.name, size, reason="gave up")
-    return Measured(method.name, size, found["cold"], found["warm"], read_answer(found["answer"]))
+    return measured
 
 
 def measure_all(
-    methods: Sequence[Method], work: Any, sizes: Sequence[Fraction], seconds: float, tell: Report
+    methods: Sequence[Method], work: Work, sizes: Sequence[Fraction], seconds: float, report: Report
 ) -> Iterator[Measured]:
     """Every method at every size, easiest first; a method that gave up is not asked for more."""
     for method in methods:
         for size in sizes:
-            tell(f"{method.title}, {size}")
-            found = measure(method, work, size, seconds)
-            yield found
-            if found.answer is None:
+            report(f"{method.title}, {size}")
+            measured = measure(method, work, size, seconds)
+            yield measured
+            if measured.answer is None:
                 break
 
 
@@ -145,7 +141,7 @@ def wish(asked: Sequence[str] | None, widths: str | None, seconds: str | None, q
 
 
 def _widths(text: str) -> tuple[Fraction, ...]:
-    found = []
+    chosen = []
     for part in text.split(","):
         try:
             width = Fraction(part.strip()) if _WIDTH.fullmatch(part.strip()) else Fraction(0)
@@ -156,8 +152,8 @@ def _widths(text: str) -> tuple[Fraction, ...]:
                 f"--widths {part.strip()[:40]!r}: a width is a number from 1e-40 to 1; write"
                 " 1e-1,1e-6"
             )
-        found.append(width)
-    return tuple(sorted(set(found), reverse=True))
+        chosen.append(width)
+    return tuple(sorted(set(chosen), reverse=True))
 
 
 def _seconds(text: str) -> float:
@@ -171,8 +167,8 @@ def _seconds(text: str) -> float:
 class Run:
     """A run: prints as it goes, counts what is wrong."""
 
-    def __init__(self, wanted: Wish, folder: Path, tell: Any) -> None:
-        self.wanted, self.folder, self.tell, self.wrong = wanted, folder, tell, 0
+    def __init__(self, wanted: Wish, folder: Path, report: Report) -> None:
+        self.wanted, self.folder, self.report, self.wrong = wanted, folder, report, 0
         self.judged: list[table.Judged] = []
 
     def all(self) -> int:
@@ -240,11 +236,11 @@ class Run:
             "sup of the sum of Delta E over so many balls on the table, and alpha besides; to a"
             f" width of {table.power(VARIABLE_WIDTH)}\n"
         )
-        found = []
+        measurements = []
         for size, (problem, truth) in problems.items():
             for one in self.measure(present, problem, [VARIABLE_WIDTH]).values():
-                found += [table.resized(each, size, truth) for each in one.values()]
-        results = table.by_method(found)
+                measurements += [table.resized(each, size, truth) for each in one.values()]
+        results = table.by_method(measurements)
         self.show("variables", "variables", present, sizes, results, Fraction(0))
         print("\n" + table.slopes(present, results, "variables", False))
 
@@ -275,11 +271,11 @@ class Run:
         ]
 
     def measure(
-        self, present: Sequence[Method], work: Any, sizes: Sequence[Fraction]
+        self, present: Sequence[Method], work: Work, sizes: Sequence[Fraction]
     ) -> table.Results:
         """All methods at all sizes."""
         return table.by_method(
-            list(measure_all(present, work, sizes, self.wanted.seconds, self.tell))
+            list(measure_all(present, work, sizes, self.wanted.seconds, self.report))
         )
 
     def show(
@@ -292,7 +288,7 @@ class Run:
         truth: Fraction,
     ) -> None:
         """Prints the table and what is wrong, and writes the plot."""
-        self.tell("")
+        self.report("")
         print(table.measured(present, sizes, results, truth))
         for line in table.faults(present, results):
             print(line)

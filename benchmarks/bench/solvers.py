@@ -12,7 +12,6 @@ from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from juggleproof.benchmarks.bench.answers import (
     SHARE,
@@ -96,7 +95,9 @@ Exceeds = Callable[[Problem, Fraction], bool]
 
 
 def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
-    """The range halved until it is as narrow as the width."""
+    """The range halved until it is as narrow as the width; raises GaveUp where the supremum is not
+    in [-START, START].
+    """
     low, high, asked = -START, START, 2
     if not exceeds(problem, low) or exceeds(problem, high):
         raise GaveUp("the supremum is not between -4 and 4")
@@ -108,7 +109,7 @@ def bisected(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
 
 def asked_once(exceeds: Exceeds, problem: Problem, width: Fraction) -> Answer:
     """One question, a little above the value at a point, which floating point finds and exact
-    arithmetic evaluates.
+    arithmetic evaluates; raises GaveUp where the supremum exceeds it.
     """
     low = best_point(problem, width / SHARE)[1]
     high = low + width * (SHARE - 1) / SHARE
@@ -133,12 +134,14 @@ def by_z3(problem: Problem, bound: Fraction) -> bool:
 
 
 def by_cvc5(problem: Problem, bound: Fraction, proof: bool = False) -> bool:
-    """cvc5, in this process; if asked to, it writes its proof, in its own format."""
+    """cvc5, in this process; if asked to, it writes its proof, in its own format.  Raises GaveUp
+    where it does not decide, or writes none.
+    """
     import cvc5
 
     solver = cvc5.Solver()
     solver.setOption("produce-proofs", "true" if proof else "false")
-    parser: Any = cvc5.InputParser(solver)
+    parser = cvc5.InputParser(solver)
     parser.setStringInput(
         cvc5.InputLanguage.SMT_LIB_2_6,
         f"(set-logic QF_NRA)\n{problem.asked(bound)}(check-sat)\n",
@@ -172,48 +175,8 @@ def by_qepcad(problem: Problem, bound: Fraction) -> bool:
 
 def by_coq_interval(problem: Problem, bound: Fraction) -> bool:
     """Coq's tactic interval proves that nothing on the box exceeds the bound; it refutes nothing.
-    Its proof is checked by Coq's kernel.
+    Its proof is checked by Coq's kernel.  Raises GaveUp where there is none.
     """
     if not proves(goal(problem, bound), ENOUGH):
         raise GaveUp("no proof")
     return False
-
-
-def z3_bisection(problem: Problem, width: Fraction) -> Answer:
-    """Z3 by bisection."""
-    return bisected(by_z3, problem, width)
-
-
-def z3_once(problem: Problem, width: Fraction) -> Answer:
-    """Z3, asked once."""
-    return asked_once(by_z3, problem, width)
-
-
-def cvc5_bisection(problem: Problem, width: Fraction) -> Answer:
-    """cvc5 by bisection."""
-    return bisected(by_cvc5, problem, width)
-
-
-def cvc5_once(problem: Problem, width: Fraction) -> Answer:
-    """cvc5, asked once."""
-    return asked_once(by_cvc5, problem, width)
-
-
-def cvc5_proof_once(problem: Problem, width: Fraction) -> Answer:
-    """cvc5, asked once, with its proof."""
-    return asked_once(by_cvc5_with_proof, problem, width)
-
-
-def qepcad_bisection(problem: Problem, width: Fraction) -> Answer:
-    """QEPCAD B by bisection."""
-    return bisected(by_qepcad, problem, width)
-
-
-def qepcad_once(problem: Problem, width: Fraction) -> Answer:
-    """QEPCAD B, asked once."""
-    return asked_once(by_qepcad, problem, width)
-
-
-def coq_interval_once(problem: Problem, width: Fraction) -> Answer:
-    """coq-interval, asked once."""
-    return asked_once(by_coq_interval, problem, width)

@@ -22,10 +22,10 @@ Results = Mapping[str, Mapping[Fraction, Measured]]  # by method and size
 WORDS: dict[Time, str] = {"seconds": "warm", "cold": "cold"}
 
 
-def by_method(found: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
+def by_method(measurements: Sequence[Measured]) -> dict[str, dict[Fraction, Measured]]:
     """What was measured, by method and size."""
     results: dict[str, dict[Fraction, Measured]] = {}
-    for one in found:
+    for one in measurements:
         results.setdefault(one.method, {})[one.size] = one
     return results
 
@@ -269,10 +269,12 @@ def _times(
     return found[0] if found else 0.0  # nothing of ours was certified
 
 
-def together(found: Sequence[Judged]) -> list[Judged]:
+def together(judgements: Sequence[Judged]) -> list[Judged]:
     """What was judged of several questions, taken together."""
-    kinds = dict.fromkeys((one.time, one.against, one.aim) for one in found)
-    groups = [[one for one in found if (one.time, one.against, one.aim) == kind] for kind in kinds]
+    kinds = dict.fromkeys((one.time, one.against, one.aim) for one in judgements)
+    groups = [
+        [one for one in judgements if (one.time, one.against, one.aim) == kind] for kind in kinds
+    ]
     return [
         Judged(
             *kind,

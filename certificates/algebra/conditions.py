@@ -1,12 +1,12 @@
-"""Conditions over polynomials: a checker's formula held as flint polynomials, substituted,
-folded.
+"""Conditions over polynomials: a checker's formula held as FLINT's polynomials, substituted and
+folded; and where its truth can change as a parameter moves.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from typing import Any
+from typing import Literal, Union
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
@@ -16,12 +16,14 @@ from juggleproof.certificates.algebra.polynomials import monomials
 from juggleproof.certificates.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
-# Conditions over polynomials: a checker's formula held as flint polynomials, substituted, folded
+# Conditions over polynomials: a checker's formula held as FLINT's polynomials, substituted, folded
 # and evaluated fast.
 
 ZERO = fmpq(0)
-Tree = Any  # bool, (index of a polynomial, relation), or ("and" | "or", [Tree, ...])
-HOLDS = {
+Relation = tuple[int, str]  # (number of a polynomial, ">", ">=", "=" or "!=")
+Op = Literal["and", "or"]
+Tree = Union[bool, Relation, tuple[Op, Sequence["Tree"]]]
+HOLDS: Mapping[str, Callable[[int], bool]] = {  # of the sign of the polynomial
     ">": lambda s: s > 0,
     ">=": lambda s: s >= 0,
     "=": lambda s: s == 0,
@@ -36,7 +38,7 @@ def ring_of(context: checker.Context, *more: str) -> fmpq_mpoly_ctx:
 
 @lru_cache(maxsize=512)
 def places(ring: fmpq_mpoly_ctx) -> dict[str, int]:
-    """The number of every variable of a ring; flint takes numbers far quicker than names."""
+    """The number of every variable of a ring; FLINT takes numbers far quicker than names."""
     return {name: place for place, name in enumerate(ring.names())}
 
 
@@ -55,7 +57,7 @@ def valued(poly: fmpq_mpoly, given: Mapping[str, fmpq]) -> fmpq | None:
 
 
 def to_flint(poly: checker.Poly, ring: fmpq_mpoly_ctx, size: int) -> fmpq_mpoly:
-    """The same polynomial over flint."""
+    """The checker's polynomial in FLINT's ring, whose first `size` variables are its own."""
     rest, den = (0,) * (ring.nvars() - size), poly.den
     return ring.from_dict({m + rest: fmpq(c, den) for m, c in monomials(poly, size).items()})
 
@@ -80,7 +82,9 @@ def to_text(poly: fmpq_mpoly) -> str:
 
 
 class Condition:
-    """A boolean combination of polynomial relations to 0."""
+    """A boolean combination of polynomial relations to 0: the tree names the polynomials by their
+    numbers.
+    """
 
     __slots__ = ("ring", "polys", "tree")
 
@@ -88,23 +92,26 @@ class Condition:
         self.ring, self.polys, self.tree = ring, list(polys), tree
 
     @staticmethod
-    def of(context: checker.Context, formula: Any, ring: fmpq_mpoly_ctx | None = None) -> Condition:
+    def of(
+        context: checker.Context, formula: checker.Formula, ring: fmpq_mpoly_ctx | None = None
+    ) -> Condition:
         """The condition that a formula of the checker states."""
         ring = ring or ring_of(context)
         polys: list[fmpq_mpoly] = []
-        numbers: dict[frozenset[tuple[int, int]], tuple[int, int]] = {}
+        numbers: dict[frozenset[tuple[int, int]], int] = {}  # of equal polynomials, one
         size = len(context.index)
 
-        def convert(node: Any) -> Tree:
+        def convert(node: checker.Formula) -> Tree:
             if isinstance(node, bool):
                 return node
             if node[0] != "atom":
                 return (node[0], [convert(part) for part in node[1]])
-            mark = frozenset(node[1].terms.items()) | {(-1, node[1].den)}
-            if mark not in numbers:
-                numbers[mark] = (len(polys), 0)
-                polys.append(to_flint(node[1], ring, size))
-            return (numbers[mark][0], node[2])
+            _, poly, relation = node
+            key = frozenset(poly.terms.items()) | {(-1, poly.den)}
+            if key not in numbers:
+                numbers[key] = len(polys)
+                polys.append(to_flint(poly, ring, size))
+            return (numbers[key], relation)
 
         tree = convert(formula)
         return Condition(ring, polys, tree)
@@ -139,7 +146,7 @@ class Condition:
         """
         return self.mapped(lambda p: replace(p, name, top, bottom))
 
-    def mapped(self, change: Any) -> Condition:
+    def mapped(self, change: Callable[..., fmpq_mpoly]) -> Condition:
         """The condition with polynomials changed by a function that keeps their signs; those that
         no longer matter are left as they are.
         """
@@ -156,22 +163,23 @@ class Condition:
         return Condition(self.ring, polys, tree)
 
     def used(self) -> list[int]:
-        """The numbers of the polynomials that the tree still speaks of."""
+        """The numbers of the polynomials that still occur in the tree, sorted."""
         return sorted(set(_indices(self.tree)))
 
     def variables(self) -> set[str]:
         """The variables that still occur."""
-        names, found = list(places(self.ring)), set[int]()
-        for k in self.used():
-            found.update(i for i, e in enumerate(self.polys[k].degrees()) if e)
-        return {names[i] for i in found}
+        names = list(places(self.ring))
+        degrees = [self.polys[k].degrees() for k in self.used()]
+        return {names[i] for each in degrees for i, e in enumerate(each) if e}
 
     def facts(self) -> list[tuple[fmpq_mpoly, str]]:
         """The relations that hold on their own: those at top level or in a top-level `and`."""
         return [(self.polys[k], relation) for k, relation in top_atoms(self.tree)]
 
     def cleared(self) -> Condition:
-        """The same condition, its equations without the factors that it says not to vanish."""
+        """The same condition, its equations without the factors that other facts say not to
+        vanish.
+        """
         nonzero = [
             p / p.leading_coefficient()
             for p, relation in self.facts()
@@ -224,17 +232,13 @@ def _indices(tree: Tree) -> Iterator[int]:
             yield from _indices(part)
 
 
-def top_atoms(tree: Tree) -> list[tuple[int, str]]:
-    """(number, relation) of the relations that a tree asserts on their own."""
-    if isinstance(tree, bool):
+def top_atoms(tree: Tree) -> list[Relation]:
+    """The relations that a tree asserts on their own."""
+    if isinstance(tree, bool) or tree[0] == "or":
         return []
     if isinstance(tree[0], int):
         return [tree]
-    return (
-        [part for part in tree[1] if not isinstance(part, bool) and isinstance(part[0], int)]
-        if tree[0] == "and"
-        else []
-    )
+    return [part for part in tree[1] if not isinstance(part, bool) and isinstance(part[0], int)]
 
 
 def _below(tree: Tree) -> list[int]:
@@ -244,12 +248,12 @@ def _below(tree: Tree) -> list[int]:
     return [
         k
         for part in tree[1]
-        if tree[0] == "or" or not isinstance(part[0], int)
+        if tree[0] == "or" or isinstance(part, bool) or not isinstance(part[0], int)
         for k in _indices(part)
     ]
 
 
-def _join(op: str, parts: Sequence[Tree]) -> Tree:
+def _join(op: Op, parts: Sequence[Tree]) -> Tree:
     flat: list[Tree] = []
     for part in parts:
         if isinstance(part, bool):
@@ -282,12 +286,12 @@ def fold(tree: Tree, poly_of: Callable[[int], fmpq_mpoly]) -> Tree:
     return _join(tree[0], parts)
 
 
-def evaluate(tree: Tree, signs: Any) -> bool:
-    """The truth of a tree where the polynomials have these signs."""
+def evaluate(tree: Tree, signs: Mapping[int, int]) -> bool:
+    """The truth of a tree where the polynomials of these numbers have these signs."""
     if isinstance(tree, bool):
         return tree
     if isinstance(tree[0], int):
-        return bool(HOLDS[tree[1]](signs[tree[0]]))
+        return HOLDS[tree[1]](signs[tree[0]])
     if tree[0] == "and":
         return all(evaluate(part, signs) for part in tree[1])
     return any(evaluate(part, signs) for part in tree[1])
@@ -317,16 +321,18 @@ def multivariate(poly: fmpq_poly, ring: fmpq_mpoly_ctx, name: str) -> fmpq_mpoly
 
 
 def coefficients_in(poly: fmpq_mpoly, name: str) -> list[fmpq_mpoly]:
-    """The coefficients of a polynomial as one in this variable, from the constant up."""
+    """The coefficients of a polynomial as one in this variable, from the constant up, by Taylor's
+    formula.
+    """
     place = places(poly.context())[name]
     degree = poly.degrees()[place] if poly else 0
-    found, rest, factorial = [], poly, 1
-    for k in range(degree + 1):  # Taylor's formula
+    coefficients, rest, factorial = [], poly, 1
+    for k in range(degree + 1):
         if k:
             rest, factorial = rest.derivative(place), factorial * k
         c = rest if k == degree else rest.subs({place: 0})
-        found.append(c / factorial if factorial > 1 else c)
-    return found
+        coefficients.append(c / factorial if factorial > 1 else c)
+    return coefficients
 
 
 def replace(poly: fmpq_mpoly, name: str, top: fmpq_mpoly, bottom: fmpq_mpoly) -> fmpq_mpoly:
@@ -362,8 +368,13 @@ def constant_of(poly: fmpq_mpoly) -> fmpq | None:
 
 
 # -------------------------------------------------------------------------------------------------
-# Where a condition can change its verdict as one parameter moves: candidate numbers from iterated
+# Where a condition can change its truth as one parameter moves: candidate numbers from iterated
 # resultants and discriminants.
+#
+# Source: McCallum's projection (An improved projection operation for cylindrical algebraic
+# decomposition, 1998), with an equation On projection in CAD-based quantifier elimination with
+# equational constraint, ISSAC 1999.  Only candidates come of it: no statement rests on their being
+# complete.
 
 # a polynomial with more terms than this is dropped: the candidates are then too few, which
 # certificates would show
@@ -376,38 +387,38 @@ def border_polynomials(
     budget: Budget,
 ) -> list[fmpq_mpoly]:
     """Irreducible polynomials in the parameters on whose roots the projections of the conditions
-    can change.
+    can change, in a fixed order.
 
     A second condition beside one is what further variables, bound in it alone, should meet: it is
-    projected first.
+    projected first.  Raises Exhausted where the budget ends.
     """
-    found: list[fmpq_mpoly] = []
+    borders: list[fmpq_mpoly] = []
     for condition, inner in conditions:
         outer: list[fmpq_mpoly] = []
         if inner is not None:
             own = condition.variables() | set(parameters)
             outer = projected(inner, own, budget)
         for poly in projected(condition, set(parameters), budget, outer):
-            if poly not in found:
-                found.append(poly)
-    return sorted(found, key=lambda p: (p.total_degree(), len(p), str(p)))
+            if poly not in borders:
+                borders.append(poly)
+    return sorted(borders, key=lambda p: (p.total_degree(), len(p), str(p)))
 
 
 def candidate_numbers(polys: Iterable[fmpq_mpoly], parameter: str) -> list[AlgebraicNumber]:
     """The real roots of polynomials in the one parameter, in increasing order, each once."""
-    found: list[AlgebraicNumber] = []
+    numbers: list[AlgebraicNumber] = []
     for poly in polys:
         for root in real_roots(univariate(poly, parameter)):
-            if root not in found:
-                found.append(root)
-    return sorted(found)
+            if root not in numbers:
+                numbers.append(root)
+    return sorted(numbers)
 
 
 def projected(
     condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly] = ()
 ) -> list[fmpq_mpoly]:
     """Irreducible polynomials in the parameters on whose roots the projection of one condition can
-    change.
+    change.  Raises Exhausted where the budget ends.
     """
     condition, borders = without_equations(condition, parameters, budget, more)
     equations = [p for p, relation in condition.facts() if relation == "="]
@@ -432,8 +443,9 @@ def _cost(polys: Sequence[fmpq_mpoly], place: int) -> tuple[int, int, int]:
 def without_equations(
     condition: Condition, parameters: set[str], budget: Budget, more: Sequence[fmpq_mpoly]
 ) -> tuple[Condition, list[fmpq_mpoly]]:
-    """The condition after every equation linear in a variable is solved for it; where its
-    coefficient vanishes is a border.
+    """The condition after every equation that is linear in a variable, over the parameters, is
+    solved for it; and polynomials on whose roots that, or `more`, can change.  Raises Exhausted
+    where the budget ends.
     """
     borders: list[fmpq_mpoly] = list(more)
     while True:
@@ -503,13 +515,13 @@ def _eliminate(
 
 def _vanishing(parts: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
     """Lower coefficients, as long as all above can vanish together."""
-    found: list[fmpq_mpoly] = []
+    vanishing: list[fmpq_mpoly] = []
     for part in reversed(parts[1:]):
         if constant_of(part) is not None and part != 0:
-            return found
+            return vanishing
         if part != 0:
-            found.append(part)
-    return found
+            vanishing.append(part)
+    return vanishing
 
 
 def _spend(budget: Budget, p: fmpq_mpoly, q: fmpq_mpoly) -> None:
@@ -522,11 +534,11 @@ def _factors(polys: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
     """The distinct irreducible factors that are no constants, each with leading coefficient 1; too
     large ones are left out.
     """
-    found: dict[str, fmpq_mpoly] = {}
+    distinct: dict[str, fmpq_mpoly] = {}
     for poly in polys:
         if poly == 0 or poly.is_constant() or len(poly) > TERMS:
             continue
         for factor, _ in poly.factor()[1]:
             monic = factor / factor.leading_coefficient()
-            found.setdefault(str(monic), monic)
-    return list(found.values())
+            distinct.setdefault(str(monic), monic)
+    return list(distinct.values())

@@ -1,4 +1,5 @@
-"""Enclosures of a polynomial on a box in Arb's balls: natural and mean value form, intersected.
+"""Enclosures of a polynomial on a box in Arb's balls: natural interval extension and mean value
+form.
 
 A box is a tuple of dyadic sides (m, r, e): the interval [(m - r) 2^e, (m + r) 2^e].  An undecided
 comparison of balls is False, whichever way it is asked, so `surely` alone decides; powers are
@@ -11,7 +12,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 from flint import arb, arf, ctx, fmpz_mpoly
 
@@ -49,15 +49,15 @@ def split(box: Box, i: int) -> tuple[Box, Box]:
 
 
 def widest(box: Box, among: Sequence[int]) -> int:
-    """The widest of the sides named."""
+    """The number of the widest of the sides named; of equal ones, the first."""
     return max(among, key=lambda i: (box[i][1] * Fraction(2) ** box[i][2], -i))
 
 
-def working_precision() -> AbstractContextManager[Any]:
+def working_precision() -> AbstractContextManager[object]:
     """A context in which balls carry 64 bits, whatever is set outside: so votes do not depend on
     what ran before.
     """
-    context: AbstractContextManager[Any] = ctx.workprec(PRECISION)
+    context: AbstractContextManager[object] = ctx.workprec(PRECISION)
     return context
 
 
@@ -166,7 +166,7 @@ class Enclosed:
         return arb(0) if total is None else total
 
     def natural(self, placed: Placed) -> arb:
-        """The polynomial's enclosure on the box, term by term."""
+        """The natural interval extension: the polynomial's enclosure on the box, term by term."""
         return self._value(placed, False)
 
     def at(self, placed: Placed) -> arb:
@@ -192,9 +192,9 @@ class Enclosed:
         """Enclosures of the partial derivatives on the box by their own mean value forms, where
         these are narrower.
         """
-        found = {}
+        enclosures = {}
         for i, slope in self.slopes.items():
             if placed.box[i][1]:
                 natural, centred = slope.natural(placed), slope.centred(placed)[0]
-                found[i] = min(natural, centred, key=lambda value: float(value.rad()))
-        return found
+                enclosures[i] = min(natural, centred, key=lambda value: float(value.rad()))
+        return enclosures

@@ -37,7 +37,7 @@ def sign(value: fmpq) -> int:
 @total_ordering
 class AlgebraicNumber:
     """The one root of an irreducible integer polynomial (constant first) between two rationals;
-    rational where they agree.
+    rational where they agree.  Comparisons and signs are exact: they refine the interval.
 
     >>> AlgebraicNumber([-2, 0, 1], Fraction(1), Fraction(2)).decimal(12)
     '1.414213562373'
@@ -81,7 +81,7 @@ class AlgebraicNumber:
         return [int(c) for c in self.poly.coeffs()]
 
     def as_fraction(self) -> Fraction:
-        """The value of a rational number."""
+        """The value of a rational number; raises ValueError for an irrational one."""
         if not self.is_rational:
             raise ValueError("an irrational number has no value as a fraction")
         return Fraction(-int(self.poly[0]), int(self.poly[1]))
@@ -126,7 +126,9 @@ class AlgebraicNumber:
         return (self._low + self._high) / 2
 
     def sign_of(self, poly: fmpq_poly) -> int:
-        """The sign of a polynomial at this number."""
+        """The sign (-1, 0 or 1) of a polynomial at this number: 0 where it is a multiple of the
+        number's own, else that of an enclosure.
+        """
         if (poly % fmpq_poly(self.poly)) == 0:
             return 0
         while True:
@@ -223,7 +225,8 @@ def integer_polynomial(poly: fmpq_poly) -> fmpz_poly:
 
 
 def real_roots(poly: fmpq_poly) -> list[AlgebraicNumber]:
-    """The distinct real roots of a polynomial that is not 0, in increasing order.
+    """The distinct real roots of a polynomial that is not 0, in increasing order: those of its
+    irreducible factors, isolated by FLINT's balls.
 
     >>> real_roots(fmpq_poly([0, -2, 0, 1]))[1]
     AlgebraicNumber(0)
@@ -253,24 +256,26 @@ def _roots_of_irreducible(poly: fmpz_poly) -> list[AlgebraicNumber]:
         return [AlgebraicNumber.rational(fmpq(-poly[0], poly[1]))]
     if poly.degree() == 2 and poly[1] ** 2 - 4 * poly[0] * poly[2] < 0:
         return []
-    found = []
+    roots = []
     for root, _ in poly.complex_roots():
         if root.imag == 0:
             middle, radius = _dyadic(root.real.mid()), _dyadic(root.real.rad())
             # The ball isolates its root; a little more than its radius moves both ends off the
             # root.
-            found.append(AlgebraicNumber(poly, middle - radius * 2, middle + radius * 2))
-    return found
+            roots.append(AlgebraicNumber(poly, middle - radius * 2, middle + radius * 2))
+    return roots
 
 
-def _dyadic(ball: object) -> fmpq:
-    man, exp = ball.man_exp()  # type: ignore[attr-defined]
+def _dyadic(ball: arb) -> fmpq:
+    man, exp = ball.man_exp()
     man, exp = int(man), int(exp)
     return fmpq(man << exp, 1) if exp >= 0 else fmpq(man, 1 << -exp)
 
 
 def simplest_between(low: fmpq, high: fmpq) -> fmpq:
     """The rational of least denominator, then of least size, strictly between two rationals.
+
+    Source: the Stern-Brocot tree (Graham, Knuth, Patashnik, Concrete Mathematics, 4.5).
 
     >>> simplest_between(fmpq(1, 3), fmpq(1, 2))
     2/5
@@ -297,7 +302,7 @@ def sign_at(poly: fmpz_mpoly, point: Sequence[Fraction | AlgebraicNumber]) -> in
 
     Formula: with integer coefficients, L = prod lead_i^deg_i and M >= |P| at all conjugates, D the
     product of the degrees: P(a) = 0 or |P(a)| >= (L M)^(1 - D) / L, because L P(a) is an algebraic
-    integer of degree at most D.
+    integer of degree at most D.  Source: Liouville's inequality.
     """
     roots = {
         i: value
@@ -361,8 +366,7 @@ def _enclosed(terms: Mapping[tuple[int, ...], int], roots: Sequence[AlgebraicNum
 
 
 # -------------------------------------------------------------------------------------------------
-# Polynomials in one variable on an interval: exact real root counts, by Descartes' rule with
-# bisection.
+# Polynomials in one variable on an interval: Bernstein's coefficients, and Sturm's theorem.
 
 
 def univariate(poly: fmpz_mpoly, variable: int) -> fmpq_poly:
@@ -371,13 +375,15 @@ def univariate(poly: fmpz_mpoly, variable: int) -> fmpq_poly:
 
 
 def _coefficients(poly: fmpz_mpoly, variable: int) -> list[int]:
-    found = {int(m[variable]): int(c) for m, c in zip(poly.monoms(), poly.coeffs())}
-    return [found.get(k, 0) for k in range(max(found, default=0) + 1)]
+    by_power = {int(m[variable]): int(c) for m, c in zip(poly.monoms(), poly.coeffs())}
+    return [by_power.get(k, 0) for k in range(max(by_power, default=0) + 1)]
 
 
 def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> list[fmpq]:
-    """The coefficients b_k with poly = sum b_k comb(n, k) (z - low)^k (high - z)^(n - k) / (high -
-    low)^n.
+    """The coefficients b_0 .. b_n with poly = sum b_k comb(n, k) (z - low)^k (high - z)^(n - k) /
+    (high - low)^n, where n is the degree given, at least that of the polynomial.
+
+    Source: Farouki, The Bernstein polynomial basis, Computer Aided Geometric Design 29 (2012).
 
     >>> [str(b) for b in bernstein(fmpq_poly([0, 1]), Fraction(0), Fraction(1), 2)]
     ['0', '1/2', '1']
@@ -394,7 +400,8 @@ def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> li
 
 
 def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
-    """Whether the polynomial is positive on the whole closed interval.
+    """Whether the polynomial is positive on the whole closed interval: by Bernstein's coefficients,
+    else by Sturm's theorem.
 
     >>> poly = fmpq_poly([-2, 0, 1])
     >>> [positive_between(poly, Fraction(low, 10), Fraction(2)) for low in (14, 15)]

@@ -5,41 +5,41 @@ FLINT reads them here.
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
-from math import lcm
-from typing import Any
+from math import lcm, prod
 
 import numpy as np
 from flint import Ordering, fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_ctx
+from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import fraction
-from juggleproof.certificates.language import Formula, Term, real, term
+from juggleproof.certificates.formulas import Formula, Term, real, term
 
 # -------------------------------------------------------------------------------------------------
 # Polynomials of a state as python-flint polynomials, and as arrays of monomial keys and
 # coefficients for linear programs.
 
-Keys = np.ndarray[Any, np.dtype[np.int64]]
-Row = tuple[
-    Keys, np.ndarray[Any, np.dtype[np.float64]]
-]  # the keys of a polynomial's monomials, and its coefficients
+Monomial = tuple[int, ...]  # the exponent of each variable
+Keys = NDArray[np.int64]
+Row = tuple[Keys, NDArray[np.float64]]  # the keys of a polynomial's monomials, its coefficients
+# scales, weights of the variables, values of the scales, and gradings: a `Scaling`
+Gradings = tuple[tuple[int, ...], list[tuple[int, ...]], dict[int, int], list[list[int]]]
 
 # With many variables: one odd number for each, a monomial's key being the sum of exponent times
-# number, modulo 2^64.  Two monomials
-# share a key with negligible probability, and then an exact solution fails its check and is
-# dropped.
+# number, modulo 2^64.  Two monomials share a key with negligible probability, and then an exact
+# solution fails its check and is dropped.
 WEIGHTS = (
     np.random.default_rng(20).integers(-(1 << 62), 1 << 62, checker.MAX_VARIABLES, dtype=np.int64)
     | 1
 )
 
 
-def monomials(poly: checker.Poly, size: int) -> dict[tuple[int, ...], int]:
+def monomials(poly: checker.Poly, size: int) -> dict[Monomial, int]:
     """The numerator of a polynomial of the checker as {exponents of its first `size` variables:
-    coefficient}.
+    coefficient}; it has no others, or OverflowError is raised.
 
     >>> x = checker.Poly({1: 1}, 2, 1, checker.Work())
     >>> monomials(x, 2)
@@ -50,7 +50,7 @@ def monomials(poly: checker.Poly, size: int) -> dict[tuple[int, ...], int]:
 
 
 @lru_cache(maxsize=64)
-def _unpacker(size: int) -> Any:
+def _unpacker(size: int) -> Callable[[bytes], Monomial]:
     return struct.Struct(f"<{size}H").unpack  # the checker packs an exponent into 16 bits
 
 
@@ -68,11 +68,11 @@ class Ring:
         self.gens = self.ctx.gens()
         self.size = max(1, len(names))
         self.seen: dict[int, tuple[checker.Poly, fmpz_mpoly]] = {}
-        self.differences: dict[
-            int, tuple[fmpz_mpoly, frozenset[tuple[int, ...]]]
-        ] = {}  # what was found of scales, for all states of a search
+        # what a `Scaling` keeps for all states of a search: by the id of a polynomial, which is
+        # held so that its id is not used again, and by differences of exponents
+        self.differences: dict[int, tuple[fmpz_mpoly, frozenset[Monomial]]] = {}
         self.lowered: dict[tuple[int, tuple[int, ...]], tuple[fmpz_mpoly, fmpz_mpoly]] = {}
-        self.scalings: dict[Any, Any] = {}
+        self.scalings: dict[tuple[frozenset[Monomial], tuple[int, ...]], Gradings] = {}
         self.one = self.ctx.constant(1)
         self.zero = self.ctx.constant(0)
 
@@ -82,10 +82,8 @@ class Ring:
         if known is not None:
             return known[1]
         result = self.ctx.from_dict(monomials(poly, self.size)) if poly.terms else self.zero
-        self.seen[id(poly)] = (
-            poly,
-            result,
-        )  # holding the polynomial keeps its id from being used again
+        # holding the polynomial keeps its id from being used again
+        self.seen[id(poly)] = poly, result
         return result
 
 
@@ -103,45 +101,44 @@ class Packing:
         degrees = [poly.degrees() for poly in polys if poly]
         self.used = [v for v in range(ring.size) if any(d[v] for d in degrees)]
         self.bits = 62 // max(1, len(self.used))
-        self.exact = (
-            self.bits >= 6
-            # else keys tell monomials apart with all but certainty, yet do not give the exponents
-            # back
-        )
+        # else keys tell monomials apart with all but certainty, yet do not give the exponents back
+        self.exact = self.bits >= 6
         self.weights = np.zeros(ring.size, np.int64) if self.exact else WEIGHTS[: ring.size]
         for place, v in enumerate(self.used if self.exact else ()):
             self.weights[v] = 1 << (self.bits * place)
 
     def row(self, poly: fmpz_mpoly) -> Row:
-        """The polynomial as keys and float coefficients."""
+        """The polynomial as keys and float coefficients, both of shape (terms,)."""
         if not poly:
             return np.zeros(0, np.int64), np.zeros(0)
         return np.array(poly.monoms(), dtype=np.int64) @ self.weights, np.array(
             [int(c) for c in poly.coeffs()], dtype=np.float64
         )
 
-    def keys(self, monomials: list[tuple[int, ...]]) -> Keys:
-        """The keys of monomials given by the exponents of all variables."""
+    def keys(self, monomials: list[Monomial]) -> Keys:
+        """The keys, of shape (monomials,), of monomials given by the exponents of all variables."""
         return (
             np.array(monomials, dtype=np.int64).reshape(len(monomials), len(self.weights))
             @ self.weights
         )
 
     def exponents(self, keys: Keys) -> Keys:
-        """The exponents of the used variables, one row a key."""
+        """The exponents of the used variables, of shape (keys, used); only where `exact`."""
         shifts = np.arange(len(self.used), dtype=np.int64) * self.bits
         return (keys[:, None] >> shifts) & ((1 << self.bits) - 1)
 
 
 def multiply(a: Row, b: Row) -> Row:
-    """The product of two polynomials as arrays; equal monomials are left apart."""
+    """The product of two polynomials as arrays of shape (terms of a * terms of b,); equal monomials
+    are left apart.
+    """
     if len(a[0]) == 1 and len(b[0]) == 1 and a[0][0] == 0 and a[1][0] == 1:
         return b
     return (a[0][:, None] + b[0][None, :]).ravel(), (a[1][:, None] * b[1][None, :]).ravel()
 
 
 def collect(a: Row) -> Row:
-    """The same polynomial with equal monomials added."""
+    """The same polynomial with equal monomials added, sorted by keys."""
     keys, inverse = np.unique(a[0], return_inverse=True)
     sums = np.bincount(inverse, a[1], len(keys))
     kept = sums != 0
@@ -190,6 +187,8 @@ def pseudo_divide(
 ) -> tuple[int, fmpz_mpoly, fmpz_mpoly]:
     """(n, q, r) with lead^n * poly = q * (lead * gen - rest) + r, where gen occurs in none of lead,
     rest and r.
+
+    Source: Knuth, The Art of Computer Programming 2, 4.6.1.
     """
     coefficients = coefficients_in(poly, variable, gen)
     degree = len(coefficients) - 1
@@ -210,7 +209,7 @@ def with_value(poly: fmpz_mpoly, variable: int, value: Fraction) -> fmpz_mpoly:
     p, q = value.numerator, value.denominator
     if q == 1:
         return poly.subs({variable: p})
-    degree, terms = degree_in(poly, variable), dict[tuple[int, ...], int]()
+    degree, terms = degree_in(poly, variable), dict[Monomial, int]()
     for m, c in zip(poly.monoms(), poly.coeffs()):
         key = (*m[:variable], 0, *m[variable + 1 :])
         terms[key] = terms.get(key, 0) + int(c) * p ** m[variable] * q ** (degree - m[variable])
@@ -248,7 +247,7 @@ def total_degree(poly: fmpz_mpoly) -> int:
 
 
 def relation_of(poly: fmpq_mpoly, relation: str) -> Formula:
-    """The formula: polynomial relation 0, coefficients made whole."""
+    """The formula "polynomial relation 0", coefficients made whole."""
     return Formula(relation, term_of(poly), term(0))
 
 
@@ -259,19 +258,12 @@ def term_of(poly: fmpq_mpoly) -> Term:
     total: Term | None = None
     for powers, c in (poly * scale).to_dict().items():
         value = fraction(c)
-        part: Term | None = None
-        for name, e in zip(names, powers):
-            if e:
-                factor: Term = real(name) if e == 1 else real(name) ** int(e)
-                part = factor if part is None else part * factor
-        size: Term = (
-            term(abs(value)) if part is None else part if abs(value) == 1 else abs(value) * part
-        )
-        total = (
-            (size if value > 0 else -size)
-            if total is None
-            else total + size
-            if value > 0
-            else total - size
-        )
+        factors = [real(n) if e == 1 else real(n) ** int(e) for n, e in zip(names, powers) if e]
+        size = prod(factors[1:], start=factors[0]) if factors else term(abs(value))
+        if factors and abs(value) != 1:
+            size = abs(value) * size
+        if total is None:
+            total = size if value > 0 else -size
+        else:
+            total = total + size if value > 0 else total - size
     return term(0) if total is None else total

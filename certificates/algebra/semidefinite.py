@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
-from typing import Any
 
 import numpy as np
 from flint import fmpq, fmpz_mat, fmpz_mpoly, nmod_mat
+from numpy.typing import NDArray
 
+from juggleproof.certificates.algebra.polynomials import Monomial
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
@@ -27,7 +28,7 @@ from juggleproof.certificates.work import Budget
 # Clarabel 0.11 was measured in its place: the same verdicts, 0.12 s against 0.67 s for 26 programs;
 # but it needs SciPy, 143 MB and 0.14 s a process, and its LAPACK too is the machine's.
 
-Floats = np.ndarray[Any, np.dtype[np.float64]]
+Floats = NDArray[np.float64]
 DUAL_STEPS = 60
 ENOUGH = 1e-6  # what equations may miss
 SMALL = 1e-13  # an eigenvalue of equations that depend on others
@@ -90,8 +91,8 @@ def feasible(
 def _independent(
     blocks: list[Floats], right: Floats, budget: Budget
 ) -> tuple[list[Floats], Floats] | None:
-    """The same equations as orthonormal rows, without those that follow from others; None where
-    they contradict one another.
+    """The same equations as orthonormal rows, without those that follow from others, in the shapes
+    of `feasible`; None where they contradict one another.
     """
     budget.spend(20 + len(right) ** 3 // 8000)
     whole = np.hstack([block.reshape(len(right), -1) for block in blocks])
@@ -113,7 +114,12 @@ def _step(
     mu: float,
     trace: float,
 ) -> tuple[list[Floats], list[Floats], Floats] | None:
-    """One step with a predictor and a corrector; None where it makes no way."""
+    """One step with a predictor and a corrector; None where it makes no way.
+
+    Shapes: A_k as `blocks` (rows, n_k, n_k) and `flat` (rows, n_k^2), `primal` and `dual` (n_k,
+    n_k), `y` and `missing`, which is what the equations miss, (rows,).  Source: Mehrotra, SIAM J.
+    Optimization 2 (1992).
+    """
     rows = len(y)
     inverse = [np.linalg.inv(z) for z in dual]
     system, base, slack = np.zeros((rows, rows)), missing.copy(), []
@@ -157,7 +163,11 @@ def _step(
 
 
 def _room(points: list[Floats], directions: list[Floats]) -> float:
-    """How far one can go and stay in the cone."""
+    """How far one can go from positive definite X along D and stay positive semidefinite.
+
+    Formula: -1 / (least eigenvalue of L^-1 D L^-T), X = L L^T, over all pairs (X, D) of the shape
+    (n, n).  Raises LinAlgError where an X is not positive definite.
+    """
     least = 0.0
     for x, d in zip(points, directions):
         lower = np.linalg.inv(np.linalg.cholesky(x))
@@ -168,13 +178,13 @@ def _room(points: list[Floats], directions: list[Floats]) -> float:
 # -------------------------------------------------------------------------------------------------
 # Gram matrices from floats to exact squares: the image of a matrix as rationals, and LDL^T.
 
-# to a rational with a small denominator: eigenvectors of singular matrices are no better known
-NEAR = 2e-3
+# of a rational with a small denominator: eigenvectors of singular matrices are no better known
+TOLERANCE = 2e-3
 
 
-def rational_image(vectors: Floats, near: float = NEAR) -> list[list[int]] | None:
-    """A basis of the space that the columns span, as small integers, in echelon form; None where
-    none is near.
+def rational_image(vectors: Floats, tolerance: float = TOLERANCE) -> list[list[int]] | None:
+    """A basis of the space that the columns of a matrix of the shape (n, columns) span, as rows of
+    small integers, in echelon form; None where none is within the tolerance.
     """
     work, pivots = vectors.T.copy(), []
     for row in range(len(work)):
@@ -192,7 +202,7 @@ def rational_image(vectors: Floats, near: float = NEAR) -> list[list[int]] | Non
     result = []
     for line in work:
         fractions = [Fraction(float(c)).limit_denominator(60) for c in line]
-        if any(abs(float(f) - float(c)) > near for f, c in zip(fractions, line)):
+        if any(abs(float(f) - float(c)) > tolerance for f, c in zip(fractions, line)):
             return None
         common = lcm(*(f.denominator for f in fractions))
         result.append([int(f * common) for f in fractions])
@@ -201,14 +211,14 @@ def rational_image(vectors: Floats, near: float = NEAR) -> list[list[int]] | Non
 
 def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] | None:
     """(c, row) with gram = sum c * row row^T, every c > 0, by LDL^T; None where the matrix is not
-    positive semidefinite.
+    positive semidefinite.  Source: Golub and Van Loan, Matrix Computations, 4.1.
 
     >>> as_squares([[Fraction(1), Fraction(-1)], [Fraction(-1), Fraction(1)]])
     [(Fraction(1, 1), [1, -1])]
     """
     size = len(gram)
-    near = np.array([[float(c) for c in row] for row in gram])
-    if size and np.linalg.eigvalsh(near)[0] < -1e-6 * np.abs(near).max():
+    approximate = np.array([[float(c) for c in row] for row in gram])
+    if size and np.linalg.eigvalsh(approximate)[0] < -1e-6 * np.abs(approximate).max():
         return None  # floats see what is far from it; exact arithmetic decides the rest
     rest, squares = [[fmpq(c.numerator, c.denominator) for c in row] for row in gram], []
     for k in range(size):
@@ -237,7 +247,6 @@ def as_squares(gram: list[list[Fraction]]) -> list[tuple[Fraction, list[int]]] |
 # The linear equations on the entries of Gram matrices: solved in floats, rounded, and met
 # exactly.
 
-Monomial = tuple[int, ...]
 Entry = tuple[int, int, int]  # block, row, column
 PRIME = (1 << 61) - 1
 
@@ -295,7 +304,7 @@ class LinearEquations:
 
     def solve(self, budget: Budget, trace: float, last: float) -> list[Floats] | None:
         """Gram matrices in floats, one for each block, each times its scale, of the shape (n, n)
-        for a basis of n; None where none is found.  `trace` and `last` are those of `feasible`.
+        for a basis of n; None where `feasible` has none.  `trace` and `last` are its own.
         """
         blocks = [
             np.zeros((self.rows, len(block.basis), len(block.basis))) for block in self.blocks
@@ -324,17 +333,17 @@ class LinearEquations:
         free /= sizes[:, None]
         right = np.zeros(self.rows)
         right[-1] = float(self.total) / sizes[-1]
-        found = feasible(blocks, free, right, budget, trace, last)
-        if found is None:
+        grams = feasible(blocks, free, right, budget, trace, last)
+        if grams is None:
             return None
         if free.shape[1]:
             rest = right - sum(
-                (block.reshape(self.rows, -1) @ gram.ravel() for block, gram in zip(blocks, found)),
+                (block.reshape(self.rows, -1) @ gram.ravel() for block, gram in zip(blocks, grams)),
                 np.zeros(self.rows),
             )
             tops = [max(map(abs, column.values())) for column in self.terms[self.count :]]
             self.multipliers = (np.linalg.lstsq(free, rest, rcond=None)[0] / tops).tolist()
-        return found
+        return grams
 
     @cached_property
     def scales(self) -> list[Fraction]:
@@ -403,12 +412,12 @@ class LinearEquations:
     @cached_property
     def alone(self) -> dict[int, list[tuple[int, int]]]:
         """For each equation the columns that stand in no other, with their coefficients."""
-        found: dict[int, list[tuple[int, int]]] = {}
+        columns: dict[int, list[tuple[int, int]]] = {}
         for k, column in enumerate(self.terms):
             if len(column) == 1:
                 ((row, c),) = column.items()
-                found.setdefault(row, []).append((k, c))
-        return found
+                columns.setdefault(row, []).append((k, c))
+        return columns
 
     def shortest(self, missing: list[Fraction]) -> list[Fraction] | None:
         """The shortest vector whose combination of the columns is what is missing."""

@@ -217,6 +217,7 @@ def insert(value: Quotient, name: str, known: Quotient) -> Quotient:
 # Values known up to the accuracy of roots, and quotients between others.
 
 NEGLIGIBLE = fmpq(1, 2**100)  # of values that come from rational approximations of roots
+OPEN = -1  # in place of the number of a polynomial that the variable does not decide
 
 
 class Trial:
@@ -239,14 +240,14 @@ class Trial:
         self.direct: list[
             tuple[fmpq_poly, str]
         ] = []  # relations in the variable alone that have to hold
-        self.tree: Tree = None
+        self.tree: Tree | None = None
 
     def fails(self, value: fmpq, nearly: bool = False) -> bool:
         """Whether the condition cannot be met with this value of the variable, as far as folding
         shows.
         """
         if self.tree is None:
-            self._prepare()
+            self.tree = self._prepared()
         for place, (poly, relation) in enumerate(self.direct):
             at = poly(value)
             if not HOLDS[relation](0 if nearly and abs(at) < NEGLIGIBLE else sign(at)):
@@ -277,7 +278,7 @@ class Trial:
 
         return _decided(self.tree, sign_of) is False
 
-    def _prepare(self) -> None:
+    def _prepared(self) -> Tree:
         """Sets apart the polynomials that the variable decides; what does not speak of it is left
         open.
         """
@@ -297,39 +298,33 @@ class Trial:
             if (dense := self.alone.get(k)) is not None
         ]
         whole = condition.tree
-        if top:
+        if top and not isinstance(whole, bool):
             left = [part for part in whole[1] if part not in top] if whole[0] == "and" else []
             whole = ("and", left) if left else True
-        self.tree = self._ordered(whole, open_ones)
+        return self._ordered(whole, open_ones)
 
     def _ordered(self, tree: Tree, open_ones: set[int]) -> Tree:
-        """The tree with (None, relation) for what stays open, and what is quickly decided first."""
+        """The tree with (OPEN, relation) for what stays open, and what is quickly decided first."""
         if isinstance(tree, bool):
             return tree
         if isinstance(tree[0], int):
-            return (None, tree[1]) if tree[0] in open_ones else tree
+            return (OPEN, tree[1]) if tree[0] in open_ones else tree
         parts = [self._ordered(part, open_ones) for part in tree[1]]
         return (tree[0], sorted(parts, key=self._cost))
 
     def _cost(self, tree: Tree) -> int:
-        return (
-            3
-            if tree[0] is None
-            else 2
-            if isinstance(tree[0], str)
-            else int(self.alone[tree[0]] is None)
-        )
+        if isinstance(tree, bool) or isinstance(tree[0], str):
+            return 2
+        return 3 if tree[0] == OPEN else int(self.alone[tree[0]] is None)
 
 
 def _decided(tree: Tree, sign_of: Callable[[int], int | None]) -> bool | None:
     """The truth of a tree where the signs decide it; None where they do not."""
     if isinstance(tree, bool):
         return tree
-    if tree[0] is None:
-        return None
     if isinstance(tree[0], int):
-        found = sign_of(tree[0])
-        return None if found is None else bool(HOLDS[tree[1]](found))
+        found = None if tree[0] == OPEN else sign_of(tree[0])
+        return None if found is None else HOLDS[tree[1]](found)
     whole: bool | None = tree[0] == "and"
     for part in tree[1]:
         truth = _decided(part, sign_of)

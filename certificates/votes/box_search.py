@@ -39,17 +39,17 @@ class Fact(Enclosed):
     def __init__(self, fact: Atom) -> None:
         super().__init__(fact.poly)
         self.relation = fact.relation
-        # x > c: the box itself says it but for its edge, so no cut is made for its sake
+        # x > c holds on the box but for its edge, so no cut is made for its sake
         self.bound = fact.poly.total_degree() == 1 and len(self.used) == 1
 
     def truth(self, value: arb) -> bool | None:
-        """Whether the fact holds for every number of the ball, or for none; None says nothing."""
+        """Whether the fact holds for every number of the ball, or for none; None: undecided."""
         return surely(value, self.relation)
 
 
 @dataclass
 class Emptiness:
-    """What became of the search for a solution of all facts: `empty`, `point` (exact) or, with
+    """The outcome of the search for a solution of all facts: `empty`, `point` (exact) or, with
     neither, undecided; `leaves` counts the boxes that were discarded.
     """
 
@@ -69,31 +69,31 @@ def refute(facts: Sequence[Atom], box: Box, allowance: int, accept: Accept) -> E
     """
     ready = [Fact(fact) for fact in facts]
     queue: deque[tuple[Box, tuple[int, ...]]] = deque([(box, tuple(range(len(facts))))])
-    found = Emptiness(0)
-    while queue and found.boxes < allowance:
+    outcome = Emptiness(0)
+    while queue and outcome.boxes < allowance:
         current, alive = queue.popleft()
-        found.boxes += 1
+        outcome.boxes += 1
         discarded, alive, weights, promising = _look(ready, alive, Placed(current))
         if discarded:
-            found.leaves += 1
+            outcome.leaves += 1
             continue
         if promising:
             point = middle(current)
             if accept(point):
-                found.point = point
-                return found
+                outcome.point = point
+                return outcome
         sides = [i for i, side in enumerate(current) if side[1]]
         if not sides:
             # a single point at which nothing is decided: equality, which no cut will decide
-            return found
+            return outcome
         best = (
             max(sides, key=lambda i: (weights.get(i, 0.0), -i))
             if weights
             else widest(current, sides)
         )
         queue.extend((half, alive) for half in split(current, best))
-    found.empty = not queue and found.point is None
-    return found
+    outcome.empty = not queue and outcome.point is None
+    return outcome
 
 
 def _look(
@@ -157,34 +157,34 @@ def enclose_infimum(
     where none is left.  None where a box has no finite enclosure.
     """
     ready, aim = [Fact(fact) for fact in facts], Enclosed(poly)
-    found = Infimum(known, known)
+    infimum = Infimum(known, known)
     heap: list[tuple[Fraction, int, Box, tuple[int, ...]]] = []
     floor: Fraction | None = None  # the lower end of a box that is a point and was set aside
 
     def place(current: Box, alive: tuple[int, ...], at_least: list[Fraction]) -> bool:
         placed = Placed(current)
         discarded, alive, _, promising = _look(ready, alive, placed)
-        found.boxes += 1
+        infimum.boxes += 1
         if discarded:
             return True
         if promising:
             point = middle(current)
             if accept(point):
                 value = value_at(poly, point) / den
-                if value < found.high:
-                    found.high, found.point = value, point
+                if value < infimum.high:
+                    infimum.high, infimum.point = value, point
         values = [aim.natural(placed), *_lowered(aim, [ready[k] for k in alive], placed)]
         lows = [span[0] / den for value in values if (span := ball_ends(value)) is not None]
         low = max([*lows, *at_least], default=None)
-        if low is not None and low < found.high:
-            heapq.heappush(heap, (low, found.boxes, current, alive))
+        if low is not None and low < infimum.high:
+            heapq.heappush(heap, (low, infimum.boxes, current, alive))
         return low is not None
 
     if not place(box, tuple(range(len(facts))), []):
         return None
-    while heap and found.boxes < allowance:
+    while heap and infimum.boxes < allowance:
         low, _, current, alive = heap[0]
-        if found.high - low <= width:
+        if infimum.high - low <= width:
             break
         heapq.heappop(heap)
         sides = [i for i, side in enumerate(current) if side[1]]
@@ -194,12 +194,12 @@ def enclose_infimum(
         for half in split(current, _cut(aim, ready, alive, Placed(current), sides)):
             place(half, alive, [low])
     if heap or floor is not None:
-        found.low = min(
-            [found.high, *([heap[0][0]] if heap else []), *([floor] if floor is not None else [])]
+        infimum.low = min(
+            [infimum.high, *([heap[0][0]] if heap else []), *([floor] if floor is not None else [])]
         )
     else:
-        found.low = found.high
-    return found
+        infimum.low = infimum.high
+    return infimum
 
 
 def _lowered(aim: Enclosed, facts: Sequence[Fact], placed: Placed) -> list[arb]:
@@ -212,7 +212,7 @@ def _lowered(aim: Enclosed, facts: Sequence[Fact], placed: Placed) -> list[arb]:
     in floats.
     """
     slopes = aim.sharp_slopes(placed)
-    found, used = [_from_corner(aim, [], slopes, placed)], list[tuple[arb, Fact]]()
+    enclosures, used = [_from_corner(aim, [], slopes, placed)], list[tuple[arb, Fact]]()
     for fact in facts:
         if fact.relation not in (">", ">="):
             continue
@@ -227,7 +227,7 @@ def _lowered(aim: Enclosed, facts: Sequence[Fact], placed: Placed) -> list[arb]:
             multiple = arb(rounded) / 64
             slopes = {i: slopes.get(i, 0) - multiple * other.get(i, 0) for i in {**slopes, **other}}
             used.append((multiple, fact))
-    return [*found, _from_corner(aim, used, slopes, placed)] if used else found
+    return [*enclosures, _from_corner(aim, used, slopes, placed)] if used else enclosures
 
 
 def _from_corner(
@@ -311,17 +311,17 @@ def enclose_goal(question: Question, width: Fraction, allowance: int) -> GoalBou
     assumed, enclosures, boxes, positive = join("and", question.assumed), [], 0, True
     for part in denied:
         poly = -part.poly
-        found = _infimum(question.names, assumed, poly, width, allowance // len(denied))
-        if found is None:
+        infimum = _infimum(question.names, assumed, poly, width, allowance // len(denied))
+        if infimum is None:
             return None
-        boxes += found.boxes
+        boxes += infimum.boxes
         enclosure = Enclosure(
-            str(poly), _short(found.low, up=False), _short(found.high, up=True), width
+            str(poly), _short(infimum.low, up=False), _short(infimum.high, up=True), width
         )
-        if part.holds(-found.high):
-            return GoalBound((enclosure,), False, boxes, found.point)
+        if part.holds(-infimum.high):
+            return GoalBound((enclosure,), False, boxes, infimum.point)
         enclosures.append(enclosure)
-        positive = positive and not part.holds(-found.low)
+        positive = positive and not part.holds(-infimum.low)
     return GoalBound(tuple(enclosures), positive, boxes)
 
 
@@ -354,7 +354,7 @@ def _infimum(
     parts = regions(names, join("and", [assumed, below]))
     if parts is None or any(region.unbounded() for region in parts):
         return None
-    found = Infimum(level, level, 0, point)
+    infimum = Infimum(level, level, 0, point)
     for region in parts:
         reduced = region.reduced(poly)
         if reduced is None:
@@ -363,18 +363,18 @@ def _infimum(
             *reduced,
             region.facts,
             region.box(),
-            found.high,
+            infimum.high,
             width,
             allowance // len(parts),
             region.test(assumed),
         )
         if inner is None:
             return None
-        found.boxes += inner.boxes
+        infimum.boxes += inner.boxes
         if inner.point is not None:
-            found.high, found.point = inner.high, region.complete(inner.point)
-        found.low = min(found.low, inner.low, found.high)
-    return found
+            infimum.high, infimum.point = inner.high, region.complete(inner.point)
+        infimum.low = min(infimum.low, inner.low, infimum.high)
+    return infimum
 
 
 def _attained(

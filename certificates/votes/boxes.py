@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.intervals import working_precision
 from juggleproof.certificates.votes.box_search import GoalBound, enclose_goal, refute
 from juggleproof.certificates.votes.branches import MOST_BRANCHES, regions
@@ -25,16 +25,15 @@ TRIAL = 24  # boxes that are spent on an unbounded region: only an exact point t
 
 @dataclass
 class Finding:
-    """What became of one question: an exact solution, reasons why nothing was decided, or neither,
-    which says that it has none.
+    """The outcome of one question: an exact solution, reasons why nothing was decided, or neither,
+    where it has no solution.
     """
 
     point: list[Fraction] | None = None
     reasons: list[str] = field(default_factory=list)
     unbounded: bool = False
-    thin: bool = (
-        False  # an equation or its negation is among the facts: boxes only come near such sets
-    )
+    # an equation or its negation is among the facts: boxes only approach such sets
+    thin: bool = False
 
 
 @dataclass
@@ -46,8 +45,8 @@ class Tally:
 
 
 def vote(
-    statement: Any,
-    earlier: Mapping[str, Any] | None = None,
+    statement: checker.Statement,
+    earlier: Mapping[str, checker.Statement] | None = None,
     budget: Budget | None = None,
     asked: Sequence[Question] | None = None,
 ) -> Vote:
@@ -126,19 +125,19 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
     leaves = 0
     for region in parts:
         unbounded = region.unbounded()
-        found = refute(
+        outcome = refute(
             region.facts,
             region.box(),
             TRIAL if unbounded else max(TRIAL, allowance // len(parts)),
             region.test(matrix),
         )
-        tally.boxes += found.boxes
-        if found.point is not None:
-            return Finding(point=region.complete(found.point))
+        tally.boxes += outcome.boxes
+        if outcome.point is not None:
+            return Finding(point=region.complete(outcome.point))
         if unbounded:
             finding.unbounded = True
             finding.reasons.append(f"the region is not bounded in {', '.join(unbounded)}")
-        elif not found.empty:
+        elif not outcome.empty:
             finding.thin = finding.thin or any(
                 fact.relation in ("=", "!=") for fact in region.facts
             )
@@ -146,7 +145,7 @@ def _settle(question: Question, allowance: int, tally: Tally) -> Finding:
                 "undecided after the counted boxes" + (", near an equation" if finding.thin else "")
             )
         else:
-            leaves += found.leaves
+            leaves += outcome.leaves
     if not finding.reasons:
         tally.leaves += leaves
     return finding

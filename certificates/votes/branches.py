@@ -250,7 +250,7 @@ class Region:
 
     def samples(self, formula: Formula) -> Iterator[list[Fraction]]:
         """A few exact points of the region that meet the formula, from small numbers."""
-        used, found = self.used(), 0
+        used, count = self.used(), 0
         sides = [self.bounds[i] for i in used]
         choices = [
             [v for v in SAMPLES if side[0] <= (0, v) <= side[1]] or [_inside(side)]
@@ -263,8 +263,8 @@ class Region:
             point = self.complete(point)
             if holds_at(formula, point):
                 yield point
-                found += 1
-                if found == ENOUGH_SAMPLES:
+                count += 1
+                if count == ENOUGH_SAMPLES:
                     return
 
 
@@ -280,8 +280,8 @@ def regions(names: tuple[str, ...], formula: Formula) -> list[Region] | None:
     parts = branches(formula, MOST_BRANCHES)
     if parts is None:
         return None
-    found = (_region(names, facts) for facts in parts)
-    return [region for region in found if region is not None]
+    candidates = (_region(names, facts) for facts in parts)
+    return [region for region in candidates if region is not None]
 
 
 def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:

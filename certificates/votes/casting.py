@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.votes import boxes, z3
 from juggleproof.certificates.votes.questions import questions
 from juggleproof.certificates.votes.vote import Budget, Vote, compare
@@ -13,11 +13,11 @@ ROUTES = {"z3": z3, "boxes": boxes}
 
 
 def cast_votes(
-    statement: Any,
+    statement: checker.Statement,
     outcome: str,
     routes: Sequence[str] = tuple(ROUTES),
     budget: Budget | None = None,
-    earlier: Mapping[str, Any] | None = None,
+    earlier: Mapping[str, checker.Statement] | None = None,
 ) -> tuple[Vote, ...]:
     """One vote for each of the routes named that casts any ("z3", "boxes"), on a statement of the
     checker with its checked outcome.

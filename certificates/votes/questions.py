@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Union
+from typing import Union
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
@@ -120,7 +121,7 @@ def atom(poly: fmpz_mpoly, relation: str) -> Formula:
 
 
 def truth(formula: Formula, decide: Callable[[Atom], bool | None]) -> bool | None:
-    """The truth value of the formula from those of its atoms; None where they do not tell."""
+    """The truth value of the formula from those of its atoms; None where they leave it open."""
     if isinstance(formula, bool):
         return formula
     if isinstance(formula, Atom):
@@ -147,18 +148,20 @@ def branches(formula: Formula, limit: int) -> list[tuple[Atom, ...]] | None:
         return [()] if formula else []
     if isinstance(formula, Atom):
         return [(formula,)]
-    found: list[tuple[Atom, ...]] = [] if formula.op == "or" else [()]
+    disjuncts: list[tuple[Atom, ...]] = [] if formula.op == "or" else [()]
     for part in formula.parts:
         inner = branches(part, limit)
         if inner is None:
             return None
         if formula.op == "or":
-            found += inner
+            disjuncts += inner
         else:
-            found = [merged for a in found for b in inner if (merged := _merge(a, b)) is not None]
-        if len(found) > limit:
+            disjuncts = [
+                merged for a in disjuncts for b in inner if (merged := _merge(a, b)) is not None
+            ]
+        if len(disjuncts) > limit:
             return None
-    return found
+    return disjuncts
 
 
 def _merge(first: tuple[Atom, ...], second: tuple[Atom, ...]) -> tuple[Atom, ...] | None:
@@ -196,8 +199,8 @@ class Denial:
 
 @dataclass(frozen=True)
 class Question:
-    """Is there a point that meets all of `assumed` and every denial?  `part` says of which line of
-    the statement this is the denial.
+    """Is there a point that meets all of `assumed` and every denial?  `part` names the line of the
+    statement that is denied.
 
     A point refutes the statement where `refutes`; else (a `have` line, or the term under a root) it
     shows that a line does not follow.
@@ -245,17 +248,20 @@ class Question:
         return join("and", [*self.assumed, *(denial.formula for denial in self.denials)])
 
 
-def read_statement(text: str) -> Any:
+def read_statement(text: str) -> checker.Statement:
     """The checker's statement of this text (one statement, as `Statement.text` writes it)."""
     (statement,) = checker.read_statements(text).values()
     return statement
 
 
-def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[Question]:
+def questions(
+    statement: checker.Statement, earlier: Mapping[str, checker.Statement] | None = None
+) -> list[Question]:
     """The questions of a statement, in the order: `have` and `root` lines, then what is shown.
 
     A sharp range asks one question more than the statements it names ask inside it: outside, is
-    there a parameter at which all of them hold?  Recurrences ask whether an identity fails.
+    there a parameter at which all of them hold?  Recurrences ask whether an identity fails.  Raises
+    KeyError where `earlier` lacks a statement that a sharp range names.
     """
     if statement.kind == "sharp":
         return _sharp_questions(statement, earlier or {})
@@ -265,9 +271,9 @@ def questions(statement: Any, earlier: Mapping[str, Any] | None = None) -> list[
 
 
 def _universal_questions(
-    statement: Any, name: str, sharp: Sequence[Any] | None, where: str
+    statement: checker.Statement, name: str, sharp: Sequence[ast.expr] | None, where: str
 ) -> list[Question]:
-    unfolding: Any = unfolded(statement, sharp if sharp is None else list(sharp))
+    unfolding = unfolded(statement, sharp)
     own, universal = tuple(unfolding.context.index), set(unfolding.universal)
     free, integers = tuple(n for n in own if n in universal), frozenset(unfolding.integers)
     asked = []
@@ -292,7 +298,9 @@ def _universal_questions(
     ]
 
 
-def _sharp_questions(statement: Any, earlier: Mapping[str, Any]) -> list[Question]:
+def _sharp_questions(
+    statement: checker.Statement, earlier: Mapping[str, checker.Statement]
+) -> list[Question]:
     (named,), (over,), (domain,), (condition,) = (
         statement.get(keyword) for keyword in ("sharp", "over", "domain", "holds")
     )
@@ -308,7 +316,11 @@ def _sharp_questions(statement: Any, earlier: Mapping[str, Any]) -> list[Questio
 
 
 def _outside(
-    name: str, over: Sequence[str], domain: Any, condition: Any, named: Sequence[Any]
+    name: str,
+    over: Sequence[str],
+    domain: ast.expr,
+    condition: ast.expr,
+    named: Sequence[checker.Statement],
 ) -> Question:
     """Is there a parameter in the domain, but outside the range, at which all the named statements
     hold?
@@ -360,7 +372,7 @@ def _fresh(name: str, taken: set[str]) -> str:
     return name
 
 
-def _iterate_questions(statement: Any) -> list[Question]:
+def _iterate_questions(statement: checker.Statement) -> list[Question]:
     (variables,), ((arguments, images),), ((count, powers),) = (
         statement.get(keyword) for keyword in ("forall", "iterates", "after")
     )
@@ -370,7 +382,7 @@ def _iterate_questions(statement: Any) -> list[Question]:
         context.declare(name)
     values, (k,), names = dict(context.values), count, tuple(context.index)
 
-    def image(trees: Sequence[Any], changes: Mapping[str, Any]) -> list[Any]:
+    def image(trees: Sequence[ast.expr], changes: Mapping[str, checker.Poly]) -> list[checker.Poly]:
         inner = checker.Context(context, {**values, **changes})
         for name, tree in statement.get("let"):
             inner.define(name, inner.value(tree))
@@ -392,7 +404,10 @@ def _iterate_questions(statement: Any) -> list[Question]:
 
 
 def _premises(
-    unfolding: Any, own: tuple[str, ...], names: tuple[str, ...], count: int | None = None
+    unfolding: checker.Unfolding,
+    own: tuple[str, ...],
+    names: tuple[str, ...],
+    count: int | None = None,
 ) -> tuple[Formula, ...]:
     return flat([formula_of(premise, own, names) for premise in unfolding.premises[:count]])
 
@@ -438,7 +453,7 @@ def flat(formulas: Sequence[Formula]) -> tuple[Formula, ...]:
     return tuple(dict.fromkeys(part for formula in formulas for part in conjuncts(formula)))
 
 
-def formula_of(formula: Any, own: tuple[str, ...], names: tuple[str, ...]) -> Formula:
+def formula_of(formula: checker.Formula, own: tuple[str, ...], names: tuple[str, ...]) -> Formula:
     """The checker's formula, whose variables are `own` in order, over the variables `names`."""
     if isinstance(formula, bool):
         return formula
@@ -447,7 +462,7 @@ def formula_of(formula: Any, own: tuple[str, ...], names: tuple[str, ...]) -> Fo
     return join(formula[0], [formula_of(part, own, names) for part in formula[1]])
 
 
-def polynomial_of(poly: Any, own: tuple[str, ...], names: tuple[str, ...]) -> fmpz_mpoly:
+def polynomial_of(poly: checker.Poly, own: tuple[str, ...], names: tuple[str, ...]) -> fmpz_mpoly:
     """The numerator of the checker's polynomial, whose variables are `own` in order, over the
     variables `names`.
     """

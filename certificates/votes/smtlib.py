@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from flint import fmpz_mpoly
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.polynomials import used_in
+from juggleproof.certificates.formulas import ClaimError
 from juggleproof.certificates.votes.questions import (
     Atom,
     Denial,
@@ -23,10 +23,9 @@ from juggleproof.certificates.votes.questions import (
 # end point are asked in.
 #
 # Expanded by the checker, a recurrence that holds is 0 = 0 and leaves a solver nothing to ask; as
-# it
-# stands, it does.
+# it stands, it does.
 
-OPERATORS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
+OPERATORS: Mapping[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
 # words that a solver reads as its own: an underscored spelling keeps the variable apart from them
 TAKEN = frozenset(
@@ -40,8 +39,9 @@ def symbol(name: str) -> str:
     return name + "!" if name in TAKEN else name
 
 
-def write_term(tree: Any, values: Mapping[str, str]) -> str:
-    """The term with these texts in place of its names; a whole power as a product.
+def write_term(tree: ast.expr, values: Mapping[str, str]) -> str:
+    """The term with these texts in place of its names; a whole power as a product.  Raises KeyError
+    for a name without a text.
 
     >>> write_term(ast.parse("x**2/2 - K", mode="eval").body, {"x": "(+ y 1)", "K": "0"})
     '(- (/ (* (+ y 1) (+ y 1)) 2) 0)'
@@ -52,14 +52,16 @@ def write_term(tree: Any, values: Mapping[str, str]) -> str:
         return values[tree.id]
     if isinstance(tree, ast.UnaryOp):
         return f"(- {write_term(tree.operand, values)})"
+    if not isinstance(tree, ast.BinOp):
+        raise ClaimError(f"{ast.unparse(tree)!r} is not a term")
     left = write_term(tree.left, values)
     if isinstance(tree.op, ast.Pow):
-        exponent = tree.right.value
+        exponent = ast.literal_eval(tree.right)
         return f"(* {' '.join([left] * exponent)})" if exponent > 1 else left if exponent else "1"
     return f"({OPERATORS[type(tree.op)]} {left} {write_term(tree.right, values)})"
 
 
-def recurrence(statement: Any) -> list[str]:
+def recurrence(statement: checker.Statement) -> list[str]:
     """P(0) is not the identity, or map(P(K)) is not P(K + 1); for all real K, where what is meant
     is an integer: it is an identity.
     """
@@ -70,7 +72,7 @@ def recurrence(statement: Any) -> list[str]:
     symbols = {name: symbol(name) for name in variables}
     k = count[0]
 
-    def image(trees: Sequence[Any], changes: Mapping[str, str]) -> list[str]:
+    def image(trees: Sequence[ast.expr], changes: Mapping[str, str]) -> list[str]:
         values = {**symbols, **changes}
         for name, tree in statement.get("let"):
             values[name] = write_term(tree, values)
@@ -90,8 +92,11 @@ def recurrence(statement: Any) -> list[str]:
     ]
 
 
-def number_checks(name: str, polynomial: Any, low: Any, high: Any) -> list[tuple[str, list[str]]]:
-    """The polynomial has exactly one root between the ends: its signs at them are opposite, and no
+def number_checks(
+    name: str, polynomial: ast.expr, low: ast.expr, high: ast.expr
+) -> list[tuple[str, list[str]]]:
+    """(what a solution means, assertions) of the checks that an algebraic number is one: the
+    polynomial has exactly one root between the ends: its signs at them are opposite, and no
     two roots lie there.
     """
     (variable,) = {node.id for node in ast.walk(polynomial) if isinstance(node, ast.Name)}
@@ -127,7 +132,9 @@ def number_checks(name: str, polynomial: Any, low: Any, high: Any) -> list[tuple
 # text is the same from run to run.
 
 
-def script(statement: Any, earlier: Mapping[str, Any] | None = None) -> str:
+def script(
+    statement: checker.Statement, earlier: Mapping[str, checker.Statement] | None = None
+) -> str:
     """The whole statement as one script: a check for each of its questions, each begun by a reset,
     so that scripts may be joined.
 

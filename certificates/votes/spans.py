@@ -19,9 +19,8 @@ from juggleproof.certificates.votes.questions import Atom
 # -------------------------------------------------------------------------------------------------
 # Intervals, and the values of polynomials on boxes of them.
 
-End = tuple[
-    int, fmpq
-]  # (-1, 0) and (1, 0) are the infinite ends, (0, q) is q: tuples compare as the ends do
+# (-1, 0) and (1, 0) are the infinite ends, (0, q) is q: tuples compare as the ends do
+End = tuple[int, fmpq]
 Interval = tuple[End, End]
 ZERO: End = (0, fmpq(0))
 
@@ -89,12 +88,12 @@ def span(p: Expanded, box: Sequence[Interval]) -> Interval:
 @lru_cache(maxsize=4096)
 def _bernstein_range(coefficients: tuple[int, ...], low: fmpq, high: fmpq) -> tuple[fmpq, fmpq]:
     """The least and the largest Bernstein coefficient of a polynomial in one variable on [low,
-    high]: they enclose its values there.
+    high]: they enclose its values there (the convex hull property).
     """
-    found = bernstein(
+    enclosing = bernstein(
         fmpq_poly(list(coefficients)), fraction(low), fraction(high), len(coefficients) - 1
     )
-    return min(found), max(found)
+    return min(enclosing), max(enclosing)
 
 
 def _termwise(p: Expanded, box: Sequence[Interval]) -> Interval:
@@ -159,17 +158,17 @@ def bounding_box(facts: Sequence[Atom], width: int) -> list[Bounds] | None:
     """
     box: list[Interval] = [((-1, fmpq(0)), (1, fmpq(0)))] * width
     sides = [(fact, p) for fact in facts if fact.relation != "!=" for p in _signs(fact)]
-    found = _propagate(sides, box)
+    consistent = _propagate(sides, box)
     used = sorted({i for fact in facts for i in fact.used})
-    if found and any(_infinite(box[i]) for i in used):
+    if consistent and any(_infinite(box[i]) for i in used):
         # the bounds of one variable often need a better lower end of another, such as s >= 1.4 from
         # s^2 > 2
-        found = all(_infinite(box[i]) or _shave(sides, box, i) for i in used) and _propagate(
+        consistent = all(_infinite(box[i]) or _shave(sides, box, i) for i in used) and _propagate(
             sides, box
         )
     return (
         [((low[0], fraction(low[1])), (high[0], fraction(high[1]))) for low, high in box]
-        if found
+        if consistent
         else None
     )
 
@@ -262,7 +261,7 @@ def _worth(old: Interval, new: Interval) -> bool:
 
 
 def _ends_along(p: Expanded, i: int, box: list[Interval]) -> tuple[fmpq | None, fmpq | None]:
-    """(t, s) such that p >= 0 fails for x_i > t and for x_i < s; None where none is found."""
+    """(t, s) such that p >= 0 fails for x_i > t and for x_i < s; None where none is known."""
     spans = [
         (k, span(coefficient, box), bool(coefficient.used))
         for k, coefficient in reversed(p.collected(i))
@@ -297,9 +296,8 @@ def _end(
         return zero if constant else max(zero, none)
     end = 1 + max(max(c, none) for c in tops[:-1]) / -tops[-1]
     low = none
-    for _ in range(
-        SHIFTS
-    ):  # Cauchy's bound, then the least shift that is seen to be beyond all roots
+    # Cauchy's bound, then the least shift that is seen to be beyond all roots
+    for _ in range(SHIFTS):
         middle = rounded((low + end) / 2, up=True)
         if low < middle < end and all(
             c <= 0 for c in fmpq_poly(tops)(fmpq_poly([middle, 1])).coeffs()

@@ -54,8 +54,8 @@ class Enclosure:
 
 @dataclass(frozen=True)
 class Vote:
-    """What one route says of one statement: `holds` or `fails` decide it; `unknown`, `enclosed` and
-    `not applicable` do not.
+    """The answer of one route about one statement: `holds` or `fails` decide it; `unknown`,
+    `enclosed` and `not applicable` do not.
 
     `model` is an exact point (name, value) at which the statement fails.
     """
@@ -69,17 +69,17 @@ class Vote:
 
     @property
     def decided(self) -> bool:
-        """Whether the vote says that the statement holds or that it fails."""
+        """Whether the answer is that the statement holds, or that it fails."""
         return self.answer in ("holds", "fails")
 
     def __str__(self) -> str:
-        said = "; ".join([self.detail, *map(str, self.enclosures)])
+        details = "; ".join([self.detail, *map(str, self.enclosures)])
         at = (
             " at " + ", ".join(f"{name} = {value}" for name, value in self.model)
             if self.model
             else ""
         )
-        return f"{self.route} says {self.answer}{at} ({said})"
+        return f"{self.route} says {self.answer}{at} ({details})"
 
 
 class Disagreement(Exception):
@@ -105,7 +105,7 @@ def compare(statement: str, outcome: str, votes: Sequence[Vote]) -> None:
     sides = [(checked, f"the checked certificate says {outcome}")] if checked else []
     for vote in votes:
         if vote.decided:
-            for answer, said in sides:
+            for answer, source in sides:
                 if answer != vote.answer:
-                    raise Disagreement(statement, said, str(vote))
+                    raise Disagreement(statement, source, str(vote))
             sides.append((vote.answer, str(vote)))

@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib import import_module
 from itertools import islice, product
-from typing import Any
+from typing import TYPE_CHECKING
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, root_number, sign_at
 from juggleproof.certificates.algebra.polynomials import with_value
 from juggleproof.certificates.votes.questions import (
@@ -31,6 +32,9 @@ from juggleproof.certificates.votes.questions import (
 from juggleproof.certificates.votes.smtlib import question_text, symbol
 from juggleproof.certificates.votes.vote import Budget, Vote
 
+if TYPE_CHECKING:
+    from z3 import Context, ExprRef, ModelRef, Solver
+
 Exact = Fraction | AlgebraicNumber
 MOST_BRANCHES, MOST_TRIES = 64, 16
 BITS = 12  # after the point, of the ends between which a root is written
@@ -44,7 +48,7 @@ SEEDS = {"nlsat": "seed", "smt": "random_seed"}  # nlqsat takes no seed: it draw
 
 @dataclass(frozen=True)
 class Reply:
-    """sat, unsat or unknown; for sat the exact values of the free variables; how it was found."""
+    """sat, unsat or unknown; for sat the exact values of the free variables; by which steps."""
 
     answer: str
     point: dict[str, Exact] | None = None
@@ -55,12 +59,11 @@ class Session:
     """A fresh Z3 context with a purse of resource units that all the queries of one vote share."""
 
     def __init__(self, purse: int, outer: Session | None = None) -> None:
-        self.z3: Any = import_module("z3")
-        self.context: Any = outer.context if outer else self.z3.Context()
+        self.z3 = import_module("z3")  # here, since it takes long to load
+        self.context: Context = outer.context if outer else self.z3.Context()
         self.outer, self.purse, self.spent = outer, purse, 0
-        self.before: int = (
-            outer.before if outer else 0
-        )  # the context's counter, which goes on from query to query
+        # the context's counter, which goes on from query to query
+        self.before: int = outer.before if outer else 0
 
     def ask(self, question: Question, engine: str, units: int) -> Reply:
         """One query, for at most so many resource units."""
@@ -83,7 +86,7 @@ class Session:
         point = self._point(question, solver.model()) if answer == "sat" else None
         return Reply(answer, point, f"{answer} by {engine}")
 
-    def _count(self, solver: Any, units: int) -> None:
+    def _count(self, solver: Solver, units: int) -> None:
         table = solver.statistics()
         total = next(
             (int(table.get_key_value(key)) for key in table.keys() if key == "rlimit count"),
@@ -96,7 +99,7 @@ class Session:
             self.outer.spent += self.spent - already
             self.outer.before = self.before
 
-    def _point(self, question: Question, model: Any) -> dict[str, Exact] | None:
+    def _point(self, question: Question, model: ModelRef) -> dict[str, Exact] | None:
         values = {declared.name(): model[declared] for declared in model.decls()}
         try:
             return {
@@ -107,7 +110,7 @@ class Session:
         except ValueError:
             return None
 
-    def _exact(self, value: Any) -> Exact:
+    def _exact(self, value: ExprRef | None) -> Exact:
         if value is None:
             return Fraction(0)  # a variable that the model leaves open may take any value
         if self.z3.is_algebraic_value(value):
@@ -117,16 +120,16 @@ class Session:
                 raise ValueError("a model's polynomial is not over the integers")
             root = root_number([int(c * scale) for c in parts], value.index())
             return root.as_fraction() if root.is_rational else root
-        if self.z3.is_int_value(value) or self.z3.is_rational_value(value):
-            return Fraction(
-                str(value.as_fraction()) if self.z3.is_rational_value(value) else value.as_long()
-            )
+        if self.z3.is_rational_value(value):
+            return Fraction(str(value.as_fraction()))
+        if self.z3.is_int_value(value):
+            return Fraction(value.as_long())
         raise ValueError("a model's value is not a number")
 
 
 def vote(
-    statement: Any,
-    earlier: Mapping[str, Any] | None = None,
+    statement: checker.Statement,
+    earlier: Mapping[str, checker.Statement] | None = None,
     budget: Budget | None = None,
     asked: Sequence[Question] | None = None,
 ) -> Vote:
@@ -252,7 +255,7 @@ def decide(session: Session, question: Question) -> Reply:
     """The question's answer, by steps that are each sound for the whole question, cheap ones first.
 
     As it stands; with scales set to 1, which loses nothing; branch by branch, or with witnesses
-    tried for what is said to exist, which only makes them harder to find.  Integers are first let
+    tried for what is to exist, which only makes them harder to find.  Integers are first let
     be reals, after p > 0 has become p >= 1: unsat then settles the whole; a solution in reals
     counts only if its integers are integers, and otherwise small integers are tried in turn.
     """
@@ -362,7 +365,7 @@ def _by_branches(session: Session, question: Question, engine: str) -> Reply:
 
 
 def _with_witnesses(session: Session, question: Question) -> Reply:
-    """Tries the value 0 for one variable that is said to exist, and asks again: unsat then settles
+    """Tries the value 0 for one variable that is to exist, and asks again: unsat then settles
     the whole.
     """
     if not question.refutes or question.part == "outside":

@@ -1,1 +1,16 @@
-"""The command `juggleproof`."""
+"""The command `juggleproof`.  In reading order:
+
+main              what each command takes, and one line for what goes wrong
+outputs           files that commands write, and progress
+certify           `certify`: claims, and problems of SMT-LIB
+check             `check`
+show              `list`, `errata` and `export`
+explain           `explain ID`
+theorem           `explain theorem`: the paper's bounds, and one state with its orbit
+bound             `bound` and `bench`
+report            `report`
+simulate_options  what `simulate` takes
+simulate          `simulate juggler`
+orbit_tables      the tables that it prints
+simulate_part     `simulate part`
+"""

@@ -1,10 +1,11 @@
-"""Bound, bench."""
+"""`juggleproof bound` and `juggleproof bench`."""
 
 from __future__ import annotations
 
 import argparse
 import re
 import sys
+from collections.abc import Sequence
 from fractions import Fraction
 from math import ceil, floor
 from pathlib import Path
@@ -16,7 +17,7 @@ from juggleproof.proofs.bounds import BUDGET, enclose_minimum, refuse_other_file
 def command(parsed: argparse.Namespace) -> int:
     """Runs `bound` or `bench`; returns its exit code."""
     if parsed.command == "bench":
-        return bench(parsed)
+        return bench(parsed.question, parsed.widths, parsed.seconds, parsed.quick, parsed.output)
     return bound(parsed.polynomial, parsed.box, parsed.width, parsed.budget, parsed.output)
 
 
@@ -27,18 +28,24 @@ def command(parsed: argparse.Namespace) -> int:
 FOLDER = Path("juggleproof-bench")
 
 
-def bench(options: argparse.Namespace) -> int:
+def bench(
+    asked: Sequence[str] | None,
+    widths: str | None,
+    seconds: str | None,
+    quick: bool,
+    output: Path | None,
+) -> int:
     """Runs the benchmark; 1 where an enclosure does not hold the closed form.  Raises ClaimError,
     one line, for what cannot be measured.
     """
     from juggleproof.benchmarks.bench.run import Run, wish
 
-    wanted = wish(options.question, options.widths, options.seconds, options.quick)
-    folder = options.output or FOLDER
+    wanted = wish(asked, widths, seconds, quick)
+    folder = output or FOLDER
     fault = _fault(folder)
     if fault:
         raise ClaimError(f"-o {folder}: {fault}; name another folder")
-    return Run(wanted, folder, _tell).all()
+    return Run(wanted, folder, _show_progress).all()
 
 
 def _fault(folder: Path) -> str:
@@ -52,7 +59,7 @@ def _fault(folder: Path) -> str:
     return ""
 
 
-def _tell(what: str) -> None:
+def _show_progress(what: str) -> None:
     """Progress, on a terminal only."""
     if sys.stderr.isatty():
         print(f"\r\x1b[K{what}", end="", file=sys.stderr, flush=True)
@@ -76,9 +83,9 @@ def number(text: str, name: str) -> Fraction:
 
     Raises ClaimError, one line, for anything else.
     """
-    found = _NUMBER.fullmatch(text.strip())
+    match = _NUMBER.fullmatch(text.strip())
     try:
-        if found and not ("/" in text and "e" in text.lower()):
+        if match and not ("/" in text and "e" in text.lower()):
             return Fraction(text.strip())
     except ZeroDivisionError:
         raise ClaimError(f"{name}: {text.strip()[:40]} divides by 0") from None
@@ -128,26 +135,26 @@ def bound(polynomial: str, sides: str, width: str, budget: int, output: Path | N
     ends, sought = box(sides), number(width, "--width")
     if output is not None:
         refuse_other_files(output)
-    found = enclose_minimum(polynomial, ends, sought, budget or BUDGET)
+    enclosed = enclose_minimum(polynomial, ends, sought, budget or BUDGET)
     digits = SHOWN
     while sought and digits < 400 and Fraction(1, 10**digits) * 100 > sought:
         digits += 1
-    point = ", ".join(f"{name} = {value}" for name, value in found.point.items())
-    print(f"low     {found.low}  ({decimals(found.low, digits, False)}, rounded down)")
-    print(f"high    {found.high}  ({decimals(found.high, digits, True)}, rounded up)")
+    point = ", ".join(f"{name} = {value}" for name, value in enclosed.point.items())
+    print(f"low     {enclosed.low}  ({decimals(enclosed.low, digits, False)}, rounded down)")
+    print(f"high    {enclosed.high}  ({decimals(enclosed.high, digits, True)}, rounded up)")
     print(f"at      {point}")
-    print(f"width   {found.width}")
-    print(f"boxes   {found.boxes}")
-    print(f"bytes   {found.certificate_bytes} of certificates")
+    print(f"width   {enclosed.width}")
+    print(f"boxes   {enclosed.boxes}")
+    print(f"bytes   {enclosed.certificate_bytes} of certificates")
     print(
         "checked: the minimum is at least low everywhere on the box, and at most high at the point"
     )
     if output is not None:
-        found.write(output)
+        enclosed.write(output)
         print(f"written to {output}; `juggleproof check {output}` reads it again")
-    if not found.reached:
+    if not enclosed.reached:
         print(
-            f"the width {sought} is not reached within {found.boxes} boxes; the enclosure above is"
-            " certified all the same"
+            f"the width {sought} is not reached within {enclosed.boxes} boxes; the enclosure above"
+            " is certified all the same"
         )
-    return 0 if found.reached else 1
+    return 0 if enclosed.reached else 1

@@ -1,4 +1,4 @@
-"""Certify."""
+"""`juggleproof certify`: claims of the paper or of files, and problems of SMT-LIB."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
@@ -19,9 +18,9 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, canonical, write_file
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command.outputs import fault_of
-from juggleproof.proofs.judging import DEFAULT_BUDGET, Judgement
+from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import PATH, load_register, write_register
+from juggleproof.proofs.register import PATH, Register, load_register, write_register
 from juggleproof.proofs.reports import pages, problems
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.ci import as_junit, markdown
@@ -35,12 +34,30 @@ from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
 # store, compare with the register.
 
 
+class CertifyOptions(argparse.Namespace):
+    """What `juggleproof certify` takes; 0 is for the default."""
+
+    files: list[Path]
+    only: list[str] | None
+    routes: str
+    fresh: bool
+    jobs: int
+    budget: int
+    accept: bool
+    store: Path | None
+    json: Path | None
+    junit: Path | None
+    markdown: Path | None
+    timings: Path | None
+
+
 def command(parsed: argparse.Namespace) -> int:
     """Judges claims, or answers scripts of SMT-LIB; returns the exit code."""
-    return certify_problems(parsed) if are_scripts(parsed.files) else certify(parsed)
+    options = CertifyOptions(**vars(parsed))
+    return certify_problems(options) if are_scripts(options.files) else certify(options)
 
 
-def certify(options: argparse.Namespace, register: Path = PATH) -> int:
+def certify(options: CertifyOptions, register: Path = PATH) -> int:
     """Runs the main job; returns 0 where all verdicts are as registered (for a user's file: where
     every claim holds), else 1.
     """
@@ -74,8 +91,8 @@ def certify(options: argparse.Namespace, register: Path = PATH) -> int:
     return results.exit
 
 
-def _options(options: argparse.Namespace) -> Options:
-    own = options.files and options.files[0].with_suffix(".certificates")
+def _options(options: CertifyOptions) -> Options:
+    own = options.files[0].with_suffix(".certificates") if options.files else None
     return Options(
         options.store or own or DEFAULT,
         tuple(options.routes.split(",")),
@@ -109,8 +126,8 @@ def _progress(console: Console, total: int) -> Iterator[Progress]:
 
 def _accept(
     results: Results,
-    before: Mapping[str, Mapping[str, Any]],
-    options: argparse.Namespace,
+    before: Register,
+    options: CertifyOptions,
     register: Path,
 ) -> None:
     """Writes the verdicts into the register, and what is generated into the pages where the
@@ -129,7 +146,7 @@ def _accept(
 OUTPUTS = ("json", "junit", "markdown", "timings")
 
 
-def refuse_unwritable(options: argparse.Namespace) -> None:
+def refuse_unwritable(options: CertifyOptions) -> None:
     """Raises ClaimError, one line that names option and path, where a file that is asked for cannot
     be written, or would overwrite another.
     """
@@ -143,7 +160,7 @@ def refuse_unwritable(options: argparse.Namespace) -> None:
         taken[path.resolve()] = f"what --{option} writes"
 
 
-def _asked(options: argparse.Namespace) -> dict[str, Path]:
+def _asked(options: CertifyOptions) -> dict[str, Path]:
     return {
         option: getattr(options, option)
         for option in OUTPUTS
@@ -151,9 +168,7 @@ def _asked(options: argparse.Namespace) -> dict[str, Path]:
     }
 
 
-def write_outputs(
-    options: argparse.Namespace, results: Results, seconds: Mapping[str, float]
-) -> None:
+def write_outputs(options: CertifyOptions, results: Results, seconds: Mapping[str, float]) -> None:
     """Writes each file that was asked for."""
     for option, path in _asked(options).items():
         write_file(path, _content(option, results, seconds))
@@ -188,8 +203,10 @@ def are_scripts(files: Sequence[Path]) -> bool:
     return bool(scripts)
 
 
-def certify_problems(options: argparse.Namespace) -> int:
-    """Answers the problems; 0 where all are answered, and as the scripts state, else 1."""
+def certify_problems(options: CertifyOptions) -> int:
+    """Answers the problems; 0 where all are answered, and as the scripts state, else 1.  Raises
+    ClaimError for an option that goes with claims only.
+    """
     for option in NOT_FOR_SCRIPTS:
         if getattr(options, option):
             raise ClaimError(f"--{option}: not for scripts of SMT-LIB; leave it out")
@@ -212,7 +229,7 @@ def certify_problems(options: argparse.Namespace) -> int:
     return int(not all(one.settled for one in answered))
 
 
-def _answered(options: argparse.Namespace) -> list[Answered]:
+def _answered(options: CertifyOptions) -> list[Answered]:
     jobs = options.jobs if options.jobs > 0 else os.cpu_count() or 1
     budget = options.budget or BUDGET
     if jobs == 1:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Mapping
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
-from juggleproof.proofs.derivations import derivations_of
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import derivations_of
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.errata import counterexample
 from juggleproof.proofs.reports.results import reading_of
@@ -18,7 +19,9 @@ from juggleproof.proofs.reports.tree import print_tree
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Explains a claim, or with options of its own the theorem; 0."""
+    """Explains a claim, or with options of its own the theorem; 0.  Raises ClaimError for options
+    that do not go together.
+    """
     of_theorem = [
         option
         for option in ("alpha", "state", "bounds")
@@ -41,15 +44,19 @@ def command(parsed: argparse.Namespace) -> int:
 
 def explain(claim_id: str, with_premises: bool = False) -> int:
     """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
-    sharp range, verdict; the tree of its rules.
+    sharp range, verdict; the tree of its rules.  Raises ClaimError for an unknown name.
     """
     claims = {claim.id: claim for claim in paper_claims()}
     claim_id = claim_named(claim_id, claims)
     if claim_id not in claims:
-        near = [name for name in claims if claim_id in name][:5]
+        similar = [name for name in claims if claim_id in name][:5]
         raise ClaimError(
             f"{claim_id}: no such claim"
-            + (f"; did you mean {', '.join(near)}?" if near else "; `juggleproof list` names them")
+            + (
+                f"; did you mean {', '.join(similar)}?"
+                if similar
+                else "; `juggleproof list` names them"
+            )
         )
     claim, store = claims[claim_id], Store(DEFAULT)
     body = claim.body()
@@ -62,7 +69,7 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
     for name in store.texts:
         if name.split("/")[0] == claim_id:
             _statement(name, store.texts[name], store)
-    entry = load_register().get(claim_id, {})
+    entry: Mapping[str, object] = load_register().get(claim_id) or {}
     print(f"sharp range {entry.get('sharp', 'none: the claim has no range of alpha to settle')}")
     if "correction" in entry:
         print(f"correction  {entry['correction']}")

@@ -30,12 +30,12 @@ MODULES = {
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that tells a wrong argument in one line, and takes all that begins as a negative
+    """A parser that names a wrong argument in one line, and takes all that begins as a negative
     number, such as -1/3 or -1:2:5, for a value.
     """
 
     def __init__(self, *given: Any, **named: Any) -> None:
-        super().__init__(*given, **named)
+        super().__init__(*given, **named)  # argparse itself makes those of the commands
         self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf)")
 
     def error(self, message: str) -> NoReturn:
@@ -61,7 +61,7 @@ def _count(text: str) -> int:
 
 def build_parser() -> argparse.ArgumentParser:
     """The commands and their options."""
-    parser = _Parser(
+    parser: argparse.ArgumentParser = _Parser(
         prog="juggleproof",
         description=(
             "Derives, proves or refutes, and independently checks what one paper on juggling"

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import islice
-from typing import Any
 
 from rich.console import Console
-from sympy import factor
+from sympy import Expr, factor
 
 from juggleproof.proofs.reports.tables import DIGITS, draw, shown
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.given import counted
-from juggleproof.scenes.juggler.orbits import MOST_TIMES, Orbits, Row, heights
+from juggleproof.scenes.juggler.given import Number, counted
+from juggleproof.scenes.juggler.orbits import MOST_TIMES, Error, Orbits, Row, Value, heights
 from juggleproof.scenes.juggler.periodic import (
     attracts_for,
     exists_for,
@@ -28,9 +27,9 @@ from juggleproof.scenes.juggler.tables import (
     NAMES,
     UNITS,
     Finding,
+    as_text,
     finding,
     in_units,
-    written,
 )
 
 MOST_ROWS, SHORT_BITS, LONG_TEXT = 40, 4000, 100
@@ -53,7 +52,7 @@ def _draw(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     draw(heads, rows, Console(highlight=False))
 
 
-def told(value: Any) -> str:
+def rounded(value: Value) -> str:
     """A number, rounded to 12 digits."""
     if (
         isinstance(value, Fraction)
@@ -63,13 +62,13 @@ def told(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.{DIGITS}g}"
     return (
-        written(value, None, DIGITS)[0]
+        as_text(value, None, DIGITS)[0]
         if not hasattr(value, "context")
         else str(value.context.nstr(value, DIGITS))
     )
 
 
-def error_told(error: Any) -> str:
+def rounded_error(error: Error | None) -> str:
     """A bound on an error, rounded up to two digits."""
     if error is None:
         return "unknown"
@@ -85,83 +84,85 @@ def error_told(error: Any) -> str:
     return f"1e{power}"
 
 
-def orbits(found: Orbits, units: str) -> None:
+def orbits(run: Orbits, units: str) -> None:
     """The table: every state that was kept, or where each orbit stands; the first rows, and the
     first that were not decided.
     """
-    setting = found.scene
+    setting = run.scene
     print(
-        f"alpha = {_short(setting.alpha)}, {len(found)} start{'s' * (len(found) != 1)},"
-        f" {found.goal.steps} {found.goal.unit}{' or until the trap' * found.goal.until_trap};"
-        f" {PROVED[found.arithmetic].format(found.precision)}"
+        f"alpha = {_short(setting.alpha)}, {len(run)} start{'s' * (len(run) != 1)},"
+        f" {run.goal.steps} {run.goal.unit}{' or until the trap' * run.goal.until_trap};"
+        f" {PROVED[run.arithmetic].format(run.precision)}"
     )
     names = NAMES[units]
     heads = ("start", "periods", "impacts", names[0], names[1], "error", "")
     rows: list[tuple[str, ...]] = []
-    for index in range(min(found.followed, MOST_ROWS)):
-        kept = found.history(index) if found.keep else [found.row(index)]
-        rows += [_line(in_units(found, row, units), not found.keep) for row in kept]
+    for index in range(min(run.followed, MOST_ROWS)):
+        kept = run.history(index) if run.keep else [run.row(index)]
+        rows += [_line(in_units(run, row, units), not run.keep) for row in kept]
         if len(rows) >= MOST_ROWS:
             break
     _draw(heads, rows[:MOST_ROWS])
-    if len(rows) > MOST_ROWS or found.followed > MOST_ROWS:
+    if len(rows) > MOST_ROWS or run.followed > MOST_ROWS:
         print(f"the first {MOST_ROWS} rows; --output F.csv or F.npz writes all")
-    _tell_ends(found)
+    _print_ends(run)
 
 
 def _line(row: Row, last: bool) -> tuple[str, ...]:
-    error = "unknown" if row.error is None else error_told(max(row.error))
+    error = "unknown" if row.error is None else rounded_error(max(row.error))
     counts = ["" if count < 0 else shown(count) for count in (row.periods, row.impacts)]
     return (
         str(row.start),
         *counts,
-        told(row.x),
-        told(row.w),
+        rounded(row.x),
+        rounded(row.w),
         error,
         MARKS[row.end] if last else "",
     )
 
 
-def _tell_ends(found: Orbits) -> None:
-    counts = found.counts()
-    if len(found) > 1:
+def _print_ends(orbits: Orbits) -> None:
+    counts = orbits.counts()
+    if len(orbits) > 1:
         print(", ".join(f"{count} {name or 'not at the end'}" for name, count in counts.items()))
     undecided = counts.get("undecided", 0)
     if undecided:
         first = ", ".join(
             f"{index} (period {shown(period)})"
-            for index, period in islice(found.each_undecided(), 10)
+            for index, period in islice(orbits.each_undecided(), 10)
         )
         more = f" and {undecided - 10} more" if undecided > 10 else ""
         print(
             f"undecided: {first}{more}; whether the table strikes there is not known from these"
             " numbers; --arithmetic enclosed or exact tells"
         )
-    edges = sum(track.edges for track in found.tracks)
+    edges = sum(track.edges for track in orbits.tracks)
     if edges:
         print(
             f"on x = w: {edges} state{'s' * (edges != 1)}, exactly"
-            if found.arithmetic != "mp"
+            if orbits.arithmetic != "mp"
             else f"on x = w: {edges} as rounded"
         )
 
 
-def times(setting: Scene, low: Any, high: Any, count: int) -> int:
-    """Heights of ball and table at times, in the units of r and g."""
+def times(setting: Scene, low: Number, high: Number, count: int) -> int:
+    """Heights of ball and table at times, in the units of r and g; raises SceneError for several
+    starts.
+    """
     if setting.starts.count > 1:
         raise SceneError(f"times of {setting.starts.count} starts; give one start")
-    found = heights(
+    samples = heights(
         setting,
         list(axis(low, high, counted(count, "the number of times", 1, MOST_TIMES), "times")),
     )
     print(f"alpha = {_short(setting.alpha)}; exact heights, shown rounded to {DIGITS} digits")
-    _draw(("time", "ball", "table"), [tuple(map(told, one)) for one in found])
+    _draw(("time", "ball", "table"), [tuple(map(rounded, one)) for one in samples])
     return 0
 
 
 def words(alpha: Fraction, longest: int, flight: int | None) -> int:
     """All periodic orbits of up to so many impacts."""
-    found = search_words(alpha, longest, flight)
+    cycles = search_words(alpha, longest, flight)
     most = longest_flight(alpha) if flight is None else min(flight, longest_flight(alpha))
     print(
         f"alpha = {_short(alpha)}: every periodic orbit with at most {longest} impacts and flights"
@@ -173,7 +174,7 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
             " theorem-flights"
         )
     rows = []
-    for one in found:
+    for one in cycles:
         name = f"e_{one.word[0]}" if len(one.word) == 1 else ""
         verdict = (
             "attracts near states" if one.attracts else "on x = w: the affine map does not tell"
@@ -183,8 +184,8 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
                 ",".join(map(str, one.word)),
                 name,
                 str(sum(one.word)),
-                *map(told, one.impacts[0]),
-                told(one.radius),
+                *map(rounded, one.impacts[0]),
+                rounded(one.radius),
                 verdict,
             )
         )
@@ -196,21 +197,21 @@ def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
     """The orbit of a word, at this alpha or for all; for which alpha it exists, and for which it
     attracts.
     """
-    found, near = exists_for(wanted), attracts_for(wanted)
+    exists, attracts = exists_for(wanted), attracts_for(wanted)
     at = orbit_of(wanted, alpha) if alpha is not None else None
     print(
         f"word {','.join(map(str, wanted))}: {sum(wanted)} periods, impacts {len(wanted)}, spectral"
         f" radius alpha^{len(wanted)}"
     )
-    print("exists for " + ("; ".join(map(str, found)) if found else "no alpha in (0, 1)"))
-    if near:
-        print(f"attracts near states for {'; '.join(map(str, near))}")
-    if found != near:
+    print("exists for " + ("; ".join(map(str, exists)) if exists else "no alpha in (0, 1)"))
+    if attracts:
+        print(f"attracts near states for {'; '.join(map(str, attracts))}")
+    if exists != attracts:
         print(
             "for the other alpha of these a state of it lies on x = w, where the affine map does"
             " not tell whether it attracts"
         )
-    if alpha is None and found:
+    if alpha is None and exists:
         _draw(
             ("impact", "x", "w"),
             [
@@ -235,7 +236,7 @@ def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
     return 0
 
 
-def _formula(expression: Any) -> str:
+def _formula(expression: Expr) -> str:
     """A rational function of alpha."""
     text = str(factor(expression)).replace("**", "^")
     return text if len(text) <= LONG_TEXT else "a long formula; --alpha gives the numbers"
@@ -247,7 +248,7 @@ def _fraction(value: Fraction) -> str:
         if max(value.numerator.bit_length(), value.denominator.bit_length()) < 3 * LONG_TEXT
         else ""
     )
-    return text if 0 < len(text) <= LONG_TEXT else told(value)
+    return text if 0 < len(text) <= LONG_TEXT else rounded(value)
 
 
 def hard_cases() -> int:
@@ -263,11 +264,11 @@ def hard_cases() -> int:
     return 0
 
 
-def _pair(x: Any, w: Any) -> str:
+def _pair(x: Value, w: Value) -> str:
     return f"{_short(x)}, {_short(w)}"
 
 
-def _short(value: Any) -> str:
+def _short(value: Value) -> str:
     if (
         isinstance(value, Fraction)
         and value.numerator.bit_length() + value.denominator.bit_length() < 24
@@ -278,7 +279,7 @@ def _short(value: Any) -> str:
         and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS
     ):
         return shown(value, 6)
-    return f"{value:.6g}" if isinstance(value, float) else written(value, None, 6)[0]
+    return f"{value:.6g}" if isinstance(value, float) else as_text(value, None, 6)[0]
 
 
 def _finding(one: Finding) -> tuple[str, ...]:
@@ -286,7 +287,7 @@ def _finding(one: Finding) -> tuple[str, ...]:
     floats = _pair(*one.floats) + (
         f"; WRONG BRANCH at period {one.wrong_at}" if one.wrong_at is not None else ""
     )
-    exact_told = (
+    in_rationals = (
         MARKS["too long"] + f" after {shown(one.exact.periods)} periods"
         if one.exact.end == "too long"
         else _pair(one.exact.x, one.exact.w)
@@ -294,11 +295,11 @@ def _finding(one: Finding) -> tuple[str, ...]:
     fast = (
         f"undecided at period {shown(one.fast.periods)}"
         if one.fast.end == "undecided"
-        else f"{_pair(one.fast.x, one.fast.w)} +/- {error_told(max(one.fast.error or (0.0,)))}"
+        else f"{_pair(one.fast.x, one.fast.w)} +/- {rounded_error(max(one.fast.error or (0.0,)))}"
     )
     balls = (
         f"{_pair(one.enclosed.x, one.enclosed.w)} +/-"
-        f" {error_told(max(one.enclosed.error or (Fraction(0),)))}"
+        f" {rounded_error(max(one.enclosed.error or (Fraction(0),)))}"
     )
     balls += f"; {one.edges} on x = w" if one.edges else ""
     steps = f"{shown(case.steps)} {'impacts' if case.impacts else 'periods'}"
@@ -308,7 +309,7 @@ def _finding(one: Finding) -> tuple[str, ...]:
         _pair(case.x, case.w),
         steps,
         floats,
-        exact_told,
+        in_rationals,
         fast,
         balls,
     )

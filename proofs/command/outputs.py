@@ -17,9 +17,7 @@ from juggleproof.certificates.language import ClaimError
 
 
 def fault_of(path: Path) -> str:
-    """Why the file cannot be written, found out by a file made beside it and removed; nothing where
-    it can.
-    """
+    """Why the file cannot be written, by a trial with a file beside it; nothing where it can."""
     try:
         if path.is_dir():
             return "is a folder"
@@ -39,17 +37,15 @@ def written_aside(path: Path) -> Iterator[BinaryIO]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(
-            prefix=".", suffix=path.suffix + ".new", dir=path.parent, delete=False
-        ) as file:
-            try:
-                yield file  # type: ignore[misc]
-                file.flush()
-                os.chmod(file.name, 0o644)
-                os.replace(file.name, path)
-            except BaseException:
-                os.unlink(file.name)
-                raise
+        handle, aside = tempfile.mkstemp(prefix=".", suffix=path.suffix + ".new", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                yield file
+            os.chmod(aside, 0o644)
+            os.replace(aside, path)
+        except BaseException:
+            os.unlink(aside)
+            raise
     except OSError as error:
         raise ClaimError(
             f"{path}: cannot be written ({error.strerror}); choose a folder that can be"
@@ -57,22 +53,22 @@ def written_aside(path: Path) -> Iterator[BinaryIO]:
 
 
 # -------------------------------------------------------------------------------------------------
-# How far a long run is, told on a terminal.
+# How far a long run is, on a terminal.
 
 
 def progress() -> Callable[[int, int], None] | None:
-    """Tells how far a run is, on a terminal only."""
+    """Shows how far a run is, on a terminal only."""
     if not sys.stderr.isatty():
         return None
     last = [-1]
 
-    def tell(done: int, of: int) -> None:
+    def show(done: int, of: int) -> None:
         part = 1000 * done // max(of, 1)
         if part != last[0]:
             last[0] = part
             print(f"\r{done} of {of}", end="", file=sys.stderr, flush=True)
 
-    return tell
+    return show
 
 
 def clear() -> None:

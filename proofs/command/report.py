@@ -104,7 +104,7 @@ def _badge(contents: Contents, place: Path) -> tuple[Files, list[str]]:
 
 
 def _figures(contents: Contents) -> dict[str, bytes]:
-    """The figures as PDF; none, which is said, where matplotlib is absent."""
+    """The figures as PDF; none, with a line on standard error, where matplotlib is absent."""
     if not _can_draw():
         return {}
     return {f"figures/{slug}.pdf": content for slug, *_, content in saved(contents, "pdf")}

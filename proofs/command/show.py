@@ -20,7 +20,7 @@ from juggleproof.proofs.reports.contents import gather
 from juggleproof.proofs.reports.tex import equation
 
 # -------------------------------------------------------------------------------------------------
-# `juggleproof list` and `errata`: what is stored, told without searching again.
+# `juggleproof list` and `errata`: what is stored, without a search.
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -37,7 +37,7 @@ def list_claims() -> int:
     """One line a claim: id, place, registered verdict, what it says."""
     register = load_register()
     for claim in paper_claims():
-        verdict = register.get(claim.id, {}).get("verdict", "not judged")
+        verdict = register[claim.id]["verdict"] if claim.id in register else "not judged"
         print(f"{claim.id:32} {claim.section + ' ' + claim.place:24} {verdict:12} {claim.says}")
     return 0
 

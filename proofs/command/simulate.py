@@ -1,4 +1,4 @@
-"""Simulate juggler."""
+"""`juggleproof simulate juggler`: orbits of a scene, as a table or a file, with their error."""
 
 from __future__ import annotations
 
@@ -31,9 +31,6 @@ from juggleproof.scenes.juggler.starts import (
 )
 from juggleproof.scenes.juggler.tables import NAMES, as_arrays, as_csv, as_npz
 
-# -------------------------------------------------------------------------------------------------
-# `juggleproof simulate`: orbits of a scene, as a table or a file, with their error.
-
 NORMAL, PHYSICAL = NAMES["normal"], NAMES["physical"]
 FORMATS = (".csv", ".npz", ".svg")
 STEPS, IMPACTS_TO_TRAP = 20, 1000
@@ -47,27 +44,57 @@ LISTS: dict[str, tuple[str, ...]] = {
 }  # and what each takes
 
 
-def command(options: argparse.Namespace) -> int:
+class JugglerOptions(argparse.Namespace):
+    """What `juggleproof simulate juggler` takes."""
+
+    alpha: str | None
+    r: str
+    g: str
+    state: list[str] | None
+    grid: str | None
+    boundary: int | None
+    random: int | None
+    seed: int
+    box: str
+    arithmetic: str
+    precision: int | None
+    steps: int | None
+    impacts: bool
+    until_trap: bool
+    keep: bool
+    times: str | None
+    units: str
+    output: Path | None
+    words: bool
+    longest: int
+    flight: int | None
+    word: str | None
+    hard_cases: bool
+
+
+def command(parsed: argparse.Namespace) -> int:
     """Runs a scene; 0, or 130 where it was interrupted.  Raises ClaimError, one line, for what
     cannot be carried out.
     """
-    scenes: dict[str, Callable[[argparse.Namespace], int]] = {"juggler": juggler, "part": _part}
     try:
-        return scenes[options.scene](options)
+        return (
+            juggler(JugglerOptions(**vars(parsed))) if parsed.scene == "juggler" else _part(parsed)
+        )
     except SceneError as problem:
         raise ClaimError(str(problem)) from None
 
 
-def _part(options: argparse.Namespace) -> int:
-    from juggleproof.proofs.command.simulate_part import (
-        part,  # what one scene needs, the other does not load
-    )
+def _part(parsed: argparse.Namespace) -> int:
+    # what one scene needs, the other does not load
+    from juggleproof.proofs.command.simulate_part import PartOptions, part
 
-    return part(options)
+    return part(PartOptions(**vars(parsed)))
 
 
-def juggler(options: argparse.Namespace) -> int:
-    """The orbits of the paper's map, or one of the lists of the juggler."""
+def juggler(options: JugglerOptions) -> int:
+    """The orbits of the paper's map, or one of the lists of the juggler; the exit code.  Raises
+    ClaimError for options that do not go together, and for a missing one.
+    """
     _refuse_what_does_not_go_together(options)
     if options.hard_cases:
         return orbit_tables.hard_cases()
@@ -81,14 +108,14 @@ def juggler(options: argparse.Namespace) -> int:
     alpha = exact(options.alpha, "alpha")
     if options.words:
         return orbit_tables.words(alpha, options.longest, options.flight)
-    setting = scene(alpha, starts(options), *_units(options))
+    setting = scene(alpha, starts(options, alpha), *_units(options))
     if options.times is not None:
         low, high, count = _axis(options.times, "times", 3)
         return orbit_tables.times(setting, low, high, count)
     return _follow(options, setting)
 
 
-def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
+def _refuse_what_does_not_go_together(options: JugglerOptions) -> None:
     """Raises ClaimError for two lists at once, and for options that a list would leave out in
     silence.
     """
@@ -105,18 +132,20 @@ def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
         raise ClaimError(f"--{one} and --{two} do not go together; leave one of them out")
 
 
-def starts(options: argparse.Namespace) -> Starts:
-    """The starting states that were asked for."""
+def starts(options: JugglerOptions, alpha: Fraction) -> Starts:
+    """The starting states that were asked for; raises ClaimError where they are none, or of two
+    kinds.
+    """
     given = [name for name in STARTS if getattr(options, name) is not None]
     if len(given) != 1:
-        told = (
+        fault = (
             " and ".join(f"--{name}" for name in given) + " do not go together"
             if given
             else "no start is given"
         )
-        raise ClaimError(f"{told}; give one of --state, --grid, --boundary and --random")
+        raise ClaimError(f"{fault}; give one of --state, --grid, --boundary and --random")
     if options.boundary is not None:
-        return boundary(exact(options.alpha, "alpha"), options.boundary)
+        return boundary(alpha, options.boundary)
     if options.random is not None:
         names, (low, high, _), (slow, quick, _) = _axes(options.box, "box", 2)
         sides = (
@@ -132,10 +161,10 @@ def starts(options: argparse.Namespace) -> Starts:
             if names == PHYSICAL
             else grid(heights, speeds)
         )
-    return listed([_state(text, options) for text in options.state])
+    return listed([_state(text, options) for text in options.state or ()])
 
 
-def _state(text: str, options: argparse.Namespace) -> tuple[Fraction, Fraction]:
+def _state(text: str, options: JugglerOptions) -> tuple[Fraction, Fraction]:
     given = components(text, (*NORMAL, *PHYSICAL))
     if set(given) == {"beta", "v"}:
         x, w = physical(given["beta"], given["v"], *_units(options)).exact(0)
@@ -148,7 +177,7 @@ def _state(text: str, options: argparse.Namespace) -> tuple[Fraction, Fraction]:
     return x, w
 
 
-def _units(options: argparse.Namespace) -> tuple[Fraction, Fraction]:
+def _units(options: JugglerOptions) -> tuple[Fraction, Fraction]:
     return exact(options.r, "r"), exact(options.g, "g")
 
 
@@ -171,22 +200,22 @@ def _whole(text: str, name: str) -> int:
 
 def _axes(text: str, option: str, parts: int) -> tuple[tuple[str, str], Axis, Axis]:
     """The names of both components, and the axis of each."""
-    found: dict[str, Axis] = {}
+    axes: dict[str, Axis] = {}
     for part in text.split(","):
         name, _, rest = part.partition("=")
         name = name.strip()
-        if name in found:
+        if name in axes:
             raise ClaimError(f"--{option}: {name[:20]} is given twice; give each component once")
-        found[name] = _axis(rest, f"--{option} {name[:20]}", parts)
+        axes[name] = _axis(rest, f"--{option} {name[:20]}", parts)
     for names in (NORMAL, PHYSICAL):
-        if set(found) == set(names):
-            return names, found[names[0]], found[names[1]]
+        if set(axes) == set(names):
+            return names, axes[names[0]], axes[names[1]]
     raise ClaimError(
         f"--{option} {text[:40]!r} has not x and w, nor beta and v; write x=..,w=.. or beta=..,v=.."
     )
 
 
-def _follow(options: argparse.Namespace, setting: Scene) -> int:
+def _follow(options: JugglerOptions, setting: Scene) -> int:
     writer = _writer(options)
     steps, impacts = options.steps, options.impacts
     if steps is None:
@@ -207,7 +236,7 @@ def _follow(options: argparse.Namespace, setting: Scene) -> int:
         interrupted = True
     clear()
     orbit_tables.orbits(orbits, options.units)
-    if writer is not None:
+    if writer is not None and options.output is not None:
         with written_aside(options.output) as file:
             writer(orbits, file)
         print(f"{options.output}: {orbits.followed} of {len(orbits)} orbits written")
@@ -220,12 +249,12 @@ def _follow(options: argparse.Namespace, setting: Scene) -> int:
     return 130 if interrupted else 0
 
 
-def _writer(options: argparse.Namespace) -> Writer | None:
+def _writer(options: JugglerOptions) -> Writer | None:
     """How the file is made, its name and place being checked before the run."""
     units = options.units
     if units not in orbit_tables.UNITS:
         raise ClaimError(f"--units {units[:40]}: choose from {', '.join(orbit_tables.UNITS)}")
-    path: Path | None = options.output
+    path = options.output
     if path is None:
         return None
     if path.suffix not in FORMATS:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
-from typing import Any
+from typing import TypeAlias
 
 from juggleproof.proofs.reports.tables import whole
+
+Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 # -------------------------------------------------------------------------------------------------
 # What `juggleproof simulate` takes: one scene a sub-command.
 
 
-def add_simulate(commands: Any) -> None:
+def add_simulate(commands: Commands) -> None:
     """Adds the command with its scenes."""
     scenes = commands.add_parser(
         "simulate", help="orbits of a scene, with their error"
@@ -20,7 +23,7 @@ def add_simulate(commands: Any) -> None:
     add_part(scenes)
 
 
-def _add_juggler(scenes: Any) -> None:
+def _add_juggler(scenes: Commands) -> None:
     juggler = scenes.add_parser(
         "juggler", help="the ball on the bouncing table: orbits of the paper's map f"
     )
@@ -121,7 +124,7 @@ def _add_juggler(scenes: Any) -> None:
 # What `juggleproof simulate part` takes.
 
 
-def add_part(scenes: Any) -> None:
+def add_part(scenes: Commands) -> None:
     """Adds the scene of the part."""
     part = scenes.add_parser(
         "part",

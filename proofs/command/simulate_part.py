@@ -1,16 +1,16 @@
-"""Simulate part."""
+"""`juggleproof simulate part`: table I, a sweep, the still table, figure 2 and its animation."""
 
 from __future__ import annotations
 
 import argparse
 import math
 import sys
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO, TypeVar
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
@@ -33,11 +33,9 @@ from juggleproof.scenes.part.onsets import (
     sweep,
     table_one,
 )
-from juggleproof.scenes.part.setting import Scene, scene
+from juggleproof.scenes.part.setting import Launch, Scene, scene
 
-# -------------------------------------------------------------------------------------------------
-# `juggleproof simulate part`: table I, a sweep, the still table, figure 2 and its animation.
-
+T = TypeVar("T")
 WISHES = ("sweep", "still", "figure", "animation")
 SUFFIXES = {
     "figure": (".svg", ".pdf"),
@@ -47,7 +45,31 @@ SUFFIXES = {
 }
 
 
-def part(options: argparse.Namespace) -> int:
+class PartOptions(argparse.Namespace):
+    """What `juggleproof simulate part` takes."""
+
+    sweep: str | None
+    still: bool
+    figure: Path | None
+    animation: Path | None
+    e: str | None
+    mu: str | None
+    face: str
+    amplitudes: str
+    phase: str
+    launch: Launch
+    vibration: str
+    ensembles: int
+    horizon: str
+    seed: int
+    tolerance: str
+    rest_speed: str
+    jobs: int | None
+    check: bool
+    output: Path | None
+
+
+def part(options: PartOptions) -> int:
     """Runs what is asked for; 0, 1 where --check found a guarantee broken, 130 where it was
     interrupted.
     """
@@ -60,7 +82,7 @@ def part(options: argparse.Namespace) -> int:
         return DONE_BY[wishes[0]](options, _setting(options), executor)
 
 
-def _threads(jobs: int | None) -> AbstractContextManager[Any]:
+def _threads(jobs: int | None) -> AbstractContextManager[Executor | None]:
     if jobs is None:
         return nullcontext(None)
     if not 1 <= jobs <= 1024:
@@ -68,8 +90,8 @@ def _threads(jobs: int | None) -> AbstractContextManager[Any]:
     return ThreadPoolExecutor(jobs)
 
 
-def _refuse_unwritable(options: argparse.Namespace, wish: str) -> None:
-    path: Path | None = options.output
+def _refuse_unwritable(options: PartOptions, wish: str) -> None:
+    path = options.output
     if wish in ("figure", "animation"):
         if path is not None:
             raise ClaimError(
@@ -97,13 +119,13 @@ def _number(text: str, name: str) -> float:
         ) from None
 
 
-def _one_of(text: str, name: str, known: dict[str, Any]) -> Any:
+def _one_of(text: str, name: str, known: Mapping[str, T]) -> T:
     if text not in known:
         raise ClaimError(f"{name} {text[:40]!r}: choose from {', '.join(known)}")
     return known[text]
 
 
-def _setting(options: argparse.Namespace) -> Scene:
+def _setting(options: PartOptions) -> Scene:
     """The scene of the options; e and mu, where they are not given, those of the stored sweep."""
     a, b = _one_of(options.face, "--face", FACES)
     peak = _one_of(options.amplitudes, "--amplitudes", AMPLITUDES)
@@ -133,28 +155,32 @@ def _vibration(text: str) -> tuple[float, float]:
     return _number(pieces[0], "the frequency"), _number(pieces[1], "the amplitude") / 1000
 
 
-def _table(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
-    found = table_one(
+def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
+    computed = table_one(
         setting,
         ensembles=options.ensembles,
         horizon=_number(options.horizon, "horizon"),
         seed=options.seed,
         peak=AMPLITUDES[options.amplitudes],
         executor=executor,
-        tell=progress(),
+        report=progress(),
     )
     clear()
     keep_results(
-        setting, found, options.amplitudes, options.seed
+        setting, computed, options.amplitudes, options.seed
     )  # before anything is printed, to a reader who may not stay
-    part_tables.table(found, setting, options.amplitudes, options.e is None and options.mu is None)
+    part_tables.table(
+        computed, setting, options.amplitudes, options.e is None and options.mu is None
+    )
     if options.output is not None:
         with written_aside(options.output) as file:
-            _writer(options.output)(found, file)
-        print(f"{options.output}: {len(found.rows)} rows of {options.ensembles} ensembles written")
+            _writer(options.output)(computed, file)
+        print(
+            f"{options.output}: {len(computed.rows)} rows of {options.ensembles} ensembles written"
+        )
     if not options.check:
         return 0
-    return 1 if part_tables.violations(found.run, setting) else 0
+    return 1 if part_tables.violations(computed.run, setting) else 0
 
 
 def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:
@@ -178,22 +204,21 @@ def _axis(text: str, name: str) -> list[float]:
     return [round(low + (high - low) * k / max(count - 1, 1), 10) for k in range(int(count))]
 
 
-def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
+def _sweep(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
     if options.e is not None or options.mu is not None:
         raise ClaimError("--sweep takes e and mu itself, not by --e and --mu")
+    grid = options.sweep or ""
     axes = {
-        name.strip(): text
-        for name, _, text in (piece.partition("=") for piece in options.sweep.split(","))
+        name.strip(): text for name, _, text in (piece.partition("=") for piece in grid.split(","))
     }
     if set(axes) != {"e", "mu"}:
         raise ClaimError(
-            f"--sweep {options.sweep[:40]!r} has not e and mu; write"
-            " e=FROM:TO:COUNT,mu=FROM:TO:COUNT"
+            f"--sweep {grid[:40]!r} has not e and mu; write e=FROM:TO:COUNT,mu=FROM:TO:COUNT"
         )
     horizon = _number(options.horizon, "horizon")
     points: list[Point] = []
 
-    def tell(point: Point) -> None:
+    def report(point: Point) -> None:
         points.append(point)
         print(part_tables.point(point), flush=True)
 
@@ -209,7 +234,7 @@ def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
             seed=options.seed,
             peak=AMPLITUDES[options.amplitudes],
             executor=executor,
-            tell=tell,
+            report=report,
         )
     except KeyboardInterrupt:
         interrupted = True
@@ -224,27 +249,26 @@ def _sweep(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
     return 130 if interrupted else 0
 
 
-def _still(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
+def _still(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
     print(in_words(no_vibration(setting, executor)))
     return 0
 
 
-def _drawn(options: argparse.Namespace, setting: Scene, executor: Any) -> int:
-    path: Path = options.figure or options.animation
-    if options.figure:
+def _drawn(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
+    if options.figure is not None:
         needed("matplotlib")
         from juggleproof.scenes.part.picture import figure_two
 
-        with written_aside(path) as file:
-            figure_two(setting, file, path.suffix[1:])
-    else:
-        with written_aside(path) as file:
+        with written_aside(options.figure) as file:
+            figure_two(setting, file, options.figure.suffix[1:])
+    if options.animation is not None:
+        with written_aside(options.animation) as file:
             animation(setting, ANGLES, HORIZON, file, executor)
-    print(f"{path}: written")
+    print(f"{options.figure or options.animation}: written")
     return 0
 
 
-DONE_BY: dict[str, Callable[[argparse.Namespace, Scene, Any], int]] = {
+DONE_BY: dict[str, Callable[[PartOptions, Scene, Executor | None], int]] = {
     "table": _table,
     "sweep": _sweep,
     "still": _still,

@@ -1,4 +1,4 @@
-"""Explain theorem."""
+"""`juggleproof explain theorem`: the paper's bounds and ours, and one state with its orbit."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from juggleproof.certificates.language import ClaimError, term
-from juggleproof.proofs.paper.names import derived
+from juggleproof.proofs.paper.names import derived_vector
 from juggleproof.proofs.reports.tables import DIGITS, components, exact, shown
 from juggleproof.proofs.theorem import quantities
 from juggleproof.proofs.theorem.definition import (
@@ -30,7 +30,7 @@ from juggleproof.proofs.theorem.quantities import (
     into_core,
     into_region,
 )
-from juggleproof.scenes.juggler.exact import later as in_the_trap
+from juggleproof.scenes.juggler.exact import impact_power as in_the_trap
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof explain theorem --bounds`: the paper's bounds and ours, and where orbits violate
@@ -158,25 +158,25 @@ def _ratio(bound: Fraction | int, actual: Fraction | int) -> str:
 def _region_line(row: IntoRegion) -> None:
     brackets = " ".join(f"{f'{low}..{high}':>17}" for low, high in (row.true, row.printed))
     times = [time_allowed(row, loss, "ceiling") for loss in LOSSES]
-    told = " ".join(f"{shown(time, 4):>11} {_ratio(time, row.time.time):>9}" for time in times)
+    allowed = " ".join(f"{shown(time, 4):>11} {_ratio(time, row.time.time):>9}" for time in times)
     print(
         f"  {str(row.alpha):>7} {str(row.u):>7} | {row.impacts.impacts:>7} {brackets} |"
-        f" {shown(row.time.time, 4):>8} {told} | {row.sample.sample:>8} {row.ours:>8}"
+        f" {shown(row.time.time, 4):>8} {allowed} | {row.sample.sample:>8} {row.ours:>8}"
         f" {_ratio(row.ours, row.sample.sample):>7}"
     )
 
 
 def _reading(rows: Sequence[IntoRegion], measure: str, loss: str, rounding: str) -> None:
-    found = violations(rows, measure, loss, rounding)
+    violating = violations(rows, measure, loss, rounding)
     where, claims = false_for(measure, loss, rounding)
     print(f"  {measure}, {loss} Delta E_sup, {rounding}: false for {where} ({claims})")
-    if found:
-        row, actual, entry = found[0]
+    if violating:
+        row, actual, entry = violating[0]
         allowed = MEASURES[measure][0](row, loss, rounding)
         print(
             f"      at alpha = {row.alpha} from x = {entry.start.x}, w = {entry.start.w}:"
             f" {shown(actual, 4)}, where {shown(allowed, 4)} is allowed; in the table for alpha ="
-            f" {', '.join(dict.fromkeys(str(one.alpha) for one, _, _ in found))}"
+            f" {', '.join(dict.fromkeys(str(one.alpha) for one, _, _ in violating))}"
         )
 
 
@@ -201,7 +201,7 @@ FOLLOWED = 200  # impacts that an orbit is followed for where nothing is certifi
 
 
 def read_alpha(text: str) -> Fraction:
-    """The restitution, strictly between 0 and 1."""
+    """The restitution; raises ClaimError unless 0 < alpha < 1."""
     alpha = exact(text, "alpha")
     if not 0 < alpha < 1:
         raise ClaimError(
@@ -212,7 +212,7 @@ def read_alpha(text: str) -> Fraction:
 
 def read_state(alpha: Fraction, text: str) -> State:
     """The state `x=..,w=..`, or `beta=..,v=..,r=..,g=..` in the paper's units, as a state of the
-    normal form.
+    normal form.  Raises ClaimError for other components, r <= 0, g <= 0 or beta < 0.
     """
     given = components(text, NORMAL_FORM + UNITS)
     names = UNITS if set(given) & set(UNITS) else NORMAL_FORM
@@ -286,18 +286,18 @@ def _certified(state: State) -> None:
 
 
 def _orbit_to_the_trap(state: State) -> None:
-    found = _until(state, MAX_IMPACTS, AFTER)
-    entered = next((count for count, move in enumerate(found) if move.state.is_in(TRAP)), None)
+    path = _until(state, MAX_IMPACTS, AFTER)
+    entered = next((count for count, move in enumerate(path) if move.state.is_in(TRAP)), None)
     print("orbit")
     best = quantities.certified(state)
-    _lines(found, entered, " (the trap)")
+    _lines(path, entered, " (the trap)")
     if entered is None:
         print(
             f"  not followed further: {MAX_IMPACTS} impacts or {MAX_BITS} bits of a number are the"
             " limit; it enters the trap by the theorem"
         )
         return
-    at = found[entered]
+    at = path[entered]
     print(
         f"  in the trap from n = {shown(at.start)} on; certified: n = {shown(best.trap)}"
         + (
@@ -312,26 +312,26 @@ def _orbit_to_the_trap(state: State) -> None:
 
 def _until(state: State, impacts: int, more: int = 0) -> list[Move]:
     """The moves of the orbit up to the trap, and some more."""
-    found: list[Move] = []
+    orbit: list[Move] = []
     left = -1
     for move in moves(state, impacts):
-        found.append(move)
+        orbit.append(move)
         left = left - 1 if left >= 0 else more if move.state.is_in(TRAP) else -1
         if left == 0:
             break
-    return found
+    return orbit
 
 
-def _lines(found: Sequence[Move], turn: int | None, note: str = "") -> None:
+def _lines(orbit: Sequence[Move], turn: int | None, note: str = "") -> None:
     """The first moves, those around the turn, and a line for what is left out between them."""
     print(f"  {'n':>20} {'x':>20} {'w':>20} {'distance to e_1':>20}  then")
-    last = len(found) if turn is None else turn
+    last = len(orbit) if turn is None else turn
     gap = range(HEAD, last - TAIL)
-    for count, move in enumerate(found):
+    for count, move in enumerate(orbit):
         if count not in gap:
             _line(move, note if count == turn else "")
         elif count == gap.start:
-            periods = found[gap.stop].start - move.start
+            periods = orbit[gap.stop].start - move.start
             print(f"  {'...':>20} {len(gap)} moves, {shown(periods)} periods, are left out")
 
 
@@ -386,29 +386,29 @@ def _not_certified(state: State) -> None:
             "  theorem-one-third/attracts: at alpha = 1/3 e_1 is stable and attracts all states but"
             " three, of which this is one"
         )
-    near = (shown(value_of(weight * NEARBY.radius, state.point())) for weight in NEARBY.weights)
+    radii = (shown(value_of(weight * NEARBY.radius, state.point())) for weight in NEARBY.weights)
     print(
         "  theorem-nearby/contracts: e_1 is stable, and attracts all states within {} in x and {}"
-        " in w of it".format(*near)
+        " in w of it".format(*radii)
     )
     print()
-    found, turn, said = follow(state)
+    orbit, turn, end = follow(state)
     print("orbit")
-    _lines(found, turn)
-    print(f"  {said}")
+    _lines(orbit, turn)
+    print(f"  {end}")
 
 
 def follow(state: State) -> tuple[list[Move], int | None, str]:
     """The orbit until its end is known, where that is, and what is known of it."""
-    found: list[Move] = []
+    path: list[Move] = []
     seen: dict[tuple[Fraction, Fraction], int] = {}
     for move in moves(state, FOLLOWED):
         here = move.state
-        found.append(move)
+        path.append(move)
         if quantities.is_nearby(here):
             return (
-                found,
-                len(found) - 1,
+                path,
+                len(path) - 1,
                 (
                     f"tends to e_1: at n = {shown(move.start)} it is in the neighbourhood of"
                     " theorem-nearby"
@@ -417,8 +417,8 @@ def follow(state: State) -> tuple[list[Move], int | None, str]:
         if move.impact and (here.x, here.w) in seen:
             first = seen[here.x, here.w]
             return (
-                found,
-                len(found) - 1,
+                path,
+                len(path) - 1,
                 (
                     f"does not tend to e_1: from n = {shown(first)} on it has period"
                     f" {shown(move.start - first)}" + _known_as(here)
@@ -427,7 +427,7 @@ def follow(state: State) -> tuple[list[Move], int | None, str]:
         if move.impact:
             seen[here.x, here.w] = move.start
     return (
-        found,
+        path,
         None,
         (
             f"not known: {FOLLOWED} impacts or {MAX_BITS} bits of a number are the limit, and it"
@@ -439,7 +439,7 @@ def follow(state: State) -> tuple[list[Move], int | None, str]:
 def _known_as(state: State) -> str:
     """Which fixed point of the paper has its impact at this state."""
     K = state.w * (1 + state.alpha) / 2
-    there = state.moved(derived("normal_impact_fixed_point"), K=K)
+    there = state.moved(derived_vector("normal_impact_fixed_point"), K=K)
     return (
         f", the orbit of e_{K}"
         if K.denominator == 1 and (there.x, there.w) == (state.x, state.w)

@@ -1,5 +1,7 @@
 """The paper, section by section: one file of claims a section, in the paper's order.
 
+paper_form            derived expressions as the paper writes such
+derivations           derived expressions as terms that say what made them
 names                 what names stand for, and what happens within a period
 states                impacts and their energy, orbits, motion relative to e_1
 regions               the states outside the region R

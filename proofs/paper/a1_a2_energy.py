@@ -32,6 +32,7 @@ from juggleproof.proofs.paper.names import (
     claim,
     collide,
     derived,
+    derived_vector,
     energy,
     f1,
     f2,
@@ -63,7 +64,7 @@ from juggleproof.proofs.paper.states import (
     place,
 )
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.reading.values import Vector, scalar
 
 # -------------------------------------------------------------------------------------------------
 # Appendix A.1: the velocity that impacts can sustain, and the energy that goes with it.
@@ -141,7 +142,7 @@ def heavy_table_keeps_its_velocity(printed: Printed) -> Statement:
     is nothing beside the table's.
     """
     after = at(
-        term(derived("speeds_after_impact").component(2)), {"m": mass, "v": ball, "u": table}
+        term(derived_vector("speeds_after_impact").component(2)), {"m": mass, "v": ball, "u": table}
     )
     return always(
         iff(printed.formula(VELOCITIES), equal(mass, 0)),
@@ -164,7 +165,7 @@ def velocity_after_the_impact(printed: Printed) -> Statement:
 def part_lost_on_a_table_at_rest(printed: Printed) -> Statement:
     """On a table at rest the ball, whose velocity is turned round, loses this part of it."""
     at_rest, part = pieces(printed, 2)
-    lost = value_of(part, PAPER) * -ball
+    lost = scalar(value_of(part, PAPER)) * -ball
     return always(equal(-ball - struck(ball, table), lost), given=[at_rest.formula(VELOCITIES)])
 
 
@@ -290,7 +291,7 @@ def energy_of_the_equilibrium(printed: Printed) -> list[Statement]:
 # -------------------------------------------------------------------------------------------------
 # Appendix A.2: the slopes of the energy change of an impact, and its maximum.
 
-change = term(impact_energy_change(b))
+change = impact_energy_change(b)
 step, dE_2 = reals("step dE_2")
 ON_EDGE = Vector((0, v))
 
@@ -324,7 +325,7 @@ def gradient_of_the_energy_change(printed: Printed) -> Statement:
     d1, d2, p, q = reals("d1 d2 p q")
     there, back = b + Vector((p, q)), b - Vector((p, q))
     defined = printed.formula(STEEP.extended({r"D(\Delta_1 E)": Vector((d1, d2))}))
-    between = term(impact_energy_change(there)) - impact_energy_change(back)
+    between = impact_energy_change(there) - impact_energy_change(back)
     return always(
         equal(between, 2 * (d1 * p + d2 * q)), given=[are_slopes(dE_dbeta, dE_dv), defined]
     )
@@ -362,7 +363,7 @@ def energy_change_falls_steadily_with_the_height() -> list[Statement]:
 
     def gained(state: Vector) -> Term:
         raised, before = (
-            term(impact_energy_change(place)) for place in (state + Vector((step, 0)), state)
+            impact_energy_change(place) for place in (state + Vector((step, 0)), state)
         )
         return raised - before
 
@@ -417,7 +418,7 @@ def greatest_energy_change(printed: Printed) -> list[Statement]:
     """The maximum of Delta_1 E on H."""
     return is_maximum(
         dE_max,
-        term(energy(f1(b))) - energy(b),
+        energy(f1(b)) - energy(b),
         {"beta": beta, "v": v},
         at=place("largest_energy_change"),
         on=H(b),

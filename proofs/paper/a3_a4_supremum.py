@@ -22,11 +22,13 @@ from juggleproof.proofs.paper.names import (
     H,
     R,
     always,
+    as_region,
     at,
     b,
     beta,
     claim,
     derived,
+    derived_vector,
     energy,
     eps,
     exists_some,
@@ -74,7 +76,7 @@ from juggleproof.proofs.paper.states import (
 )
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.parser import parse_name
-from juggleproof.proofs.reading.values import Region, Vector
+from juggleproof.proofs.reading.values import Region, Vector, scalar
 
 # -------------------------------------------------------------------------------------------------
 # Appendix A.3: how little an impact takes outside the region R, at least.
@@ -97,7 +99,7 @@ def is_least_bound(
         always(change < value, given=[*given, region(b)], label="bound"),
         exists_some(
             ["height"],
-            term(impact_energy_change(above)) > value - eps,
+            impact_energy_change(above) > value - eps,
             within=[region(above)],
             given=[*given, eps > 0],
             label="approached",
@@ -116,7 +118,7 @@ def supremum_outside_the_region(printed: Printed) -> Readings:
     """The energy change at the corner of R is the supremum outside R: over all states there, or
     over those whose impact comes.
     """
-    region = value_of(printed, PAPER)
+    region = as_region(value_of(printed, PAPER))
     impacts = is_least_bound(least, region & B1, [CORNER(b_0)])
     flights = always(
         energy(f2(b)) - energy(b) < least, given=[CORNER(b_0), region(b), B2(b)], label="flights"
@@ -148,7 +150,7 @@ def condition_on_the_boundary(printed: Printed) -> list[Statement]:
     parallel.
     """
     p, q = reals("p q")
-    down, along = (term(entry) for entry in at(derived("region_gradient"), b_0).entries)
+    down, along = (term(entry) for entry in at(derived_vector("region_gradient"), b_0).entries)
     names = {
         r"D_{\overline\beta} R": only_at(b_0, down),
         r"D_{\dot{\overline\beta}} R": only_at(b_0, along),
@@ -278,7 +280,7 @@ def energy_change_is_concave_on_the_edge(printed: Printed) -> list[Statement]:
     edge, which is concave there.
     """
     negative, physical = pieces(printed, 2)
-    second = negative.left(PAPER)
+    second = scalar(negative.left(PAPER))
     before, here, after = (
         term(impact_energy_change(Vector((0, speed)))) for speed in (v - h, v, v + h)
     )
@@ -329,7 +331,7 @@ def supremum_is_the_energy_change_at_the_corner(printed: Printed) -> list[Statem
     names = PAPER.extended({r"\overline b_s": b_0})
     return [
         always(printed.formula(names), given=[CORNER(b_0)], label="value"),
-        *is_least_bound(printed.right(names), B1_OUTSIDE, [CORNER(b_0)]),
+        *is_least_bound(term(scalar(printed.right(names))), B1_OUTSIDE, [CORNER(b_0)]),
     ]
 
 
@@ -417,13 +419,13 @@ def supremum_is_at_the_left() -> list[Statement]:
     ground = Vector((0, v))
     return [
         always(
-            B1_OUTSIDE(ground) & (term(impact_energy_change(ground)) > change),
+            B1_OUTSIDE(ground) & (impact_energy_change(ground) > change),
             given=[B1_OUTSIDE(b), beta > 0, BEYOND_R(ground)],
             label="down-to-the-edge",
         ),
         exists_some(
             ["edge"],
-            B1_OUTSIDE(LEFT) & (term(impact_energy_change(LEFT)) > change),
+            B1_OUTSIDE(LEFT) & (impact_energy_change(LEFT) > change),
             within=[edge >= 0, edge < beta],
             given=[B1_OUTSIDE(b), ~BEYOND_R(ground)],
             label="towards-the-arc",

@@ -67,7 +67,14 @@ from juggleproof.proofs.paper.states import (
 )
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Matrix, ShapeError, StateFunction, Vector
+from juggleproof.proofs.reading.values import (
+    Matrix,
+    ShapeError,
+    StateFunction,
+    Value,
+    Vector,
+    scalar,
+)
 
 # -------------------------------------------------------------------------------------------------
 # Appendices B.1 and B.2: the time to collision, the table's period, and the regions, summed up.
@@ -95,7 +102,9 @@ def collision_equation_with_gravity(printed: Printed) -> Readings:
     of the moment.
     """
     ball, table = height(ball_at(t)), height(table_at(t))
-    heights = equal(ball, printed.left(LAUNCH_SPEED)) & equal(table, printed.right(LAUNCH_SPEED))
+    heights = equal(ball, scalar(printed.left(LAUNCH_SPEED))) & equal(
+        table, scalar(printed.right(LAUNCH_SPEED))
+    )
     return Readings(
         {
             "equation": Assertion(
@@ -316,7 +325,7 @@ def map_on_b2_again(printed: Printed) -> Statement:
     at the next bounce.
     """
     flown = StateFunction(lambda state: ball_at(t, state))
-    names = {
+    names: dict[str, Value] = {
         r"\overline f_1": flown,
         r"\overline b_k": b_0,
         "x": b_0,
@@ -338,7 +347,7 @@ def map_on_b2_again(printed: Printed) -> Statement:
 def what_gravity_takes_off_in_a_period(printed: Printed) -> Statement:
     """This column, and no other, is what a period of flight falls short of its linear part."""
     column = Vector((y, u))
-    falls_short = equals(ball_at(T), flight_matrix(T) * b - column)
+    falls_short = equals(ball_at(T), vector(flight_matrix(T) * b) - column)
     return always(iff(falls_short, printed.formula(PAPER.extended({r"\alpha_T": column}))))
 
 
@@ -430,7 +439,11 @@ def function_of_the_region_again(printed: Printed) -> Statement:
     """The function R is what the energy of a state lacks to the sum of both bounds, in height and
     speed.
     """
-    names = {"R": only_at(b, margin), "E_{max}": greatest, r"\Delta E_{max}": gain}
+    names: dict[str, Value] = {
+        "R": only_at(b, margin),
+        "E_{max}": greatest,
+        r"\Delta E_{max}": gain,
+    }
     known = (
         equal(greatest, derived("E_max"))
         & equal(gain, derived("delta_E_max"))

@@ -6,8 +6,6 @@ Each is stated for the range (21) of the paper; how far it really goes is found 
 
 from __future__ import annotations
 
-from typing import Any
-
 from juggleproof.certificates.language import Statement, equal, iff, term
 from juggleproof.proofs.claims import Assertion, Readings
 from juggleproof.proofs.paper.names import (
@@ -17,6 +15,7 @@ from juggleproof.proofs.paper.names import (
     B1_ZERO,
     B2,
     H,
+    Placed,
     R,
     T,
     alpha,
@@ -26,6 +25,7 @@ from juggleproof.proofs.paper.names import (
     claim,
     collision_time,
     derived,
+    derived_vector,
     e_1,
     energy,
     eps,
@@ -38,7 +38,6 @@ from juggleproof.proofs.paper.names import (
     r,
     speed,
     v,
-    vector,
 )
 from juggleproof.proofs.paper.regions import B1_OUTSIDE, OUTSIDE
 from juggleproof.proofs.paper.states import (
@@ -56,12 +55,12 @@ TRAP = B1 & Region(lambda state: alpha * (r - speed(state)) < r)
 
 def scaled(state: Vector) -> Vector:
     """The state in the coordinates of the normal form."""
-    return vector(at(derived("scaling"), state))
+    return at(derived_vector("scaling"), state)
 
 
-def in_normal_form(name: str, state: Vector) -> Any:
-    """A derived function of the normal form at a state (x, w): a state, or a term."""
-    return at(derived(name), {"x": height(state), "w": speed(state)})
+def in_normal_form(value: Placed, state: Vector) -> Placed:
+    """A derived term or state of the normal form at a state (x, w)."""
+    return at(value, {"x": height(state), "w": speed(state)})
 
 
 @claim("region-scaling", "inclusions", "normal form")
@@ -72,16 +71,23 @@ def normal_form_is_conjugate() -> list[Statement]:
     there = scaled(b)
     x, w = height(there), speed(there)
     return [
-        always(equals(scaled(vector(f1(b))), in_normal_form("normal_f1", there)), label="f1"),
-        always(equals(scaled(vector(f2(b))), in_normal_form("normal_f2", there)), label="f2"),
+        always(
+            equals(scaled(f1(b)), in_normal_form(derived_vector("normal_f1"), there)),
+            label="f1",
+        ),
+        always(
+            equals(scaled(f2(b)), in_normal_form(derived_vector("normal_f2"), there)),
+            label="f2",
+        ),
         always(
             iff(H(b), x >= 0) & iff(B1(b), (0 <= x) & (x < w)) & iff(B2(b), (0 <= x) & (x >= w)),
             label="regions",
         ),
         always(
-            equal(term(energy(b)), r**2 * in_normal_form("normal_energy", there)), label="energy"
+            equal(energy(b), r**2 * in_normal_form(derived("normal_energy"), there)),
+            label="energy",
         ),
-        always(equals(in_normal_form("unscaling", there), b), label="one-to-one"),
+        always(equals(in_normal_form(derived_vector("unscaling"), there), b), label="one-to-one"),
     ]
 
 
@@ -152,7 +158,7 @@ def impacts_outside_lose_at_least() -> list[Statement]:
     """
     return is_supremum(
         derived("delta_E_sup"),
-        term(impact_energy_change(b)),
+        impact_energy_change(b),
         ["beta", "v"],
         B1_OUTSIDE(b),
         strict=True,
@@ -230,7 +236,7 @@ def bands_are_mapped_into_themselves() -> Readings:
             "every-size": Assertion(
                 (
                     always(
-                        B1(vector(f1(b))),
+                        B1(f1(b)),
                         given=[eps > 0, band(size)(b)],
                         in_range=RANGE_21,
                         label="stays-in-B1",
@@ -246,4 +252,4 @@ def trap_is_mapped_into_itself() -> Statement:
     """The states of B1 whose closing speed is below r/alpha are mapped to such states by f, which
     is f1 there.
     """
-    return always(TRAP(vector(f1(b))), given=[TRAP(b)], in_range=RANGE_21)
+    return always(TRAP(f1(b)), given=[TRAP(b)], in_range=RANGE_21)

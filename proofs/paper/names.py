@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TypeVar
 
 import sympy
 
@@ -28,23 +28,24 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs import claims, forms
-from juggleproof.proofs.derivations import Origin, made_by
-from juggleproof.proofs.derivations import derived as derived
-from juggleproof.proofs.derivations import encoded as encoded
 from juggleproof.proofs.forms import Vocabulary
+from juggleproof.proofs.paper.derivations import Origin, derived_value, made_by
+from juggleproof.proofs.paper.derivations import derived as derived
+from juggleproof.proofs.paper.derivations import derived_matrix as derived_matrix
+from juggleproof.proofs.paper.derivations import derived_vector as derived_vector
+from juggleproof.proofs.paper.derivations import encoded as encoded
 from juggleproof.proofs.reading.evaluation import Environment, relate
 from juggleproof.proofs.reading.meaning import Meaning, Printed
 from juggleproof.proofs.reading.values import (
     Matrix,
     Region,
+    Result,
     Scalar,
     ShapeError,
     StateFunction,
+    Value,
     Vector,
 )
-
-if TYPE_CHECKING:
-    pass
 
 # -------------------------------------------------------------------------------------------------
 # The paper's names: what stands for what in statements, what is assumed where nothing is said, and
@@ -99,25 +100,31 @@ def at(thing: Placed, place: Vector | Mapping[str, Number]) -> Placed:
     return placed
 
 
-def function(name: str) -> StateFunction:
+def function(name: str) -> StateFunction[Term]:
     """The derived function of a state of this name in `symbolic`, as a function that prints can
     apply.
     """
     return StateFunction(lambda state: at(derived(name), state))
 
 
-f1, f2 = function("f1"), function("f2")
+def state_map(name: str) -> StateFunction[Vector]:
+    """The derived map of states of this name in `symbolic`, as a function that prints can apply."""
+    return StateFunction(lambda state: at(derived_vector(name), state))
+
+
+f1, f2 = state_map("f1"), state_map("f2")
 energy = function("total_energy")
 impact_energy_change = function("energy_change_1")
 collision_time = StateFunction(lambda state: at(derived("collision_time"), state), factor=True)
 
 
-def flight(time: Scalar) -> StateFunction:
+def flight(time: Scalar) -> StateFunction[Vector]:
     """F^t: the derived flight for this time."""
     # All three at once: the state may itself contain a time.
     return StateFunction(
         lambda state: at(
-            derived("flight_map"), {"beta": state.component(1), "v": state.component(2), "t": time}
+            derived_vector("flight_map"),
+            {"beta": state.component(1), "v": state.component(2), "t": time},
         )
     )
 
@@ -127,7 +134,7 @@ def flight_matrix(time: Scalar) -> Matrix:
     return Matrix(
         tuple(
             tuple(at(term(entry), {"t": term(time)}) for entry in row)
-            for row in derived("flight_matrix").rows
+            for row in derived_matrix("flight_matrix").rows
         )
     )
 
@@ -135,27 +142,28 @@ def flight_matrix(time: Scalar) -> Matrix:
 def flight_offset(time: Scalar) -> Vector:
     """a_t, what gravity takes off in flight, as derived."""
     return Vector(
-        tuple(at(term(entry), {"t": term(time)}) for entry in derived("flight_offset").entries)
+        tuple(
+            at(term(entry), {"t": term(time)}) for entry in derived_vector("flight_offset").entries
+        )
     )
 
 
-def collide(table: Vector) -> StateFunction:
+def collide(table: Vector) -> StateFunction[Vector]:
     """C_y: the derived change of the ball's state at an impact with a table in the state y."""
 
     def after(ball: Vector) -> Vector:
         names = sympy.symbols("ball_height ball_speed table_height table_speed")
-        image = encoded(
-            symbolic.collide(sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:]))
+        struck = symbolic.collide(
+            sympy.ImmutableMatrix(names[:2]), sympy.ImmutableMatrix(names[2:])
         )
-        image = made_by(Origin("impact_map"), image)
+        image = made_by(Origin("impact_map"), vector(encoded(struck)))
         values = dict(
             zip(
                 (str(name) for name in names),
                 (term(entry) for entry in (*ball.entries, *table.entries)),
             )
         )
-        struck: Vector = at(image, values)
-        return struck
+        return at(image, values)
 
     return StateFunction(after)
 
@@ -170,8 +178,8 @@ B1_PLUS = B1 & Region(lambda state: at(derived("energy_change_1") > 0, state))
 B1_MINUS = B1 & Region(lambda state: at(derived("energy_change_1") < 0, state))
 B1_ZERO = B1 & Region(lambda state: equal(at(derived("energy_change_1"), state), 0))
 R = H & Region(lambda state: at(derived("region_margin"), state) >= 0)
-r_0 = derived("launch_state")
-e_1 = derived("e_1")
+r_0 = derived_vector("launch_state")
+e_1 = derived_vector("e_1")
 I = Matrix(((1, 0), (0, 1)))  # noqa: E741  (the paper's name)
 
 
@@ -186,7 +194,7 @@ def equals(left: Vector | Matrix, right: Vector | Matrix) -> Formula:
     return relate(left, "=", right)
 
 
-NAMES: dict[str, Any] = {
+NAMES: dict[str, Value] = {
     r"\alpha": alpha,
     r"\gamma": g,
     r"\overline\beta": beta,
@@ -204,7 +212,7 @@ NAMES: dict[str, Any] = {
     r"a_{\cdot}": flight_offset,
     r"F^{\cdot}": flight,
     r"C_{\cdot}": collide,
-    r"R_\alpha": derived("restitution_matrix"),
+    r"R_\alpha": derived_matrix("restitution_matrix"),
     r"\xi_1": derived("xi_1"),
     r"\epsilon_1": derived("epsilon_1"),
     r"e_1": e_1,
@@ -239,24 +247,31 @@ def paper_names() -> Environment:
 # What happens within a period, in formulas of derived flight and impact: ball and table meet,
 # approach, collide, and fly on.
 #
-# A time at which something happens is left unknown and told by what happens then: nothing that was
-# solved for enters here.
+# A time at which something happens is left unknown and defined by what happens then: nothing that
+# was solved for enters here.
 
 
 def ball_at(time: Number, start: Vector = b) -> Vector:
     """The ball's state after free flight for this time."""
-    return vector(flight(time)(start))
+    return flight(time)(start)
 
 
 def table_at(time: Number, start: Vector | None = None) -> Vector:
-    """The table's state after free flight for this time, from its launch unless told otherwise."""
-    return vector(flight(time)(r_0 if start is None else start))
+    """The table's state after free flight for this time, from its launch if no state is given."""
+    return flight(time)(r_0 if start is None else start)
 
 
 def vector(value: object) -> Vector:
     """The value itself, which has to be a state."""
     if not isinstance(value, Vector):
         raise ShapeError("a state was expected")
+    return value
+
+
+def matrix(value: object) -> Matrix:
+    """The value itself, which has to be a matrix."""
+    if not isinstance(value, Matrix):
+        raise ShapeError("a matrix was expected")
     return value
 
 
@@ -291,13 +306,13 @@ def strikes_at(time: Term) -> Formula:
 
 def after_impact(time: Number) -> Vector:
     """The ball's state just after an impact at this time."""
-    return vector(collide(table_at(time))(ball_at(time)))
+    return collide(table_at(time))(ball_at(time))
 
 
-def only_at(place: Vector, value: Any, factor: bool = False) -> StateFunction:
+def only_at(place: Vector, value: Result, factor: bool = False) -> StateFunction[Result]:
     """The function that has this value at this state, and is refused at any other."""
 
-    def call(state: Vector) -> Any:
+    def call(state: Vector) -> Result:
         if state != place:
             raise ShapeError("this function is known at the state of the claim only")
         return value
@@ -305,7 +320,7 @@ def only_at(place: Vector, value: Any, factor: bool = False) -> StateFunction:
     return StateFunction(call, factor)
 
 
-def value_of(printed: Printed, environment: Environment) -> Any:
+def value_of(printed: Printed, environment: Environment) -> Value:
     """The value of a print that is an expression and states no relation."""
     return Meaning(environment).here(printed.tree)
 
@@ -351,12 +366,12 @@ def definitions() -> tuple[Definition, ...]:
 def _definitions() -> tuple[Definition, ...]:
     made: list[Definition] = []
     for name, function, parameters in DERIVED:
-        value = derived(function)
+        value = derived_value(Origin(function))
         says = sentence(function)
         if isinstance(value, Term):
             made.append(Definition(name, parameters, value, says))
             continue
-        entries = tuple(map(term, value.entries))
+        entries = tuple(map(term, vector(value).entries))
         for part, entry in zip(STATE, entries):
             own = tuple(one for one in parameters if one in names_in(entry))
             made.append(Definition(f"{name}_{part}", own, entry, says))
@@ -368,6 +383,6 @@ def _definitions() -> tuple[Definition, ...]:
 
 
 def sentence(function: str) -> str:
-    """What a function of `symbolic` says that it derives."""
-    said = inspect.getdoc(getattr(symbolic, function)) or ""
-    return " ".join(said.partition("\n\n")[0].split())
+    """What a function of `symbolic` derives: the first paragraph of its docstring."""
+    text = inspect.getdoc(getattr(symbolic, function)) or ""
+    return " ".join(text.partition("\n\n")[0].split())

@@ -32,6 +32,7 @@ from juggleproof.proofs.paper.names import (
     ball_at,
     beta,
     derived,
+    derived_vector,
     energy,
     f1,
     height,
@@ -45,7 +46,7 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.reading import tree
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Region, Vector
+from juggleproof.proofs.reading.values import Region, Vector, scalar
 
 beta0, v0, u, tau_w, dE_sup, n, m, j = reals("beta0 v0 u tau_w dE_sup n m j")
 b_0 = Vector((beta0, v0))
@@ -66,8 +67,8 @@ CLOSED_B1 = H & Region(lambda state: at(derived("collision_margin"), state) >= 0
 ON_R = Region(lambda state: equal(at(derived("region_margin"), state), 0))
 CORNER = B1 & ON_R & Region(lambda state: equal(state.component(1), 0))
 change, least = (
-    term(impact_energy_change(b)),
-    term(impact_energy_change(b_0)),
+    impact_energy_change(b),
+    impact_energy_change(b_0),
 )  # the least loss is that at the corner b_0
 # What Delta E_sup is: the energy change at the state b_0 that is the corner.
 SUPREMAL = [CORNER(b_0), equal(dE_sup, least)]
@@ -94,10 +95,7 @@ def pieces(printed: Printed, count: int) -> tuple[Printed, ...]:
 
 def flown(periods: Term) -> Vector:
     """The state b_0 after this many periods without an impact."""
-    image = at(at(derived("flight_power"), b_0), {"K": periods})
-    if not isinstance(image, Vector):
-        raise ClaimError("the power of a map of states is a map of states")
-    return image
+    return at(at(derived_vector("flight_power"), b_0), {"K": periods})
 
 
 def strikes_in_period(periods: Term, time: Term) -> Formula:
@@ -176,7 +174,7 @@ def with_rounding(printed: Printed, environment: Environment) -> tuple[Environme
             depth += {"[": 1, "]": -1}.get(printed.latex[end], 0)
             end += 1
         inside = value_of(Printed(printed.latex[start:end]), environment)
-        return environment.extended({printed.latex[start:end]: n}), term(inside)
+        return environment.extended({printed.latex[start:end]: n}), term(scalar(inside))
     raise ClaimError("this print has no square bracket that could round a number")
 
 

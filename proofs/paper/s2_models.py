@@ -38,6 +38,7 @@ from juggleproof.proofs.paper.names import (
     collide,
     collision_time,
     derived,
+    derived_vector,
     energy,
     equals,
     f1,
@@ -353,7 +354,7 @@ def relative_velocity_after_impact(printed: Printed) -> Statement:
     at which they met.
     """
     law, values, relative = pieces(printed, 3)
-    ball_speed, table_speed = map(term, derived("speeds_after_impact"))
+    ball_speed, table_speed = map(term, derived_vector("speeds_after_impact"))
     names = reals("chi chi_dot chi_after chi_dot_after")
     before = relative.formula(PAPER.extended({"x": b, "y": table, r"\chi": Vector(names[:2])}))
     after = relative.formula(
@@ -407,14 +408,15 @@ def impact_on_a_massive_body(printed: Printed) -> list[Statement]:
     here = PAPER.extended({"x": b, "y": table})
     whole, matrix = pieces(printed, 2)
     after = Vector(reals("after after_dot"))
-    by_print = here.extended(
-        {
-            r"R_\alpha": matrix.right(here),
-            r"C_{\cdot}": lambda body: only_at(b, after) if body == table else None,
-        }
-    )
+
+    def struck(body: Vector) -> StateFunction[Vector]:
+        if body != table:
+            raise ShapeError("this map is known for the massive body of the claim only")
+        return only_at(b, after)
+
+    by_print = here.extended({r"R_\alpha": matrix.right(here), r"C_{\cdot}": struck})
     restitution = equal(speed(after) - u, -alpha * (v - u)) & equal(height(after), beta)
-    slowed = u - term(derived("speeds_after_impact").component(2))
+    slowed = u - term(derived_vector("speeds_after_impact").component(2))
     return [
         always(whole.formula(by_print), given=[restitution], label="new-state"),
         always(matrix.formula(here), label="matrix"),
@@ -471,7 +473,7 @@ def next_state_by_impact_and_flight() -> list[Statement]:
     after it, steered anew.
     """
     u3, u4, again = reals("u3 u4 again")
-    once = derived("controlled_step", symbolic.u, symbolic.t)
+    once = derived_vector("controlled_step", symbolic.u, symbolic.t)
 
     def step(state: Vector, steering: Vector) -> Vector:
         return vector(

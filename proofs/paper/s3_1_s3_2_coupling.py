@@ -35,6 +35,7 @@ from juggleproof.proofs.paper.names import (
     collide,
     collision_time,
     derived,
+    derived_matrix,
     energy,
     equals,
     f1,
@@ -58,7 +59,7 @@ from juggleproof.proofs.paper.regions import pieces
 from juggleproof.proofs.paper.states import is_the_period, strikes_from_region
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import ShapeError, StateFunction, Vector
+from juggleproof.proofs.reading.values import ShapeError, StateFunction, Vector, scalar
 
 # -------------------------------------------------------------------------------------------------
 # Section 3 and 3.1: the table, a point mass that bounces on the ground without loss.
@@ -87,7 +88,7 @@ def table_velocity_jumps_and_so_does_the_map() -> list[Statement]:
     """
     less = real("less")
     slower = Vector((beta, v - less))
-    jump = speed(vector(f1(slower))) - speed(vector(f2(b)))
+    jump = speed(f1(slower)) - speed(f2(b))
     return [
         always(equal(height(table_at(T)), height(r_0)), label="returns"),
         always(speed(r_0) - speed(table_at(T)) > 0, label="velocity"),
@@ -123,7 +124,8 @@ def table_comes_down_as_it_went_up(printed: Printed) -> Statement:
     """
     lands = equal(height(table_at(t)), 0)
     return always(
-        equals(table_at(t), printed.right(PAPER)) & printed.formula(PAPER), given=[t > 0, lands]
+        equals(table_at(t), vector(printed.right(PAPER))) & printed.formula(PAPER),
+        given=[t > 0, lands],
     )
 
 
@@ -152,7 +154,9 @@ def table_state_by_time_in_period(printed: Printed) -> list[Statement]:
             label="state",
         ),
         always(
-            height(printed.right(here)) > 0, given=[IN_PERIOD, since > 0], label="off-the-ground"
+            height(vector(printed.right(here))) > 0,
+            given=[IN_PERIOD, since > 0],
+            label="off-the-ground",
         ),
         always(equals(again, r_0), label="launched-anew"),
     ]
@@ -221,7 +225,7 @@ def _folded(table: Vector) -> Environment:
     begins.
     """
 
-    def family(start: Vector) -> StateFunction:
+    def family(start: Vector) -> StateFunction[Vector]:
         if start != table:
             raise ShapeError("this map is known for the table of the claim only")
         return only_at(b, FOLDED)
@@ -271,7 +275,7 @@ def _height_above_the_table(printed: Printed) -> list[Statement]:
     """The printed line is the ball's height above the table at time t, and says that they meet."""
     gap = height(ball_at(t)) - height(table_at(t))
     return [
-        always(equal(printed.right(AT_TIME), gap), label="height"),
+        always(equal(scalar(printed.right(AT_TIME)), gap), label="height"),
         always(iff(printed.formula(AT_TIME), meet(t)), label="meet"),
     ]
 
@@ -448,7 +452,7 @@ def folded_collision_is_affine(printed: Printed) -> Statement:
     matrix of (3).
     """
     names = AT_TIME.extended(
-        {r"\overline C_r": only_at(b, FOLDED), "R": derived("restitution_matrix")}
+        {r"\overline C_r": only_at(b, FOLDED), "R": derived_matrix("restitution_matrix")}
     )
     return always(iff(_flies_to_the_impact(), printed.formula(names)))
 

@@ -23,19 +23,21 @@ from juggleproof.proofs.paper.names import (
     T,
     alpha,
     always,
+    as_region,
     b,
     ball_at,
     beta,
     claim,
     collide,
     collision_time,
-    derived,
+    derived_vector,
     equals,
     exists_some,
     f1,
     f2,
     flight_matrix,
     height,
+    matrix,
     meet,
     r,
     r_0,
@@ -91,7 +93,7 @@ def impact_in_each_of_two_periods() -> list[Statement]:
     """If the image of a state of B1 is in B1 too, the ball strikes again, and the state after the
     second period is the image's image.
     """
-    once, twice = vector(f1(b)), f1(f1(b))
+    once, twice = f1(b), f1(f1(b))
     slower = speed(once) < r
     return [
         always(slower, given=[B1(b), B1(once)], label="approaches-again"),
@@ -167,7 +169,7 @@ def fixed_point_by_the_inverse(printed: Printed) -> Statement:
     "line 302",
     printed=r"e_1 = -\frac{1 - \alpha}{1 + \alpha} A_{-\xi_1} r_0",
     as_it_stands=r"= -\frac{1 - \alpha}{1 + \alpha} A_{-\xi_1} r_0",
-    derived=lambda: derived("e_1"),
+    derived=lambda: derived_vector("e_1"),
 )
 def fixed_point_as_a_shifted_launch(printed: Printed) -> Statement:
     """The fixed point is the table's launch state flown back for the time in the index, shrunk and
@@ -181,7 +183,7 @@ def time_in_the_fixed_point(printed: Printed) -> Statement:
     """The launch state flown back, shrunk by (1 - alpha)/(1 + alpha) and turned round, is a fixed
     point for this time only.
     """
-    shifted = (flight_matrix(-t) * r_0).scaled(-(1 - alpha) / (1 + alpha))
+    shifted = vector(flight_matrix(-t) * r_0).scaled(-(1 - alpha) / (1 + alpha))
     return always(
         iff(equals(f1(shifted), shifted), printed.formula(PAPER.extended({r"\epsilon_1": t})))
     )
@@ -259,7 +261,7 @@ def eigenvalues_lie_in_the_unit_circle(printed: Printed) -> Statement:
     """Every complex eigenvalue of the linear part of the map is less than 1 in absolute value,
     whatever the launch speed.
     """
-    return always(p**2 + q**2 < 1, given=[eigenvalue_of(value_of(printed, PAPER), p, q)])
+    return always(p**2 + q**2 < 1, given=[eigenvalue_of(matrix(value_of(printed, PAPER)), p, q)])
 
 
 @claim("s3.3-neighbourhood", "3.3", "line 313")
@@ -314,7 +316,7 @@ def states_outside_b1_meet_the_table_late(printed: Printed) -> list[Statement]:
     return [
         always(
             condition.formula(PAPER),
-            given=[difference.right(PAPER)(b), different(v, r)],
+            given=[as_region(difference.right(PAPER))(b), different(v, r)],
             label="late",
         ),
         always(
@@ -360,7 +362,7 @@ def period_of_flight(printed: Printed) -> list[Statement]:
     then.
     """
     lands = (t > 0) & equal(height(table_at(t)), 0)
-    after = printed.right(PAPER)
+    after = vector(printed.right(PAPER))
     return [
         always(
             printed.formula(PAPER.extended({r"\overline f_2": ball_at(t)})),
@@ -414,7 +416,7 @@ def map_jumps_between_b1_and_b2() -> list[Statement]:
         ),
         always(B2(b), given=[ON_THE_LINE], label="value-on-the-line"),
         always(
-            equals(f1(b), vector(collide(table_at(T))(vector(f2(b))))),
+            equals(f1(b), vector(collide(table_at(T))(f2(b)))),
             given=[meet(T)],
             label="cause",
         ),

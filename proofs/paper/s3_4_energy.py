@@ -26,7 +26,7 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.states import next_bounce, strikes_from, struck
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import StateFunction, Vector
+from juggleproof.proofs.reading.values import StateFunction, Value, Vector
 
 tau, change, change_1, change_2 = reals("tau change change_1 change_2")
 b_0, image = Vector(reals("beta0 v0")), Vector(reals("beta1 v1"))
@@ -95,7 +95,7 @@ def flight_keeps_the_energy(printed: Printed) -> Statement:
     )
 
 
-def image_of_b(state: Vector = b) -> StateFunction:
+def image_of_b(state: Vector = b) -> StateFunction[Vector]:
     """f, of which only the image of this state is known, by a name."""
     return only_at(state, image)
 
@@ -132,7 +132,11 @@ def map_keeps_the_energy_on_b2(printed: Printed) -> Statement:
 def energy_change(printed: Printed) -> list[Statement]:
     """The map changes the energy by what the impact adds to it on B1, and by nothing on B2."""
     gain = energy(struck(b, t)) - energy(ball_at(t))
-    names = {r"\Delta_1 E": change_1, r"\Delta_2 E": change_2, r"\Delta E": only_at(b, change)}
+    names: dict[str, Value] = {
+        r"\Delta_1 E": change_1,
+        r"\Delta_2 E": change_2,
+        r"\Delta E": only_at(b, change),
+    }
     known = equal(change_1, derived("energy_change_1")) & equal(
         change_2, derived("energy_change_2")
     )

@@ -44,6 +44,8 @@ from juggleproof.proofs.paper.names import (
     claim,
     collide,
     derived,
+    derived_matrix,
+    derived_vector,
     equals,
     exists_some,
     f1,
@@ -82,7 +84,7 @@ from juggleproof.proofs.reading.evaluation import Environment, relate
 from juggleproof.proofs.reading.lexer import PrintError
 from juggleproof.proofs.reading.meaning import Meaning, Printed
 from juggleproof.proofs.reading.tree import Chain
-from juggleproof.proofs.reading.values import ExtremalValue, Matrix, Region, Vector
+from juggleproof.proofs.reading.values import ExtremalValue, Matrix, Region, Vector, scalar
 
 # -------------------------------------------------------------------------------------------------
 # Section 3.5.1: fixed points of f and of its composites, what they ask of ball and table, and for
@@ -109,7 +111,7 @@ def many_fixed_points() -> Readings:
     )
     back = exists_some(
         ["beta", "v"],
-        B1(b) & B2(vector(f1(b))) & comes_back(2),
+        B1(b) & B2(f1(b)) & comes_back(2),
         in_range=[alpha >= Fraction(1, 3), alpha < 1],
     )
     return Readings({"of-f": Assertion((two,)), "of-composites": Assertion((back,))})
@@ -152,7 +154,7 @@ def one_impact_in_k_periods() -> list[Statement]:
     return [
         always_integer(B1(b), given=[comes_back(K)], in_range=from_threshold_on(), label="impact"),
         always_integer(
-            B2(vector(flights(n)(vector(f1(b))))),
+            B2(vector(flights(n)(f1(b)))),
             given=[comes_back(K), n >= 0, n <= K - 2],
             in_range=from_threshold_on(),
             label="flights",
@@ -265,7 +267,7 @@ def longest_period(printed: Printed, rounded: Callable[[Term], Formula]) -> Asse
             raise ClaimError(
                 f"{found.sign} stands where the greatest value under a condition is expected"
             )
-        greatest.append((found.condition, term(found.value)))
+        greatest.append((found.condition, term(scalar(found.value))))
         return m
 
     environment, inside = with_rounding(
@@ -499,7 +501,9 @@ def eigenvalues_of_the_composites_lie_in_the_unit_circle() -> Statement:
     """For every K, each complex eigenvalue of the matrix of the composite is less than 1 in
     absolute value.
     """
-    return always_integer(p**2 + q**2 < 1, given=[eigenvalue_of(derived("return_jacobian"), p, q)])
+    return always_integer(
+        p**2 + q**2 < 1, given=[eigenvalue_of(derived_matrix("return_jacobian"), p, q)]
+    )
 
 
 @claim("s3.5.3-locally-stable", "3.5.3", "line 424", parameters=("alpha", "K"))
@@ -512,18 +516,19 @@ def fixed_points_are_stable_where_they_exist() -> Argument:
     come back near the fixed point, whose period is 2 here.
     """
     higher = b + Vector((lift, term(0)))
-    flies_on = B1(higher) & B2(vector(flights(K - 2)(vector(f1(higher)))))
-    second = vector(at(derived("impact_fixed_point"), {"K": 2}))
+    flies_on = B1(higher) & B2(vector(flights(K - 2)(f1(higher))))
+    second = at(derived_vector("impact_fixed_point"), {"K": 2})
     lifted = second + Vector((lift, term(0)))
     returns = B1(lifted) & next_state_is(
-        vector(f1(lifted)), lambda state: within(r, speed(state) - speed(second))
+        f1(lifted), lambda state: within(r, speed(state) - speed(second))
     )
     return Argument(
         steps={
             "eigenvalues": Assertion(
                 (
                     always_integer(
-                        p**2 + q**2 < 1, given=[eigenvalue_of(derived("return_jacobian"), p, q)]
+                        p**2 + q**2 < 1,
+                        given=[eigenvalue_of(derived_matrix("return_jacobian"), p, q)],
                     ),
                 )
             ),
@@ -561,7 +566,7 @@ def fixed_points_are_stable_inside_their_range() -> list[Statement]:
 
     So the fixed point is stable there.
     """
-    center, middle = vector(derived("impact_fixed_point")), b_0
+    center, middle = derived_vector("impact_fixed_point"), b_0
     edge, largest = term(center.component(1)), term(middle.component(1))
 
     def in_box(state: Vector, around: Vector) -> Formula:
@@ -595,5 +600,5 @@ def fixed_points_are_stable_inside_their_range() -> list[Statement]:
             given=[H(b), H(vector(flights(K - 1)(b))), n >= 0, n <= K - 1],
             label="above-the-table",
         ),
-        always(B2(b), given=[H(b), H(vector(f2(b)))], label="flights"),
+        always(B2(b), given=[H(b), H(f2(b))], label="flights"),
     ]

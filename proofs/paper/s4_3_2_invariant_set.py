@@ -27,6 +27,7 @@ from juggleproof.proofs.paper.names import (
     claim,
     collision_time,
     derived,
+    derived_vector,
     e_1,
     eps,
     equals,
@@ -115,7 +116,7 @@ def point_p_is_the_intersection(printed: Printed) -> Readings:
     )
 
 
-AT_P = PAPER.extended({"p": derived("point_p")})
+AT_P = PAPER.extended({"p": derived_vector("point_p")})
 
 
 @claim(
@@ -251,7 +252,7 @@ def map_on_the_band_is_that_of_an_impact(printed: Printed) -> list[Statement]:
     multiple of what the states differ by.
     """
     other = Vector(reals("beta0 v0"))
-    change = vector(f1(b)) - vector(f1(other))
+    change = f1(b) - f1(other)
     near = (height(b - other), T * speed(b - other))
     within = [-d <= near[0], near[0] <= d, -d <= near[1], near[1] <= d]
     far = (height(change), T * speed(change))
@@ -289,7 +290,7 @@ def band_is_mapped_into_itself(printed: Printed) -> Argument:
         inside(quadratic(y)), given=[inside(quadratic(-1)), inside(quadratic(1)), inside(y)]
     )
 
-    def stays(f: StateFunction, given: list[Formula], label: str) -> Statement:
+    def stays(f: StateFunction[Vector], given: list[Formula], label: str) -> Statement:
         stated = printed.formula(AROUND_E1.extended({r"\overline f": f}))
         return always(stated, given=[eps > 0, *NEAR, *given], in_range=RANGE_21, label=label)
 
@@ -310,7 +311,7 @@ def band_attracts_the_region() -> Argument:
             "falls-at-impacts": Assertion(
                 (
                     always(
-                        from_e_1(vector(f1(b))) < from_e_1(b),
+                        from_e_1(f1(b)) < from_e_1(b),
                         given=[B1(b), *outside],
                         in_range=RANGE_21,
                     ),
@@ -319,7 +320,7 @@ def band_attracts_the_region() -> Argument:
             "falls-in-flight": Assertion(
                 (
                     always(
-                        from_e_1(vector(f2(b))) < from_e_1(b),
+                        from_e_1(f2(b)) < from_e_1(b),
                         given=[B2(b), *outside],
                         in_range=RANGE_21,
                     ),
@@ -350,7 +351,7 @@ def map_on_the_band_is_linear(printed: Printed) -> Readings:
     """
     agrees = always(printed.formula(AROUND_E1), given=[next_states(b, next_image)], label="agrees")
 
-    def combines(one: Vector, other: Vector, f: StateFunction) -> Statement:
+    def combines(one: Vector, other: Vector, f: StateFunction[Vector]) -> Statement:
         mixed = one.scaled(p) + other.scaled(q)
         return always(
             equals(vector(f(mixed)), vector(f(one)).scaled(p) + vector(f(other)).scaled(q)),

@@ -24,7 +24,7 @@ from juggleproof.proofs.paper.names import (
     at,
     b,
     claim,
-    derived,
+    derived_matrix,
     e_1,
     eps,
     equals,
@@ -53,7 +53,7 @@ from juggleproof.proofs.paper.states import (
 )
 from juggleproof.proofs.reading.evaluation import relate
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import LimitValue, Matrix, Vector
+from juggleproof.proofs.reading.values import LimitValue, Matrix, Vector, scalar
 
 d = real("d")
 ORIGIN = Vector((0, 0))
@@ -101,11 +101,12 @@ def relative_motion_is_linear() -> Statement:
     linear = Matrix(
         tuple(
             tuple(at(term(entry), {"K": 1}) for entry in row)
-            for row in derived("return_jacobian").rows
+            for row in derived_matrix("return_jacobian").rows
         )
     )
     return always(
-        equals(next_image - e_1, linear * (b - e_1)), given=[B1(b), next_states(b, next_image)]
+        equals(next_image - e_1, vector(linear * (b - e_1))),
+        given=[B1(b), next_states(b, next_image)],
     )
 
 
@@ -170,7 +171,7 @@ def change_of_kinetic_energy(printed: Printed) -> Statement:
     it.
     """
     before = z + e_1
-    return is_change(printed, from_e_1(vector(f1(before))) - from_e_1(before))
+    return is_change(printed, from_e_1(f1(before)) - from_e_1(before))
 
 
 @claim(
@@ -257,7 +258,7 @@ def _limit(printed: Printed) -> tuple[Term, str, Term]:
         or (value.variable, value.destination) != ("k", r"\infty")
     ):
         raise ClaimError("the limit of a value for k to infinity is expected here")
-    return term(value.value), sign, term(limit)
+    return term(scalar(value.value)), sign, term(scalar(limit))
 
 
 @claim("s4.3.1-LaSalle", "4.3.1", "lines 533 to 535", printed=r"\lim_{k\to\infty}K(z_k)=0")
@@ -278,7 +279,7 @@ def kinetic_energy_tends_to_zero(printed: Printed) -> Argument:
             "falls-at-impacts": Assertion(
                 (
                     always(
-                        from_e_1(vector(f1(b))) < from_e_1(b),
+                        from_e_1(f1(b)) < from_e_1(b),
                         given=[B1(b), R(b)],
                         in_range=RANGE_21,
                     ),
@@ -287,7 +288,7 @@ def kinetic_energy_tends_to_zero(printed: Printed) -> Argument:
             "falls-in-flight": Assertion(
                 (
                     always(
-                        from_e_1(vector(f2(b))) < from_e_1(b),
+                        from_e_1(f2(b)) < from_e_1(b),
                         given=[B2(b), R(b)],
                         in_range=RANGE_21,
                     ),
@@ -330,7 +331,7 @@ def flight_in_the_region_approaches_too() -> Readings:
     def excess(state: Vector) -> Term:
         return term(kinetic_energy(state)) - term(kinetic_energy(e_1))
 
-    after = vector(f2(b))
+    after = f2(b)
     return Readings(
         {
             "relative": Assertion(

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 from juggleproof.certificates.language import (
     ClaimError,
@@ -38,6 +37,7 @@ from juggleproof.proofs.paper.names import (
     WITH_INTEGER_K,
     H,
     K,
+    Placed,
     R,
     T,
     alpha,
@@ -48,6 +48,7 @@ from juggleproof.proofs.paper.names import (
     collide,
     collision_time,
     derived,
+    derived_vector,
     e_1,
     energy,
     eps,
@@ -74,7 +75,7 @@ from juggleproof.proofs.paper.names import (
 )
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Meaning, Printed
-from juggleproof.proofs.reading.values import Matrix, Region, StateFunction, Vector
+from juggleproof.proofs.reading.values import Matrix, Region, StateFunction, Value, Vector
 
 # -------------------------------------------------------------------------------------------------
 # Impacts that gain, keep or lose energy, the greatest energies that go with them, and how the
@@ -97,7 +98,7 @@ def keeps_energy(state: Vector) -> Formula:
 
 def place(extremum: str) -> dict[str, Term]:
     """The state at which a derived extremum is attained."""
-    return dict(zip(("beta", "v"), derived(extremum).entries))
+    return dict(zip(("beta", "v"), map(term, derived_vector(extremum).entries)))
 
 
 # The slopes of a quadratic function: for such a function the quotient of central differences is the
@@ -129,14 +130,12 @@ def are_slopes(*slopes: Term, state: Vector = b) -> Formula:
     """Each of these names is the slope of its function at the state: by central differences of any
     width h.
     """
-    said = [different(h, 0)]
+    differences = [different(h, 0)]
     for slope in slopes:
-        of: StateFunction = (
-            impact_energy_change if slope in (dE_dbeta, dE_dv) else function("region_margin")
-        )
+        of = impact_energy_change if slope in (dE_dbeta, dE_dv) else function("region_margin")
         step = Vector((h, 0)) if slope in (dE_dbeta, dR_dbeta) else Vector((0, h))
-        said.append(equal(term(of(state + step)) - of(state - step), 2 * h * slope))
-    return conjunction(said)
+        differences.append(equal(term(of(state + step)) - of(state - step), 2 * h * slope))
+    return conjunction(differences)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -174,14 +173,14 @@ def next_bounce(start: Vector, time: Term) -> Vector:
     return ball_at(T - time, struck(start, time))
 
 
-def flights(count: Number) -> StateFunction:
+def flights(count: Number) -> StateFunction[Vector]:
     """So many periods of flight, without an impact."""
     return flight(term(count) * T)
 
 
 def cycle(count: Number, start: Vector = b) -> Vector:
     """The state after this number of periods, of which the first has an impact."""
-    return vector(flights(term(count) - 1)(vector(f1(start))))
+    return vector(flights(term(count) - 1)(f1(start)))
 
 
 def composite(count: Number, state: Vector) -> Vector:
@@ -204,7 +203,7 @@ def within(size: Term, *offsets: Term) -> Formula:
     return conjunction([part for offset in offsets for part in (-size < offset, offset < size)])
 
 
-def function_of(printed: Printed, environment: Environment) -> StateFunction:
+def function_of(printed: Printed, environment: Environment) -> StateFunction[Value]:
     """The function of a state that a print names, and says nothing else about."""
     value = Meaning(environment).of(printed.tree)
     if not isinstance(value, StateFunction):
@@ -214,7 +213,7 @@ def function_of(printed: Printed, environment: Environment) -> StateFunction:
 
 def relations_of(
     printed: Printed, environment: Environment, count: int
-) -> list[tuple[Any, str, Any]]:
+) -> list[tuple[Value, str, Value]]:
     """The relations of a print that has to have this many, each with the values on its two
     sides.
     """
@@ -248,9 +247,9 @@ def eigenvalue_of(matrix: Matrix, real_part: Term, imaginary_part: Term) -> Form
     )
 
 
-def next_state_is(state: Vector, says: Callable[[Vector], Formula]) -> Formula:
+def next_state_is(state: Vector, holds: Callable[[Vector], Formula]) -> Formula:
     """The state one period later is such: with an impact or without."""
-    return (B1(state) & says(vector(f1(state)))) | (B2(state) & says(vector(f2(state))))
+    return (B1(state) & holds(f1(state))) | (B2(state) & holds(f2(state)))
 
 
 def offset_with(time: Term) -> Vector:
@@ -271,16 +270,18 @@ def one_image_for_every_state(
     """What is printed for f holds of a state and of what becomes of the ball within a period, and
     of nothing else.
     """
-    says = printed.formula(environment.extended({r"\overline f": image}))
+    stated = printed.formula(environment.extended({r"\overline f": image}))
     return Assertion(
         (
             always(
-                iff(equals(image, next_bounce(b, t)), says),
+                iff(equals(image, next_bounce(b, t)), stated),
                 given=[*given, H(b), strikes_from(b, t)],
                 label="with-impact",
             ),
             always(
-                iff(equals(image, ball_at(T)), says), given=[*given, B2(b)], label="without-impact"
+                iff(equals(image, ball_at(T)), stated),
+                given=[*given, B2(b)],
+                label="without-impact",
             ),
         )
     )
@@ -318,13 +319,13 @@ RANGE_21 = (
 )  # (21): e_1 is the only fixed point
 
 
-def _of_z(name: str) -> StateFunction:
-    return StateFunction(lambda state: at(derived(name), {"z1": height(state), "z2": speed(state)}))
+def _of_z(value: Placed) -> StateFunction[Placed]:
+    return StateFunction(lambda state: at(value, {"z1": height(state), "z2": speed(state)}))
 
 
-kinetic_energy = _of_z("relative_kinetic_energy")
-kinetic_energy_change = _of_z("relative_kinetic_energy_change")
-relative_step = _of_z("relative_map")
+kinetic_energy = _of_z(derived("relative_kinetic_energy"))
+kinetic_energy_change = _of_z(derived("relative_kinetic_energy_change"))
+relative_step = _of_z(derived_vector("relative_map"))
 
 
 def from_e_1(state: Vector) -> Term:
@@ -344,7 +345,7 @@ def leaves_R_at(velocity: Term) -> Formula:
     speed.
     """
     return conjunction(
-        [velocity < r, equal(term(energy(on_the_line(velocity))), derived("region_energy"))]
+        [velocity < r, equal(energy(on_the_line(velocity)), derived("region_energy"))]
     )
 
 
@@ -364,7 +365,7 @@ NEAR = is_narrow(eps)
 
 def narrow_band_stays(size: Term) -> tuple[Statement, ...]:
     """f1 maps a narrow band into itself: its images are in B1, in R, and in the band."""
-    after = vector(f1(b))
+    after = f1(b)
     return (
         always(
             B1(after),
@@ -434,7 +435,7 @@ STEP = Environment(
         r"z_k": z,
         r"z_{k+1}": relative_step(z),
         r"b_k": z + e_1,
-        r"b_{k+1}": vector(f1(z + e_1)),
+        r"b_{k+1}": f1(z + e_1),
         r"u_2'": Matrix(((0, 1),)),
         r"\xi": derived("xi_1"),
     },

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from juggleproof.certificates.language import (
     Formula,
@@ -23,8 +23,9 @@ from juggleproof.certificates.language import (
 )
 from juggleproof.certificates.search.closing import Hints
 from juggleproof.proofs import claims
+from juggleproof.proofs.claims import ClaimHints
 from juggleproof.proofs.forms import Vocabulary, always
-from juggleproof.proofs.paper.names import derived
+from juggleproof.proofs.paper.names import derived, derived_vector
 
 # -------------------------------------------------------------------------------------------------
 # What the claims about a corner's impact have in common: names, hypotheses, the five modes and
@@ -93,7 +94,7 @@ class Impulse(NamedTuple):
 
 def of(name: str, *arguments: str) -> Impulse:
     """A derived impulse or velocity."""
-    value = derived(name, *arguments)
+    value = derived_vector(name, *arguments)
     return Impulse(term(value.component(1)), term(value.component(2)))
 
 
@@ -141,7 +142,7 @@ def a_product_of_two_numbers_and_a_square_is_not_negative() -> Statement:
     return always(p * q * d**2 >= 0, given=[p >= 0, q >= 0])
 
 
-def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> dict[str, Any]:
+def products_hint(products: Sequence[tuple[Number, Number, Number]]) -> ClaimHints:
     """The hints of a claim: these products, each of two numbers that are not negative and what is
     squared.
     """
@@ -159,7 +160,8 @@ x_c, y_c, J, h, k, mu = reals("x_c y_c J h k mu")
 c_x, c_y, omega, P_x, P_y = reals("c_x c_y omega P_x P_y")
 d_x, d_y, omega_after = reals("d_x d_y omega_after")  # the motion after the impulse
 COEFFICIENTS: dict[str, Term] = {
-    f"B{index}": term(derived("contact_coefficients").component(index)) for index in (1, 2, 3)
+    f"B{index}": term(derived_vector("contact_coefficients").component(index))
+    for index in (1, 2, 3)
 }
 B1, B2, B3 = reals("B1 B2 B3")
 NAMES = Vocabulary(abbreviations=COEFFICIENTS)

@@ -5,8 +5,8 @@ environment.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache
-from typing import Any, ClassVar
+from functools import lru_cache, reduce
+from typing import ClassVar
 
 from juggleproof.certificates.language import (
     ClaimError,
@@ -34,6 +34,7 @@ from juggleproof.proofs.reading.values import (
     Scalar,
     ShapeError,
     StateFunction,
+    Value,
     Vector,
     add,
     applied,
@@ -43,6 +44,7 @@ from juggleproof.proofs.reading.values import (
     negate,
     over,
     raised,
+    scalar,
     subtract,
     union,
 )
@@ -75,12 +77,12 @@ class Environment:
 
     def __init__(
         self,
-        names: Mapping[str, Any],
+        names: Mapping[str, Value],
         *,
         points: Mapping[str, Sequence[str]] | None = None,
         state: str | None = None,
     ) -> None:
-        self.meanings: dict[Tree, Any] = {
+        self.meanings: dict[Tree, Value] = {
             _key(latex): _exact(latex, value) for latex, value in names.items()
         }
         self.points = {
@@ -88,21 +90,26 @@ class Environment:
         }
         for point, components in self.points.items():
             if point not in self.meanings and all(name in self.meanings for name in components):
-                self.meanings[point] = Vector(tuple(self.meanings[name] for name in components))
-        self.state: Any = None
+                self.meanings[point] = Vector(
+                    tuple(scalar(self.meanings[name]) for name in components)
+                )
+        self.state: Vector | None = None
         if state is not None:
-            if _key(state) not in self.meanings:
-                raise ClaimError(f"the state {state} has no meaning in its own environment")
-            self.state = self.meanings[_key(state)]
+            meaning = self.meanings.get(_key(state))
+            if not isinstance(meaning, Vector):
+                raise ClaimError(
+                    f"the state {state} has no meaning as a vector in its own environment"
+                )
+            self.state = meaning
         self.kinds = frozenset(type(tree) for tree in self.meanings) - {Name}
 
-    def extended(self, names: Mapping[str, Any]) -> Environment:
+    def extended(self, names: Mapping[str, Value]) -> Environment:
         """This environment with more names, or other meanings of them."""
         return self._with(
             {_key(latex): _exact(latex, value) for latex, value in names.items()}, self.state
         )
 
-    def meaning_of(self, latex: str) -> Any:
+    def meaning_of(self, latex: str) -> Value:
         """The value bound to this very key."""
         if _key(latex) not in self.meanings:
             raise ClaimError(f"{latex} is no key of this environment")
@@ -119,7 +126,7 @@ class Environment:
             {point: state, **dict(zip(components, state.entries, strict=True))}, state
         )
 
-    def _with(self, meanings: Mapping[Tree, Any], state: Any) -> Environment:
+    def _with(self, meanings: Mapping[Tree, Value], state: Vector | None) -> Environment:
         other = object.__new__(Environment)
         other.meanings = {**self.meanings, **meanings}
         other.points, other.state = self.points, state
@@ -127,7 +134,7 @@ class Environment:
         return other
 
 
-def _exact(latex: str, value: Any) -> Any:
+def _exact(latex: str, value: Value) -> Value:
     if isinstance(value, (float, complex)):
         raise ClaimError(
             f"{latex} is given the float {value!r}; only exact numbers and terms have a meaning"
@@ -143,14 +150,14 @@ def _exact(latex: str, value: Any) -> Any:
 # product. A `StateFunction` may be marked as a factor before a scalar, so that \tau_c(\overline b)
 # and \tau_c(\dot{\overline\beta} - \dot\rho_0) both say what the paper says.
 
-Value = Any  # a scalar, Vector, Matrix, callable, Region, Formula or one of the notions
-_MISSING = object()
-
 
 class Evaluation:
-    """The evaluation of trees in one environment: what holds for all of them, and arithmetic."""
+    """The evaluation of trees in one environment: what holds for all of them, and arithmetic.
 
-    rules: ClassVar[dict[type, Callable[[Any, Any], Value]]] = {}
+    `rules` has the method for each kind of node, which returns the value of the node.
+    """
+
+    rules: ClassVar[dict[type[Tree], Callable[..., Value]]] = {}
 
     def __init__(self, environment: Environment) -> None:
         self.environment = environment
@@ -160,8 +167,8 @@ class Evaluation:
         """The value of a tree; a function stays a function."""
         kind = type(tree)
         if kind in self.environment.kinds:
-            value = self.meanings.get(tree, _MISSING)
-            if value is not _MISSING:
+            value = self.meanings.get(tree)
+            if value is not None:
                 return value
         try:
             return self.rules[kind](self, tree)
@@ -209,8 +216,9 @@ class Evaluation:
         return PrintError(tree.at, f"{spelled(tree)} has no meaning here")
 
     def name(self, tree: t.Name) -> Value:
-        value = self.meanings.get(tree, _MISSING)
-        if value is not _MISSING:
+        r"""The meaning of the name, or of its family, such as A_{\cdot}, at its subscripts."""
+        value = self.meanings.get(tree)
+        if value is not None:
             return value
         if tree.subscripts:
             family = self.meanings.get(
@@ -220,10 +228,12 @@ class Evaluation:
                 return applied(family, *map(self.here, tree.subscripts))
         raise self._without_meaning(tree)
 
-    def mark(self, tree: t.Mark) -> Value:
+    def sign(self, tree: t.Sign) -> Value:
+        """Refused: a bare sign has a meaning as part of a key only."""
         raise self._without_meaning(tree)
 
     def power(self, tree: t.Power) -> Value:
+        r"""A family, such as F^{\cdot}, at its superscript, or a power with an integer exponent."""
         base, exponent = tree.base, tree.exponent
         family = self.meanings.get(t.Power(base, HOLE))
         if family is not None:
@@ -234,7 +244,7 @@ class Evaluation:
             )
             if family is not None:
                 return applied(family, *map(self.here, base.subscripts), self.here(exponent))
-        if isinstance(exponent, t.Mark):
+        if isinstance(exponent, t.Sign):
             raise self._without_meaning(tree)
         value = self.of(base)
         if isinstance(value, Region):
@@ -261,6 +271,10 @@ class Evaluation:
         return negate(self.here(tree.operand))
 
     def quotient(self, tree: t.Quotient) -> Value:
+        """A quotient of scalars, or a vector or matrix over a scalar.
+
+        A slash before a product is refused: what it divides by is ambiguous.
+        """
         if (
             tree.slash
             and isinstance(tree.bottom, t.Juxtaposition)
@@ -280,6 +294,7 @@ class Evaluation:
         )
 
     def binary(self, tree: t.Binary) -> Value:
+        """A sum, difference or product, a union or intersection, or a composition of functions."""
         sign = tree.sign
         if sign == r"\circ":
             return self._composed(self.of(tree.left), self.of(tree.right), tree)
@@ -313,14 +328,15 @@ class Evaluation:
         return StateFunction(lambda *arguments: applied(outer, applied(inner, *arguments)))
 
     def juxtaposition(self, tree: t.Juxtaposition) -> Value:
-        factors, result, i = tree.factors, _MISSING, 0
+        """Factors from left to right: a function takes the bracket after it; all is multiplied."""
+        factors, values, i = tree.factors, list[Value](), 0
         while i < len(factors):
             first, value, i = factors[i], self._applied_key(factors, i), i + 1
-            if value is _MISSING:
+            if value is None:
                 value = self.of(first)
                 while i < len(factors) and (bracket := _bracket(factors[i])) is not None:
                     applied = self._applied(value, first, bracket)
-                    if applied is _MISSING:
+                    if applied is None:
                         break
                     last = factors[i]
                     value = (
@@ -331,32 +347,30 @@ class Evaluation:
                     i += 1
             else:
                 i += 1
-            if result is _MISSING and i == len(factors):
+            if not values and i == len(factors):
                 return value
-            value = self.at_state(value, first)
-            result = value if result is _MISSING else multiply(result, value)
-        return result
+            values.append(self.at_state(value, first))
+        return reduce(multiply, values)
 
-    def _applied_key(self, factors: tuple[Tree, ...], i: int) -> Value:
+    def _applied_key(self, factors: tuple[Tree, ...], i: int) -> Value | None:
         """The meaning of a key such as E(t), where it stands among the factors."""
         if t.Juxtaposition not in self.environment.kinds or i + 1 == len(factors):
-            return _MISSING
-        return self.meanings.get(t.Juxtaposition(factors[i : i + 2]), _MISSING)
+            return None
+        return self.meanings.get(t.Juxtaposition(factors[i : i + 2]))
 
-    def _applied(self, function: Value, name: Tree, bracket: t.Group) -> Value:
-        """The function at what the bracket holds, or _MISSING where the two are a product."""
-        is_function = callable(function) and not isinstance(function, Region)
-        if not is_function and not isinstance(function, Vector):
-            return _MISSING
+    def _applied(self, function: Value, name: Tree, bracket: t.Group) -> Value | None:
+        """The function at what the bracket holds, or None where the two are a product."""
+        if isinstance(function, Region) or not (callable(function) or isinstance(function, Vector)):
+            return None
         arguments: list[Value] = [self.here(item) for item in bracket.items]
-        if not is_function:
+        if not callable(function):
             if len(arguments) == 1 and not is_scalar(arguments[0]):
-                return _MISSING
+                return None
             raise PrintError(
                 bracket.at, f"{spelled(name)} is a vector, not a function, and a bracket follows it"
             )
         if len(arguments) > 1 and all(map(is_scalar, arguments)):
-            arguments = [Vector(tuple(arguments))]
+            arguments = [Vector(tuple(map(scalar, arguments)))]
         if len(arguments) == 1 and isinstance(arguments[0], Region):
             return Image(function, arguments[0])
         if (
@@ -365,7 +379,7 @@ class Evaluation:
             and len(arguments) == 1
             and is_scalar(arguments[0])
         ):
-            return _MISSING
+            return None
         return applied(function, *arguments)
 
 
@@ -384,7 +398,7 @@ def _bracket(tree: Tree) -> t.Group | None:
 
 EQUALITIES = frozenset(("=", ":=", r"\equiv"))
 _INCLUSIONS = frozenset((r"\subset", r"\subseteq"))
-_OF_TERMS: dict[str, Callable[[Any, Any], Formula]] = {
+_OF_TERMS: dict[str, Callable[[Scalar, Scalar], Formula]] = {
     "=": equal,
     ":=": equal,
     r"\equiv": equal,
@@ -396,7 +410,7 @@ _OF_TERMS: dict[str, Callable[[Any, Any], Formula]] = {
 }
 
 
-def relate(left: Any, sign: str, right: Any, state: Any = None) -> Formula:
+def relate(left: Value, sign: str, right: Value, state: Vector | None = None) -> Formula:
     """The formula of one relation; `state` is where regions are compared."""
     if is_scalar(left) and is_scalar(right) and sign in _OF_TERMS:
         return _OF_TERMS[sign](left, right)
@@ -412,20 +426,17 @@ def relate(left: Any, sign: str, right: Any, state: Any = None) -> Formula:
         return _member(left, sign, right)
     if isinstance(left, (Region, Image)) and isinstance(right, Region):
         return _of_regions(left, sign, right, state)
-    if (
-        isinstance(left, (Vector, Matrix))
-        and type(left) is type(right)
-        and (sign in EQUALITIES or sign == r"\ne")
-    ):
-        pairs = _pairs(left, right)
-        if sign == r"\ne":
-            return disjunction([different(a, b) for a, b in pairs])
+    pairs = _pairs(left, right)
+    if pairs is not None and sign == r"\ne":
+        return disjunction([different(a, b) for a, b in pairs])
+    if pairs is not None and sign in EQUALITIES:
         return conjunction([equal(a, b) for a, b in pairs])
     raise ShapeError(f"{sign} between {kind_of(left)} and {kind_of(right)} states no formula")
 
 
-def _pairs(left: Any, right: Any) -> list[tuple[Scalar, Scalar]]:
-    if isinstance(left, Matrix):
+def _pairs(left: Value, right: Value) -> list[tuple[Scalar, Scalar]] | None:
+    """The entries of two vectors or two matrices side by side; None for other values."""
+    if isinstance(left, Matrix) and isinstance(right, Matrix):
         if left.shape != right.shape:
             raise ShapeError("an equation of matrices of different shapes")
         return [
@@ -433,44 +444,49 @@ def _pairs(left: Any, right: Any) -> list[tuple[Scalar, Scalar]]:
             for rows in zip(left.rows, right.rows, strict=True)
             for pair in zip(*rows, strict=True)
         ]
-    if len(left.entries) != len(right.entries):
-        raise ShapeError("an equation of vectors of different lengths")
-    return list(zip(left.entries, right.entries, strict=True))
+    if isinstance(left, Vector) and isinstance(right, Vector):
+        if len(left.entries) != len(right.entries):
+            raise ShapeError("an equation of vectors of different lengths")
+        return list(zip(left.entries, right.entries, strict=True))
+    return None
 
 
-def _by_cases(value: Any, cases: Piecewise, state: Any) -> Formula:
+def _by_cases(value: Value, cases: Piecewise, state: Vector | None) -> Formula:
     stated = []
     for piece in cases.pieces:
-        says = relate(value, "=", piece.value, state)
+        line = relate(value, "=", piece.value, state)
         stated.append(
-            implies(piece.condition, says if piece.besides is None else says & piece.besides)
+            implies(piece.condition, line if piece.besides is None else line & piece.besides)
         )
     return conjunction(stated)
 
 
-def _rounds(value: Any, rounded: Rounded) -> Formula:
+def _rounds(value: Value, rounded: Rounded) -> Formula:
     if not is_scalar(value):
         raise ShapeError(f"a rounded number equal to {kind_of(value)}")
-    whole, exact = term(value), term(rounded.value)  # type: ignore[arg-type]
+    whole, exact = term(scalar(value)), term(scalar(rounded.value))
     if rounded.bracket == r"\lfloor":
         return (whole <= exact) & (exact < whole + 1)
     return (exact <= whole) & (whole < exact + 1)
 
 
-def _member(left: Any, sign: str, right: Any) -> Formula:
+def _member(left: Value, sign: str, right: Value) -> Formula:
     if not isinstance(left, Vector) or not isinstance(right, Region):
         raise ShapeError(f"{sign} between {kind_of(left)} and {kind_of(right)} states no formula")
     inside = right(left)
     return inside if sign == r"\in" else ~inside
 
 
-def _of_regions(left: Region | Image, sign: str, right: Region, state: Any) -> Formula:
+def _of_regions(left: Region | Image, sign: str, right: Region, state: Vector | None) -> Formula:
     if state is None:
         raise ShapeError("regions are compared at the state of the environment, which has none")
     if sign in _INCLUSIONS:
         if isinstance(left, Region):
             return implies(left(state), right(state))
-        return implies(left.region(state), right(applied(left.function, state)))
+        image = applied(left.function, state)
+        if not isinstance(image, Vector):
+            raise ShapeError(f"the image of a region, whose states are {kind_of(image)}")
+        return implies(left.region(state), right(image))
     if isinstance(left, Region) and sign in EQUALITIES:
         return iff(left(state), right(state))
     raise ShapeError(f"{sign} between {kind_of(left)} and {kind_of(right)} states no formula")

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from juggleproof.certificates.language import Formula, Term, conjunction, implies, term
 from juggleproof.proofs.reading import tree as t
-from juggleproof.proofs.reading.evaluation import Environment, Evaluation, Value, relate
+from juggleproof.proofs.reading.evaluation import Environment, Evaluation, relate
 from juggleproof.proofs.reading.lexer import PrintError
 from juggleproof.proofs.reading.parser import parse, parse_name
 from juggleproof.proofs.reading.tree import HOLE, Tree, spelled
@@ -20,6 +19,8 @@ from juggleproof.proofs.reading.values import (
     Region,
     Restricted,
     Rounded,
+    Scalar,
+    Value,
     Vector,
     applied,
     is_scalar,
@@ -37,6 +38,7 @@ class Meaning(Evaluation):
     # -----------------------------------------------------------------------------------------
 
     def group(self, tree: t.Group) -> Value:
+        """The content of a bracket: a value, a vector or row of values, or a rounded number."""
         if tree.bracket in (r"\lfloor", r"\lceil"):
             return self._with_hole(
                 t.Group(tree.bracket, (HOLE,)),
@@ -49,13 +51,14 @@ class Meaning(Evaluation):
         entries = tuple(self._entry(item) for item in tree.items)
         return Matrix((entries,)) if tree.bracket == "[" else Vector(entries)
 
-    def _entry(self, tree: Tree) -> Value:
+    def _entry(self, tree: Tree) -> Scalar:
         value = self.here(tree)
-        if not is_scalar(value):
-            raise PrintError(tree.at, "an entry of a vector or matrix that is not a scalar")
-        return value
+        if is_scalar(value):
+            return value
+        raise PrintError(tree.at, "an entry of a vector or matrix that is not a scalar")
 
     def array(self, tree: t.Array) -> Value:
+        """A matrix, or a vector where it has one column."""
         rows = tuple(tuple(self._entry(entry) for entry in row) for row in tree.rows)
         return Matrix(rows) if len(rows[0]) > 1 else Vector(tuple(row[0] for row in rows))
 
@@ -86,6 +89,7 @@ class Meaning(Evaluation):
         return self._with_hole(t.Absolute(HOLE), tree, tree.content)
 
     def set_builder(self, tree: t.SetBuilder) -> Value:
+        """The region {b in base | conditions}, of states whose components the environment names."""
         base: Region | None = None
         element = tree.element
         if isinstance(element, t.Chain) and len(element.rest) == 1 and element.rest[0][0] == r"\in":
@@ -111,6 +115,7 @@ class Meaning(Evaluation):
     # ----------------------------------------------------------------------------------
 
     def operator(self, tree: t.Operator) -> Value:
+        r"""The meaning of an operator, such as D_{\cdot} \cdot, at its operand."""
         family = self.meanings.get(t.Operator(tree.sign, tree.subscripts, HOLE))
         if family is not None:
             return applied(family, self.of(tree.operand))
@@ -130,6 +135,7 @@ class Meaning(Evaluation):
         return applied(call, self.of(tree.of), self.here(tree.by))
 
     def limit(self, tree: t.Limit) -> Value:
+        """A limit as a value of its own, or the meaning that the environment gives to it."""
         condition = tree.condition
         if not isinstance(condition, t.Chain) or [sign for sign, _ in condition.rest] != [
             r"\rightarrow"
@@ -142,12 +148,14 @@ class Meaning(Evaluation):
         return value if call is None else applied(call, value)
 
     def extremum(self, tree: t.Extremum) -> Value:
+        """An extremum as a value of its own, or the meaning that the environment gives to it."""
         condition = None if tree.condition is None else self.formula(tree.condition)
         value = ExtremalValue(tree.sign, condition, self.here(tree.body))
         call = self.meanings.get(t.Extremum(tree.sign, HOLE, HOLE))
         return value if call is None else applied(call, value)
 
     def restriction(self, tree: t.Restriction) -> Value:
+        """A function on a region only; a second restriction intersects the regions."""
         function = self.of(tree.function)
         region = self._region(tree.region)
         if not callable(function) or isinstance(function, Region):
@@ -168,6 +176,7 @@ class Meaning(Evaluation):
         return Piece(self.side(value.first), when, self.chain(value))
 
     def chain(self, tree: t.Chain) -> Formula:
+        """Every relation of the chain, between the values beside it."""
         state = self.environment.state
         return conjunction(
             [relate(left, sign, right, state) for left, sign, right in self.triples(tree)]
@@ -180,7 +189,7 @@ class Meaning(Evaluation):
 Meaning.rules = {
     t.Number: Meaning.number,
     t.Name: Meaning.name,
-    t.Mark: Meaning.mark,
+    t.Sign: Meaning.sign,
     t.Power: Meaning.power,
     t.Negative: Meaning.negative,
     t.Quotient: Meaning.quotient,
@@ -253,22 +262,22 @@ class Printed:
             dict.fromkeys(spelled(name) for part in self._parts for name in _names_in(part))
         )
 
-    def relation_chain(self, environment: Environment) -> list[tuple[Any, str, Any]]:
+    def relation_chain(self, environment: Environment) -> list[tuple[Value, str, Value]]:
         """(left value, relation sign, right value) for each relation of the chain, in order."""
         chain = self._chain()
         return [
             (_as_term(a), sign, _as_term(b)) for a, sign, b in Meaning(environment).triples(chain)
         ]
 
-    def left(self, environment: Environment) -> Any:
+    def left(self, environment: Environment) -> Value:
         """The value of what stands before the first relation."""
         return self.relation_chain(environment)[0][0]
 
-    def right(self, environment: Environment) -> Any:
+    def right(self, environment: Environment) -> Value:
         """The value of what stands after the last relation."""
         return self.relation_chain(environment)[-1][2]
 
-    def definition(self, environment: Environment, of: str) -> Any:
+    def definition(self, environment: Environment, of: str) -> Value:
         """The value that the print gives to the expression `of`, which must stand before its only
         relation, := or =.
         """
@@ -281,7 +290,7 @@ class Printed:
             raise PrintError(chain.at, "a definition is one expression, one :=, one value")
         return _as_term(Meaning(environment).side(chain.rest[0][1]))
 
-    def value(self, environment: Environment) -> Any:
+    def value(self, environment: Environment) -> Value:
         """The value of a print that is a single expression, without a relation."""
         if isinstance(self.tree, (t.Chain, t.ForAll)):
             raise PrintError(
@@ -318,8 +327,9 @@ class Printed:
             point,
             components,
         ) in environment.points.items():  # refuse now, not when the region is first asked
-            if point in environment.meanings and len(components) > 1:
-                region(environment.meanings[point])
+            state = environment.meanings.get(point)
+            if isinstance(state, Vector) and len(components) > 1:
+                region(state)
         return region
 
     def _chain(self) -> t.Chain:
@@ -334,11 +344,11 @@ def read(latex: str) -> Printed:
     return Printed(latex)
 
 
-def _as_term(value: Any) -> Any:
+def _as_term(value: Value) -> Value:
     return term(value) if is_scalar(value) and not isinstance(value, Term) else value
 
 
-def _names_in(tree: Any) -> Iterator[Tree]:
+def _names_in(tree: object) -> Iterator[Tree]:
     if isinstance(tree, t.Name):
         yield tree
     elif isinstance(tree, tuple):

@@ -35,7 +35,6 @@ from juggleproof.proofs.reading.tree import (
     Group,
     Juxtaposition,
     Limit,
-    Mark,
     Name,
     Negative,
     Number,
@@ -45,6 +44,7 @@ from juggleproof.proofs.reading.tree import (
     Restriction,
     Root,
     SetBuilder,
+    Sign,
     Tree,
 )
 
@@ -278,7 +278,7 @@ def _word(tokens: tuple[Token, ...]) -> Tree | None:
     if len(tokens) == 1:
         only = tokens[0]
         if only.text in _SIGNS:
-            return Mark(only.text, at=only.start)
+            return Sign(only.text, at=only.start)
         if only.kind == "text" or only.text in EXTREMA:
             return Name(only.text.lstrip("\\"), at=only.start)
         return None

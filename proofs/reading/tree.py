@@ -28,7 +28,7 @@ class Number(Tree):
 
 
 @dataclass(frozen=True, slots=True)
-class Mark(Tree):
+class Sign(Tree):
     r"""A bare sign as a script, as in \mathcal{B}_1^+; in an environment's key, \cdot is the place
     of an argument.
     """
@@ -66,7 +66,7 @@ class Root(Tree):
 
 @dataclass(frozen=True, slots=True)
 class Power(Tree):
-    """base^exponent: a power or a superscript, which only meaning tells apart."""
+    """base^exponent: a power or a superscript, which only its meaning decides."""
 
     base: Tree
     exponent: Tree
@@ -90,7 +90,7 @@ class Negative(Tree):
 
 @dataclass(frozen=True, slots=True)
 class Juxtaposition(Tree):
-    """Factors side by side: products and applications, not yet told apart."""
+    """Factors side by side: products or applications, not yet distinguished."""
 
     factors: tuple[Tree, ...]
 
@@ -200,7 +200,7 @@ class ForAll(Tree):
     body: Tree
 
 
-HOLE = Mark(r"\cdot")
+HOLE = Sign(r"\cdot")
 
 
 def spelled(name: Tree) -> str:
@@ -211,7 +211,7 @@ def spelled(name: Tree) -> str:
     """
     if isinstance(name, Number):
         return str(name.value)
-    if isinstance(name, Mark):
+    if isinstance(name, Sign):
         return name.sign
     if isinstance(name, Operator):
         return name.sign + _subscript(name.subscripts) + " " + spelled(name.operand)

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Union
+from typing import Generic, TypeGuard, TypeVar, Union, overload
 
 from juggleproof.certificates.language import ClaimError, Formula, Term, implies
 
@@ -24,14 +24,16 @@ class ShapeError(ClaimError):
     """
 
 
-def is_scalar(value: object) -> bool:
+def is_scalar(value: object) -> TypeGuard[Scalar]:
     """Whether the value is a term or an exact number."""
     return isinstance(value, (Term, int, Fraction)) and not isinstance(value, bool)
 
 
-def _all_scalars(entries: tuple[object, ...]) -> None:
-    if not all(map(is_scalar, entries)):
-        raise ShapeError("an entry of a vector or matrix that is not a scalar")
+def scalar(value: object) -> Scalar:
+    """The value itself, which has to be a scalar; anything else raises ShapeError."""
+    if is_scalar(value):
+        return value
+    raise ShapeError("an entry of a vector or matrix that is not a scalar")
 
 
 def plus(left: Scalar, right: Scalar) -> Scalar:
@@ -78,7 +80,8 @@ class Vector:
     entries: tuple[Scalar, ...]
 
     def __post_init__(self) -> None:
-        _all_scalars(self.entries)
+        for entry in self.entries:
+            scalar(entry)
 
     def __iter__(self) -> Iterator[Scalar]:
         return iter(self.entries)
@@ -130,7 +133,8 @@ class Matrix:
 
     def __post_init__(self) -> None:
         for row in self.rows:
-            _all_scalars(row)
+            for entry in row:
+                scalar(entry)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -146,7 +150,11 @@ class Matrix:
     def __neg__(self) -> Matrix:
         return Matrix(tuple(tuple(-entry for entry in row) for row in self.rows))
 
-    def __mul__(self, other: Any) -> Any:
+    @overload
+    def __mul__(self, other: Vector) -> Vector | Scalar: ...
+    @overload
+    def __mul__(self, other: Matrix | Scalar) -> Matrix: ...
+    def __mul__(self, other: Vector | Matrix | Scalar) -> Vector | Matrix | Scalar:
         if isinstance(other, Vector):
             entries = tuple(_dot(row, other.entries) for row in self.rows)
             return entries[0] if len(entries) == 1 else Vector(entries)
@@ -214,27 +222,35 @@ class Matrix:
 # extrema.
 
 
-def applied(function: Callable[..., Any], *arguments: Any) -> Any:
-    """The function at these arguments; arguments that it is not made for raise ShapeError."""
+def applied(function: object, *arguments: Value) -> Value:
+    """The function at these arguments; what is no function, and arguments that it is not made for,
+    raise ShapeError.
+    """
+    if not callable(function):
+        raise ShapeError(f"{kind_of(function)} where a function is expected")
     try:
-        return function(*arguments)
+        value: Value = function(*arguments)
+        return value
     except (TypeError, AttributeError) as problem:
         kinds = ", ".join(type(argument).__name__.lower() for argument in arguments)
         raise ShapeError(f"a function that cannot take ({kinds})") from problem
 
 
+Result = TypeVar("Result", bound="Value")
+
+
 @dataclass(frozen=True, slots=True)
-class StateFunction:
+class StateFunction(Generic[Result]):
     """A function of a state, applied to a bracketed state; a bracketed scalar after it is refused.
 
     With `factor` set, a bracketed scalar makes a product: tau_c(b) is an application, and in tau_c
     (v - r) the function stands for its value at the present state.
     """
 
-    call: Callable[..., Any]
+    call: Callable[..., Result]
     factor: bool = False
 
-    def __call__(self, *arguments: Any) -> Any:
+    def __call__(self, *arguments: Value) -> Result:
         for argument in arguments:
             if not isinstance(argument, Vector):
                 raise ShapeError("a function of a state, given something else")
@@ -264,7 +280,7 @@ class Region:
 class Image:
     """The image of a region under a function; it is met only on the left of an inclusion."""
 
-    function: Callable[[Vector], Any]
+    function: Callable[..., Value]
     region: Region
 
 
@@ -272,7 +288,7 @@ class Image:
 class Restricted:
     """A function on a region only."""
 
-    function: Callable[..., Any]
+    function: Callable[..., Value]
     region: Region
 
     def __call__(self, state: Vector) -> Guarded:
@@ -284,7 +300,7 @@ class Guarded:
     """A value that is only spoken of under a condition."""
 
     condition: Formula
-    value: Any
+    value: Value
 
     def under(self, conclusion: Formula) -> Formula:
         """The conclusion, under the condition."""
@@ -297,7 +313,7 @@ class Piece:
     on its left).
     """
 
-    value: Any
+    value: Value
     condition: Formula
     besides: Formula | None = None
 
@@ -314,7 +330,7 @@ class Rounded:
     r"""The greatest integer below (\lfloor) or the least above (\lceil)."""
 
     bracket: str
-    value: Scalar | ExtremalValue
+    value: Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -323,7 +339,7 @@ class ExtremalValue:
 
     sign: str
     condition: Formula | None
-    value: Any
+    value: Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -332,14 +348,32 @@ class LimitValue:
 
     variable: str
     destination: str
-    value: Any
+    value: Value
+
+
+# what an expression of a print can be; a relation is a formula
+Value = Union[
+    Scalar,
+    Vector,
+    Matrix,
+    Formula,
+    Region,
+    Image,
+    Restricted,
+    Guarded,
+    Piecewise,
+    Rounded,
+    ExtremalValue,
+    LimitValue,
+    Callable[..., "Value"],
+]
 
 
 # -------------------------------------------------------------------------------------------------
 # Sums, products and powers of values of any kind; what does not fit is refused with what was tried.
 
 
-def kind_of(value: Any) -> str:
+def kind_of(value: object) -> str:
     """What a value is, in a word, for messages."""
     if is_scalar(value):
         return "a scalar"
@@ -348,62 +382,63 @@ def kind_of(value: Any) -> str:
     return "a function" if callable(value) else f"{type(value).__name__}"
 
 
-def _both(left: Any, right: Any, deed: str) -> None:
-    fits = is_scalar(left) and is_scalar(right)
-    if not (fits or (type(left) is type(right) and isinstance(left, (Vector, Matrix)))):
-        raise ShapeError(f"a {deed} of {kind_of(left)} and {kind_of(right)}")
-
-
-def add(left: Any, right: Any) -> Any:
+def add(left: Value, right: Value) -> Value:
     """left + right."""
-    _both(left, right, "sum")
-    return left + right
+    if is_scalar(left) and is_scalar(right):
+        return left + right
+    if isinstance(left, Vector) and isinstance(right, Vector):
+        return left + right
+    if isinstance(left, Matrix) and isinstance(right, Matrix):
+        return left + right
+    raise ShapeError(f"a sum of {kind_of(left)} and {kind_of(right)}")
 
 
-def subtract(left: Any, right: Any) -> Any:
+def subtract(left: Value, right: Value) -> Value:
     """left - right, of numbers or of regions."""
+    if is_scalar(left) and is_scalar(right):
+        return left - right
+    if isinstance(left, Vector) and isinstance(right, Vector):
+        return left - right
+    if isinstance(left, Matrix) and isinstance(right, Matrix):
+        return left - right
     if isinstance(left, Region) and isinstance(right, Region):
         return left - right
-    _both(left, right, "difference")
-    return left - right
+    raise ShapeError(f"a difference of {kind_of(left)} and {kind_of(right)}")
 
 
-def union(left: Any, right: Any) -> Region:
+def union(left: Value, right: Value) -> Region:
     """The union of two regions."""
     if isinstance(left, Region) and isinstance(right, Region):
         return left | right
     raise ShapeError(f"a union of {kind_of(left)} and {kind_of(right)}")
 
 
-def negate(value: Any) -> Any:
+def negate(value: Value) -> Value:
     """-value."""
-    if is_scalar(value) or isinstance(value, (Vector, Matrix)):
+    if isinstance(value, (int, Fraction, Term, Vector, Matrix)):
         return -value
     raise ShapeError(f"minus {kind_of(value)}")
 
 
-def multiply(left: Any, right: Any) -> Any:
+def multiply(left: Value, right: Value) -> Value:
     """left right: scalars, a scalar and a vector or matrix, a matrix and a vector or matrix."""
-    number = is_scalar(left), is_scalar(right)
-    if (
-        all(number)
-        or number[0]
-        and isinstance(right, (Vector, Matrix))
-        or number[1]
-        and isinstance(left, (Vector, Matrix))
-    ):
-        return left * right if number[1] else right.scaled(left)
+    if is_scalar(left) and is_scalar(right):
+        return left * right
+    if is_scalar(left) and isinstance(right, (Vector, Matrix)):
+        return right.scaled(left)
+    if isinstance(left, (Vector, Matrix)) and is_scalar(right):
+        return left.scaled(right)
     if isinstance(left, Matrix) and isinstance(right, (Vector, Matrix)):
         return left * right
     raise ShapeError(f"a product of {kind_of(left)} and {kind_of(right)}")
 
 
-def raised(base: Any, exponent: int) -> Any:
+def raised(base: Value, exponent: int) -> Value:
     """base to an integer power."""
     if isinstance(base, Matrix):
         return base.power(exponent)
     if isinstance(base, Term):
         return base**exponent if exponent >= 0 else over(1, base**-exponent)
-    if not is_scalar(base):
-        raise ShapeError(f"a power of {kind_of(base)}")
-    return Fraction(base) ** exponent if exponent >= 0 else over(1, Fraction(base) ** -exponent)
+    if isinstance(base, (int, Fraction)):
+        return Fraction(base) ** exponent if exponent >= 0 else over(1, Fraction(base) ** -exponent)
+    raise ShapeError(f"a power of {kind_of(base)}")

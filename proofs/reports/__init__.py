@@ -2,6 +2,7 @@
 claims and the derivations.
 
     tables     tables as columns, and exact numbers
+    tree       how the theorem rests on rules and premises
     results    the results of a run as rows and data
     errata     what the paper prints wrongly
     extras     libraries of the optional extras
@@ -15,6 +16,7 @@ claims and the derivations.
     tex        the LaTeX report and the PDF
     figures    the figures
     part       the part-orienting scene
+    problems   the answers to problems of SMT-LIB
     ci         the badge, JUnit and Markdown
     pages      the generated pages of docs
 """

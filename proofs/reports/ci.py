@@ -8,13 +8,12 @@ from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree
 
 from juggleproof.proofs.register import FIELDS, Change
-from juggleproof.proofs.reports.contents import Contents
+from juggleproof.proofs.reports.contents import Contents, results_of
 from juggleproof.proofs.reports.results import (
     COLUMNS,
     OWN_COLUMNS,
     Result,
     Results,
-    results_of,
     writable,
 )
 
@@ -79,8 +78,8 @@ def as_junit(contents: Contents | Results) -> bytes:
                 else f"paper.{one.section}"
             ),
             one.id,
-            *_told(one, changes.get(one.id), results),
-            out=said(one),
+            *_failure(one, changes.get(one.id), results),
+            out=verdict_line(one),
         )
     judged = {one.id for one in results.claims}
     for gone in (change for change in results.changes if change.claim not in judged):
@@ -127,7 +126,7 @@ def _case(
         ElementTree.SubElement(case, "system-out").text = out
 
 
-def _told(one: Result, change: Change | None, results: Results) -> tuple[str, str]:
+def _failure(one: Result, change: Change | None, results: Results) -> tuple[str, str]:
     """failure, error or nothing, and the message: what differs first, then where the claim
     fails.
     """
@@ -147,7 +146,7 @@ def _told(one: Result, change: Change | None, results: Results) -> tuple[str, st
     return "", ""
 
 
-def said(one: Result) -> str:
+def verdict_line(one: Result) -> str:
     """The verdict and how it was settled."""
     return f"{one.verdict_text}{f'; {one.detail}' if one.detail else ''}; {one.settled_by}"
 
@@ -209,7 +208,7 @@ def markdown(contents: Contents | Results) -> str:
 
 
 class _Page:
-    """Lines as long as there is room; what is left out is told."""
+    """Lines as long as there is room; what is left out is counted."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []
@@ -274,9 +273,9 @@ def _table(rows: Iterable[tuple[str, ...]]) -> Iterable[str]:
 
 
 def _head(results: Results) -> list[str]:
-    told = [" ".join(line.split()) for line in results.theorem.splitlines()]
-    if not (results.own or told):
-        told = ["theorem: the store does not hold it"]
+    theorem = [" ".join(line.split()) for line in results.theorem.splitlines()]
+    if not (results.own or theorem):
+        theorem = ["theorem: the store does not hold it"]
     counts, outcomes = (
         results.verdicts(),
         {word: n for word, n in results.outcomes().items() if n or word != "rejected"},
@@ -284,8 +283,8 @@ def _head(results: Results) -> list[str]:
     return [
         f"# {_title(results)}",
         "",
-        *(escaped(line) + "  " for line in told),
-        *([""] if told else []),
+        *(escaped(line) + "  " for line in theorem),
+        *([""] if theorem else []),
         (
             f"{_many(len(results.claims), 'claim')}{' of a selection' if results.partial else ''}:"
             f" {_counts(counts)}.  "
@@ -311,16 +310,16 @@ def _many(count: int, thing: str) -> str:
 
 
 def _unknown(results: Results) -> list[str]:
-    found = [one for one in results.claims if one.verdict == "unknown"]
-    if not found:
+    open_claims = [one for one in results.claims if one.verdict == "unknown"]
+    if not open_claims:
         return []
     return [
-        f"## Unknown ({len(found)}): neither proved nor refuted",
+        f"## Unknown ({len(open_claims)}): neither proved nor refuted",
         "",
         *(
             f"- **{escaped(one.id)}**{_place(one)}:"
             f" {escaped(one.detail or 'no certificate was found')}. {escaped(one.says)}"
-            for one in found
+            for one in open_claims
         ),
         "",
     ]
@@ -384,20 +383,20 @@ def _errata(results: Results) -> Iterable[str]:
         "",
     )
     for group, title in GROUPS.items():
-        found = [one for one in wrong if one.group == group]
-        if not found:
+        members = [one for one in wrong if one.group == group]
+        if not members:
             continue
         if not results.own:
-            yield from (f"{title[0].upper()}{title[1:]} ({len(found)}):", "")
-        yield from (_erratum(one) for one in found)
+            yield from (f"{title[0].upper()}{title[1:]} ({len(members)}):", "")
+        yield from (_erratum(one) for one in members)
         yield ""
 
 
 def _erratum(one: Result) -> str:
-    told = [line for line in one.wrong if line != one.verdict_text] or [one.says]
+    reasons = [line for line in one.wrong if line != one.verdict_text] or [one.says]
     parts = [
         f"- **{escaped(one.id)}**{_place(one)}: {escaped(one.verdict_text)};"
-        f" {escaped('; '.join(told))}"
+        f" {escaped('; '.join(reasons))}"
     ]
     if one.correction:
         parts.append(f"corrected: {code(one.correction['text'])}")

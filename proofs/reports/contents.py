@@ -9,30 +9,33 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import rests_on
+from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
+from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.derivations import Derivation, behind, derivations_of
-from juggleproof.proofs.judging import Judgement, settle_by_rules
+from juggleproof.proofs.judgement import Correction, Finding, Judgement
+from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
 from juggleproof.proofs.register import (
     PATH,
     Change,
+    Register,
     changes,
     load_register,
     registered,
 )
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
-from juggleproof.proofs.reports.results import Result, Results, reading_of, results_of
+from juggleproof.proofs.reports.results import Result, Results, reading_of
 from juggleproof.proofs.run import Options, findings_in, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
-# All that reports tell, gathered once: claims with verdicts, derivations and statements; the
+# All that reports show, gathered once: claims with verdicts, derivations and statements; the
 # theorem's tree; what differs from the register.
 #
 # Verdicts are judged again from the store, by what the checker said of these very files; nothing is
@@ -50,14 +53,14 @@ class Shown:
     name: str
     text: str
     outcome: str
-    certificate: Any
+    certificate: object
     at: str
     votes: Mapping[str, str]
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One claim as reports tell it; `wrong` and `group` are as in the errata, and empty where
+    """One claim as reports show it; `wrong` and `group` are as in the errata, and empty where
     nothing is wrong.
     """
 
@@ -70,7 +73,7 @@ class Entry:
     reading: str
     wrong: tuple[str, ...]
     group: str
-    correction: Mapping[str, Any] | None
+    correction: Correction | None
     steps: tuple[Derivation, ...]
     statements: tuple[Shown, ...]
     rests_on: tuple[str, ...]
@@ -93,7 +96,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Contents:
-    """Everything that reports tell; entries in the paper's order, derivations each after what it is
+    """Everything that reports show; entries in the paper's order, derivations each after what it is
     made from, rules with the theorem first.
     """
 
@@ -124,17 +127,17 @@ def gather(register: Path = PATH) -> Contents:
     findings = findings_in(DEFAULT)
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(done.claims, judgements)}
-    derived, told = dict[str, Derivation](), []
+    derived, entries = dict[str, Derivation](), list[Entry]()
     for claim, judgement in zip(done.claims, judgements):
         body = claim.body()
         steps = derivations_of(body)
         derived.update((one.function, one) for one in behind(steps))
-        told.append(
+        entries.append(
             _entry(claim, judgement, by_id, findings, store, tuple(steps), reading_of(body))
         )
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
-        tuple(told),
+        tuple(entries),
         {word: sum(one.verdict.word == word for one in judgements) for word in VERDICTS},
         dict(outcomes),
         tuple(table.summary(judgements).splitlines()[2:]),
@@ -148,21 +151,21 @@ def gather(register: Path = PATH) -> Contents:
 
 def tool_versions() -> dict[str, str]:
     """The versions of the libraries that search and vote, and of this project."""
-    found = {}
+    versions = {}
     for tool in ("juggleproof", *TOOLS):
         try:
-            found[tool] = version(tool)
+            versions[tool] = version(tool)
         except PackageNotFoundError:
-            found[tool] = "not installed"
-    return found
+            versions[tool] = "not installed"
+    return versions
 
 
-def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
+def entry(claim: Claim, judgement: Judgement) -> dict[str, str]:
     """What the register keeps of a judgement."""
     return registered(
         judgement.verdict.word,
         judgement.verdict.detail,
-        judgement.correction,
+        judgement.correction["text"] if judgement.correction else "",
         table.sharp_range(judgement) if judgement.sharp else "",
     )
 
@@ -170,8 +173,8 @@ def entry(claim: Claim, judgement: Judgement) -> dict[str, Any]:
 def _entry(
     claim: Claim,
     judgement: Judgement,
-    by_id: Mapping[str, Mapping[str, Any]],
-    findings: Mapping[str, Any],
+    by_id: Register,
+    findings: Mapping[str, Finding],
     store: Store,
     steps: tuple[Derivation, ...],
     reading: str,
@@ -204,7 +207,7 @@ def _entry(
     )
 
 
-def _shown(name: str, text: str, outcome: str, certificate: Any, votes: Sequence[Any]) -> Shown:
+def _shown(name: str, text: str, outcome: str, certificate: object, votes: Sequence[Vote]) -> Shown:
     refuted = certificate.get("refuted") if isinstance(certificate, dict) else None
     return Shown(
         name,
@@ -217,24 +220,25 @@ def _shown(name: str, text: str, outcome: str, certificate: Any, votes: Sequence
 
 
 def _rules(
-    store: Store, checked: Mapping[str, str], votes: Mapping[str, Sequence[Any]]
+    store: Store, checked: Mapping[str, str], votes: Mapping[str, Sequence[Vote]]
 ) -> tuple[Rule, ...]:
     if THEOREM not in store.texts:
         return ()
-    rules, told = tree.rules_of(store), []
+    rules, nodes = tree.rules_of(store), list[Rule]()
     for name in tree.with_all_below(THEOREM, rules):
         certificate, outcome = (
             store.certificate(name, store.texts[name]),
             checked.get(name, "rejected"),
         )
-        parts = certificate.get("certified", {}) if isinstance(certificate, dict) else {}
+        certified = certificate.get("certified") if certificate else None
+        parts = certified if isinstance(certified, Mapping) else {}
         premises = tuple(
             _shown(
                 premise.name, premise.text(), outcome, parts.get(label), votes.get(premise.name, ())
             )
             for label, premise in checker.premises_of(rules[name], rules).items()
         )
-        told.append(
+        nodes.append(
             Rule(
                 name,
                 rules[name].kind,
@@ -245,7 +249,7 @@ def _rules(
                 tuple(sorted(tree.lemmas(certificate))),
             )
         )
-    return tuple(told)
+    return tuple(nodes)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -257,12 +261,55 @@ SCHEMA_FILE = Path(__file__).with_name("schema.json")
 PROJECT = Path(__file__).resolve().parents[2] / "pyproject.toml"
 
 
-def as_json(contents: Any) -> bytes:
+def results_of(contents: Contents | Results, register: Register | None = None) -> Results:
+    """The results that reports are built from: results as they are, and contents of a report as
+    results.
+    """
+    if isinstance(contents, Results):
+        return contents
+    if register is None:
+        register = load_register()
+    results = [
+        Result(
+            one.claim.id,
+            one.claim.section,
+            one.claim.place,
+            one.claim.says,
+            one.claim.printed,
+            one.claim.as_it_stands,
+            one.claim.repeats,
+            one.verdict,
+            one.detail,
+            one.verdict_text,
+            one.settled_by,
+            one.sharp or table.NO_RANGE,
+            one.correction,
+            tuple(one.wrong),
+            one.group,
+            tuple(
+                table.Stated(
+                    shown.name,
+                    shown.text,
+                    shown.outcome,
+                    dict(shown.votes),
+                    table.where(shown.outcome, shown.at),
+                )
+                for shown in one.statements
+            ),
+        )
+        for one in contents.entries
+    ]
+    return table.compared(
+        results, register, (), Results((), contents.theorem, tuple(contents.votes))
+    )
+
+
+def as_json(contents: Contents | Results) -> bytes:
     """The document of a run or of a report's contents, in canonical bytes."""
     return canonical(document(results_of(contents)))
 
 
-def document(results: Results) -> dict[str, Any]:
+def document(results: Results) -> dict[str, Json]:
     """The document as data; every field is described in `schema.json`."""
     verdicts, outcomes, changes = results.verdicts(), results.outcomes(), results.change_of()
     return {
@@ -290,8 +337,8 @@ def document(results: Results) -> dict[str, Any]:
     }
 
 
-def _claim(one: Result, change: Change | None) -> dict[str, Any]:
-    told = {
+def _claim(one: Result, change: Change | None) -> dict[str, Json]:
+    texts = {
         name: getattr(one, name)
         for name in (
             "id",
@@ -309,7 +356,7 @@ def _claim(one: Result, change: Change | None) -> dict[str, Any]:
         )
     }
     return {
-        **told,
+        **texts,
         "sharp": one.sharp_by_reading(),
         "correction": _correction(one),
         "wrong": list(one.wrong),
@@ -327,7 +374,7 @@ def _claim(one: Result, change: Change | None) -> dict[str, Any]:
     }
 
 
-def _correction(one: Result) -> dict[str, Any] | None:
+def _correction(one: Result) -> dict[str, Json] | None:
     if not one.correction:
         return None
     return {
@@ -338,7 +385,7 @@ def _correction(one: Result) -> dict[str, Any] | None:
     }
 
 
-def _change(change: Change) -> dict[str, Any]:
+def _change(change: Change) -> dict[str, Json]:
     return {
         "claim": change.claim,
         "before": change.before,

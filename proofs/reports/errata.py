@@ -7,13 +7,14 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.judgement import Correction, Finding
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import load_register
+from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.run import findings_in
 
 ERRORS = ("misprint", "false", "gap")
@@ -42,7 +43,7 @@ GROUPS = {
         " authors'"
     ),
 }
-WIDTH, SAYS_MORE = 124, 110  # characters of a formula that are still read at a glance
+WIDTH, LONGEST_GOAL = 124, 110  # characters of a formula that are still read at a glance
 
 
 def as_text() -> str:
@@ -58,9 +59,9 @@ def as_text() -> str:
     findings, claims = findings_in(DEFAULT), paper_claims()
     lines = [HEAD]
     for group, title in GROUPS.items():
-        found = [claim for claim in claims if group_of(claim, register, findings) == group]
-        lines.append(f"{title} ({len(found)})\n")
-        for claim in found:
+        members = [claim for claim in claims if group_of(claim, register, findings) == group]
+        lines.append(f"{title} ({len(members)})\n")
+        for claim in members:
             lines += [*entry_of(claim, register, findings.get(claim.id, {}), store), ""]
     names = restored(claims, register)
     mangled = (
@@ -72,8 +73,8 @@ def as_text() -> str:
 
 def group_of(
     claim: Claim,
-    register: Mapping[str, Mapping[str, Any]],
-    findings: Mapping[str, Mapping[str, Any]],
+    register: Register,
+    findings: Mapping[str, Finding],
 ) -> str:
     """The group that lists the claim, or none: a repeat is one only of a print that is itself
     listed.
@@ -88,10 +89,9 @@ def group_of(
         return "repeats"
     if register[claim.id]["verdict"] == "ambiguous":
         return "readings"
+    correction = findings.get(claim.id, Finding()).get("correction")
     return (
-        "transcription"
-        if (findings.get(claim.id, {}).get("correction") or {}).get("possible transcription error")
-        else "errors"
+        "transcription" if correction and correction["possible transcription error"] else "errors"
     )
 
 
@@ -110,8 +110,8 @@ class Row(NamedTuple):
 
 def rows_of(
     claim: Claim,
-    register: Mapping[str, Mapping[str, Any]],
-    finding: Mapping[str, Any],
+    register: Register,
+    finding: Finding,
     store: Store,
 ) -> list[Row]:
     """One entry: a heading with place and verdict, then what is said, the print, what is wrong, the
@@ -152,8 +152,8 @@ def rows_of(
 
 def entry_of(
     claim: Claim,
-    register: Mapping[str, Mapping[str, Any]],
-    finding: Mapping[str, Any],
+    register: Register,
+    finding: Finding,
     store: Store,
 ) -> list[str]:
     """The lines of one entry, as `juggleproof errata` prints them."""
@@ -172,7 +172,7 @@ def entry_of(
     ]
 
 
-def restored(claims: Sequence[Claim], register: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def restored(claims: Sequence[Claim], register: Register) -> list[str]:
     """The claims whose print the transcription mangles, and which hold as restored."""
     return [
         claim.id
@@ -195,7 +195,7 @@ def _place(claim: Claim) -> str:
     )
 
 
-def what_is_wrong(entry: Mapping[str, Any], sharp: Mapping[str, str]) -> list[str]:
+def what_is_wrong(entry: Mapping[str, str], sharp: Mapping[str, str]) -> list[str]:
     """One line for each reading where there are several, else one in all, with the alpha for which
     it holds where that is known.
     """
@@ -207,7 +207,7 @@ def what_is_wrong(entry: Mapping[str, Any], sharp: Mapping[str, str]) -> list[st
             f"read as {name}: {words[word]}{_for_alpha(sharp.get(name + '.', ''), word)}"
             for name, word in readings.items()
         ]
-    for pattern, told in (
+    for pattern, wording in (
         (r"^its conclusion is refuted(, and)?", r"the conclusion is false\1"),
         (r", and (step .*)", r", and so is \1"),
         (r"^step (.*,.*) is false", r"steps \1 are false"),
@@ -215,7 +215,7 @@ def what_is_wrong(entry: Mapping[str, Any], sharp: Mapping[str, str]) -> list[st
         ("conclusion certified", "the conclusion is certified all the same"),
         ("conclusion by", "the conclusion stands by"),
     ):
-        detail = re.sub(pattern, told, detail)
+        detail = re.sub(pattern, wording, detail)
     if detail:
         return [detail]
     return [
@@ -232,7 +232,7 @@ def _for_alpha(sharp: str, word: str) -> str:
     return ", for every alpha" if sharp == "nowhere" else f"; it would be true exactly for {sharp}"
 
 
-def _roots_named(correction: Mapping[str, Any], claim: Claim, store: Store) -> Iterator[str]:
+def _roots_named(correction: Correction, claim: Claim, store: Store) -> Iterator[str]:
     """What a name of a root in a corrected term means: the statements say it."""
     lines = {
         line
@@ -249,23 +249,24 @@ def _roots_named(correction: Mapping[str, Any], claim: Claim, store: Store) -> I
             yield line.removeprefix("root ")
 
 
-def counterexample(found: Any) -> str:
-    """The values of a counterexample as text."""
-    if found[0] == "sign":
-        return f"a family by the sign of {found[1]}"
-    values = ", ".join(f"{name} = {value}" for name, value in found[2].items())
-    adjoined = "".join(
-        f" where {entry[0]} is a root of {entry[1]} between {entry[2]} and {entry[3]}"
-        for entry in found[1]
-    )
-    return values + adjoined
+def counterexample(refutation: object) -> str:
+    """The values of a counterexample as text; raises ClaimError where a certificate has none."""
+    match refutation:
+        case ["sign", polynomial, *_]:
+            return f"a family by the sign of {polynomial}"
+        case [_, list() | tuple() as adjoined, {**terms}, *_]:
+            return ", ".join(f"{name} = {value}" for name, value in terms.items()) + "".join(
+                f" where {root} is a root of {polynomial} between {low} and {high}"
+                for root, polynomial, low, high, *_ in adjoined
+            )
+    raise ClaimError("a refutation without values; `juggleproof certify --fresh` searches anew")
 
 
 def _counterexamples(claim: Claim, store: Store) -> list[str]:
     """The exact values of every refuted statement, with the part of the claim that fails there, and
     what it says where that is short.
     """
-    found = dict[str, str]()
+    goals = dict[str, str]()
     for name, text in store.texts.items():
         certificate = store.certificate(name, text) if name.split("/")[0] == claim.id else None
         if isinstance(certificate, dict) and "refuted" in certificate:
@@ -273,27 +274,27 @@ def _counterexamples(claim: Claim, store: Store) -> list[str]:
             values = counterexample(certificate["refuted"]) + (
                 "" if label == "main" else f"   [{label}]"
             )
-            found.setdefault(values, said_there(text))
-    return [values + (f"\nfalse there: {said}" if said else "") for values, said in found.items()]
+            goals.setdefault(values, goal_of(text))
+    return [values + (f"\nfalse there: {goal}" if goal else "") for values, goal in goals.items()]
 
 
-def said_there(text: str) -> str:
-    """What the statement says at a point of its givens, in the statement's own words; nothing where
-    that is long.
+def goal_of(text: str) -> str:
+    """What the statement shows at a point of its givens, in its own words; nothing where that is
+    long.
 
     >>> text = "statement a/b\\nforall x\\ngiven x > 0\\nexists y\\nwith y > 0\\nshow y < x - 1"
-    >>> said_there(text)
+    >>> goal_of(text)
     'some y has y > 0 and y < x - 1'
     """
     lines = [line.partition(" ") for line in text.splitlines()]
-    chosen = " ".join(said for keyword, _, said in lines if keyword == "exists")
+    chosen = " ".join(names for keyword, _, names in lines if keyword == "exists")
     shown = (f"some {chosen} has " if chosen else "") + " and ".join(
-        said for keyword, _, said in lines if keyword in ("with", "show")
+        formula for keyword, _, formula in lines if keyword in ("with", "show")
     )
     lets = [
-        said
-        for keyword, _, said in lines
-        if keyword == "let" and re.search(rf"\b{said.split()[0]}\b", shown)
+        let
+        for keyword, _, let in lines
+        if keyword == "let" and re.search(rf"\b{let.split()[0]}\b", shown)
     ]
-    said = shown + "".join(f", where {let}" for let in lets)
-    return said if len(said) <= SAYS_MORE else ""
+    goal = shown + "".join(f", where {let}" for let in lets)
+    return goal if len(goal) <= LONGEST_GOAL else ""

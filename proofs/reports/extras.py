@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from types import ModuleType
 
 from juggleproof.certificates.language import ClaimError
 
 
-def needed(module: str, purpose: str = "report", extra: str = "report") -> Any:
+def needed(module: str, purpose: str = "report", extra: str = "report") -> ModuleType:
     """The module, imported; raises ClaimError, one line that says how to install it, where it is
     absent.
     """

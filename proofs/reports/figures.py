@@ -24,7 +24,7 @@ FORMS = ("svg", "pdf")
 
 
 class Saved(NamedTuple):
-    """A figure as a file, with what is said beside it."""
+    """A figure as a file, with what stands beside it."""
 
     slug: str
     title: str
@@ -43,10 +43,10 @@ def figures(contents: Contents | None = None) -> list[tuple[str, str, str, str, 
         "fig-ranges": lambda: (rows(entries), without_alpha(entries)),
         "fig-trap": what_the_trap_shows,
     }
-    return [(*said(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
+    return [(*labels(one), one.draw(*given.get(one.slug, tuple)())) for one in TABLE]
 
 
-def said(one: Entry) -> tuple[str, str, str, str]:
+def labels(one: Entry) -> tuple[str, str, str, str]:
     """Slug, title, caption and alternative text of a figure."""
     return (
         one.slug,
@@ -83,7 +83,7 @@ def saved(contents: Contents | None = None, form: str = "svg") -> list[Saved]:
                     for slug, data in kept.items()
                 ],
             )
-    return [Saved(*said(one), kept[one.slug]) for one in TABLE]
+    return [Saved(*labels(one), kept[one.slug]) for one in TABLE]
 
 
 def _kept(records: list[dict[str, str]]) -> dict[str, bytes]:
@@ -104,7 +104,7 @@ def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, boo
     the theorem's definition has them.
     """
     ((root, square),) = TO_THE_POINT.roots
-    parts = TRAP.args if TRAP.op == "and" else (TRAP,)
+    parts = TRAP.parts if TRAP.op == "and" else (TRAP,)
     return (
         to_sympy(TO_THE_POINT.rank),
         (to_sympy(Term("var", root)), to_sympy(square)),
@@ -114,9 +114,9 @@ def what_the_trap_shows() -> tuple[Expr, tuple[Expr, Expr], list[tuple[Expr, boo
 
 def margin(relation: Formula) -> tuple[Expr, bool]:
     """What is positive where a strict relation holds, or not negative where one that is not strict
-    does; and whether it is strict.
+    does; and whether it is strict.  Raises ClaimError for what is no inequality.
     """
-    less, more = relation.args if relation.op in ("<", "<=") else reversed(relation.args)
+    less, more = relation.sides if relation.op in ("<", "<=") else reversed(relation.sides)
     if relation.op not in ("<", "<=", ">", ">="):
         raise ClaimError(f"{relation} has no margin; it is no inequality")
     return to_sympy(more) - to_sympy(less), relation.op in ("<", ">")
@@ -131,14 +131,14 @@ def to_sympy(expression: Term) -> Expr:
     -w/2 + 3*x**2 + x/2
     """
     if expression.op == "var":
-        return Symbol(expression.args[0])
+        return Symbol(expression.name)
     if expression.op == "num":
-        return Rational(expression.args[0].numerator, expression.args[0].denominator)
+        return Rational(expression.value.numerator, expression.value.denominator)
     if expression.op == "neg":
-        return -to_sympy(expression.args[0])
+        return -to_sympy(expression.operands[0])
     if expression.op == "^":
-        return to_sympy(expression.args[0]) ** expression.args[1]
-    left, right = (to_sympy(part) for part in expression.args)
+        return to_sympy(expression.operands[0]) ** expression.exponent
+    left, right = (to_sympy(part) for part in expression.operands)
     return {
         "+": lambda: left + right,
         "-": lambda: left - right,

@@ -8,7 +8,7 @@ import ast
 import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 
 from juggleproof.certificates import checker
 
@@ -387,8 +387,15 @@ def _is_sum(node: ast.AST) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub))
 
 
+def _power(node: ast.AST) -> tuple[ast.AST, int | None]:
+    """Base and exponent; None for an exponent that is no whole number."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+        return node.left, _integer(node.right)
+    return node, 1
+
+
 def _base(node: ast.AST) -> ast.AST:
-    return node.left if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) else node
+    return _power(node)[0]
 
 
 def _numbers_added(addends: list[tuple[int, ast.AST]]) -> list[tuple[int, ast.AST]]:
@@ -407,17 +414,17 @@ def _numbers_added(addends: list[tuple[int, ast.AST]]) -> list[tuple[int, ast.AS
 
 def _powers_joined(factors: list[ast.AST]) -> list[ast.AST]:
     """Powers of one name as one power."""
-    found: dict[str, int] = {}
+    exponents: dict[str, int] = {}
     others = []
     for factor in factors:
-        base, exponent = _base(factor), _integer(factor.right) if _base(factor) is not factor else 1  # type: ignore[attr-defined]
+        base, exponent = _power(factor)
         if isinstance(base, ast.Name) and exponent is not None:
-            found[base.id] = found.get(base.id, 0) + exponent
+            exponents[base.id] = exponents.get(base.id, 0) + exponent
         else:
             others.append(factor)
     joined = [
         ast.parse(f"{name}**{exponent}" if exponent != 1 else name, mode="eval").body
-        for name, exponent in found.items()
+        for name, exponent in exponents.items()
     ]
     return [*joined, *others]
 
@@ -485,16 +492,14 @@ def with_macros(latex: str) -> str:
     """
     shown = narrow(latex)
     for name, _, pattern in MACROS:
-        macro = f"\\{PREFIX}{name}"
-        shown = re.sub(
-            pattern + r"(\s*)(?=(.?))",
-            lambda found, macro=macro: (
-                macro + (" " if found.group(2).isalpha() else found.group(1))  # type: ignore[misc]
-            ),
-            shown,
-            flags=re.DOTALL,
-        )
+        set_as = partial(_macro, f"\\{PREFIX}{name}")
+        shown = re.sub(pattern + r"(\s*)(?=(.?))", set_as, shown, flags=re.DOTALL)
     return shown
+
+
+def _macro(macro: str, match: re.Match[str]) -> str:
+    """The macro, parted from a letter that follows."""
+    return macro + (" " if match[2].isalpha() else match[1])
 
 
 def without_macros(latex: str) -> str:
@@ -504,5 +509,6 @@ def without_macros(latex: str) -> str:
     '\\gamma T'
     """
     for name, means, _ in MACROS:
-        latex = re.sub(rf"\\{PREFIX}{name}(?![A-Za-z])", lambda _, means=means: means, latex)  # type: ignore[misc]
+        meaning = means.replace("\\", r"\\")  # a backslash of its own in what replaces
+        latex = re.sub(rf"\\{PREFIX}{name}(?![A-Za-z])", meaning, latex)
     return latex

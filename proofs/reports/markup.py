@@ -57,16 +57,16 @@ class Row:
 def prose(sentence: str) -> str:
     """A sentence as markup."""
     return "".join(
-        escape(said, quote=False) if kind == "text" else mathml(said)
-        for kind, said in pieces(sentence)
+        escape(content, quote=False) if kind == "text" else mathml(content)
+        for kind, content in pieces(sentence)
     )
 
 
-def line(said: str) -> str:
+def line(text: str) -> str:
     """A line of the program's own output as markup: what stands between backquotes is code."""
     return "".join(
         f"<code>{escape(part, quote=False)}</code>" if i % 2 else escape(part, quote=False)
-        for i, part in enumerate(said.split("`"))
+        for i, part in enumerate(text.split("`"))
     )
 
 
@@ -98,22 +98,22 @@ RANGE = re.compile(
 )
 
 
-def ranged(said: str) -> str:
+def ranged(sentence: str) -> str:
     """A sharp range, or a line with one: conditions on alpha, end points and the polynomials that
     they are roots of as formulas.
 
     Labels of readings and steps stay as they are.
     """
     shown, at = "", 0
-    for found in RANGE.finditer(said):
-        shown += escape(said[at : found.start()], quote=False)
-        kind, text, at = str(found.lastgroup), str(found.group(found.lastgroup or 0)), found.end()
+    for match in RANGE.finditer(sentence):
+        shown += escape(sentence[at : match.start()], quote=False)
+        kind, text, at = str(match.lastgroup), str(match.group(match.lastgroup or 0)), match.end()
         if kind == "point":
             name, _, value = text.partition(" = ")
             shown += f"{mathml(glyph(name))} = {value}"
         else:
             shown += f"a root of {polynomial(text)}" if kind == "polynomial" else formula(text)
-    return shown + escape(said[at:], quote=False)
+    return shown + escape(sentence[at:], quote=False)
 
 
 def polynomial(text: str) -> str:
@@ -128,14 +128,14 @@ ADJOINED = re.compile(r"(\w+) is a root of (.+?) between (\S+) and (\S+?)(?= \w+
 
 
 def values(at: str) -> str:
-    """A counterexample: values of names, and where adjoined roots lie; or a family, told by the
-    sign of a polynomial.
+    """A counterexample: values of names, and where adjoined roots lie; or a family, by the sign of
+    a polynomial.
     """
     family = "a family by the sign of "
     if at.startswith(family):
         return family + polynomial(at.removeprefix(family))
-    found, where, rest = at.partition(" where ")
-    shown = ", ".join(formula(one) for one in found.split(", "))
+    point, where, rest = at.partition(" where ")
+    shown = ", ".join(formula(one) for one in point.split(", "))
     for name, of, low, high in ADJOINED.findall(rest):
         shown += (
             f"{where}{mathml(glyph(name))} is a root of {polynomial(of)} between {formula(low)} and"
@@ -147,7 +147,7 @@ def values(at: str) -> str:
 
 @cache
 def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
-    """The lines of a statement below its name, each keyword with what it says; lines of one keyword
+    """The lines of a statement below its name, each keyword with its formulas; lines of one keyword
     that follow each other are joined.
 
     The names that `forall` lists are left out: they are all that stand in the lines.
@@ -157,9 +157,9 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
     """
     joined: list[tuple[str, list[str]]] = []
     for line in text.splitlines()[1:]:
-        keyword, _, said = line.partition(" ")
+        keyword, _, content = line.partition(" ")
         keyword = "given" if keyword == "range" else keyword
-        parts = conjuncts(said) if keyword in FORMULAS else [said]
+        parts = conjuncts(content) if keyword in FORMULAS else [content]
         if joined and joined[-1][0] == keyword and keyword in FORMULAS and keyword != "stage":
             joined[-1][1].extend(parts)
         elif keyword != "forall":
@@ -172,26 +172,26 @@ def lines_of(text: str) -> list[tuple[str, tuple[str, ...]]]:
 
 def rows_of(lines: Sequence[tuple[str, Sequence[str]]]) -> list[Row]:
     """The lines as markup."""
-    return [_row(keyword, said) for keyword, said in lines]
+    return [_row(keyword, parts) for keyword, parts in lines]
 
 
-def _row(keyword: str, said: Sequence[str]) -> Row:
+def _row(keyword: str, parts: Sequence[str]) -> Row:
     word = WORDS.get(keyword, keyword)
     if keyword in LINKS:
-        return Row(word, links=tuple(said[0].split()))
+        return Row(word, links=tuple(parts[0].split()))
     if keyword in NAMES:
-        return Row(word, (mathml(", ".join(map(glyph, said[0].split()))),))
-    if keyword == "holds" and said == ("0 = 1",):
+        return Row(word, (mathml(", ".join(map(glyph, parts[0].split()))),))
+    if keyword == "holds" and parts == ("0 = 1",):
         return Row(word, ("never",))
     if keyword in FORMULAS:
-        return Row(word, tuple(shown(one, ONE_LINE.get(keyword, ELSE)) for one in said))
+        return Row(word, tuple(shown(one, ONE_LINE.get(keyword, ELSE)) for one in parts))
     if keyword in TUPLES:
-        return Row(word, (_tuple(parts_of(said[0])),))
+        return Row(word, (_tuple(parts_of(parts[0])),))
     if keyword in ("let", "root", "number"):
-        name, _, value = said[0].partition(" = ")
+        name, _, value = parts[0].partition(" = ")
         return Row(word, (named(name, value),))
     if keyword in ("piece", "iterates", "after"):
-        before, _, images = said[0].partition(" -> ")
+        before, _, images = parts[0].partition(" -> ")
         source = _tuple(_listed(before)) if keyword == "iterates" else formula(before)
         return Row(
             word,
@@ -202,7 +202,7 @@ def _row(keyword: str, said: Sequence[str]) -> Row:
                 ),
             ),
         )
-    return Row(word, (escape(said[0], quote=False),))
+    return Row(word, (escape(parts[0], quote=False),))
 
 
 def _listed(text: str) -> list[str]:
@@ -256,20 +256,20 @@ def chained(parts: Sequence[str]) -> list[str]:
     >>> chained(["r > 0", "alpha > 0", "alpha < 1", "0 <= t", "t < T"])
     ['r > 0', '0 < alpha < 1', '0 <= t < T']
     """
-    found: list[str] = []
+    chain: list[str] = []
     for part in parts:
         upper = re.fullmatch(r"(\w+) (<=?) (\w+)", part)
-        lower = found and re.fullmatch(r"(\w+) (>=?) ([\w/]+)|([\w/]+) (<=?) (\w+)", found[-1])
+        lower = chain and re.fullmatch(r"(\w+) (>=?) ([\w/]+)|([\w/]+) (<=?) (\w+)", chain[-1])
         if upper and lower and upper.group(1) in (lower.group(1), lower.group(6)):
             bound = (
                 f"{lower.group(4)} {lower.group(5)}"
                 if lower.group(4)
                 else f"{lower.group(3)} {lower.group(2).replace('>', '<')}"
             )
-            found[-1] = f"{bound} {part}"
+            chain[-1] = f"{bound} {part}"
         else:
-            found.append(part)
-    return found
+            chain.append(part)
+    return chain
 
 
 # -------------------------------------------------------------------------------------------------
@@ -370,22 +370,22 @@ def picture(nodes: Sequence[Node], title: str) -> str:
 
 
 def depths(nodes: Sequence[Node]) -> Mapping[str, int]:
-    """The longest way from a node that nothing rests on; a circle is an error.
+    """The longest way from a node that nothing rests on; raises ValueError for a circle.
 
     >>> a, b = Node("a", "", "", "", "", below=("b", "c")), Node("b", "", "", "", "", below=("c",))
     >>> depths([a, b, Node("c", "", "", "", "")])
     {'a': 0, 'b': 1, 'c': 2}
     """
     known = {node.name: node for node in nodes}
-    found = dict.fromkeys(known, 0)
+    layers = dict.fromkeys(known, 0)
     for _ in nodes:
-        before = dict(found)
+        before = dict(layers)
         for node in nodes:
             for name in node.below:
                 if name in known:
-                    found[name] = max(found[name], found[node.name] + 1)
-        if found == before:
-            return found
+                    layers[name] = max(layers[name], layers[node.name] + 1)
+        if layers == before:
+            return layers
     raise ValueError("a rule rests on itself")
 
 
@@ -443,8 +443,8 @@ def _middle(values: Sequence[float], otherwise: float) -> float:
 
 
 def _set_apart(row: Sequence[_Place], wanted: Sequence[float]) -> None:
-    """Puts each place near where it is wanted, in order and without overlap: the mean of pushing
-    rightwards and pushing leftwards.
+    """Puts each place close to where it is wanted, in order and without overlap: the mean of
+    pushing rightwards and pushing leftwards.
     """
     if not row:
         return

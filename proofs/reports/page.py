@@ -5,17 +5,16 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown
-from juggleproof.proofs.reports.errata import GROUPS, said_there
+from juggleproof.proofs.reports.errata import GROUPS, goal_of
 from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
@@ -28,10 +27,10 @@ from juggleproof.scenes.figures.look import inline_svg
 # What the page shows of the contents: words, marks and links for the templates, which hold no logic
 # of their own.
 
-# characters: a longer certificate is shown in the theorem's tree only, and else told where it
-# stands
+# characters: a longer certificate is shown in the theorem's tree only, and else named by where
+# it stands
 LONGEST = 300
-VERDICTS = {  # word -> mark, and what it means
+VERDICTS = {  # word -> symbol, and what it means
     "holds": ("✓", "true as printed, with a certificate"),
     "misprint": ("✎", "false as printed, certified as corrected"),
     "false": ("✗", "refuted, and no correction is known"),
@@ -72,13 +71,13 @@ Line = tuple[str, str]  # a keyword and one thing that it says
 def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) -> Statement:
     """A statement for the page; a long certificate is left to the store unless the whole is wanted.
 
-    Lines that it shares with all statements of its claim are left out: they are told before.
+    Lines that it shares with all statements of its claim are left out: they stand before.
     """
     text = certificate_text(shown.certificate)
     refuted = shown.outcome == "refuted"
     lines = [
-        (keyword, [one for one in said if (keyword, one) not in shared])
-        for keyword, said in markup.lines_of(shown.text)
+        (keyword, [one for one in parts if (keyword, one) not in shared])
+        for keyword, parts in markup.lines_of(shown.text)
     ]
     votes = ", ".join(
         f"{route} {answer}" for route, answer in shown.votes.items() if answer != "not applicable"
@@ -108,9 +107,9 @@ def shared_lines(statements: Sequence[Shown]) -> list[Line]:
     assumed = [
         [
             (keyword, one)
-            for keyword, said in markup.lines_of(shown.text)
+            for keyword, parts in markup.lines_of(shown.text)
             if keyword in SHARED
-            for one in said
+            for one in parts
         ]
         for shown in statements
         if "\nshow " in shown.text
@@ -122,10 +121,10 @@ def shared_lines(statements: Sequence[Shown]) -> list[Line]:
 
 def _false_there(text: str) -> str:
     """What is false at a counterexample, as markup; nothing where it is long."""
-    said = said_there(text)
-    if not said or "\nexists " in text:
-        return markup.prose(said)
-    formula, *lets = said.split(", where ")
+    goal = goal_of(text)
+    if not goal or "\nexists " in text:
+        return markup.prose(goal)
+    formula, *lets = goal.split(", where ")
     return ", where ".join(
         [markup.formula(formula), *(markup.named(*let.split(" = ", 1)) for let in lets)]
     )
@@ -137,7 +136,7 @@ def certificate_text(certificate: object) -> str:
 
 
 @dataclass(frozen=True)
-class Told:
+class ClaimView:
     """A claim for the page; markup where formulas stand in it."""
 
     entry: Entry
@@ -163,11 +162,11 @@ class Told:
     @property
     def refuted(self) -> list[Statement]:
         """The refuted statements, each counterexample once."""
-        found: dict[str, Statement] = {}
+        by_values: dict[str, Statement] = {}
         for one in self.statements:
             if one.outcome == "refuted":
-                found.setdefault(one.at, one)
-        return list(found.values())
+                by_values.setdefault(one.at, one)
+        return list(by_values.values())
 
     @property
     def outcomes(self) -> str:
@@ -179,20 +178,18 @@ class Told:
         return ", ".join(f"{count} {word}" for word, count in counts.items() if count)
 
 
-def told(entry: Entry) -> Told:
+def view_of(entry: Entry) -> ClaimView:
     """One claim for the page."""
-    claim, correction = entry.claim, entry.correction or {}
-    made = str(correction.get("text", ""))
+    claim, corrected, change = entry.claim, "", ""
+    roots: list[str] = []
     shared = shared_lines(entry.statements)
-    of_statements = correction.get("kind") in ("coefficients", "derived")
-    corrected = (
-        ""
-        if not made
-        else markup.formula(made, block=True)
-        if of_statements
-        else mathml(made, block=True)
-    )
-    return Told(
+    if entry.correction:
+        text, change = entry.correction["text"], entry.correction["change"]
+        if entry.correction["kind"] in ("coefficients", "derived"):  # in the statement language
+            corrected, roots = markup.formula(text, block=True), list(_roots(entry, text))
+        else:
+            corrected = mathml(text, block=True)
+    return ClaimView(
         entry=entry,
         place=place(claim.section, claim.place),
         says=markup.prose(claim.says),
@@ -200,8 +197,8 @@ def told(entry: Entry) -> Told:
         printed=mathml(claim.printed, block=True) if claim.printed else "",
         wrong=[markup.ranged(line) for line in entry.wrong],
         corrected=corrected,
-        change=markup.change(str(correction.get("change", ""))),
-        roots=list(_roots(entry, made)) if of_statements else [],
+        change=markup.change(change),
+        roots=roots,
         sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
         steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
         shared=_rows(shared),
@@ -217,7 +214,7 @@ class Derived:
     """
 
     anchor: str
-    said: str
+    title: str
     shown: str
     uses: Sequence[tuple[str, str]]
 
@@ -260,11 +257,11 @@ def rows(entries: Sequence[Sequence[str]]) -> str:
 
 def _rows(lines: Sequence[Line]) -> list[markup.Row]:
     joined: dict[str, list[str]] = {}
-    for keyword, said in lines:
+    for keyword, content in lines:
         joined.setdefault(
-            keyword if keyword in markup.FORMULAS else f"{keyword} {said}", []
-        ).append(said)
-    return markup.rows_of([(key.partition(" ")[0], said) for key, said in joined.items()])
+            keyword if keyword in markup.FORMULAS else f"{keyword} {content}", []
+        ).append(content)
+    return markup.rows_of([(key.partition(" ")[0], content) for key, content in joined.items()])
 
 
 def _roots(entry: Entry, made: str) -> Iterator[str]:
@@ -290,11 +287,11 @@ def section_title(section: str) -> str:
     return f"Section {section}" if re.match(r"[A-Z0-9]", section) else section.capitalize()
 
 
-def sections(contents: Contents) -> list[tuple[str, list[Told]]]:
+def sections(contents: Contents) -> list[tuple[str, list[ClaimView]]]:
     """The claims by section, in the paper's order, what the paper lacks behind it."""
-    found: dict[str, list[Told]] = {}
+    by_section: dict[str, list[ClaimView]] = {}
     for entry in contents.entries:
-        found.setdefault(entry.claim.section, []).append(told(entry))
+        by_section.setdefault(entry.claim.section, []).append(view_of(entry))
 
     def key(section: str) -> tuple[int, list[tuple[bool, int, str]]]:
         ours = not re.match(r"[A-Z0-9]", section)
@@ -308,10 +305,12 @@ def sections(contents: Contents) -> list[tuple[str, list[Told]]]:
         )
         return int(ours), parts
 
-    return sorted(found.items(), key=lambda item: key(item[0]))
+    return sorted(by_section.items(), key=lambda item: key(item[0]))
 
 
-def errata(by_section: Sequence[tuple[str, Sequence[Told]]]) -> list[tuple[str, str, list[Told]]]:
+def errata(
+    by_section: Sequence[tuple[str, Sequence[ClaimView]]],
+) -> list[tuple[str, str, list[ClaimView]]]:
     """The groups of the errata with their claims."""
     everything = [one for _, claims in by_section for one in claims]
     groups = [
@@ -424,8 +423,8 @@ def scene_picture(scene: Results | None) -> str:
 
 
 def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
-    """The page, the same to the byte for the same contents; `scene` is what is told of the part on
-    the vibrating table.
+    """The page, the same to the byte for the same contents; `scene` is what the part on the
+    vibrating table did.
 
     Raises ClaimError, one line, where a formula cannot be shown.
     """
@@ -448,8 +447,8 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
 
 
 def _shown(
-    contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Any
-) -> dict[str, Any]:
+    contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Callable[[str], str]
+) -> dict[str, object]:
     by_section = sections(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
     headline, *further = [
@@ -474,7 +473,9 @@ def _shown(
         "section_title": section_title,
         "headline": headline[:1].upper() + headline[1:],
         "further": list(map(markup.line, further)),
-        "notation": [(mathml(glyph(name)), name, said) for name, _, said in NOTATION if said],
+        "notation": [
+            (mathml(glyph(name)), name, meaning) for name, _, meaning in NOTATION if meaning
+        ],
         "linked": {*outcomes, *(entry.claim.id for entry in contents.entries)},
         "style": raw((TEMPLATES / "style.css").read_text(encoding="utf-8")),
         "script": raw((TEMPLATES / "page.js").read_text(encoding="utf-8")),

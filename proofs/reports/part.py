@@ -65,27 +65,27 @@ def line(row: Row) -> tuple[str, ...]:
     and the verdict by the rule.
     """
     parts = [seconds(row.quantile(part), row.horizon) for part in (0.5, 0.16, 0.84)]
-    found = "chaotic" if row.is_chaotic() else f"{parts[0]} s"
+    verdict = "chaotic" if row.is_chaotic() else f"{parts[0]} s"
     return (
         f"{row.frequency:g} Hz {1000 * row.amplitude:g} mm",
         "chaotic" if row.paper is None else f"{row.paper:g} s",
-        found,
+        verdict,
         f"{parts[1]} to {parts[2]}",
         str(sum(row.chaotic)),
         str(row.censored()),
     )
 
 
-def table(found: Table, setting: Scene, amplitudes: str, swept: bool) -> None:
+def table(computed: Table, setting: Scene, amplitudes: str, swept: bool) -> None:
     """Table I beside the paper's, what it assumes, and where it differs."""
-    count = len(found.rows[0].chaotic)
+    count = len(computed.rows[0].chaotic)
     print(
         f"Table I: from when on all blocks lie; {count} ensembles of 91 blocks,"
-        f" {found.rows[0].horizon:g} s each.  Simulated, not proved."
+        f" {computed.rows[0].horizon:g} s each.  Simulated, not proved."
     )
     draw(
         ("along the table", "paper", "median", "16 to 84 %", "chaotic", "censored"),
-        [line(row) for row in found.rows],
+        [line(row) for row in computed.rows],
         _console(),
     )
     for rule in RULES:
@@ -98,30 +98,30 @@ def table(found: Table, setting: Scene, amplitudes: str, swept: bool) -> None:
         _console(),
     )
     print()
-    told = discrepancies(found.rows)
-    print("differs from the paper:" if told else "no row differs from the paper")
-    for one in told:
+    differing = discrepancies(computed.rows)
+    print("differs from the paper:" if differing else "no row differs from the paper")
+    for one in differing:
         print(f"  {one}")
     print(
-        f"misfit {misfit(found):.3f}: the mean over rows of |ln(median/paper)|, at most 1; for a"
+        f"misfit {misfit(computed):.3f}: the mean over rows of |ln(median/paper)|, at most 1; for a"
         " chaotic print, the part of ensembles that are not"
     )
 
 
 def violations(run: Run, setting: Scene) -> bool:
     """Tells how often the impact law's guarantees were broken; whether any was."""
-    found = run.violations()
+    broken = run.violations()
     deepest = -float(run.notes[:, body.LEAST_GAP].min())
     print(
         f"{int(run.notes[:, body.IMPACTS].sum())} impacts: "
-        + ", ".join(f"{count} {name}" for name, count in found.items())
+        + ", ".join(f"{count} {name}" for name, count in broken.items())
     )
     print(
         f"deepest corner {deepest:.3g} m below the table, tolerance {setting.tolerance:g} m;"
         " largest energy taken away by coming to lie"
         f" {float(run.notes[:, body.LARGEST_REMOVED].max()):.3g} J/kg"
     )
-    return any(found.values()) or deepest > setting.tolerance
+    return any(broken.values()) or deepest > setting.tolerance
 
 
 def point(one: Point) -> str:
@@ -133,7 +133,7 @@ def point(one: Point) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# What the page tells of the part-orienting scene: results of `simulate part`, kept beside the
+# What the page shows of the part-orienting scene: results of `simulate part`, kept beside the
 # records of runs while the sources are the same.
 #
 # They are simulated, not proved; a report never computes them, so that it needs neither numba nor
@@ -165,8 +165,8 @@ class Results:
     ]  # slug, title, caption, alt and svg; empty where matplotlib was absent
 
 
-def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -> bool:
-    """Whether a run of table I is the one that the report tells: nothing chosen, (e, mu) of the
+def is_of_the_report(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
+    """Whether a run of table I is the one that the report shows: nothing chosen, (e, mu) of the
     stored sweep, full ensembles.
     """
     try:
@@ -177,30 +177,30 @@ def is_of_the_report(setting: Scene, found: Table, amplitudes: str, seed: int) -
         e=pair.e, mu=pair.mu, A_x=setting.A_x, f_x=setting.f_x
     )  # table I has its own vibrations along the table
     return (setting, amplitudes, seed) == (wanted, AMPLITUDES, SEED) and all(
-        (len(row.chaotic), row.horizon) == (ENSEMBLES, HORIZON) for row in found.rows
+        (len(row.chaotic), row.horizon) == (ENSEMBLES, HORIZON) for row in computed.rows
     )
 
 
-def results(setting: Scene, found: Table, amplitudes: str) -> Results:
+def results(setting: Scene, computed: Table, amplitudes: str) -> Results:
     """A run in words, with figure 2 and the still table of the same scene."""
-    first = found.rows[0]
+    first = computed.rows[0]
     return Results(
         f"{len(first.chaotic)} ensembles of 91 blocks for each row, {first.horizon:g} s each",
-        [[*line(row)] for row in found.rows],
+        [[*line(row)] for row in computed.rows],
         [*RULES],
         [
             [one.name, one.value, one.standing, one.why]
             for one in assumptions(setting, amplitudes, True)
         ],
-        discrepancies(found.rows),
-        f"{misfit(found):.3f}",
+        discrepancies(computed.rows),
+        f"{misfit(computed):.3f}",
         in_words(no_vibration(setting)),
         figure_two(setting),
     )
 
 
 def figure_two(setting: Scene) -> dict[str, str]:
-    """Figure 2 with what is said beside it; nothing where matplotlib is absent."""
+    """Figure 2 with what stands beside it; nothing where matplotlib is absent."""
     if find_spec("matplotlib") is None:
         return {}
     from juggleproof.scenes.part import picture
@@ -216,11 +216,11 @@ def figure_two(setting: Scene) -> dict[str, str]:
     }
 
 
-def keep_results(setting: Scene, found: Table, amplitudes: str, seed: int) -> bool:
-    """Keeps what the report tells of a run of table I, where it is the report's; whether it is."""
-    if kept.folder() is None or not is_of_the_report(setting, found, amplitudes, seed):
+def keep_results(setting: Scene, computed: Table, amplitudes: str, seed: int) -> bool:
+    """Keeps what the report shows of a run of table I, where it is the report's; whether it is."""
+    if kept.folder() is None or not is_of_the_report(setting, computed, amplitudes, seed):
         return False
-    kept.keep(key(), [asdict(results(setting, found, amplitudes))])
+    kept.keep(key(), [asdict(results(setting, computed, amplitudes))])
     return True
 
 

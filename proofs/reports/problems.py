@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from rich.console import Console
 from rich.table import Table
 
+from juggleproof.certificates.nodes import Json
+from juggleproof.proofs.reports.tables import plain
 from juggleproof.proofs.smtlib.answering import Answered, in_script
 
 COLUMNS = ("problem", "answer", "settled by")
@@ -39,10 +40,7 @@ def rows(answered: Sequence[Answered]) -> list[tuple[str, str, str]]:
 def draw(answered: Sequence[Answered], console: Console) -> None:
     """Draws the table on a terminal; plain columns, one row a line, where there is none."""
     if not console.is_terminal:
-        everything = [COLUMNS, *rows(answered)]
-        widths = [max(len(row[i]) for row in everything) for i in range(len(COLUMNS))]
-        for row in everything:
-            print("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())
+        print(plain([COLUMNS, *rows(answered)]))
         return
     table = Table(*COLUMNS, header_style="bold")
     for row, one in zip(rows(answered), answered):
@@ -61,7 +59,7 @@ def summary(answered: Sequence[Answered]) -> str:
     )
 
 
-def data(one: Answered) -> dict[str, Any]:
+def data(one: Answered) -> dict[str, Json]:
     """An answer for other programs."""
     return {
         "file": one.path.name,

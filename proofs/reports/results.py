@@ -1,4 +1,4 @@
-"""Rows of the table, the tree, the errata: said once."""
+"""The table of results, and the results of a run as data."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -22,8 +21,8 @@ from juggleproof.proofs.claims import (
     Following,
     Readings,
 )
-from juggleproof.proofs.judging import Judgement
-from juggleproof.proofs.register import Change, differences, load_register, registered
+from juggleproof.proofs.judgement import Correction, Judgement
+from juggleproof.proofs.register import Change, Register, differences, registered
 from juggleproof.proofs.reports.errata import counterexample, group_of, what_is_wrong
 from juggleproof.proofs.reports.tables import plain
 from juggleproof.proofs.reports.tree import theorem_line
@@ -116,7 +115,7 @@ def reading_of(body: Body) -> str:
 
 
 def verdict_text(claim: Claim, judgement: Judgement) -> str:
-    """The verdict with what must be said beside it."""
+    """The verdict with its qualifications."""
     word = judgement.verdict.word
     notes = []
     if claim.repeats and word in ("misprint", "false"):
@@ -209,7 +208,6 @@ def summary(judgements: Sequence[Judgement]) -> str:
 OUTCOMES = ("certified", "refuted", "unknown", "rejected")
 PROVED = "theorem: proved "
 NO_VALUES = "every value: the negation is certified"
-Entries = Mapping[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -227,7 +225,7 @@ class Stated:
 
 @dataclass(frozen=True)
 class Result:
-    """A claim as it was judged; `wrong` and `group` tell what is not simply true, as `errata`
+    """A claim as it was judged; `wrong` and `group` show what is not simply true, as `errata`
     does.
     """
 
@@ -243,17 +241,17 @@ class Result:
     verdict_text: str
     settled_by: str
     sharp: str
-    correction: Mapping[str, Any] | None
+    correction: Correction | None
     wrong: tuple[str, ...]
     group: str
     statements: tuple[Stated, ...]
 
-    def registered(self) -> dict[str, Any]:
+    def registered(self) -> dict[str, str]:
         """What the register keeps of it."""
         return registered(
             self.verdict,
             self.detail,
-            self.correction,
+            self.correction["text"] if self.correction else "",
             "" if self.sharp in NO_RANGES else self.sharp,
         )
 
@@ -327,7 +325,7 @@ def theorem_of_run(done: Run) -> str:
 def results_of_run(
     claims: Sequence[Claim],
     judgements: Sequence[Judgement],
-    register: Entries | None,
+    register: Register | None,
     *,
     theorem: str = "",
     rejected: Sequence[tuple[str, str]] = (),
@@ -336,9 +334,9 @@ def results_of_run(
 ) -> Results:
     """The results of a run in hand; without a register they are about the user's own claims."""
     findings = {one.id: one.finding() for one in judgements}
-    found = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
-    entries = {**(register or {}), **{one.id: one.registered() for one in found}}
-    told = [
+    judged_claims = [_result(claim, judged) for claim, judged in zip(claims, judgements)]
+    entries = {**(register or {}), **{one.id: one.registered() for one in judged_claims}}
+    grouped = [
         replace(
             one,
             group=group_of(claim, entries, findings),
@@ -348,10 +346,10 @@ def results_of_run(
                 else tuple(what_is_wrong(entries[one.id], findings[one.id]["sharp"]))
             ),
         )
-        for claim, one in zip(claims, found)
+        for claim, one in zip(claims, judged_claims)
     ]
-    return _results(
-        told,
+    return compared(
+        grouped,
         register,
         rejected,
         Results(
@@ -365,47 +363,6 @@ def results_of_run(
     )
 
 
-def results_of(contents: Any, register: Entries | None = None) -> Results:
-    """The results that reports are built from: results as they are, and contents of a report as
-    results.
-    """
-    if isinstance(contents, Results):
-        return contents
-    if register is None:
-        register = load_register()
-    found = [
-        Result(
-            one.claim.id,
-            one.claim.section,
-            one.claim.place,
-            one.claim.says,
-            one.claim.printed,
-            one.claim.as_it_stands,
-            one.claim.repeats,
-            one.verdict,
-            one.detail,
-            one.verdict_text,
-            one.settled_by,
-            one.sharp or NO_RANGE,
-            one.correction,
-            tuple(one.wrong),
-            one.group,
-            tuple(
-                Stated(
-                    shown.name,
-                    shown.text,
-                    shown.outcome,
-                    dict(shown.votes),
-                    _where(shown.outcome, shown.at),
-                )
-                for shown in one.statements
-            ),
-        )
-        for one in contents.entries
-    ]
-    return _results(found, register, (), Results((), contents.theorem, tuple(contents.votes)))
-
-
 def _result(claim: Claim, judged: Judgement) -> Result:
     def at(name: str) -> str:
         certificate = judged.certificates[name]
@@ -417,7 +374,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
             text,
             judged.outcomes[name],
             {vote.route: vote.answer for vote in judged.votes.get(name, ())},
-            _where(judged.outcomes[name], at(name)),
+            where(judged.outcomes[name], at(name)),
         )
         for name, text in judged.statements
     )
@@ -441,13 +398,14 @@ def _result(claim: Claim, judged: Judgement) -> Result:
     )
 
 
-def _where(outcome: str, at: str) -> str:
+def where(outcome: str, at: str) -> str:
+    """Where a statement of this outcome fails, its counterexample being `at`."""
     return (at or NO_VALUES) if outcome == "refuted" else ""
 
 
-def _results(
-    found: Sequence[Result],
-    register: Entries | None,
+def compared(
+    results: Sequence[Result],
+    register: Register | None,
     rejected: Sequence[tuple[str, str]],
     about: Results,
 ) -> Results:
@@ -455,7 +413,7 @@ def _results(
     can hold.
     """
     reasons = dict(rejected)
-    claims = tuple(_written(_without(one, reasons)) for one in found)
+    claims = tuple(_written(_without(one, reasons)) for one in results)
     changes = (
         ()
         if register is None
@@ -494,8 +452,8 @@ def _written(one: Result) -> Result:
     """The result with characters replaced that neither XML nor UTF-8 can hold: a docstring may have
     any.
     """
-    told = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
-    return replace(one, **told)  # type: ignore[arg-type]
+    texts = {name: writable(value) for name, value in vars(one).items() if isinstance(value, str)}
+    return Result(**(vars(one) | texts))
 
 
 def writable(text: str) -> str:

@@ -61,11 +61,11 @@ def exact(text: str, name: str) -> Fraction:
     >>> exact("-3/10", "x"), exact("2^5", "x")
     (Fraction(-3, 10), Fraction(32, 1))
 
-    Raises ClaimError, one line that tells how to write it, for anything else.
+    Raises ClaimError, one line that names the form, for anything else.
     """
     text = text.strip()
-    found = _EXACT.fullmatch(text)
-    if not found:
+    match = _EXACT.fullmatch(text)
+    if not match:
         if _DECIMAL.fullmatch(text):
             raise ClaimError(
                 f"{name} = {text} is a rounded number; write it exactly, as {Fraction(text)}"
@@ -73,14 +73,16 @@ def exact(text: str, name: str) -> Fraction:
         raise ClaimError(
             f"{name} = {text[:40]!r} is no number; write it exactly, as 3/10, -41 or 10^300"
         )
-    sign, top, top_power, bottom, bottom_power = found.groups()
+    sign, top, top_power, bottom, bottom_power = match.groups()
     return (-1 if sign else 1) * Fraction(
         _power(top, top_power, name), _power(bottom or "1", bottom_power, name, zero=False)
     )
 
 
 def whole(text: str) -> int:
-    """A whole number, as an option of the command line takes it."""
+    """A whole number, as an option of the command line takes it; raises ArgumentTypeError for
+    another text.
+    """
     if not (text.isascii() and text.removeprefix("-").isdecimal()):
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number")
     if len(text) > 4000:
@@ -89,7 +91,8 @@ def whole(text: str) -> int:
 
 
 def components(text: str, names: Sequence[str]) -> dict[str, Fraction]:
-    """The numbers of a text such as x=1000,w=-41, each of these names at most once.
+    """The numbers of a text such as x=1000,w=-41, each of these names at most once; raises
+    ClaimError for another name, or one that stands twice.
 
     >>> components("x=1/2,w=-3", ("x", "w", "r"))
     {'x': Fraction(1, 2), 'w': Fraction(-3, 1)}

@@ -9,16 +9,19 @@ import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.derivations import Derivation
+from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import Contents, Entry
 from juggleproof.proofs.reports.errata import GROUPS
 from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.latex import MACROS, NOTATION, latex_of, with_macros
 from juggleproof.proofs.reports.words import parts_of
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 # -------------------------------------------------------------------------------------------------
 # The LaTeX report: fragments that an author can input, and documents that hold them all, from
@@ -63,7 +66,7 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
     written line is not certified.
     """
     made = _environment()
-    fragments = {
+    fragments: dict[str, Mapping[str, object]] = {
         "juggleproof-macros": {"macros": [(name, means) for name, means, _ in MACROS]},
         "theorem": _theorem(contents),
         "errata": _errata(contents),
@@ -74,17 +77,17 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
             ]
         },
     }
-    told = {name: _render(made, name, contents, values) for name, values in fragments.items()}
+    texts = {name: _render(made, name, contents, values) for name, values in fragments.items()}
     for letter, title in APPENDICES.items():
-        told[f"appendix-{letter.lower()}"] = _render(
+        texts[f"appendix-{letter.lower()}"] = _render(
             made, "appendix", contents, _appendix(contents, letter, title)
         )
     if figures:
         captions = [
             (slug, tex_words.plain(title), tex_words.prose(text)) for slug, title, text in figures
         ]
-        told["figures"] = _render(made, "figures", contents, {"figures": captions})
-    said = {
+        texts["figures"] = _render(made, "figures", contents, {"figures": captions})
+    values = {
         "summary": summary(contents),
         "versions": tex_words.plain(
             ", ".join(f"{tool} {one}" for tool, one in contents.tools.items())
@@ -92,10 +95,10 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
         "first_figure": f"figures/{figures[0][0]}.pdf" if figures else "none",
     }
     for name, twocolumn in (("juggleproof", False), ("juggleproof-twocolumn", True)):
-        told[name] = _render(made, "document", contents, {**said, "twocolumn": twocolumn})
+        texts[name] = _render(made, "document", contents, {**values, "twocolumn": twocolumn})
     return {
         "paper.bib": (TEMPLATES / "paper.bib").read_bytes(),
-        **{f"{name}.tex": text.encode() for name, text in told.items()},
+        **{f"{name}.tex": text.encode() for name, text in texts.items()},
     }
 
 
@@ -109,9 +112,9 @@ def summary(contents: Contents) -> str:
     )
 
 
-def _environment() -> Any:
+def _environment() -> Environment:
     jinja2 = needed("jinja2")
-    made = jinja2.Environment(
+    made: Environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(str(TEMPLATES)),
         block_start_string="<%",
         block_end_string="%>",
@@ -131,11 +134,11 @@ def _environment() -> Any:
     return made
 
 
-def _render(made: Any, name: str, contents: Contents, values: Mapping[str, Any]) -> str:
+def _render(made: Environment, name: str, contents: Contents, values: Mapping[str, object]) -> str:
     template = (
         "document" if name.startswith("juggleproof") and name != "juggleproof-macros" else name
     )
-    text: str = made.get_template(f"{template}.tex.j2").render(
+    text = made.get_template(f"{template}.tex.j2").render(
         tools=contents.tools, with_steps=name == "appendix", **values
     )
     return (
@@ -149,7 +152,7 @@ def _counterexamples(entry: Entry) -> list[str]:
     return list(dict.fromkeys(tex_words.values(one.at) for one in entry.statements if one.at))
 
 
-def _appendix(contents: Contents, letter: str, title: str) -> dict[str, Any]:
+def _appendix(contents: Contents, letter: str, title: str) -> dict[str, object]:
     sections = [
         (section, heading, [one for one in contents.entries if one.claim.section == section])
         for section, heading in SECTIONS.items()
@@ -183,7 +186,7 @@ def _behind_the_appendices(contents: Contents) -> list[Derivation]:
     return [one for one in contents.derivations if one.function in needed]
 
 
-def _errata(contents: Contents) -> dict[str, Any]:
+def _errata(contents: Contents) -> dict[str, object]:
     groups = [
         (
             tex_words.plain(title.partition(":")[0]),
@@ -197,7 +200,7 @@ def _errata(contents: Contents) -> dict[str, Any]:
     return {"groups": [one for one in groups if one[1]], "counts": f"In all: {counted}."}
 
 
-def _theorem(contents: Contents) -> dict[str, Any]:
+def _theorem(contents: Contents) -> dict[str, object]:
     by_name = {one.name: one for entry in contents.entries for one in entry.statements}
 
     def rows(name: str, keyword: str) -> list[str]:
@@ -207,17 +210,17 @@ def _theorem(contents: Contents) -> dict[str, Any]:
             if line.startswith(f"{keyword} ")
         ]
 
-    def said(name: str, keyword: str) -> list[str]:
+    def formulas(name: str, keyword: str) -> list[str]:
         return [with_macros(latex_of(part)) for part in parts_of(rows(name, keyword)[0])]
 
     def entry(name: str) -> Entry:
         return contents.entry(name)
 
-    def conjuncts(said: str, most: int | None = None) -> str:
+    def conjuncts(text: str, most: int | None = None) -> str:
         """The parts of a conjunction; the first ones of a domain, where the last is there for a
         division.
         """
-        return with_macros(",\\; ".join(latex_of(part) for part in said.split(" and ")[:most]))
+        return with_macros(",\\; ".join(latex_of(part) for part in text.split(" and ")[:most]))
 
     steps = tex_words.Steps(entry(PROOF))
     pieces = [row.partition(" -> ")[::2] for row in rows("theorem/map", "piece")]
@@ -233,10 +236,10 @@ def _theorem(contents: Contents) -> dict[str, Any]:
             ", ".join(with_macros(latex_of(part)) for part in parts_of(image))
             for _, image in pieces
         ],
-        "fixed": said("theorem/contracts", "point"),
-        "other": said("theorem/escapes", "start"),
+        "fixed": formulas("theorem/contracts", "point"),
+        "other": formulas("theorem/escapes", "start"),
         "speed": latex_of(rows("theorem/descends", "root")[0].partition("sqrt(")[2][:-1]),
-        "rank": said("theorem/descends", "rank")[0],
+        "rank": formulas("theorem/descends", "rank")[0],
         "stage_1": conjuncts(stages[0]),
         "stage_2": conjuncts(stages[1]),
         "trap": conjuncts(stages[2]),
@@ -244,7 +247,7 @@ def _theorem(contents: Contents) -> dict[str, Any]:
         "below": conjuncts(rows("theorem/descends", "domain")[0], 2),
         "others": conjuncts(rows("theorem/escapes", "domain")[0], 2),
         "space": latex_of(rows("theorem/map", "space")[0]),
-        "rate": said("theorem/contracts", "rate")[0],
+        "rate": formulas("theorem/contracts", "rate")[0],
         "given": steps.given,
         "radius": latex_of(rows("theorem/contracts", "radius")[0]),
         "show": steps.show,

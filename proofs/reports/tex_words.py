@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.derivations import Derivation
+from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports.contents import Entry
 from juggleproof.proofs.reports.latex import latex_of, with_macros
 from juggleproof.proofs.reports.words import pieces
@@ -86,13 +86,13 @@ def lines(latex: str) -> list[str]:
     >>> lines(r"a = b \\ c = \begin{bmatrix} 1 \\ 2 \end{bmatrix}")
     ['a = b', 'c = \\begin{bmatrix} 1 \\\\ 2 \\end{bmatrix}']
     """
-    found, depth, start = list[str](), 0, 0
-    for mark in re.finditer(r"\\begin|\\end|\\\\", latex):
-        depth += {"\\begin": 1, "\\end": -1}.get(mark.group(), 0)
-        if mark.group() == r"\\" and not depth:
-            found.append(latex[start : mark.start()].strip())
-            start = mark.end()
-    return [*found, latex[start:].strip()]
+    rows, depth, start = list[str](), 0, 0
+    for token in re.finditer(r"\\begin|\\end|\\\\", latex):
+        depth += {"\\begin": 1, "\\end": -1}.get(token.group(), 0)
+        if token.group() == r"\\" and not depth:
+            rows.append(latex[start : token.start()].strip())
+            start = token.end()
+    return [*rows, latex[start:].strip()]
 
 
 def formula(latex: str) -> str:
@@ -124,7 +124,7 @@ def correction(entry: Entry) -> str:
     """
     if entry.correction is None:
         raise ValueError(f"{entry.claim.id} has no correction")
-    text = str(entry.correction["text"])
+    text = entry.correction["text"]
     if entry.correction["kind"] not in ("coefficients", "derived"):
         return text
     left = entry.claim.printed.partition("=")[0].strip() if "=" in entry.claim.printed else ""
@@ -133,14 +133,14 @@ def correction(entry: Entry) -> str:
 
 def change(entry: Entry) -> str:
     """What the correction changes, the signs set as mathematics."""
-    said = str((entry.correction or {}).get("change", "")).partition(" at column")[0]
-    return re.sub(r"\\[A-Za-z]+|[<>]", lambda found: f"${found.group()}$", said)
+    text = entry.correction["change"].partition(" at column")[0] if entry.correction else ""
+    return re.sub(r"\\[A-Za-z]+|[<>]", lambda match: f"${match.group()}$", text)
 
 
 def number(claim: Claim) -> str:
     """The number of a display, without brackets."""
-    found = re.fullmatch(r"\((\d+)\)(?:, .*)?", claim.place)
-    return found.group(1) if found and "," not in claim.place else ""
+    match = re.fullmatch(r"\((\d+)\)(?:, .*)?", claim.place)
+    return match.group(1) if match and "," not in claim.place else ""
 
 
 def heading(claim: Claim) -> str:
@@ -223,23 +223,23 @@ class Steps:
         if one.outcome != "certified":
             raise ClaimError(f"{one.name} is {one.outcome}; the written proof cannot print it")
         self.used.add(label)
-        said = one.text.rpartition("\nshow ")[2].split(" and ")
+        conjuncts = one.text.rpartition("\nshow ")[2].split(" and ")
         return with_macros(
             _chained(
-                [latex_of(said[part]) for part in parts]
+                [latex_of(conjuncts[part]) for part in parts]
                 if parts
-                else [latex_of(part) for part in said]
+                else [latex_of(part) for part in conjuncts]
             )
         )
 
     def given(self, label: str, place: int) -> str:
         """What a line is given, by place."""
-        said = [
+        givens = [
             line.partition(" ")[2]
             for line in self.by_label[label].text.splitlines()
             if line.startswith("given ")
         ]
-        return with_macros(latex_of(said[place]))
+        return with_macros(latex_of(givens[place]))
 
 
 def _chained(relations: Sequence[str]) -> str:

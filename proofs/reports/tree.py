@@ -5,7 +5,6 @@ down to the inequalities.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError, rests_on
@@ -14,7 +13,7 @@ from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs.theorem import SENTENCE, THEOREM
 
 
-def rules_of(store: Store) -> dict[str, Any]:
+def rules_of(store: Store) -> dict[str, checker.Statement]:
     """The stored statements under map rules, by name."""
     texts = [
         text
@@ -29,12 +28,12 @@ def rules_of(store: Store) -> dict[str, Any]:
     }
 
 
-def with_all_below(name: str, rules: Mapping[str, Any]) -> list[str]:
+def with_all_below(name: str, rules: Mapping[str, checker.Statement]) -> list[str]:
     """The rule and all rules that it rests on, each once, those that rest on others first."""
-    found = [name]
-    for one in found:
-        found += [inner for inner in rests_on(rules[one]) if inner not in found]
-    return found
+    names = [name]
+    for one in names:
+        names += [inner for inner in rests_on(rules[one]) if inner not in names]
+    return names
 
 
 def theorem_line(
@@ -50,16 +49,16 @@ def theorem_line(
     rules = rules_of(store)
     names = with_all_below(THEOREM, rules)
     used = set().union(*(lemmas(store.certificate(name, store.texts[name])) for name in names))
-    told = [
+    cast = [
         vote
-        for name, cast in (votes or {}).items()
+        for name, each in (votes or {}).items()
         if name.rpartition(".")[0] in names
-        for vote in cast
+        for vote in each
     ]
     decided = [
-        f"{route} {sum(vote.answer == 'holds' for vote in told if vote.route == route)}"
+        f"{route} {sum(vote.answer == 'holds' for vote in cast if vote.route == route)}"
         for route in ("z3", "boxes")
-        if told
+        if cast
     ]
     lost = [name for name in [*sorted(used), *reversed(names)] if outcomes.get(name) != "certified"]
     if lost:
@@ -102,7 +101,7 @@ def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premise
         "\nrests on    each rule, its premises as the checker writes them, and the rules that it"
         " names"
     )
-    shown: dict[str, Mapping[str, Any]] = {}
+    shown: dict[str, Mapping[str, checker.Statement]] = {}
     for name in roots:
         _branch(name, 1, rules, store, shown)
     count = sum(map(len, shown.values()))
@@ -118,9 +117,9 @@ def print_tree(claim_id: str, resting: Sequence[str], store: Store, with_premise
 def _branch(
     name: str,
     depth: int,
-    rules: Mapping[str, Any],
+    rules: Mapping[str, checker.Statement],
     store: Store,
-    shown: dict[str, Mapping[str, Any]],
+    shown: dict[str, Mapping[str, checker.Statement]],
 ) -> None:
     if name in shown:
         print(f"{'  ' * depth}{name} (above)")
@@ -135,7 +134,7 @@ def _branch(
         _branch(inner, depth + 1, rules, store, shown)
 
 
-def lemmas(certificate: Any) -> set[str]:
+def lemmas(certificate: object) -> set[str]:
     """The earlier statements that a certificate uses."""
     if isinstance(certificate, Mapping):
         return set().union(*map(lemmas, certificate.values()))

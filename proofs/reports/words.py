@@ -1,4 +1,4 @@
-"""Sentences and statements in words and LaTeX, and the intervals that sharp ranges tell."""
+"""Sentences and statements in words and LaTeX, and the intervals of sharp ranges."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from juggleproof.proofs.reports.latex import GLYPHS, glyph, is_bracketed, latex_
 # Sentences of claims and derivations, in which formulas stand as in statements, parted into text
 # and LaTeX.
 #
-# What is a formula is told by its words: names of the notation, numerals beside signs, and what
+# A formula is known by its words: names of the notation, numerals beside signs, and what
 # joins them. The rest stays text.
 
 # Names of sentences that no statement has: regions, maps, and quantities with marks that the
@@ -124,14 +124,14 @@ def pieces(sentence: str) -> tuple[tuple[str, str], ...]:
     (('text', 'For '), ('math', '0 < \\alpha < \\frac{1}{3}'),
      ('text', ' every orbit is attracted to '), ('math', '\\mathcal{R}'), ('text', '.'))
     """
-    found: list[tuple[str, str]] = []
+    parts: list[tuple[str, str]] = []
     at = 0
     for start, end in _formulas(sentence):
         if sentence[at:start]:
-            found.append(("text", sentence[at:start]))
-        found.append(("math", _formula(sentence[start:end])))
+            parts.append(("text", sentence[at:start]))
+        parts.append(("math", _formula(sentence[start:end])))
         at = end
-    return (*found, ("text", sentence[at:])) if sentence[at:] else tuple(found)
+    return (*parts, ("text", sentence[at:])) if sentence[at:] else tuple(parts)
 
 
 def _formulas(sentence: str) -> list[tuple[int, int]]:
@@ -139,7 +139,7 @@ def _formulas(sentence: str) -> list[tuple[int, int]]:
     brackets that hold a name or a sign.
     """
     words = [(one.group(), one.start(), one.end()) for one in WORD.finditer(sentence)]
-    found, place = [], 0
+    spans, place = [], 0
     while place < len(words):
         if not _begins(words, place):
             place += 1
@@ -147,9 +147,9 @@ def _formulas(sentence: str) -> list[tuple[int, int]]:
         last = _run(words, place)
         tokens = [word for word, _, _ in words[place:last]]
         if any(_is_name(word) for word in tokens) or len(tokens) > 1:
-            found.append((words[place][1], words[last - 1][2]))
+            spans.append((words[place][1], words[last - 1][2]))
         place = last
-    return found
+    return spans
 
 
 def _is_name(word: str) -> bool:
@@ -283,7 +283,7 @@ def _numeral(word: str) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# Sharp ranges of alpha, read from the text that tells them into intervals that can be drawn.
+# Sharp ranges of alpha, read from their text into intervals that can be drawn.
 
 if TYPE_CHECKING:
     from juggleproof.proofs.reports.contents import Entry
@@ -327,45 +327,45 @@ def read(text: str) -> list[tuple[str, list[Interval] | None]]:
     >>> read("sampled: not found")
     [('sampled', None)]
     """
-    told: list[tuple[str, str, dict[str, Fraction]]] = []
+    ranges: list[tuple[str, str, dict[str, Fraction]]] = []
     for piece in text.split("; "):
         end, reading = _END.fullmatch(piece), _READING.fullmatch(piece)
-        if end and told:
-            told[-1][2][end[1]] = Fraction(end[2])
+        if end and ranges:
+            ranges[-1][2][end[1]] = Fraction(end[2])
         else:
-            told.append((reading[1], reading[2], {}) if reading else ("", piece, {}))
+            ranges.append((reading[1], reading[2], {}) if reading else ("", piece, {}))
     return [
         (", ".join(part for part in (label, name) if part), intervals)
-        for label, said, ends in told
-        for name, intervals in _for_each_number(said, ends)
+        for label, sharp, ends in ranges
+        for name, intervals in _for_each_number(sharp, ends)
     ]
 
 
 def _for_each_number(
-    said: str, ends: Mapping[str, Fraction]
+    sharp: str, ends: Mapping[str, Fraction]
 ) -> list[tuple[str, list[Interval] | None]]:
-    stated = _WHOLE_NUMBER.fullmatch(said)
-    said, number = (stated[1], stated[2]) if stated else (said, "K")
-    if not re.search(rf"\b{number}\b", said):
-        return [("", _intervals(said, ends))]
+    match = _WHOLE_NUMBER.fullmatch(sharp)
+    sharp, number = (match[1], match[2]) if match else (sharp, "K")
+    if not re.search(rf"\b{number}\b", sharp):
+        return [("", _intervals(sharp, ends))]
     return [
-        (f"{number} = {one}", _intervals(said, {**ends, number: Fraction(one)}))
+        (f"{number} = {one}", _intervals(sharp, {**ends, number: Fraction(one)}))
         for one in NUMBERS_SHOWN
     ]
 
 
-def _intervals(said: str, values: Mapping[str, Fraction]) -> list[Interval] | None:
-    if said == "nowhere":
+def _intervals(sharp: str, values: Mapping[str, Fraction]) -> list[Interval] | None:
+    if sharp == "nowhere":
         return []
-    found = []
-    for piece in said.split(" or "):
+    intervals = []
+    for piece in sharp.split(" or "):
         point, between = _POINT.fullmatch(piece), _BETWEEN.fullmatch(piece)
         try:
             if point:
                 number = _value(point[1], values)
-                found.append((number, number, True, True))
+                intervals.append((number, number, True, True))
             elif between:
-                found.append(
+                intervals.append(
                     (
                         _value(between[1], values),
                         _value(between[4], values),
@@ -377,7 +377,7 @@ def _intervals(said: str, values: Mapping[str, Fraction]) -> list[Interval] | No
                 return None
         except (SyntaxError, LookupError, ZeroDivisionError):
             return None
-    return found
+    return intervals
 
 
 def _value(text: str, values: Mapping[str, Fraction]) -> Fraction:
@@ -463,34 +463,34 @@ def lines_of(text: str) -> list[tuple[str, str, str]]:
     [('for all', 'math', '\\dot\\rho_0'), ('given', 'math', '\\dot\\rho_0 > 0'),
      ('then', 'math', '\\dot\\rho_0^2 > 0')]
     """
-    found = []
+    rows = []
     for line in text.splitlines()[1:]:
-        keyword, _, said = line.partition(" ")
+        keyword, _, content = line.partition(" ")
         if keyword in NAMES:
-            found.append((keyword, "text", said))
+            rows.append((keyword, "text", content))
         else:
-            found.append((WORDS.get(keyword, keyword), "math", _content(keyword, said)))
-    return list(_merged(found))
+            rows.append((WORDS.get(keyword, keyword), "math", _content(keyword, content)))
+    return list(_merged(rows))
 
 
-def _content(keyword: str, said: str) -> str:
+def _content(keyword: str, content: str) -> str:
     if keyword in ("forall", "integer", "exists", "over", "state"):
-        return ",\\ ".join(map(glyph, said.split()))
+        return ",\\ ".join(map(glyph, content.split()))
     if keyword in ("let", "root", "number"):
-        name, _, value = said.partition(" = ")
+        name, _, value = content.partition(" = ")
         rooted = re.fullmatch(r"(sqrt|root)\((.*)\)", value)
         if not rooted:
             return f"{glyph(name)} = {latex_of(value)}"
         if rooted.group(1) == "sqrt":
             return rf"{glyph(name)} = \sqrt{{{latex_of(rooted.group(2))}}}"
         polynomial, low, high = parts_of(rooted.group(2))
-        held = rf"{latex_of(low)} \le {glyph(name)} \le {latex_of(high)}"
+        between = rf"{latex_of(low)} \le {glyph(name)} \le {latex_of(high)}"
         return (
             rf"{glyph(name)}\ \text{{is the root"
-            rf" of}}\ {latex_of(polynomial)}\ \text{{with}}\ {held}"
+            rf" of}}\ {latex_of(polynomial)}\ \text{{with}}\ {between}"
         )
-    if keyword in ("iterates", "piece") and "->" in said:
-        source, _, image = said.partition(" -> ")
+    if keyword in ("iterates", "piece") and "->" in content:
+        source, _, image = content.partition(" -> ")
         if keyword == "piece":
             return rf"{latex_of(source)} \;\mapsto\; ({', '.join(map(latex_of, parts_of(image)))})"
         return (
@@ -498,11 +498,11 @@ def _content(keyword: str, said: str) -> str:
             rf" ({', '.join(map(latex_of, parts_of(_bare(image))))})"
         )
     if keyword == "after":
-        count, _, image = said.partition(" -> ")
+        count, _, image = content.partition(" -> ")
         return rf"{glyph(count)}:\ ({', '.join(map(latex_of, parts_of(_bare(image))))})"
     if keyword in ("point", "weights", "start"):
-        return f"({', '.join(map(latex_of, parts_of(said)))})"
-    return r"\text{never}" if keyword == "holds" and said == "0 = 1" else latex_of(said)
+        return f"({', '.join(map(latex_of, parts_of(content)))})"
+    return r"\text{never}" if keyword == "holds" and content == "0 = 1" else latex_of(content)
 
 
 def _bare(text: str) -> str:
@@ -543,7 +543,7 @@ def _merged(lines: list[tuple[str, str, str]]) -> Iterator[tuple[str, str, str]]
 def formulas_of(text: str) -> Iterator[tuple[str, str]]:
     """Every formula of a statement with its LaTeX, for comparison."""
     for line in text.splitlines()[1:]:
-        keyword, _, said = line.partition(" ")
+        keyword, _, content = line.partition(" ")
         if keyword in (
             "range",
             "given",
@@ -560,16 +560,16 @@ def formulas_of(text: str) -> Iterator[tuple[str, str]]:
             "radius",
             "size",
         ):
-            yield said, latex_of(said)
+            yield content, latex_of(content)
         elif keyword in ("point", "weights", "start"):
-            yield from ((part, latex_of(part)) for part in parts_of(said))
+            yield from ((part, latex_of(part)) for part in parts_of(content))
         elif keyword in ("let", "root", "number"):
-            value = said.partition(" = ")[2]
+            value = content.partition(" = ")[2]
             rooted = re.fullmatch(r"(?:sqrt|root)\((.*)\)", value)
             for part in parts_of(rooted.group(1)) if rooted else [value]:
                 yield part, latex_of(part)
-        elif keyword in ("piece", "iterates", "after") and "->" in said:
-            source, _, image = said.partition(" -> ")
+        elif keyword in ("piece", "iterates", "after") and "->" in content:
+            source, _, image = content.partition(" -> ")
             for part in [
                 *(parts_of(_bare(source)) if keyword != "after" else []),
                 *parts_of(_bare(image)),

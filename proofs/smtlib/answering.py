@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import cast
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
@@ -27,7 +27,7 @@ from juggleproof.certificates.language import (
     different,
     names_in,
 )
-from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.nodes import Certificate, Counterexample
 from juggleproof.certificates.search.certificate import (
     SQUARES_FIRST,
     search_certificate,
@@ -64,7 +64,7 @@ def statement_of(problem: Problem, name: str) -> Statement:
     parts = [
         (line, part)
         for line, formula in problem.assertions
-        for part in (formula.args if formula.op == "and" else (formula,))
+        for part in (formula.parts if formula.op == "and" else (formula,))
     ]
     divided = [(line, part) for line, part in parts if next(divisors(part), None) is not None]
     whole = [part for _, part in parts if next(divisors(part), None) is None]
@@ -100,13 +100,15 @@ def used(problem: Problem, formulas: Sequence[Formula]) -> tuple[str, ...]:
     return tuple(variable.name for variable in problem.variables if variable.name in occurring)
 
 
-def divisors(thing: Term | Formula) -> Iterator[Term]:
+def divisors(expression: Term | Formula) -> Iterator[Term]:
     """The divisors in a term or formula, inner ones first; not numbers other than 0."""
-    for part in thing.args:
+    for part in expression.args:
         if isinstance(part, (Term, Formula)):
             yield from divisors(part)
-    if thing.op == "/" and not (thing.args[1].op == "num" and thing.args[1].args[0]):
-        yield thing.args[1]
+    if isinstance(expression, Term) and expression.op == "/":
+        _, below = expression.operands
+        if below.op != "num" or below.value == 0:
+            yield below
 
 
 def _licence(problem: Problem, line: int, before: Statement, below: Term) -> list[Line]:
@@ -128,8 +130,7 @@ def _licence(problem: Problem, line: int, before: Statement, below: Term) -> lis
 
 
 def _read(statement: Statement) -> checker.Statement:
-    parsed: checker.Statement = checker.read_statements(statement.text())[statement.name]
-    return parsed
+    return checker.read_statements(statement.text())[statement.name]
 
 
 # -------------------------------------------------------------------------------------------------
@@ -151,7 +152,7 @@ class Question:
     name: str
     texts: tuple[str, ...]
     budget: int = BUDGET
-    stored: Mapping[str, Any] = field(default_factory=dict)
+    stored: Mapping[str, Certificate] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -161,22 +162,26 @@ class Answer:
     name: str
     word: str
     text: str
-    certificate: Any
+    certificate: Certificate
 
     @property
     def reason(self) -> str:
-        """Why nothing was found; nothing where something was."""
+        """Why the answer is unknown; empty where it is not."""
         return str(self.certificate.get("unknown", ""))
+
+    @property
+    def _counterexample(self) -> Counterexample:  # a list, where it comes from a file
+        return cast(Counterexample, self.certificate["refuted"])
 
     @property
     def model(self) -> tuple[tuple[str, str], ...]:
         """The value of every variable of the statement, where there is a model."""
-        return tuple(sorted(self.certificate["refuted"][2].items())) if self.word == "sat" else ()
+        return tuple(sorted(self._counterexample[2].items())) if self.word == "sat" else ()
 
     @property
     def numbers(self) -> tuple[str, ...]:
         """The algebraic numbers in the model, each a root of a polynomial between two bounds."""
-        entries = self.certificate["refuted"][1] if self.word == "sat" else []
+        entries = self._counterexample[1] if self.word == "sat" else []
         return tuple(
             f"{low} <= {name} <= {high}, {poly} = 0" for name, poly, low, high, *_ in entries
         )
@@ -222,10 +227,10 @@ def answer(asked: Question) -> Answer:
     return first or Answer(asked.name, "unknown", "", {"unknown": "nothing was asked"})
 
 
-def settled(name: str, text: str, certificate: Any) -> str:
+def settled(name: str, text: str, certificate: Certificate) -> str:
     """sat or unsat where the checker accepts the certificate, else unknown."""
     outcome, _ = checker.check_one(checker.read_statements(text)[name], certificate, {}, {})
-    return WORDS.get(str(outcome), "unknown")
+    return WORDS.get(outcome, "unknown")
 
 
 def _searched(name: str, text: str, budget: int) -> Certificate:
@@ -397,7 +402,7 @@ def _kept(folder: Path, answered: Sequence[Answered]) -> dict[str, str]:
     """
     scripts = ", ".join(dict.fromkeys(ascii(one.path.name)[1:-1] for one in answered))
     blocks = [f"# {TITLE.format(scripts)}"]
-    certificates: dict[str, dict[str, object]] = {}
+    certificates: dict[str, dict[str, Certificate]] = {}
     for one in answered:
         renamed = [
             f"{variable.name} is {ascii(variable.symbol)[1:-1]}"

@@ -10,15 +10,23 @@ is the statement of the problem. Source: SMT-LIB 2.6, section 4.2, logics QF_NRA
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates.language import NAME, ClaimError, Formula, real
 from juggleproof.certificates.language import RESERVED as OUR_RESERVED
 from juggleproof.proofs.smtlib.sexpr import Expression, Node, Script, Word
-from juggleproof.proofs.smtlib.terms import RESERVED, SORTS, Function, Reader, Value, brief, plain
+from juggleproof.proofs.smtlib.terms import (
+    RESERVED,
+    SORTS,
+    Function,
+    Reader,
+    Scope,
+    Value,
+    brief,
+    plain,
+)
 
 LOGICS = ("QF_NRA", "QF_LRA")
 # they ask for what is shown, and change nothing
@@ -42,9 +50,6 @@ STATUSES = ("sat", "unsat", "unknown")
 # -------------------------------------------------------------------------------------------------
 # Names of a script in our language.
 
-# the search gives these favoured values, as the paper's parameter and units have them
-OURS = OUR_RESERVED | {"alpha", "r", "g"}
-
 
 def our_name(symbol: str, taken: Collection[str]) -> str:
     """A name for a variable of the script that our language allows and that no other bears.
@@ -53,7 +58,7 @@ def our_name(symbol: str, taken: Collection[str]) -> str:
     ('x', 'x_', 'lambda_', 'v')
     """
     base = re.sub(r"\W", "_", symbol, flags=re.ASCII).lstrip("_0123456789") or "v"
-    name = base if NAME.match(base) and base not in OURS else base + "_"
+    name = base if NAME.match(base) and base not in OUR_RESERVED else base + "_"
     count = 1
     while name in taken:
         count += 1
@@ -116,7 +121,7 @@ class Problem:
 class Frame:
     """What was declared, defined and asserted since the last push, and by which commands."""
 
-    scope: dict[str, Any] = field(default_factory=dict)
+    scope: dict[str, Value | Function] = field(default_factory=dict)
     variables: list[Variable] = field(default_factory=list)
     assertions: list[tuple[int, Formula]] = field(default_factory=list)
     commands: list[Node] = field(default_factory=list)
@@ -131,11 +136,11 @@ class Session:
         self.status, self.name, self.source, self.ended = "", "", "", False
 
     @property
-    def scope(self) -> Mapping[str, Any]:
+    def scope(self) -> Scope:
         """Everything that is declared and defined."""
         return {name: value for frame in self.frames for name, value in frame.scope.items()}
 
-    def obey(self, command: Expression) -> None:
+    def execute(self, command: Expression) -> None:
         """Carries out one command."""
         if (
             not isinstance(command, Node)
@@ -146,14 +151,14 @@ class Session:
                 command, f"{brief(command)} is no command", "write commands as (assert ..)"
             )
         name = command.items[0].text
-        doer = getattr(self, "_" + name.replace("-", "_"), None) if name in COMMANDS else None
-        if doer is None and name not in IDLE:
+        handler = getattr(self, "_" + name.replace("-", "_"), None) if name in COMMANDS else None
+        if handler is None and name not in IDLE:
             self.script.fail(
                 command,
                 f"{name}: an unknown command",
                 "use declare-const, define-fun, assert, check-sat, push, pop, reset",
             )
-        if doer is not None:
+        if handler is not None:
             least, most = COMMANDS[name]
             if not least <= len(command.items) - 1 <= most:
                 self.script.fail(
@@ -162,7 +167,7 @@ class Session:
                     f" not {len(command.items) - 1}",
                     "mend the command",
                 )
-            doer(command, *command.items[1:])
+            handler(command, *command.items[1:])
             if name in KEPT:
                 self.frames[-1].commands.append(command)
 
@@ -270,7 +275,7 @@ class Session:
         value = self._of_sort(sort_name, body, {**function.scope, **inner})
         self.frames[-1].scope[symbol] = function if function.parameters else value
 
-    def _of_sort(self, sort: str, body: Expression, scope: Mapping[str, Any]) -> Value:
+    def _of_sort(self, sort: str, body: Expression, scope: Scope) -> Value:
         return self.reader.real(body, scope) if sort == "Real" else self.reader.formula(body, scope)
 
     def _define_const(
@@ -360,7 +365,7 @@ def read_problems(text: str, file: str) -> list[Problem]:
     session = Session(Script(text, file))
     for command in session.script.expressions():
         if not session.ended:
-            session.obey(command)
+            session.execute(command)
     if not session.problems:
         session.script.fail(1, "no (check-sat)", "ask what is to be decided")
     return session.problems

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import product
-from typing import Any, Union
+from typing import TypeVar, Union
 
 from juggleproof.certificates.language import (
     Formula,
@@ -53,7 +53,7 @@ class Real:
 
     @property
     def plain(self) -> Term | None:
-        """The term, where there are no cases to tell apart."""
+        """The term, where there are no cases to distinguish."""
         return self.cases[0][1] if len(self.cases) == 1 and not self.cases[0][0] else None
 
 
@@ -136,16 +136,16 @@ class Sizes:
     def __init__(self) -> None:
         self.known: dict[int, tuple[object, int, int]] = {}
 
-    def of(self, thing: Term | Formula) -> tuple[int, int]:
+    def of(self, expression: Term | Formula) -> tuple[int, int]:
         """The size and the depth; raises TooLarge where they are beyond what we take on."""
-        if id(thing) not in self.known:
-            parts = [self.of(part) for part in thing.args if isinstance(part, (Term, Formula))]
+        if id(expression) not in self.known:
+            parts = [self.of(part) for part in expression.args if isinstance(part, (Term, Formula))]
             size, depth = (
                 1 + sum(size for size, _ in parts),
                 1 + max((depth for _, depth in parts), default=0),
             )
-            self.known[id(thing)] = thing, size, depth
-        _, size, depth = self.known[id(thing)]
+            self.known[id(expression)] = expression, size, depth
+        _, size, depth = self.known[id(expression)]
         if size > MOST_NODES or depth > DEEPEST_TERM:
             raise TooLarge(
                 f"an expression of more than {MOST_NODES} symbols, or {DEEPEST_TERM} levels, when"
@@ -214,13 +214,14 @@ class Function:
     parameters: tuple[tuple[str, str], ...]
     sort: str
     body: Expression
-    scope: Mapping[str, Any]
+    scope: Scope
 
 
-Scope = Mapping[str, Any]  # a name -> its value, or the function that it is
+Scope = Mapping[str, Union[Value, Function]]  # a name -> its value, or the function that it is
+Joined = TypeVar("Joined")
 
 
-def balanced(join: Callable[[Any, Any], Any], parts: Sequence[Any]) -> Any:
+def balanced(join: Callable[[Joined, Joined], Joined], parts: Sequence[Joined]) -> Joined:
     """The parts joined by an associative operation, so that no text grows deep."""
     if len(parts) <= 8:
         return reduce(join, parts)
@@ -297,8 +298,9 @@ class Reader:
                 f"{brief(head)} is not the name of a function",
                 "only functions of the theory of reals are known",
             )
-        if isinstance(scope.get(head.text), Function):
-            return self._call(node, scope[head.text], rest, scope)
+        meant = scope.get(head.text)
+        if isinstance(meant, Function):
+            return self._call(node, meant, rest, scope)
         if head.text in scope:
             self.script.fail(node, f"{head.text} is no function", "write it without parentheses")
         if head.text == "let":
@@ -354,7 +356,7 @@ class Reader:
         return self.value(node.items[2], {**scope, **values})
 
     def pairs(self, node: Expression, what: str) -> list[tuple[str, Expression]]:
-        """A list of (name thing), each name once."""
+        """A list of (name expression), each name once."""
         bound: dict[str, Expression] = {}
         for pair in node.items if isinstance(node, Node) else [node]:
             if (
@@ -444,7 +446,7 @@ class Reader:
             return self._power(node, values)
         if name == "-" and len(values) == 1:
             return combined(
-                values, lambda one: number(-one[0].args[0]) if one[0].op == "num" else -one[0]
+                values, lambda one: number(-one[0].value) if one[0].op == "num" else -one[0]
             )
         if name == "-":
             return combined(values, lambda parts: reduce(lambda a, b: a - b, parts))
@@ -458,15 +460,15 @@ class Reader:
         if (
             exponent is None
             or exponent.op != "num"
-            or exponent.args[0].denominator != 1
-            or not 0 <= exponent.args[0] <= LARGEST_POWER
+            or exponent.value.denominator != 1
+            or not 0 <= exponent.value <= LARGEST_POWER
         ):
             self.script.fail(
                 node,
                 f"{brief(node)}: the exponent is no numeral from 0 to {LARGEST_POWER}",
                 "write a polynomial, or a root as y*y = t",
             )
-        power = int(exponent.args[0])
+        power = int(exponent.value)
         return combined(values[:1], lambda base: base[0] ** power)
 
     def _arity(self, at: Expression, name: str, count: int, least: int, most: int | None) -> None:
@@ -493,8 +495,8 @@ def number(value: Fraction) -> Term:
 
 def quotient(above: Term, below: Term) -> Term:
     """A quotient; of two numbers, the number."""
-    if above.op == below.op == "num" and below.args[0] != 0:
-        return number(above.args[0] / below.args[0])
+    if above.op == below.op == "num" and below.value != 0:
+        return number(above.value / below.value)
     return above / below
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
-from typing import Any
+from typing import Union
 
 from sympy import Expr, factor, fraction
 
@@ -28,8 +28,8 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.certificates.search.closing import Hints
-from juggleproof.proofs.derivations import Origin, made_by
 from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.paper.derivations import Origin, made_by
 from juggleproof.proofs.paper.names import (
     H,
     Placed,
@@ -38,7 +38,7 @@ from juggleproof.proofs.paper.names import (
     at,
     b,
     claim,
-    derived,
+    derived_vector,
     g,
     r,
     w,
@@ -118,9 +118,8 @@ def opposite(strict: Formula) -> Formula:
     """
     if strict.op != "<":
         raise ClaimError(f"{strict} is not one strict inequality")
-    left, right = strict.args
-    other: Formula = right <= left
-    return other
+    left, right = strict.sides
+    return right <= left
 
 
 def _difference(polynomial: Expr) -> Term:
@@ -241,7 +240,7 @@ NEARBY = Contraction(
 # have square roots in them.
 
 Point = Mapping[str, Fraction]
-_ARITHMETIC: dict[str, Callable[..., Any]] = {
+_ARITHMETIC: dict[str, Callable[..., Fraction]] = {
     "+": operator.add,
     "-": operator.sub,
     "*": operator.mul,
@@ -268,11 +267,11 @@ def value_of(expression: Term, point: Point) -> Fraction:
     Fraction(1, 4)
     """
     if expression.op == "num":
-        return Fraction(expression.args[0])
+        return expression.value
     if expression.op == "var":
-        if expression.args[0] not in point:
-            raise ClaimError(f"{expression.args[0]} has no value here")
-        return point[expression.args[0]]
+        if expression.name not in point:
+            raise ClaimError(f"{expression.name} has no value here")
+        return point[expression.name]
     parts = [value_of(part, point) if isinstance(part, Term) else part for part in expression.args]
     return Fraction(_ARITHMETIC[expression.op](*parts))
 
@@ -282,8 +281,8 @@ def holds_at(formula: Formula, point: Point) -> bool:
     these values.
     """
     if formula.op in _RELATIONS:
-        return _RELATIONS[formula.op](*(value_of(side, point) for side in formula.args))
-    parts = (holds_at(part, point) for part in formula.args)
+        return _RELATIONS[formula.op](*(value_of(side, point) for side in formula.sides))
+    parts = (holds_at(part, point) for part in formula.parts)
     if formula.op in ("and", "or"):
         return all(parts) if formula.op == "and" else any(parts)
     if formula.op == "not":
@@ -384,7 +383,7 @@ PHYSICAL = Setting(
     pieces=((STRIKES_HERE, tidied("f1")), (opposite(STRIKES_HERE), tidied("f2"))),
     fixed=tidied("e_1"),
     other=tidied("impact_fixed_point", K=2),
-    place=derived("scaling"),
+    place=derived_vector("scaling"),
     units=(2 * r**2 / g, r),
 )
 
@@ -417,13 +416,18 @@ def _roots(roots: Sequence[tuple[str, Term]], setting: Setting) -> list[tuple[st
     return [(name, setting.here(under)) for name, under in roots]
 
 
-def _terms(*things: Any) -> tuple[Term | Formula, ...]:
-    """The terms and formulas in these things and in sequences of such."""
-    return tuple(
-        one
-        for thing in things
-        for one in ((thing,) if isinstance(thing, (Term, Formula)) else _terms(*thing))
-    )
+Nested = Union[Term, Formula, Vector, Sequence["Nested"]]
+
+
+def _terms(*things: Nested) -> tuple[Term | Formula, ...]:
+    """The terms and formulas in these things, and in vectors and sequences of such."""
+    found: list[Term | Formula] = []
+    for thing in things:
+        if isinstance(thing, (Term, Formula)):
+            found.append(thing)
+        else:
+            found += map(term, thing) if isinstance(thing, Vector) else _terms(*thing)
+    return tuple(found)
 
 
 def descends(name: str, of: str, setting: Setting, of_alpha: Formula, descent: Descent) -> MapRule:

@@ -35,6 +35,7 @@ from juggleproof.proofs.paper.names import (
     b,
     claim,
     derived,
+    derived_vector,
     energy,
     equals,
     f1,
@@ -46,7 +47,7 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.names import always as always_real
 from juggleproof.proofs.paper.regions import LEVEL, PRINTED_SUPREMUM
 from juggleproof.proofs.reading.meaning import read
-from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.reading.values import Vector, scalar
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
     FIXED,
@@ -207,14 +208,13 @@ KAPPA = alpha * (1 + 3 * alpha) / (1 - alpha)
 def flown_for(periods: Term, start: Vector) -> Vector:
     """The state after so many periods of flight."""
     values = {"x": term(start.entries[0]), "w": term(start.entries[1]), "K": periods}
-    flight: Vector = at(derived("normal_flight_power"), values)
-    return flight
+    return at(derived_vector("normal_flight_power"), values)
 
 
 def next_impact(periods: Term, start: Vector = HERE) -> Vector:
     """The state at the next impact, so many periods after an impact at `start`."""
     struck: Vector = at(
-        derived("normal_f1"), {"x": term(start.entries[0]), "w": term(start.entries[1])}
+        derived_vector("normal_f1"), {"x": term(start.entries[0]), "w": term(start.entries[1])}
     )
     return flown_for(periods - 1, struck)
 
@@ -302,13 +302,17 @@ def fixed_points_are_not_stable_where_they_begin() -> list[AnyStatement]:
     struck = after_impact(K - 2, HIGHER)
     back = Vector(
         tuple(
-            at(entry, {"x": term(struck.entries[0]), "w": term(struck.entries[1])})
-            for entry in derived("normal_f1").entries
+            at(term(entry), {"x": term(struck.entries[0]), "w": term(struck.entries[1])})
+            for entry in derived_vector("normal_f1").entries
         )
     )
     raised = [d > 0, d < 1]
     return [
-        always(equals(derived("normal_impact_fixed_point"), E_K), in_range=AT_THE_END, label="e_K"),
+        always(
+            equals(derived_vector("normal_impact_fixed_point"), E_K),
+            in_range=AT_THE_END,
+            label="e_K",
+        ),
         always(
             strikes(E_K) & equals(next_impact(K, E_K), E_K), in_range=AT_THE_END, label="comes-back"
         ),
@@ -438,7 +442,9 @@ def orbits_in_the_trap_in_closed_form() -> list[AnyStatement]:
     next power.
     """
     here = from_the_fixed_point(c, SHEARED)
-    after = at(derived("normal_f1"), {"x": term(here.entries[0]), "w": term(here.entries[1])})
+    after = at(
+        derived_vector("normal_f1"), {"x": term(here.entries[0]), "w": term(here.entries[1])}
+    )
     small = [-1 <= p, p <= 1, -1 <= q, q <= 1]
     return [
         Iterates("shear", ("p", "q"), (p - q, q), "n", SHEARED),
@@ -472,7 +478,7 @@ def in_units(energy: Term) -> Term:
 
 LEVEL_OF_R = in_units(LEVEL)  # the energy up to which R reaches
 TRUE_LOSS = in_units(-term(derived("delta_E_sup")))
-PRINTED_LOSS = in_units(-term(read(PRINTED_SUPREMUM).right(PAPER)))
+PRINTED_LOSS = in_units(-term(scalar(read(PRINTED_SUPREMUM).right(PAPER))))
 ENOUGH = 2 * s * (1 - alpha + alpha**2) <= 3 - alpha - 2 * alpha**3
 MARGIN = (
     1,
@@ -491,7 +497,7 @@ TOO_MUCH = 4 * alpha * s > (1 - alpha) * (
 CORNER = s / (1 - alpha)  # the u of the border of R
 GROUND = Vector((0, 1 + u))  # the ball comes down to the ground with u
 AFTER_GROUND = alpha * u + 1 + alpha  # the u after the impact there
-AFTER_IMPACT: Vector = derived("normal_f1")
+AFTER_IMPACT = derived_vector("normal_f1")
 
 
 def written(coefficients: Sequence[int]) -> Term:
@@ -522,7 +528,9 @@ def printed_loss_counts_too_few_impacts() -> list[AnyStatement]:
     """
     speed, struck = (
         SPEED[1],
-        Vector(tuple(at_state(entry, GROUND) for entry in derived("normal_f1").entries)),
+        Vector(
+            tuple(at_state(term(entry), GROUND) for entry in derived_vector("normal_f1").entries)
+        ),
     )
     outside, one = u > CORNER, u**2 <= 2 * (LEVEL_OF_R + PRINTED_LOSS)
     most = u**2 >= 2 * (LEVEL_OF_R + PRINTED_LOSS)

@@ -12,7 +12,7 @@ order.
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,7 +32,7 @@ class Entry(NamedTuple):
     alt: str
     place: str
 
-    def draw(self, *given: Any) -> Figure:
+    def draw(self, *given: object) -> Figure:
         """The figure; those that the paper lacks are given the data that they show."""
         module, _, name = self.place.partition(".")
         figure: Figure = getattr(import_module(f"juggleproof.scenes.figures.{module}"), name)(

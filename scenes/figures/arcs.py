@@ -8,14 +8,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import TypeAlias
 
-from juggleproof.symbolic import (
-    collision_margin,
-    f1,
-    f2,
-    period,
-)
+from sympy import Expr, Symbol
+
+from juggleproof.symbolic import State, collision_margin, f1, f2
 
 # -------------------------------------------------------------------------------------------------
 # Expressions as numbers.
@@ -25,15 +22,18 @@ from juggleproof.symbolic import (
 
 ALPHA = Fraction(1, 4)  # below 1/3, where the theorem holds
 SETTING: Mapping[str, Fraction] = {"alpha": ALPHA, "r": Fraction(1), "g": Fraction(1)}
+Real: TypeAlias = Fraction | float
+Place: TypeAlias = tuple[Real, Real]  # a state (beta, v) or (x, w), or a point
 
 
-def value(expression: Any, **values: Any) -> Any:
+def value(expression: Expr, **values: Real) -> Real:
     """The value of an expression, symbols being named; alpha, r and g are those of the setting
     unless given.
 
-    Exact where the given values are whole numbers or fractions and no root occurs, else a float, or
-    an array.
+    Exact where the given values are whole numbers or fractions and no root occurs, else a float.
+    ValueError for an expression that is not of sums, products and powers.
 
+    >>> from juggleproof.symbolic import period
     >>> from juggleproof.symbolic.algebra import beta, v
     >>> value(period()), value(beta / 2 + v, beta=Fraction(1, 3), v=1), value(v**2 + 1, v=0.5)
     (Fraction(2, 1), Fraction(7, 6), 1.25)
@@ -50,7 +50,7 @@ def value(expression: Any, **values: Any) -> Any:
     )
 
 
-def _walk(expression: Any, values: Mapping[str, Any], exact: bool) -> Any:
+def _walk(expression: Expr, values: Mapping[str, Real], exact: bool) -> Real:
     if expression.is_Symbol:
         return values[expression.name]
     if expression.is_Rational:
@@ -58,7 +58,7 @@ def _walk(expression: Any, values: Mapping[str, Any], exact: bool) -> Any:
     if not expression.args:
         raise ValueError(f"cannot be drawn: {expression}")
     parts = [_walk(part, values, exact) for part in expression.args]
-    total = parts[0]
+    total: Real = parts[0]
     if expression.is_Add:
         for part in parts[1:]:
             total = total + part
@@ -80,23 +80,19 @@ def _walk(expression: Any, values: Mapping[str, Any], exact: bool) -> Any:
     return total
 
 
-def column(entries: Any, **values: Any) -> tuple[Any, Any]:
+def column(entries: State, **values: Real) -> Place:
     """The values of the two entries of a state."""
     return value(entries[0], **values), value(entries[1], **values)
 
 
-def in_units(height: Any, speed: Any) -> tuple[Any, Any]:
-    """A state as it is drawn: its height in units of r T, its speed in units of r."""
-    return height / (SETTING["r"] * value(period())), speed / SETTING["r"]
-
-
-def margin(height: Any, speed: Any) -> Any:
-    """Positive exactly where the ball strikes the table within the period."""
+def margin(height: Real, speed: Real) -> Real:
+    """Positive exactly where the ball strikes the table within the period, by (7)."""
     return value(collision_margin(), beta=height, v=speed)
 
 
-def next_state(height: Any, speed: Any) -> tuple[Any, Any]:
-    """The state one period later: by f1 in B1, by f2 elsewhere; exact for exact states.
+def next_state(height: Real, speed: Real) -> Place:
+    """The state one period later: by f1 (10) in B1, by f2 (12) elsewhere; exact for exact
+    states.
 
     >>> next_state(Fraction(0), Fraction(-1))
     (Fraction(1, 1), Fraction(-1, 2))
@@ -104,7 +100,7 @@ def next_state(height: Any, speed: Any) -> tuple[Any, Any]:
     return column(f1() if margin(height, speed) > 0 else f2(), beta=height, v=speed)
 
 
-def orbit(start: tuple[Any, Any], steps: int) -> list[tuple[Any, Any]]:
+def orbit(start: Place, steps: int) -> list[Place]:
     """The states from the start on, one a period."""
     states = [start]
     for _ in range(steps):
@@ -122,9 +118,9 @@ Point = tuple[float, float]
 Quadratic = tuple[float, float, float]  # coefficients from the constant up
 
 
-def polynomial(expression: Any, parameter: Any, **values: Any) -> Quadratic:
+def polynomial(expression: Expr, parameter: Symbol, **values: Real) -> Quadratic:
     """The coefficients, from the constant up, of an expression that is at most quadratic in the
-    parameter.
+    parameter; ValueError for others.
 
     >>> from juggleproof.symbolic.algebra import v
     >>> polynomial(3 * v**2 + v / 2, v)
@@ -136,14 +132,14 @@ def polynomial(expression: Any, parameter: Any, **values: Any) -> Quadratic:
 
 
 @cache
-def _coefficients(expression: Any, parameter: Any) -> list[Any]:
-    found = (expression + 0 * parameter).as_poly(parameter)
-    if found is None or found.degree() > 2:
+def _coefficients(expression: Expr, parameter: Symbol) -> list[Expr]:
+    quadratic = (expression + 0 * parameter).as_poly(parameter)
+    if quadratic is None or quadratic.degree() > 2:
         raise ValueError(f"not a parabola: {expression}")
-    return list(reversed(found.all_coeffs()))
+    return list(reversed(quadratic.all_coeffs()))
 
 
-def zeros(expression: Any, parameter: Any, **values: Any) -> list[float]:
+def zeros(expression: Expr, parameter: Symbol, **values: Real) -> list[float]:
     """The real zeros, in order, of an expression that is at most quadratic in the parameter.
 
     >>> from juggleproof.symbolic.algebra import v
@@ -210,8 +206,10 @@ def _slope(quadratic: Quadratic, s: float) -> float:
     return quadratic[1] + 2 * s * quadratic[2]
 
 
-def curve(height: Any, speed: Any, parameter: Any, start: float, stop: float, **values: Any) -> Arc:
-    """The states (height, speed) of a parameter."""
+def curve(
+    height: Expr, speed: Expr, parameter: Symbol, start: Real, stop: Real, **values: Real
+) -> Arc:
+    """The states (height, speed) of a parameter, of which both are at most quadratic."""
     return Arc(
         polynomial(height, parameter, **values),
         polynomial(speed, parameter, **values),
@@ -220,7 +218,7 @@ def curve(height: Any, speed: Any, parameter: Any, start: float, stop: float, **
     )
 
 
-def straight(start: tuple[Any, Any], stop: tuple[Any, Any]) -> Arc:
+def straight(start: Place, stop: Place) -> Arc:
     """The segment from one point to another."""
     (a, b), (c, d) = start, stop
     return Arc((float(a), float(c - a), 0.0), (float(b), float(d - b), 0.0), 0.0, 1.0)
@@ -257,13 +255,13 @@ def images(arcs: Sequence[Arc]) -> list[Arc]:
     """The image under f: each arc is cut where f jumps, and each part taken by the branch that
     holds there.
     """
-    found = []
+    mapped = []
     for arc in arcs:
         for part, strikes in cut_at_the_bounce(arc):
             (a, b, c), (d, e, k) = _affine(strikes)
             across = tuple(a * one + b * two for one, two in zip(part.across, part.up))
             up = tuple(d * one + e * two for one, two in zip(part.across, part.up))
-            found.append(
+            mapped.append(
                 Arc(
                     (across[0] + c, across[1], across[2]),
                     (up[0] + k, up[1], up[2]),
@@ -271,4 +269,4 @@ def images(arcs: Sequence[Arc]) -> list[Arc]:
                     part.stop,
                 )
             )
-    return found
+    return mapped

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import wraps
 from math import atan2, cos, degrees, hypot, pi, sin
-from typing import Any, ParamSpec
+from typing import Any, ParamSpec, TypeAlias
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
@@ -26,12 +27,13 @@ from juggleproof.scenes.figures.look import INK, STYLE, Look
 # How figures are saved: bytes that are the same from run to run.
 
 P = ParamSpec("P")
+Style: TypeAlias = Any  # what a keyword of matplotlib takes
 
 
 @contextmanager
-def style(**more: Any) -> Iterator[None]:
-    """The style, for as long as the block lasts."""
-    with rc_context({**STYLE, **more}):
+def style(**settings: Style) -> Iterator[None]:
+    """The style, and more settings of matplotlib, for as long as the block lasts."""
+    with rc_context({**STYLE, **settings}):
         yield
 
 
@@ -75,7 +77,7 @@ def _with_own_ids(text: str, slug: str) -> str:
     text = re.sub(r"<!--.*?-->|<!DOCTYPE[^>]*>", "", text, flags=re.DOTALL)
     text = re.sub(
         r'(\sid="|href="#|url\(#)([^")]*)',
-        lambda found: found[1] + short.get(found[2], f"{slug}-{found[2]}"),
+        lambda match: match[1] + short.get(match[2], f"{slug}-{match[2]}"),
         text,
     )
     text = re.sub(r'(<use [^>]*?)transform="translate\(([-\d.]+) ([-\d.]+)\)"', _placed, text)
@@ -151,7 +153,7 @@ class Plane:
         )
 
     def line(
-        self, arcs: Sequence[Arc], name: str | None, look: Look | None = None, **more: Any
+        self, arcs: Sequence[Arc], name: str | None, look: Look | None = None, **style: Style
     ) -> None:
         """Draws arcs as one curve, joined only where one ends at the very point where the next
         starts; nothing where there are none.
@@ -166,7 +168,7 @@ class Plane:
                     "edgecolor": look.colour if look else INK,
                     "linewidth": 1.4,
                     **dashes,
-                    **more,
+                    **style,
                 },
             )
 
@@ -192,18 +194,18 @@ class Plane:
         places: Iterable[Point],
         name: str,
         size: float = 3.6,
-        mark: str = "o",
+        marker: str = "o",
         filled: bool = True,
         colour: str = INK,
     ) -> None:
-        """Marks points of the plane."""
+        """Dots, or other markers of matplotlib, at points of the plane."""
         xs, ys = zip(*(self.place(*one) for one in places))
         self.figure.add_artist(
             Line2D(
                 xs,
                 ys,
                 linestyle="none",
-                marker=mark,
+                marker=marker,
                 markersize=size,
                 color=colour,
                 markeredgewidth=0.9,
@@ -214,17 +216,17 @@ class Plane:
             )
         )
 
-    def text(self, at: Point, label: str, shift: Point = (0, 0), **more: Any) -> None:
+    def text(self, at: Point, label: str, shift: Point = (0, 0), **style: Style) -> None:
         """Writes at a point of the plane, shifted by points of print, about its middle unless
         aligned otherwise.
         """
-        self.words(self.place(*at), label, shift, **more)
+        self.words(self.place(*at), label, shift, **style)
 
-    def words(self, at: Point, label: str, shift: Point = (0, 0), **more: Any) -> None:
+    def words(self, at: Point, label: str, shift: Point = (0, 0), **style: Style) -> None:
         """Writes at a place of the figure in points of print."""
         if not label:
             return
-        style = {"ha": "center", "va": "center", "transform": self.points, "zorder": 6, **more}
+        style = {"ha": "center", "va": "center", "transform": self.points, "zorder": 6, **style}
         self.figure.add_artist(Text(at[0] + shift[0], at[1] + shift[1], label, **style))
 
     def along(
@@ -234,7 +236,6 @@ class Plane:
         label: str,
         above: bool = True,
         gap: float = 3,
-        **more: Any,
     ) -> None:
         """Writes along a curve, so many points above or below its point with the parameter."""
         x, y = self.place(*arc.at(parameter))
@@ -249,7 +250,6 @@ class Plane:
             rotation=degrees(angle),
             rotation_mode="anchor",
             va="bottom" if above else "top",
-            **more,
         )
 
     def arrow(
@@ -352,8 +352,9 @@ class Plane:
                 fontsize=LABELS,
             )
 
-    def _patch(self, outline: Path, name: str | None, clip_on: bool = True, **look: Any) -> None:
-        patch = PathPatch(outline, gid=name, **{"transform": self.own, "capstyle": "butt", **look})
+    def _patch(self, outline: Path, name: str | None, clip_on: bool = True, **style: Style) -> None:
+        style = {"transform": self.own, "capstyle": "butt", **style}
+        patch = PathPatch(outline, gid=name, **style)
         if clip_on:
             patch.set_clip_box(self.window)
         self.figure.add_artist(patch, clip=False)
@@ -364,7 +365,7 @@ def path(arcs: Sequence[Arc]) -> Path:
     line.
     """
     vertices: list[Point] = []
-    codes: list[Any] = []
+    codes: list[np.uint8] = []
     for arc in arcs:
         start, control, stop = arc.bezier()
         if not vertices or vertices[-1] != start:

@@ -9,12 +9,22 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from textwrap import wrap
-from typing import Any
 
 from matplotlib.figure import Figure
+from sympy import Expr, Symbol
 
-from juggleproof.scenes.figures.arcs import ALPHA, Arc, column, curve, straight, value, zeros
-from juggleproof.scenes.figures.drawing import Plane, blank, styled, ticks
+from juggleproof.scenes.figures.arcs import (
+    ALPHA,
+    Arc,
+    Place,
+    Real,
+    column,
+    curve,
+    straight,
+    value,
+    zeros,
+)
+from juggleproof.scenes.figures.drawing import Plane, Style, blank, styled, ticks
 from juggleproof.scenes.figures.look import B1, B2, TRAP
 from juggleproof.scenes.juggler.exact import flight, impact, strikes
 from juggleproof.symbolic import normal_e_1, root_of
@@ -33,13 +43,13 @@ STARTS = tuple(
     for a, b in ((3, -3), (5, 0), (2, 6), (Fraction(1, 2), Fraction(-5, 2)))
 )
 LEVELS = range(1, 13)
-Point = tuple[Fraction, Fraction]
-Side = tuple[Point, Point, bool]  # its ends, and whether it is left out of the region
+State = tuple[Fraction, Fraction]  # (x, w)
+Side = tuple[Place, Place, bool]  # its ends, and whether it is left out of the region
 # an expression in x and w that is positive inside, and whether it is so on the boundary too
-Margin = tuple[Any, bool]
+Margin = tuple[Expr, bool]
 
 
-def normal_step(height: Fraction, closing: Fraction) -> Point:
+def normal_step(height: Fraction, closing: Fraction) -> State:
     """One period in normal form, exactly.
 
     >>> normal_step(Fraction(3), Fraction(-3))
@@ -50,7 +60,7 @@ def normal_step(height: Fraction, closing: Fraction) -> Point:
     )
 
 
-def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Point]:
+def orbit_into(trap: Sequence[Margin], start: State, most: int = 30) -> list[State]:
     """The orbit from the start until it is in the trap; ValueError where that takes more steps than
     allowed.
     """
@@ -62,7 +72,7 @@ def orbit_into(trap: Sequence[Margin], start: Point, most: int = 30) -> list[Poi
     return states
 
 
-def inside(trap: Sequence[Margin], height: Fraction, closing: Fraction) -> bool:
+def inside(trap: Sequence[Margin], height: Real, closing: Real) -> bool:
     """Whether a state is in the trap: every margin is positive, or zero where that is allowed."""
     return all(
         here > 0 or (here == 0 and not strict)
@@ -77,15 +87,14 @@ def sides(trap: Sequence[Margin]) -> list[Side]:
     whether the side is left out.
     """
     edge = [(Fraction(a), Fraction(b)) for a, b in ((-50, -50), (50, -50), (50, 50), (-50, 50))]
-    polygon = [(start, stop, True) for start, stop in zip(edge, [*edge[1:], edge[0]])]
+    polygon: list[Side] = [(start, stop, True) for start, stop in zip(edge, [*edge[1:], edge[0]])]
     for margin, strict in trap:
         polygon = _clipped(polygon, margin, strict)
     return polygon
 
 
-def _clipped(polygon: list[Side], margin: Any, strict: bool) -> list[Side]:
+def _clipped(polygon: list[Side], margin: Expr, strict: bool) -> list[Side]:
     kept: list[Side] = []
-    crossings: list[Point] = []
     for start, stop, left_out in polygon:
         here, there = (value(margin, x=point[0], w=point[1]) for point in (start, stop))
         if here * there < 0:
@@ -94,7 +103,6 @@ def _clipped(polygon: list[Side], margin: Any, strict: bool) -> list[Side]:
                 start[0] + share * (stop[0] - start[0]),
                 start[1] + share * (stop[1] - start[1]),
             )
-            crossings.append(crossing)
             start, stop = (start, crossing) if here > 0 else (crossing, stop)
         if here > 0 or there > 0:
             kept.append((start, stop, left_out))
@@ -108,7 +116,7 @@ def _clipped(polygon: list[Side], margin: Any, strict: bool) -> list[Side]:
 
 
 @cache
-def heights_of_rank(rank: Any, root: Any, square: Any) -> tuple[Any, Any]:
+def heights_of_rank(rank: Expr, root: Symbol, square: Expr) -> tuple[Expr, Expr]:
     """The height x at which w has the rank n, and the root there; the rank is linear in the root,
     whose square is linear in x.
     """
@@ -116,7 +124,7 @@ def heights_of_rank(rank: Any, root: Any, square: Any) -> tuple[Any, Any]:
     return root_of(square - root_there**2, x), root_there
 
 
-def rank_level(rank: Any, root: Any, square: Any, level: int) -> Arc:
+def rank_level(rank: Expr, root: Symbol, square: Expr, level: int) -> Arc:
     """The states x >= 0 of this rank, an arc of a parabola; ValueError where the root would be
     negative.
     """
@@ -128,7 +136,7 @@ def rank_level(rank: Any, root: Any, square: Any, level: int) -> Arc:
 
 
 @styled
-def trap_and_rank(rank: Any, root: tuple[Any, Any], trap: Sequence[Margin]) -> Figure:
+def trap_and_rank(rank: Expr, root: tuple[Symbol, Expr], trap: Sequence[Margin]) -> Figure:
     """The trap (its margins, and whether each is strict), orbits that fall into it, and levels of
     the rank (its root, and the square of that).
     """
@@ -160,12 +168,12 @@ def trap_and_rank(rank: Any, root: tuple[Any, Any], trap: Sequence[Margin]) -> F
     return plane.figure
 
 
-def shown(state: Point) -> tuple[float, float]:
+def shown(state: Place) -> tuple[float, float]:
     """An exact state as it is drawn."""
     return float(state[0]), float(state[1])
 
 
-def draw_levels(plane: Plane, rank: Any, root: tuple[Any, Any]) -> None:
+def draw_levels(plane: Plane, rank: Expr, root: tuple[Symbol, Expr]) -> None:
     """Draws the levels of the rank, each numbered where it meets x = 0."""
     for level in LEVELS:
         arc = rank_level(rank, *root, level)
@@ -281,7 +289,7 @@ def ranges(rows: Sequence[Row], without_alpha: int = 0) -> Figure:
     names_at, bars_at, verdicts_at = (
         72 * WIDTH * part for part in (NAMES, (LEFT + RIGHT) / 2, RIGHT + 0.025)
     )
-    style: dict[str, Any] = {"fontsize": SMALL, "linespacing": 1.05, "ha": "left"}
+    style: dict[str, Style] = {"fontsize": SMALL, "linespacing": 1.05, "ha": "left"}
     for at, label in (
         (names_at, "claim (reading)"),
         (bars_at, "holds for"),

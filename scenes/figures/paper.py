@@ -5,14 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 from math import dist
-from typing import Any
 
 from matplotlib.figure import Figure
+from sympy import Expr
 
 from juggleproof.scenes.figures import states
 from juggleproof.scenes.figures.arcs import (
     SETTING,
     Arc,
+    Real,
     column,
     curve,
     cut_at_the_bounce,
@@ -40,6 +41,9 @@ from juggleproof.symbolic import (
     table_at,
 )
 from juggleproof.symbolic.algebra import t, z2
+
+BOX = (0.135, 0.15, 0.84, 0.82)  # of the axes in a figure
+BEYOND = (-4.0, 4.0)  # beyond the lower and upper edges of the axes
 
 # -------------------------------------------------------------------------------------------------
 # Figure 3.
@@ -183,7 +187,6 @@ def strikes_and_flights() -> Figure:
 
 LEVELS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)  # in units of the square of the launch speed
 ENERGY_UP = (-2.6, 2.6)
-# beyond the lower and upper edges of the axes
 
 
 @styled
@@ -224,11 +227,11 @@ def important_lines() -> Figure:
     plane = states.StatePlane(figure, BOX, (-0.46, 1.6), ENERGY_UP)
     kept_level = states.level(float(value(E_max())))
     plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=0.9)
-    plane.draw([states.kept()], "B10", KEPT, linewidth=1.8)
+    plane.draw([states.zero_change_curve()], "B10", KEPT, linewidth=1.8)
     plane.draw([kept_level], "E-max", linewidth=1.1, linestyle=(0, (5, 2)))
     plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
     plane.name(states.bounce_line(BEYOND[0]), -0.42, r"$\partial\mathcal{B}_2$", gap=2)
-    plane.name(states.kept(), 0.55, r"$\mathcal{B}_1^0$", above=False, gap=2)
+    plane.name(states.zero_change_curve(), 0.55, r"$\mathcal{B}_1^0$", above=False, gap=2)
     plane.name(kept_level, -1.1, r"$E = E_{max}$", above=False)
     plane.name(
         states.region_boundary(),
@@ -247,7 +250,7 @@ def important_lines() -> Figure:
         (largest_kept_energy().state, "greatest-kept", "$E_{max}$ is\nkept here"),
         (largest_energy_change().state, "greatest-gain", "$\\Delta E_{max}$ is\ngained here"),
     ):
-        plane.mark(state, name, label, (-5, 0), ha="right", va="center", linespacing=1.1)
+        plane.dot(state, name, label, (-5, 0), ha="right", va="center", linespacing=1.1)
     return figure
 
 
@@ -260,7 +263,7 @@ def gains_and_losses() -> Figure:
     plane.fill(states.outline_loss(BEYOND[0]), "B1-", LOSS)
     plane.fill(states.outline_b2(6.0, BEYOND), "B2", B2)
     plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.4)
-    plane.draw([states.kept()], "B10", KEPT, linewidth=2)
+    plane.draw([states.zero_change_curve()], "B10", KEPT, linewidth=2)
     plane.text((0.15, -0.42), r"$\mathcal{B}_1^+$", fontsize=16)
     plane.text((0.15, -0.8), r"$\Delta_1 E > 0$", fontsize=9)
     plane.text((0.85, -1.1), r"$\mathcal{B}_1^-$", fontsize=16)
@@ -268,7 +271,7 @@ def gains_and_losses() -> Figure:
     plane.text((1.0, 1.4), r"$\mathcal{B}_2$", fontsize=16)
     plane.text((1.0, 1.0), r"$\Delta_2 E = 0$")
     plane.text(
-        states.drawn([states.kept()])[0].at(-0.75),
+        states.drawn([states.zero_change_curve()])[0].at(-0.75),
         r"$\mathcal{B}_1^0$: $\Delta_1 E = 0$",
         (9, -2),
         ha="left",
@@ -288,14 +291,14 @@ HEIGHT, VELOCITY = r"$\rho\,/\,(\dot\rho_0 T)$", r"$\dot\rho\,/\,\dot\rho_0$"  #
 START = (Fraction(9, 5), Fraction(3, 5))
 
 
-def against_time(height: Any, shift: Any, stop: Any, **values: Any) -> Arc:
+def against_time(height: Expr, shift: Real, stop: Real, **values: Real) -> Arc:
     """A height that is a quadratic in t, from time 0 to stop, as drawn: time in periods, from the
     shift on, height in units of r T.
     """
-    one = curve(t, height, t, 0.0, stop, **values)
+    a, b, c = curve(t, height, t, 0.0, stop, **values).up
     unit, length = states.units()[0], float(value(period()))
     across = (float(shift) / length, 1 / length, 0.0)
-    return Arc(across, tuple(part / unit for part in one.up), 0.0, float(stop))  # type: ignore[arg-type]
+    return Arc(across, (a / unit, b / unit, c / unit), 0.0, float(stop))
 
 
 def table_path(periods: int) -> list[Arc]:
@@ -305,7 +308,7 @@ def table_path(periods: int) -> list[Arc]:
 
 
 def ball_path(
-    height: Fraction, speed: Fraction, shift: Fraction
+    height: Real, speed: Real, shift: Real
 ) -> tuple[list[Arc], tuple[float, float] | None]:
     """The ball's height over the period that starts at this time in this state, and where the table
     strikes it, if it does.
@@ -411,9 +414,7 @@ def oscillator() -> Figure:
 #
 # The region R, the point p that must lie outside it, and the band around e_1 in it.
 
-BOX = (0.135, 0.15, 0.84, 0.82)
 ACROSS, UP = (0.0, 1.9), (-2.6, 2.6)
-BEYOND = (-4.0, 4.0)  # beyond the lower and upper edges of the axes
 # of the band, in units of the square of the launch speed: a band of half width 1/4
 EPSILON = Fraction(1, 32)
 
@@ -447,12 +448,12 @@ def intersections() -> Figure:
         [straight((0, speed), (8.0, speed))], "speed-of-e-1", linewidth=0.9, linestyle=(0, (4, 2))
     )
     plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.1)
-    plane.draw([states.kept()], "B10", KEPT, linewidth=1.6)
+    plane.draw([states.zero_change_curve()], "B10", KEPT, linewidth=1.6)
     plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
     plane.draw([through_p], "level-of-p", linewidth=1.1, linestyle=(0, (1, 1.5)))
-    plane.mark(e_1(), "e-1", r"$e_1$", (5, 4))
-    plane.mark(point_p(), "p", r"$p$", (-3, -5), ha="right", va="top")
-    plane.name(states.kept(), 0.5, r"$\mathcal{B}_1^0$", above=False, gap=2)
+    plane.dot(e_1(), "e-1", r"$e_1$", (5, 4))
+    plane.dot(point_p(), "p", r"$p$", (-3, -5), ha="right", va="top")
+    plane.name(states.zero_change_curve(), 0.5, r"$\mathcal{B}_1^0$", above=False, gap=2)
     plane.name(states.region_boundary(), 1.3, r"$\partial\mathcal{R}$", above=False)
     plane.name(through_p, 1.5, r"$E = E(p)$")
     plane.name(states.bounce_line(BEYOND[0]), 0.4, r"$\partial\mathcal{B}_2$", gap=2)
@@ -483,7 +484,7 @@ def band() -> Figure:
     plane.draw(outline_band(half), "boundary-of-K", BAND, linewidth=1.8)
     plane.draw([states.bounce_line(BEYOND[0])], "bounce-line", linewidth=1.1)
     plane.draw([states.region_boundary()], "boundary-of-R", R, linewidth=2.2)
-    plane.mark(e_1(), "e-1", r"$e_1$", (6, 0), va="center")
+    plane.dot(e_1(), "e-1", r"$e_1$", (6, 0), va="center")
     plane.text((0.62, states.speed_of_e_1()), r"$\mathcal{K}$", fontsize=14)
     plane.text((0.25, -1.3), r"$\mathcal{R}$", fontsize=16)
     plane.name(states.bounce_line(BEYOND[0]), -0.4, r"$\partial\mathcal{B}_2$", gap=2)

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from typing import Any
 
 from matplotlib.figure import Figure
+from sympy import Expr
 
 from juggleproof.scenes.figures.arcs import (
     SETTING,
@@ -20,9 +20,10 @@ from juggleproof.scenes.figures.arcs import (
     value,
     zeros,
 )
-from juggleproof.scenes.figures.drawing import Box, Plane, Sides, ticks
+from juggleproof.scenes.figures.drawing import Box, Plane, Sides, Style, ticks
 from juggleproof.scenes.figures.look import Look
 from juggleproof.symbolic import (
+    State,
     boundary_height,
     e_1,
     period,
@@ -53,7 +54,7 @@ def drawn(arcs: Sequence[Arc]) -> list[Arc]:
     ]
 
 
-def at(state: Any) -> Point:
+def at(state: State) -> Point:
     """A derived state, in the units of the axes."""
     height, speed = column(state)
     return float(height) / units()[0], float(speed) / units()[1]
@@ -89,25 +90,24 @@ class StatePlane(Plane):
         if across[0] < 0:
             self.line([straight((0, up[0]), (0, up[1]))], None, linewidth=1.2, zorder=2)
 
-    def draw(self, arcs: Sequence[Arc], name: str, look: Look | None = None, **more: Any) -> None:
+    def draw(
+        self, arcs: Sequence[Arc], name: str, look: Look | None = None, **style: Style
+    ) -> None:
         """Draws a curve of states."""
-        self.line(drawn(arcs), name, look, **more)
+        self.line(drawn(arcs), name, look, **style)
 
     def fill(self, arcs: Sequence[Arc], name: str, look: Look) -> None:
         """Fills a region of states."""
         self.area(drawn(arcs), name, look)
 
-    def name(self, arc: Arc, speed: float, label: str, **more: Any) -> None:
+    def name(self, arc: Arc, speed: float, label: str, above: bool = True, gap: float = 3) -> None:
         """Writes along a curve of states, at this velocity."""
-        self.along(drawn([arc])[0], speed, label, **more)
+        self.along(drawn([arc])[0], speed, label, above, gap)
 
-    def mark(
-        self, state: Any, name: str, label: str = "", shift: Point = (5, 4), **more: Any
-    ) -> None:
-        """Marks a derived state, with its name beside it."""
+    def dot(self, state: State, name: str, label: str, shift: Point, **style: Style) -> None:
+        """A dot at a derived state, with its name beside it."""
         self.dots([at(state)], name)
-        if label:
-            self.text(at(state), label, shift, **{"ha": "left", "va": "bottom", **more})
+        self.text(at(state), label, shift, **{"ha": "left", "va": "bottom", **style})
 
 
 @cache
@@ -117,7 +117,7 @@ def bounce_line(lowest: float) -> Arc:
 
 
 @cache
-def level_height() -> Any:
+def level_height() -> Expr:
     """The height at which a velocity has the energy E0."""
     return root_of(total_energy() - E0, beta)
 
@@ -136,7 +136,7 @@ def region_boundary() -> Arc:
 
 
 @cache
-def kept() -> Arc:
+def zero_change_curve() -> Arc:
     """B1^0, the states whose impact keeps the energy, from the greatest speed to the least."""
     low, high = zeros(zero_change_height(), v)
     return curve(zero_change_height(), v, v, high, low)
@@ -178,12 +178,16 @@ def outline_r() -> list[Arc]:
 
 def outline_gain() -> list[Arc]:
     """B1^+, the states whose impact gains energy: between beta = 0 and B1^0."""
-    return chain(kept())
+    return chain(zero_change_curve())
 
 
 def outline_loss(lowest: float) -> list[Arc]:
     """B1^- down to this speed: the rest of B1."""
-    return chain(bounce_line(lowest), straight((0, lowest), (0, kept().stop)), kept().reverse())
+    return chain(
+        bounce_line(lowest),
+        straight((0, lowest), (0, zero_change_curve().stop)),
+        zero_change_curve().reverse(),
+    )
 
 
 def speed_of_e_1() -> float:

@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.exact import Exact, as_fraction, lifted, lowest
+from juggleproof.scenes.juggler.exact import Exact, Rational, as_fraction, lifted, lowest
 from juggleproof.scenes.juggler.given import formulas, nearest
 from juggleproof.scenes.juggler.starts import Goal, Scene
 from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
@@ -23,7 +23,7 @@ from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 # Numbers in float64 with bounds.
 #
 # Arrays of float64 with a proved bound on their distance to the exact numbers (running error
-# analysis).
+# analysis: Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 3.3).
 #
 # A `Bounded` is an array v of floats and an array e >= 0 of floats with |exact - v| <= e, entry by
 # entry.  Let u = 2^-53 be the unit roundoff, fl a rounded result (IEEE 754 binary64, to nearest,
@@ -47,13 +47,15 @@ from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 # not decided.  Numbers that come in are whole numbers below 2^53, which are exact, or have their
 # distance to the exact number as their bound.
 
-Floats: TypeAlias = NDArray[np.float64]
+Floats: TypeAlias = NDArray[np.float64]  # of any shape, () for a single number
 Booleans: TypeAlias = NDArray[np.bool_]
+Places: TypeAlias = Booleans | slice
 U = 2.0**-53
 UP, TINY = 1 + 2.0**-49, 2.0**-1065
+EXACT: Floats = np.array(0.0)  # the bound of what is not rounded
 
 
-def _raised(bound: Any) -> Any:
+def _raised(bound: Floats) -> Floats:
     """The bound, made larger than all roundings of its own computation."""
     return bound * UP + TINY
 
@@ -62,16 +64,16 @@ def _raised(bound: Any) -> Any:
 class Bounded:
     """Floats v and bounds e on their distance to the exact numbers, of one shape."""
 
-    v: Any
-    e: Any
+    v: Floats
+    e: Floats
 
     @staticmethod
     def of(value: Fraction) -> Bounded:
         """The float next to a rational, with what it misses."""
-        found, missed = nearest(value)
-        return Bounded(np.float64(found), np.float64(missed))
+        rounded, missed = nearest(value)
+        return Bounded(np.array(rounded), np.array(missed))
 
-    def __add__(self, other: Bounded | int | Any) -> Bounded:
+    def __add__(self, other: Bounded | int | Floats) -> Bounded:
         two = _bounded(other)
         z = self.v + two.v
         return Bounded(z, _raised(self.e + two.e + U * abs(z)))
@@ -81,15 +83,15 @@ class Bounded:
     def __neg__(self) -> Bounded:
         return Bounded(-self.v, self.e)
 
-    def __sub__(self, other: Bounded | int | Any) -> Bounded:
+    def __sub__(self, other: Bounded | int | Floats) -> Bounded:
         two = _bounded(other)
         z = self.v - two.v
         return Bounded(z, _raised(self.e + two.e + U * abs(z)))
 
-    def __rsub__(self, other: int | Any) -> Bounded:
+    def __rsub__(self, other: int | Floats) -> Bounded:
         return _bounded(other) - self
 
-    def __mul__(self, other: Bounded | int | Any) -> Bounded:
+    def __mul__(self, other: Bounded | int | Floats) -> Bounded:
         two = _bounded(other)
         z = self.v * two.v
         return Bounded(
@@ -98,7 +100,7 @@ class Bounded:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Bounded | int | Any) -> Bounded:
+    def __truediv__(self, other: Bounded | int | Floats) -> Bounded:
         two = _bounded(other)
         z = self.v / two.v
         size = abs(two.v)
@@ -118,35 +120,35 @@ class Bounded:
         """Where the exact number is proved to be negative."""
         return np.asarray(-self.v > self.e)
 
-    def at(self, places: Any) -> Bounded:
+    def at(self, places: Places) -> Bounded:
         """The entries at these places."""
         return Bounded(self.v[places], self.e[places])
 
-    def put(self, places: Any, values: Bounded) -> None:
+    def put(self, places: Places, values: Bounded) -> None:
         """Puts entries in at these places."""
         self.v[places], self.e[places] = values.v, values.e
 
 
-def _bounded(value: Bounded | int | Any) -> Bounded:
-    """A whole number below 2^53, or whole floats, as exact."""
+def _bounded(value: Bounded | int | Floats) -> Bounded:
+    """A whole number below 2^53, or whole floats, as exact; OverflowError for a greater one."""
     if isinstance(value, Bounded):
         return value
     if isinstance(value, int) and abs(value) >= 2**53:
         raise OverflowError(f"{value} is no float")
-    return Bounded(value, 0.0)
+    return Bounded(np.asarray(value, np.float64), EXACT)
 
 
 def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
-    """The number, one for all, to each of the whole exponents >= 0, by squaring."""
-    found = Bounded(np.ones(len(exponents)), np.zeros(len(exponents)))
+    """The number, one for all, to each of the whole exponents >= 0, shape (n,), by squaring."""
+    power = Bounded(np.ones(len(exponents)), np.zeros(len(exponents)))
     left = exponents.copy()
     while left.any():
         odd = (left & 1) == 1
-        found.put(odd, found.at(odd) * value)
+        power.put(odd, power.at(odd) * value)
         left >>= 1
         if left.any():
             value = value * value
-    return found
+    return power
 
 
 # -------------------------------------------------------------------------------------------------
@@ -158,7 +160,7 @@ def powers(value: Bounded, exponents: NDArray[np.int64]) -> Bounded:
 # Each number is an Arb ball (python-flint): a midpoint and a radius, whose arithmetic encloses. The
 # margin w - x of a ball that holds 0 is settled by the exact orbit from the rational start, as long
 # as that stays about as short as the balls; otherwise the orbit begins again with twice the bits.
-# So a state is said to lie on x = w only where that is proved, and nothing is guessed.  In the trap
+# So a state counts as on x = w only where that is proved, and nothing is guessed.  In the trap
 # the closed form holds for any number of periods at once.
 
 BITS = 128  # to begin with
@@ -167,34 +169,34 @@ RADIUS = Fraction(1, 10**30)
 EXACT_SHARE = 8  # exact numbers may be so many times as long as the balls
 
 
-class _Again(Stop):
-    """More bits are needed."""
+class _MoreBits(Stop):
+    """The branch is to be decided with more bits."""
 
 
 class Enclosed:
-    """Balls of the present precision, with the exact orbit at hand for what they cannot tell."""
+    """Balls of the present precision, with the exact orbit for what they cannot decide."""
 
-    def __init__(self, alpha: Fraction, checkpoint: Track, bits: int) -> None:
+    def __init__(self, alpha: Fraction, checkpoint: Track[Rational], bits: int) -> None:
         self.alpha, self.checkpoint, self.bits = alpha, checkpoint, bits
 
-    def lift(self, value: Fraction) -> Any:
+    def lift(self, value: Fraction) -> arb:
         return arb(lifted(value))
 
-    def sign(self, value: Any) -> int | None:
+    def sign(self, value: arb) -> int | None:
         return 1 if value > 0 else -1 if value < 0 else None
 
-    def middle(self, value: Any) -> Any:
+    def middle(self, value: arb) -> fmpq:
         if not value.is_finite():
-            raise _Again("undecided")
+            raise _MoreBits("undecided")
         return value.mid().fmpq()
 
-    def power(self, value: Any, exponent: int) -> Any:
-        return value**exponent
+    def power(self, alpha: arb, exponent: int) -> arb:
+        return (-alpha) ** exponent
 
-    def check(self, track: Track) -> None:
+    def check(self, track: Track[arb]) -> None:
         """Nothing has to stop: a ball that has grown too wide fails at the next sign."""
 
-    def settle(self, track: Track) -> int:
+    def decide(self, track: Track[arb]) -> int:
         """The sign of the margin by the exact orbit, which is followed to this period; the ball is
         taken anew from there.
         """
@@ -207,19 +209,18 @@ class Enclosed:
                 formulas().fixed(lifted(self.alpha)),
             )
         except Stop:
-            raise _Again("undecided") from None
+            raise _MoreBits("undecided") from None
         here = self.checkpoint.here
         track.here = Sample(here.periods, here.impacts, arb(lowest(here.x)), arb(lowest(here.w)))
-        sign = exact.sign(formulas().margin(here.x, here.w))
-        return 0 if sign is None else sign
+        return exact.sign(formulas().margin(here.x, here.w))
 
 
-def radius_of(ball: Any) -> Fraction:
+def radius_of(ball: arb) -> Fraction:
     """The radius of a ball, exactly."""
     return as_fraction(ball.rad().fmpq())
 
 
-def _wide(track: Track, radius: Fraction) -> bool:
+def _wide(track: Track[arb], radius: Fraction) -> bool:
     samples = track.samples if track.samples is not None else [track.here]
     most = lifted(radius)
     return not all(
@@ -235,11 +236,11 @@ def follow(
     bits: int,
     radius: Fraction,
     most_bits: int,
-    show: Callable[[Track], None],
-    report: Callable[[Track], None] | None = None,
+    show: Callable[[Track[arb]], None],
+    report: Callable[[Track[arb]], None] | None = None,
 ) -> None:
-    """Follows the orbit; `show` is given every track that is begun, the last of which holds the
-    result.
+    """Follows the orbit in balls of at first `bits` and at most `most_bits` bits; `show` is given
+    every track that is begun, the last of which holds the result.
     """
     first = Sample(0, 0, *start)
     checkpoint = begin(Exact(alpha), alpha, first, False)
@@ -273,7 +274,7 @@ def follow(
         ctx.prec = before
 
 
-def _exactly(track: Track) -> Sample:
+def _exactly(track: Track[Rational]) -> Sample[Fraction]:
     return Sample(
         track.here.periods, track.here.impacts, as_fraction(track.here.x), as_fraction(track.here.w)
     )
@@ -296,6 +297,8 @@ ROUND_MEMORY = 64 * 8 * CHUNK  # at most so many temporaries of one chunk are al
 HISTORY_MEMORY = 1 << 30
 MOST_PERIODS = 1 << 52  # counted; whole floats
 NOT_DONE, REACHED, TRAP, UNDECIDED = range(4)
+# of results: float64, int64, uint8, or text for whole numbers that are longer
+Column: TypeAlias = NDArray[np.generic]
 ENDS = ("", "reached", "trap", "undecided", "too long")  # the last in exact arithmetic only
 
 
@@ -341,8 +344,8 @@ class Ensemble:
 
 
 def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
-    """What `follow` holds at most, beside the program itself: 49 bytes a state, one chunk's
-    temporaries, and the history if asked for.
+    """The bytes that `follow_fast` holds at most, beside the program itself: 49 a state, one
+    chunk's temporaries, and the history if asked for.
 
     >>> bytes_needed(10**6, 10**9) < 60_000_000
     True
@@ -357,7 +360,9 @@ def follow_fast(
     report: Callable[[int, int], None] | None = None,
     chunk: int = CHUNK,
 ) -> None:
-    """Follows all orbits of the scene, chunk by chunk, in place."""
+    """Follows all orbits of the scene, chunk by chunk, in place; SceneError on a processor whose
+    floats have no gradual underflow.
+    """
     if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
         raise SceneError(
             "this processor is set to flush small floats to 0, under which no bound holds"
@@ -415,15 +420,15 @@ class _Chunk:
         map_ = formulas()
         margin = map_.margin(self.x, self.w)
         strikes, flies = margin.is_positive(), margin.is_negative()
-        kept = map_.kept(self.alpha, self.w)
-        caught = strikes & kept[0].is_positive() & kept[1].is_positive()
+        here, after = map_.trap_margins(self.alpha, self.w)
+        trapped = strikes & here.is_positive() & after.is_positive()
         end = np.where(strikes | flies, NOT_DONE, UNDECIDED)
         end[self.periods >= MOST_PERIODS] = UNDECIDED
         end[self.left <= 0] = REACHED
         if self.goal.until_trap:
-            end[caught] = TRAP
+            end[trapped] = TRAP
         elif self.all.history is None:
-            leaps = caught & (end == NOT_DONE)
+            leaps = trapped & (end == NOT_DONE)
             self._leap(leaps)
             end[leaps] = REACHED
         stays = end == NOT_DONE
@@ -438,7 +443,7 @@ class _Chunk:
         power = powers(-self.alpha, left)
         # whole floats are exact below 2^53
         number = Bounded(left.astype(np.float64), np.where(left < 1 << 53, 0.0, left * 2.0**-52))
-        x, w = formulas().later(x, w, *self.fixed, number, power)
+        x, w = formulas().impact_power(x, w, *self.fixed, number, power)
         self.x.put(who, x)
         self.w.put(who, w)
         self.periods[who] += left
@@ -480,7 +485,7 @@ class _Chunk:
             np.minimum(length, self.left[who], out=length)
             if self.all.history is not None:
                 length[:] = 1
-        x, w = formulas().flight(x, w, Bounded(length.astype(np.float64), 0.0))
+        x, w = formulas().flight(x, w, Bounded(length.astype(np.float64), EXACT))
         self.x.put(who, x)
         self.w.put(who, w)
         self.periods[who] += length
@@ -497,7 +502,7 @@ class _Chunk:
 
 def certain_flights(x: Bounded, w: Bounded) -> NDArray[np.int64]:
     """For states that are proved to fly on: a number K >= 1 of periods that certainly have no
-    impact, the whole flight where the bound can tell.
+    impact, the whole flight where the bound decides it; all of shape (n,).
 
     The margin after k periods is a convex parabola in k, negative at k = 0: where it is proved not
     to be positive at K - 1, it is not between.
@@ -507,13 +512,12 @@ def certain_flights(x: Bounded, w: Bounded) -> NDArray[np.int64]:
     guess = np.floor((np.sqrt(np.maximum(square.v, 0)) - b.v) / 2) + 1
     guess = np.fmax(np.fmin(guess, MOST_PERIODS / 4), 1)  # 1 where it is not a number
     length = np.ones(len(guess))
-    for wish in (
+    for guessed in (
         np.floor(guess * (1 - 2.0**-20)),
         guess - 1,
         guess,
     ):  # the last that is certain stays
-        wish = np.maximum(wish, 1)
-        sure = map_.margin(*map_.flight(x, w, Bounded(wish - 1, 0.0))).is_negative()
-        length = np.where(sure & (wish > length), wish, length)
-    found: NDArray[np.int64] = length.astype(np.int64)
-    return found
+        guessed = np.maximum(guessed, 1)
+        sure = map_.margin(*map_.flight(x, w, Bounded(guessed - 1, EXACT))).is_negative()
+        length = np.where(sure & (guessed > length), guessed, length)
+    return length.astype(np.int64)

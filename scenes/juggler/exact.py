@@ -6,10 +6,10 @@ from bisect import bisect_left
 from collections.abc import Callable
 from fractions import Fraction
 from math import isqrt
-from typing import Any
+from typing import TypeAlias
 
 from flint import fmpq, fmpz
-from mpmath import MPContext
+from mpmath import MPContext, mpf
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.given import formulas
@@ -33,14 +33,14 @@ class Powers:
     def __init__(self, q: int) -> None:
         self.q, self.recent = fmpz(q), {0: fmpz(1)}
 
-    def __getitem__(self, k: int) -> Any:
-        found = self.recent.get(k)
-        if found is None:
+    def __getitem__(self, k: int) -> fmpz:
+        power = self.recent.get(k)
+        if power is None:
             before = self.recent.get(k - 1)
-            found = self.recent[k] = self.q**k if before is None else before * self.q
+            power = self.recent[k] = self.q**k if before is None else before * self.q
             if len(self.recent) > RECENT:
                 self.recent.pop(next(iter(self.recent)))
-        return found
+        return power
 
 
 class Ratio:
@@ -54,11 +54,11 @@ class Ratio:
 
     __slots__ = ("k", "powers", "rest", "top")
 
-    def __init__(self, top: Any, rest: Any, k: int, powers: Powers) -> None:
+    def __init__(self, top: fmpz, rest: fmpz, k: int, powers: Powers) -> None:
         self.top, self.rest, self.k, self.powers = top, rest, k, powers
 
     @staticmethod
-    def of(value: Any, powers: Powers) -> Ratio:
+    def of(value: fmpq, powers: Powers) -> Ratio:
         """The fmpq over as small a power of q as there is, and what has no factor of q."""
         common = value.q.gcd(pow(powers.q, value.q.bit_length(), value.q))
         k = bisect_left(
@@ -66,7 +66,7 @@ class Ratio:
         )
         return Ratio(value.p * (powers[k] // common), value.q // common, k, powers)
 
-    def bottom(self) -> Any:
+    def bottom(self) -> fmpz:
         """rest q^k."""
         return self.rest * self.powers[self.k]
 
@@ -76,7 +76,7 @@ class Ratio:
             max(self.top.height_bits(), self.rest.height_bits() + self.powers[self.k].height_bits())
         )
 
-    def _plus(self, other: Any, sign: int) -> Any:
+    def _plus(self, other: Rational | int, sign: int) -> Rational:
         if isinstance(other, int):
             return Ratio(self.top + sign * other * self.bottom(), self.rest, self.k, self.powers)
         if not isinstance(other, Ratio):
@@ -91,19 +91,19 @@ class Ratio:
             one, two = one * (rest // self.rest), two * (rest // other.rest)
         return Ratio(one + two if sign > 0 else one - two, rest, k, self.powers)
 
-    def __add__(self, other: Any) -> Any:
+    def __add__(self, other: Rational | int) -> Rational:
         return self._plus(other, 1)
 
-    def __sub__(self, other: Any) -> Any:
+    def __sub__(self, other: Rational | int) -> Rational:
         return self._plus(other, -1)
 
     def __neg__(self) -> Ratio:
         return Ratio(-self.top, self.rest, self.k, self.powers)
 
-    def __rsub__(self, other: Any) -> Any:
+    def __rsub__(self, other: Rational | int) -> Rational:
         return (-self)._plus(other, 1)
 
-    def __mul__(self, other: Any) -> Any:
+    def __mul__(self, other: Rational | int) -> Rational:
         if isinstance(other, int):
             return Ratio(self.top * other, self.rest, self.k, self.powers)
         if not isinstance(other, Ratio):
@@ -113,7 +113,10 @@ class Ratio:
     __radd__, __rmul__ = __add__, __mul__
 
 
-def lowest(value: Any) -> Any:
+Rational: TypeAlias = Ratio | fmpq  # of an exact orbit
+
+
+def lowest(value: Rational) -> fmpq:
     """The number as an fmpq, which is in lowest terms; an fmpq as it is."""
     return fmpq(value.top, value.bottom()) if isinstance(value, Ratio) else value
 
@@ -151,19 +154,19 @@ FEW_BITS, MANY_BITS = 2**10, 2**16
 PLACES = 64  # binary, of what only guesses are made from
 
 
-def lifted(value: Fraction) -> Any:
+def lifted(value: Fraction) -> fmpq:
     """The rational as python-flint's."""
     return fmpq(value.numerator, value.denominator)
 
 
-def as_fraction(value: Any) -> Fraction:
+def as_fraction(value: Rational) -> Fraction:
     """A rational of an exact orbit, or of python-flint, as a Fraction.
 
     >>> as_fraction(lifted(Fraction(-2, 3)))
     Fraction(-2, 3)
     """
-    value = lowest(value)
-    return _coprime(int(value.p), int(value.q))
+    quotient = lowest(value)
+    return _coprime(int(quotient.p), int(quotient.q))
 
 
 def _of_coprime() -> Callable[[int, int], Fraction]:
@@ -174,7 +177,7 @@ def _of_coprime() -> Callable[[int, int], Fraction]:
     quick: Callable[[int, int], Fraction] | None = getattr(Fraction, "_from_coprime_ints", None)
     if quick is not None:
         return quick
-    whole: Any = Fraction
+    whole: Callable[..., Fraction] = Fraction
     try:
         whole(1, 2, _normalize=False)
     except TypeError:
@@ -192,28 +195,28 @@ class Exact:
         self.alpha, self.powers = lifted(alpha), Powers(alpha.denominator)
         self.most_bits, self.due = most_bits, FEW_BITS
 
-    def lift(self, value: Fraction) -> Any:
+    def lift(self, value: Fraction) -> Rational:
         return lifted(value)
 
-    def sign(self, value: Any) -> int | None:
+    def sign(self, value: Rational) -> int:
         top = value.top if isinstance(value, Ratio) else value
         return int(top > 0) - int(top < 0)
 
-    def middle(self, value: Any) -> Any:
+    def middle(self, value: Rational) -> fmpq:
         """The number cut off after 64 binary places, which takes no greatest common divisor."""
         top, bottom = (
             (value.top, value.bottom()) if isinstance(value, Ratio) else (value.p, value.q)
         )
         return fmpq((top << PLACES) // bottom, fmpz(1) << PLACES)
 
-    def power(self, value: Any, exponent: int) -> Any:
-        base = lowest(value)
+    def power(self, alpha: Rational, exponent: int) -> Rational:
+        base = -lowest(alpha)
         if exponent * base.height_bits() > self.most_bits:
             raise Stop("too long")
         self.due = self.most_bits  # this is the last move
         return base**exponent
 
-    def check(self, track: Track) -> None:
+    def check(self, track: Track[Rational]) -> None:
         bits = _bits(track)
         if bits > self.due and (bits < MANY_BITS or isinstance(track.here.x, Ratio)):
             self._shorten(track)
@@ -225,7 +228,7 @@ class Exact:
         ):
             raise Stop("too long")
 
-    def _shorten(self, track: Track) -> None:
+    def _shorten(self, track: Track[Rational]) -> None:
         """Makes long numbers `Ratio`s, takes out what they have in common with q, and makes those
         fmpq that are short then.
         """
@@ -241,17 +244,17 @@ class Exact:
         else:
             track.here, track.alpha = track.here._replace(x=lowest(x), w=lowest(w)), self.alpha
 
-    def settle(self, track: Track) -> int:
+    def decide(self, track: Track[Rational]) -> int:
         raise AssertionError("exact numbers have signs")
 
 
-def _bits(track: Track) -> int:
+def _bits(track: Track[Rational]) -> int:
     return max(
         part.bits() if isinstance(part, Ratio) else part.height_bits() for part in track.here[2:]
     )
 
 
-def finished(sample: Sample) -> Sample:
+def finished(sample: Sample[Rational]) -> Sample[Rational]:
     """The sample with numbers of python-flint, in lowest terms."""
     return sample._replace(x=lowest(sample.x), w=lowest(sample.w))
 
@@ -262,7 +265,7 @@ def strikes(x: Fraction, w: Fraction) -> bool:
     >>> strikes(Fraction(1), Fraction(1))
     False
     """
-    return bool(formulas().margin(x, w) > 0)
+    return formulas().margin(x, w) > 0
 
 
 def impact(alpha: Fraction, x: Fraction, w: Fraction) -> tuple[Fraction, Fraction]:
@@ -271,8 +274,7 @@ def impact(alpha: Fraction, x: Fraction, w: Fraction) -> tuple[Fraction, Fractio
     >>> impact(Fraction(1, 2), Fraction(1), Fraction(2))
     (Fraction(1, 2), Fraction(1, 1))
     """
-    there: tuple[Fraction, Fraction] = formulas().impact(alpha, x, w)
-    return there
+    return formulas().impact(alpha, x, w)
 
 
 def flight(x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
@@ -281,12 +283,12 @@ def flight(x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
     >>> flight(Fraction(3), Fraction(-3), 2)
     (Fraction(7, 1), Fraction(1, 1))
     """
-    there: tuple[Fraction, Fraction] = formulas().flight(x, w, periods)
-    return there
+    return formulas().flight(x, w, periods)
 
 
 def flight_length(x: Fraction, w: Fraction) -> int:
-    """How many periods without an impact follow: the least K >= 0 with K^2 + K (w + 1) + w - x > 0.
+    """How many periods without an impact follow: the least K >= 0 with K^2 + K (w + 1) + w - x > 0;
+    SceneError where the closed form does not give it.
 
     >>> flight_length(Fraction(1), Fraction(1))
     1
@@ -301,22 +303,22 @@ def flight_length(x: Fraction, w: Fraction) -> int:
     while not strikes(*flight(x, w, length)):
         length += 1
     if length > 1 and strikes(*flight(x, w, length - 1)):
-        raise SceneError("the closed form of a flight does not tell its end")
-    return int(length)
+        raise SceneError("the closed form of a flight does not give its end")
+    return length
 
 
-def later(alpha: Fraction, x: Fraction, w: Fraction, periods: int) -> tuple[Fraction, Fraction]:
+def impact_power(
+    alpha: Fraction, x: Fraction, w: Fraction, periods: int
+) -> tuple[Fraction, Fraction]:
     """f1 so many times: f1^n(e_1 + (p, q)) = e_1 + (-alpha)^n (p - n q, q); an orbit of f from a
     state of the trap.
 
     >>> alpha, x, w = Fraction(1, 2), Fraction(0), Fraction(1)
-    >>> later(alpha, x, w, 2) == impact(alpha, *impact(alpha, x, w))
+    >>> impact_power(alpha, x, w, 2) == impact(alpha, *impact(alpha, x, w))
     True
     """
-    there: tuple[Fraction, Fraction] = formulas().later(
-        x, w, *formulas().fixed(alpha), periods, (-alpha) ** periods
-    )
-    return there
+    power = (-alpha) ** periods
+    return formulas().impact_power(x, w, *formulas().fixed(alpha), periods, power)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -337,13 +339,13 @@ class HighPrecision:
         self.context = MPContext()
         self.context.dps = digits
 
-    def lift(self, value: Fraction) -> Any:
+    def lift(self, value: Fraction) -> mpf:
         return self.context.mpf(value.numerator) / value.denominator
 
-    def sign(self, value: Any) -> int | None:
+    def sign(self, value: mpf) -> int:
         return int(value > 0) - int(value < 0)
 
-    def middle(self, value: Any) -> Any:
+    def middle(self, value: mpf) -> fmpq:
         """The rounded number as a rational, which it is."""
         sign, mantissa, exponent, _ = value._mpf_
         top = fmpz(-mantissa if sign else mantissa)
@@ -351,11 +353,11 @@ class HighPrecision:
             fmpq(top * fmpz(2) ** exponent, 1) if exponent >= 0 else fmpq(top, fmpz(2) ** -exponent)
         )
 
-    def power(self, value: Any, exponent: int) -> Any:
-        return value**exponent
+    def power(self, alpha: mpf, exponent: int) -> mpf:
+        return (-alpha) ** exponent
 
-    def check(self, track: Track) -> None:
+    def check(self, track: Track[mpf]) -> None:
         """Nothing has to stop."""
 
-    def settle(self, track: Track) -> int:
+    def decide(self, track: Track[mpf]) -> int:
         raise AssertionError("rounded numbers have signs")

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 from sympy import Expr, ImmutableMatrix, Poly, Symbol, expand, horner, symbols
@@ -42,26 +42,27 @@ from juggleproof.symbolic.algebra import K, alpha, beta, n, r, w, x
 # numbers that add, multiply and divide (rationals, balls, floats, arrays). Only sums, products and
 # one division by a whole number or a polynomial occur; powers are written as products.
 
-Compiled = Callable[..., Any]
+N = TypeVar("N")  # numbers of one kind: rationals, balls, mpmath's, floats, arrays with bounds
+Compiled = Callable[..., Any]  # of `eval`; what it returns is of the kind of what it is given
 p_e, q_e, power = symbols("e_x e_w power")  # the fixed point, and (-alpha)^n
 
 
 def plain(expression: Expr, first: Symbol) -> str:
     """The text of a rational expression: a Horner form in the symbol `first`, whole coefficients,
-    no powers, at most one division.
+    no powers, at most one division; DerivationError for any other expression.
 
     >>> plain(normal_f1()[0], alpha), plain(normal_flight_power()[0], K), plain(normal_energy(), w)
     ('(alpha*(w - x))', '((K*(1 - K - w)) + x)', '((4*x) + (w*(w - 2)) + 1)/2')
     """
     top, bottom = lowest_terms(expression).as_numer_denom()
     texts = [
-        _written(horner(part, wrt=first) if part.has(first) else part)
+        _infix(horner(part, wrt=first) if part.has(first) else part)
         for part in (expand(top), expand(bottom))
     ]
     return texts[0] if bottom == 1 else f"{texts[0]}/{texts[1]}"
 
 
-def _written(expression: Expr) -> str:
+def _infix(expression: Expr) -> str:
     if expression.is_Symbol:
         return str(expression.name)
     if expression.is_Integer:
@@ -71,8 +72,7 @@ def _written(expression: Expr) -> str:
             expression.args, key=lambda part: (_is_negative(part), bool(part.is_number), str(part))
         )
         added = "".join(
-            (" - " if _is_negative(part) else " + ")
-            + _written(-part if _is_negative(part) else part)
+            (" - " if _is_negative(part) else " + ") + _infix(-part if _is_negative(part) else part)
             for part in terms
         )
         return (
@@ -84,7 +84,7 @@ def _written(expression: Expr) -> str:
         return (
             "("
             + "*".join(
-                _written(part)
+                _infix(part)
                 for part in sorted(
                     expression.args, key=lambda part: (not part.is_number, part.is_Add, str(part))
                 )
@@ -92,7 +92,7 @@ def _written(expression: Expr) -> str:
             + ")"
         )
     if expression.is_Pow and expression.exp.is_Integer and int(expression.exp) > 0:
-        return "(" + "*".join([_written(expression.base)] * int(expression.exp)) + ")"
+        return "(" + "*".join([_infix(expression.base)] * int(expression.exp)) + ")"
     raise DerivationError(f"cannot be written as plain arithmetic: {expression}")
 
 
@@ -101,18 +101,19 @@ def _is_negative(expression: Expr) -> bool:
 
 
 def compiled(name: str, names: str, *expressions: Expr, first: Symbol = alpha) -> Compiled:
-    """A function of these names with the values of the expressions, its source being its docstring.
+    """A function of these names with the values of the expressions, its source being its docstring;
+    DerivationError where an expression is not rational or has other symbols.
 
     >>> compiled("impact", "alpha x w", *normal_f1()).__doc__
     'lambda alpha, x, w: ((alpha*(w - x)), (2 - (alpha*w)))'
     """
-    found = [plain(expression, first) for expression in expressions]
+    texts = [plain(expression, first) for expression in expressions]
     allowed = set(names.split())
     for expression in expressions:
         if {str(symbol) for symbol in expression.free_symbols} - allowed:
             raise DerivationError(f"{name}: {expression} has other symbols than {names}")
     source = f"lambda {', '.join(names.split())}: " + (
-        f"({', '.join(found)})" if len(found) > 1 else found[0]
+        f"({', '.join(texts)})" if len(texts) > 1 else texts[0]
     )
     function: Compiled = eval(compile(source, f"<{name}>", "eval"), {"__builtins__": {}})
     function.__doc__, function.__name__ = source, name
@@ -121,27 +122,38 @@ def compiled(name: str, names: str, *expressions: Expr, first: Symbol = alpha) -
 
 @dataclass(frozen=True)
 class Formulas:
-    """The compiled formulas; all in normal form but the change of units."""
+    """The compiled formulas; all in normal form but the change of units.
 
-    margin: Compiled  # (x, w) -> positive exactly where the period has an impact
-    impact: Compiled  # (alpha, x, w) -> f1
-    flight: Compiled  # (x, w, K) -> K periods without an impact
-    end_of_flight: (
-        Compiled  # (x, w) -> b, d: the margin after K periods is K^2 + b K + c, of discriminant d
-    )
-    fixed: Compiled  # (alpha) -> e_1
-    later: Compiled  # (x, w, e_x, e_w, n, power) -> f1^n, power being (-alpha)^n
+    The numbers given to one call are of one kind N; whole numbers K and n may be ints beside them.
+    """
+
+    # (x, w) -> positive exactly where the period has an impact, by (7)
+    margin: Callable[[N, N], N]
+    # (alpha, x, w) -> f1, by (10)
+    impact: Callable[[N, N, N], tuple[N, N]]
+    # (x, w, K) -> f2^K, K periods without an impact, by (12)
+    flight: Callable[[N, N, N | int], tuple[N, N]]
+    # (x, w) -> b, d: the margin after K periods is K^2 + b K + c, of discriminant d
+    end_of_flight: Callable[[N, N], tuple[N, N]]
+    # (alpha) -> e_1
+    fixed: Callable[[N], tuple[N, N]]
+    # (x, w, e_x, e_w, n, power) -> f1^n, power being (-alpha)^n
+    impact_power: Callable[[N, N, N, N, N | int, N], tuple[N, N]]
     # (alpha, w) -> two numbers, positive exactly where alpha w < 1 at the state and after its
-    # impact
-    kept: Compiled
-    energy: Compiled  # (x, w) -> energy in units of r^2
-    scaled: Compiled  # (beta, v, r, g) -> (x, w)
-    unscaled: Compiled  # (x, w, r, g) -> (beta, v)
+    # impact; with an impact at the state, it is in the trap (`juggleproof.scenes.juggler.track`)
+    trap_margins: Callable[[N, N], tuple[N, N]]
+    # (x, w) -> energy in units of r^2
+    energy: Callable[[N, N], N]
+    # (beta, v, r, g) -> (x, w)
+    scaled: Callable[[N, N, N, N], tuple[N, N]]
+    # (x, w, r, g) -> (beta, v)
+    unscaled: Callable[[N, N, N, N], tuple[N, N]]
 
 
 @cache
 def formulas() -> Formulas:
-    """The formulas, derived and compiled once.
+    """The formulas, derived and compiled once; DerivationError where they are not of the shape that
+    the arithmetics rely on.
 
     >>> from fractions import Fraction
     >>> f = formulas()
@@ -167,8 +179,8 @@ def formulas() -> Formulas:
             "end_of_flight", "x w", after.nth(1), after.nth(1) ** 2 - 4 * after.nth(0), first=w
         ),
         fixed=compiled("fixed", "alpha", *normal_e_1()),
-        later=compiled("later", "x w e_x e_w n power", *_closed_form(), first=power),
-        kept=compiled("kept", "alpha w", 1 - alpha * w, 1 - alpha * struck[1]),
+        impact_power=compiled("impact_power", "x w e_x e_w n power", *_closed_form(), first=power),
+        trap_margins=compiled("trap_margins", "alpha w", 1 - alpha * w, 1 - alpha * struck[1]),
         energy=compiled("energy", "x w", normal_energy(), first=w),
         scaled=compiled("scaled", "beta v r g", *scaling(), first=beta),
         unscaled=compiled("unscaled", "x w r g", *unscaling(), first=r),
@@ -176,7 +188,7 @@ def formulas() -> Formulas:
 
 
 @cache
-def region() -> Compiled:
+def region() -> Callable[[N], N]:
     """(alpha) -> the greatest energy of R, in units of r^2 (23); by itself, since its derivation
     takes longest.
 
@@ -226,44 +238,44 @@ def rational(value: Number, name: str) -> Fraction:
     if isinstance(value, str) and (len(value) > BITS or _LONG_POWER.search(value)):
         raise too_long
     try:
-        found = Fraction(value)
+        number = Fraction(value)
     except (ValueError, OverflowError, ZeroDivisionError):
         raise SceneError(f"{name} = {brief(value)} {_FINITE}") from None
-    if max(found.numerator.bit_length(), found.denominator.bit_length()) > BITS:
+    if max(number.numerator.bit_length(), number.denominator.bit_length()) > BITS:
         raise too_long
-    return found
+    return number
 
 
 def height(value: Number, name: str = "x") -> Fraction:
-    """A height, which is at least 0."""
-    found = rational(value, name)
-    if found < 0:
-        raise SceneError(f"{name} = {brief(found)} is below the table; a state has {name} >= 0")
-    return found
+    """A height, which is at least 0; SceneError for others."""
+    number = rational(value, name)
+    if number < 0:
+        raise SceneError(f"{name} = {brief(number)} is below the table; a state has {name} >= 0")
+    return number
 
 
 def positive(value: Number, name: str) -> Fraction:
-    """The launch speed r or gravity g, which are greater than 0."""
-    found = rational(value, name)
-    if found <= 0:
+    """The launch speed r or gravity g, which are greater than 0; SceneError for others."""
+    number = rational(value, name)
+    if number <= 0:
         raise SceneError(
-            f"{name} = {brief(found)} is not positive; the launch speed r and gravity g are"
+            f"{name} = {brief(number)} is not positive; the launch speed r and gravity g are"
         )
-    return found
+    return number
 
 
 def restitution(alpha: Number) -> Fraction:
-    """The restitution, strictly between 0 and 1."""
-    found = rational(alpha, "alpha")
-    if not 0 < found < 1:
+    """The restitution, strictly between 0 and 1; SceneError for others."""
+    number = rational(alpha, "alpha")
+    if not 0 < number < 1:
         raise SceneError(
-            f"alpha = {brief(found)} is not between 0 and 1; the restitution has 0 < alpha < 1"
+            f"alpha = {brief(number)} is not between 0 and 1; the restitution has 0 < alpha < 1"
         )
-    return found
+    return number
 
 
 def counted(value: int, name: str, least: int, most: int) -> int:
-    """A whole number within its bounds."""
+    """A whole number within its bounds; SceneError for others."""
     if (
         isinstance(value, bool)
         or not isinstance(value, (int, np.integer))
@@ -293,8 +305,8 @@ def nearest(value: Fraction) -> tuple[float, float]:
     ((0.5, 0.0), True)
     """
     try:
-        found = float(value)
+        rounded = float(value)
     except OverflowError:
         return math.inf, math.inf
-    missed = abs(value - Fraction(found))
-    return found, math.nextafter(float(missed), math.inf) if missed else 0.0
+    missed = abs(value - Fraction(rounded))
+    return rounded, math.nextafter(float(missed), math.inf) if missed else 0.0

@@ -6,15 +6,16 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+from flint import arb, fmpq
+from mpmath import mpf
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler import bounded, exact
 from juggleproof.scenes.juggler.exact import flight, flight_length, impact
 from juggleproof.scenes.juggler.given import (
-    Compiled,
     Number,
     brief,
     compiled,
@@ -43,7 +44,7 @@ class Heights(NamedTuple):
 
 
 @cache
-def _formulas() -> tuple[Compiled, Compiled, Compiled, Compiled, Compiled]:
+def _formulas() -> tuple[Callable[..., Fraction], ...]:
     """Period, time of collision, height of the table, of the ball before and after the collision,
     in the paper's units.
     """
@@ -59,7 +60,7 @@ def _formulas() -> tuple[Compiled, Compiled, Compiled, Compiled, Compiled]:
 
 def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heights]:
     """The heights of ball and table at times >= 0, in the units of r and g, for the start of this
-    number.
+    number; SceneError for a time or a number out of range.
 
     The table is at its lowest at time 0, as at every sample.  Source: (1), the table's launch of
     section 3.1, (6) and (8).
@@ -75,7 +76,7 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
         raise SceneError(f"times are to be a list of at most {MOST_TIMES} numbers >= 0")
     asked = sorted({_time(one) for one in times})
     x, w = scene.starts.exact(counted(index, "index", 0, scene.starts.count - 1))
-    found: dict[Fraction, Heights] = {}
+    path: dict[Fraction, Heights] = {}
     passed, struck = 0, 0
     for time in asked:
         now = int(time / whole // 1)
@@ -98,8 +99,8 @@ def heights(scene: Scene, times: Sequence[Number], index: int = 0) -> list[Heigh
             if hit
             else before(within, height, speed, scene.r, scene.g)
         )
-        found[time] = Heights(time, ball, table(within, scene.r, scene.g))
-    return [found[_time(one)] for one in times]
+        path[time] = Heights(time, ball, table(within, scene.r, scene.g))
+    return [path[_time(one)] for one in times]
 
 
 def _time(value: Number) -> Fraction:
@@ -116,6 +117,10 @@ def _time(value: Number) -> Fraction:
 ARITHMETICS = ("exact", "enclosed", "mp", "fast")
 MOST_TRACKS, MOST_KEPT = 10**6, 4 * 10**6  # as single numbers, of a kilobyte each
 Report = Callable[[int, int], None]  # how many states are done, of how many
+# a number of the arithmetics exact, enclosed, mp and fast, as rows and as tracks hold it
+Value: TypeAlias = Fraction | arb | mpf | float
+Unfinished: TypeAlias = exact.Rational | Fraction | arb | mpf
+Error: TypeAlias = Fraction | float
 
 
 class Row(NamedTuple):
@@ -131,9 +136,9 @@ class Row(NamedTuple):
     start: int
     periods: int
     impacts: int
-    x: Any
-    w: Any
-    error: tuple[Any, Any] | None
+    x: Value
+    w: Value
+    error: tuple[Error, Error] | None
     end: str
 
 
@@ -150,7 +155,7 @@ class Orbits:
     precision: int
     radius: Fraction = bounded.RADIUS
     most_bits: int = 0
-    tracks: list[Track] = field(default_factory=list)
+    tracks: list[Track[Unfinished]] = field(default_factory=list)
     ensemble: bounded.Ensemble | None = None
 
     def __len__(self) -> int:
@@ -168,16 +173,17 @@ class Orbits:
             bounded.follow_fast(self.scene, self.goal, self.ensemble, report)
             return self
         for index in range(len(self)):
-            self.tracks.append(Track(None, Sample(0, 0, *self.scene.starts.exact(index))))
-            self._follow(self.scene.starts.exact(index), self._show, self._reporter(index, report))
+            start = self.scene.starts.exact(index)
+            self.tracks.append(Track(self.scene.alpha, Sample(0, 0, *start)))
+            self._follow(start, self._reporter(report))
             if report is not None:
                 report(index + 1, len(self))
         return self
 
-    def _show(self, track: Track) -> None:
+    def _show(self, track: Track[Unfinished]) -> None:
         self.tracks[-1] = track
 
-    def _reporter(self, index: int, report: Report | None) -> Callable[[Track], None] | None:
+    def _reporter(self, report: Report | None) -> Callable[[Track[Unfinished]], None] | None:
         if report is None or len(self) > 1:
             return None
         return lambda track: report(
@@ -188,8 +194,7 @@ class Orbits:
     def _follow(
         self,
         start: tuple[Fraction, Fraction],
-        show: Callable[[Track], None],
-        report: Callable[[Track], None] | None,
+        report: Callable[[Track[Unfinished]], None] | None,
     ) -> None:
         alpha = self.scene.alpha
         if self.arithmetic == "enclosed":
@@ -201,17 +206,17 @@ class Orbits:
                 self.precision,
                 self.radius,
                 self.most_bits,
-                show,
+                self._show,
                 report,
             )
             return
-        numbers: Arithmetic = (
+        numbers: Arithmetic[Unfinished] = (
             exact.Exact(alpha, self.most_bits)
             if self.arithmetic == "exact"
             else exact.HighPrecision(self.precision)
         )
         track = begin(numbers, alpha, Sample(0, 0, *start), self.keep)
-        show(track)
+        self._show(track)
         try:
             advance(track, numbers, self.goal, formulas().fixed(numbers.lift(alpha)), report)
         except Stop as stop:
@@ -221,7 +226,7 @@ class Orbits:
             track.samples = track.samples and [exact.finished(sample) for sample in track.samples]
 
     def row(self, index: int) -> Row:
-        """Where the orbit of this number stands."""
+        """Where the orbit of this number stands; SceneError where it was not followed."""
         if (
             isinstance(index, bool)
             or not isinstance(index, (int, np.integer))
@@ -243,8 +248,9 @@ class Orbits:
             )
         return self._row(index, self.tracks[index].here, self.tracks[index].end)
 
-    def _row(self, index: int, here: Sample, end: str) -> Row:
-        x, w, error = held(here.x, self.arithmetic), held(here.w, self.arithmetic), None
+    def _row(self, index: int, here: Sample[Unfinished], end: str) -> Row:
+        x, w = _finished(here.x), _finished(here.w)
+        error: tuple[Error, Error] | None = None
         if isinstance(x, Fraction):  # exact, or a start that has not moved yet
             error = (Fraction(0), Fraction(0))
         elif self.arithmetic == "enclosed":
@@ -253,7 +259,7 @@ class Orbits:
 
     def history(self, index: int) -> list[Row]:
         """All states of the orbit of this number that were kept: one a period, or one after each
-        impact.
+        impact; SceneError where none were.
 
         In fast arithmetic only that one is counted, and the other count is -1.
         """
@@ -281,8 +287,8 @@ class Orbits:
     def each_undecided(self) -> Iterator[tuple[int, int]]:
         """The same, one by one."""
         if self.ensemble is not None:
-            found = (self.ensemble.end[: self.followed] == bounded.UNDECIDED).nonzero()[0]
-            yield from ((int(index), int(self.ensemble.periods[index])) for index in found)
+            undecided = (self.ensemble.end[: self.followed] == bounded.UNDECIDED).nonzero()[0]
+            yield from ((int(index), int(self.ensemble.periods[index])) for index in undecided)
         yield from (
             (index, track.here.periods)
             for index, track in enumerate(self.tracks)
@@ -292,24 +298,22 @@ class Orbits:
     def counts(self) -> dict[str, int]:
         """How many orbits have each end."""
         if self.ensemble is not None:
-            found = {
+            counts = {
                 name: int((self.ensemble.end[: self.followed] == code).sum())
                 for code, name in enumerate(bounded.ENDS)
             }
         else:
-            found = {name: sum(track.end == name for track in self.tracks) for name in bounded.ENDS}
-        return {name: found[name] for name in (*bounded.ENDS[1:], "") if found[name]}
+            counts = {
+                name: sum(track.end == name for track in self.tracks) for name in bounded.ENDS
+            }
+        return {name: counts[name] for name in (*bounded.ENDS[1:], "") if counts[name]}
 
 
-def held(value: Any, arithmetic: str) -> Any:
+def _finished(value: Unfinished) -> Value:
     """A number as rows hold it: Fraction of exact numbers; the ball of an enclosure and the mpf of
     mp as they are.
     """
-    return (
-        exact.as_fraction(value)
-        if arithmetic == "exact" and not isinstance(value, Fraction)
-        else value
-    )
+    return exact.as_fraction(value) if isinstance(value, (exact.Ratio, fmpq)) else value
 
 
 def _refuse_many(count: int, arithmetic: str, steps: int, keep: bool) -> None:
@@ -407,7 +411,7 @@ def orbit(
     >>> row = orbit(scene("1/3", point(0, 3)), steps=3).row(0)
     >>> row.x, row.w, row.periods, row.impacts
     (Fraction(1, 1), Fraction(1, 1), 3, 2)
-    >>> # (1, 1) lies on x = w, which no float bound can tell
+    >>> # (1, 1) lies on x = w, which no float bound can decide
     >>> orbit(scene("1/3", point(0, 3)), "fast", steps=3).undecided
     [(0, 1)]
     """

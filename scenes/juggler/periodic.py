@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
-from typing import Any
 
 from sympy import Expr, Poly, Rational, cancel, factor_list, fraction, refine_root
 from sympy import intervals as isolating
@@ -31,12 +30,12 @@ from juggleproof.symbolic.algebra import K, alpha, w, x
 class Root:
     """The only root of an irreducible polynomial in [low, high]; rational where low = high."""
 
-    polynomial: Any
+    polynomial: Poly
     low: Fraction
     high: Fraction
 
-    def nearer(self, width: Fraction) -> Root:
-        """The same root between closer ends."""
+    def refined(self, width: Fraction) -> Root:
+        """The same root between ends that are at most `width` apart."""
         if self.high - self.low <= width:
             return self
         ends = refine_root(
@@ -50,8 +49,8 @@ class Root:
     def __str__(self) -> str:
         if self.low == self.high:
             return str(self.low)
-        near = self.nearer(Fraction(1, 10**9))
-        return f"{float(near.low):.6f} (root of {self.polynomial.as_expr()})".replace("**", "^")
+        low = self.refined(Fraction(1, 10**9)).low
+        return f"{float(low):.6f} (root of {self.polynomial.as_expr()})".replace("**", "^")
 
 
 @dataclass(frozen=True)
@@ -72,21 +71,21 @@ class Range:
         )
 
 
-def _rational(value: Fraction) -> Any:
+def _rational(value: Fraction) -> Rational:
     return Rational(value.numerator, value.denominator)
 
 
-def irreducible(polynomials: Sequence[Any]) -> list[Any]:
+def irreducible(polynomials: Sequence[Expr]) -> list[Poly]:
     """The irreducible factors of the polynomials, each once."""
-    found = {
+    factors = {
         Poly(factor, alpha).monic(): None
         for one in polynomials
         for factor, _ in factor_list(one, alpha)[1]
     }
-    return [Poly(one.clear_denoms()[1], alpha) for one in found]
+    return [Poly(one.clear_denoms()[1], alpha) for one in factors]
 
 
-def roots_between(polynomials: Sequence[Any]) -> list[Root]:
+def roots_between(polynomials: Sequence[Expr]) -> list[Root]:
     """The real roots of the polynomials strictly between 0 and 1, in order, between ends that hold
     no other root, and apart from each other.
 
@@ -96,25 +95,25 @@ def roots_between(polynomials: Sequence[Any]) -> list[Root]:
     factors = irreducible([*polynomials, alpha, alpha - 1])
     if not factors:
         return []
-    found = []
+    roots = []
     for (low, high), owners in isolating([one.as_expr() for one in factors], strict=True):
         factor, ends = factors[next(iter(owners))], [low, high]
         if factor.degree() == 1:  # a rational root, as it is
             ends = [-factor.nth(0) / factor.nth(1)] * 2
-        found.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
+        roots.append(Root(factor, *(Fraction(int(end.p), int(end.q)) for end in ends)))
     return [
         root
-        for root in found
+        for root in roots
         if root.low >= 0 and root.high <= 1 and root.polynomial.as_expr() not in (alpha, alpha - 1)
     ]
 
 
-def _sign_at(polynomial: Any, at: Fraction) -> int:
+def _sign_at(polynomial: Poly, at: Fraction) -> int:
     value = Poly(polynomial, alpha).eval(_rational(at))
     return int(bool(value > 0)) - int(bool(value < 0))
 
 
-def sign_at_root(polynomial: Any, root: Root) -> int:
+def sign_at_root(polynomial: Expr, root: Root) -> int:
     """The sign of a polynomial, of those whose roots were isolated, at one of these roots.
 
     >>> roots = roots_between([2 * alpha**2 - 1, alpha - 1])
@@ -126,7 +125,7 @@ def sign_at_root(polynomial: Any, root: Root) -> int:
     return _sign_at(polynomial, (root.low + root.high) / 2)  # between the ends it has no root
 
 
-def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Range]:
+def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Range]:
     """All alpha in (0, 1) at which polynomials of the one list are >= 0 and those of the other > 0.
 
     >>> [str(one) for one in where([3 * alpha - 1, 1 - 2 * alpha])]
@@ -160,17 +159,17 @@ def where(nonnegative: Sequence[Any], positive: Sequence[Any] = ()) -> list[Rang
         )
         cells.append(holds([_sign_at(part, (left.high + right.low) / 2) for part, _ in conditions]))
     cells.append(False)
-    found, begun = [], None
+    ranges, begun = [], None
     for place, inside in enumerate([*cells, False]):
         if inside and begun is None:
             begun = place
         elif not inside and begun is not None:
             low, last = begun, place - 1
-            found.append(
+            ranges.append(
                 Range(roots[low // 2], roots[(last + 1) // 2], low % 2 == 0, last % 2 == 0)
             )
             begun = None
-    return found
+    return ranges
 
 
 # -------------------------------------------------------------------------------------------------
@@ -211,7 +210,7 @@ class Orbit:
     @property
     def attracts(self) -> bool | None:
         """True where it attracts a neighbourhood; None where it lies on x = w, where the affine map
-        does not tell.
+        does not decide it.
         """
         return True if self.inside else None
 
@@ -221,8 +220,8 @@ class Orbit:
         return self.alpha ** len(self.word)
 
 
-def checked(word: Sequence[int]) -> Word:
-    """The word: flights of at least one period each."""
+def valid_word(word: Sequence[int]) -> Word:
+    """The word: flights of at least one period each; SceneError for others."""
     if isinstance(word, str) or not isinstance(word, Sequence):
         raise SceneError(f"{brief(word)} is no word; give the lengths of flights, such as (1, 2)")
     if not 1 <= len(word) <= LONGEST_WORD:
@@ -230,10 +229,9 @@ def checked(word: Sequence[int]) -> Word:
     return tuple(counted(periods, "a flight", 1, LONGEST_FLIGHT) for periods in word)
 
 
-def _onwards(alpha_: Any, place: tuple[Any, Any], periods: int) -> tuple[Any, Any]:
+def _onwards(at: Fraction, place: Place, periods: int) -> Place:
     """From one impact to the next: f1, then periods - 1 times f2."""
-    there: tuple[Any, Any] = flight(*impact(alpha_, *place), periods - 1)
-    return there
+    return flight(*impact(at, *place), periods - 1)
 
 
 def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
@@ -245,10 +243,10 @@ def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
     >>> orbit_of((2,), Fraction(1, 4)) is None, orbit_of((2,), Fraction(1, 3)).inside
     (True, False)
     """
-    at, found = restitution(alpha), checked(word)
-    start = _back_again(at, found)
+    at, lengths = restitution(alpha), valid_word(word)
+    start = _returning_state(at, lengths)
     impacts, edge, place = [], False, start
-    for periods in found:
+    for periods in lengths:
         if place[0] < 0 or not strikes(*place):
             return None
         impacts.append(place)
@@ -260,11 +258,11 @@ def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
             edge = edge or here[0] == here[1]
         place = _onwards(at, place, periods)
     if place != start:
-        raise SceneError(f"the orbit of {found} does not come back")
-    return Orbit(found, at, tuple(impacts), not edge)
+        raise SceneError(f"the orbit of {lengths} does not come back")
+    return Orbit(lengths, at, tuple(impacts), not edge)
 
 
-def _back_again(at: Fraction, word: Word) -> Place:
+def _returning_state(at: Fraction, word: Word) -> Place:
     """The only state that the word's affine map keeps, by the images of three states."""
 
     def image(place: Place) -> Place:
@@ -286,7 +284,7 @@ def family(word: Sequence[int]) -> tuple[tuple[Expr, Expr], ...]:
     >>> family((1,))[0][1]
     2/(alpha + 1)
     """
-    return _family(checked(word))
+    return _family(valid_word(word))
 
 
 @cache
@@ -315,7 +313,7 @@ def exists_for(word: Sequence[int]) -> tuple[Range, ...]:
     >>> [[str(one) for one in exists_for((length,))] for length in (1, 2, 3)]
     [['0 < alpha < 1'], ['1/3 <= alpha < 1'], ['1/2 <= alpha < 1']]
     """
-    heights, margins, gaps = _conditions(checked(word))
+    heights, margins, gaps = _conditions(valid_word(word))
     return tuple(where([*heights, *gaps], margins))
 
 
@@ -326,7 +324,7 @@ def attracts_for(word: Sequence[int]) -> tuple[Range, ...]:
     >>> [str(one) for one in attracts_for((1,))], [str(one) for one in attracts_for((2,))]
     (['0 < alpha < 1'], ['1/3 < alpha < 1'])
     """
-    heights, margins, gaps = _conditions(checked(word))
+    heights, margins, gaps = _conditions(valid_word(word))
     return tuple(where(heights, [*margins, *gaps]))
 
 
@@ -399,4 +397,4 @@ def search_words(alpha: Number, longest: int, flight: int | None = None) -> list
             f"up to {longest} flights of up to {most} periods are more than {MOST_WORDS} words;"
             " give a smaller --longest or --flight"
         )
-    return [found for word in words(longest, most) if (found := orbit_of(word, at)) is not None]
+    return [one for word in words(longest, most) if (one := orbit_of(word, at)) is not None]

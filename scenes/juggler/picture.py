@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from math import ceil, floor, log10
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -16,7 +15,7 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.figures.arcs import straight
 from juggleproof.scenes.figures.drawing import Plane, blank, styled, svg, ticks
 from juggleproof.scenes.figures.look import B1
-from juggleproof.scenes.juggler.bounded import ENDS
+from juggleproof.scenes.juggler.bounded import ENDS, Column
 from juggleproof.scenes.juggler.orbits import Orbits, heights
 from juggleproof.scenes.juggler.starts import Scene
 
@@ -29,7 +28,7 @@ def of_one(orbits: Orbits) -> bytes:
     return svg(against_time(orbits.scene, periods), "orbit")
 
 
-def of_many(arrays: Mapping[str, Any]) -> bytes:
+def of_many(arrays: Mapping[str, Column]) -> bytes:
     """Where orbits stand, or all that was kept of them, as SVG; from the arrays of `as_arrays`."""
     return svg(in_the_plane(arrays), "orbits")
 
@@ -55,8 +54,8 @@ def spaced(low: float, high: float) -> list[float]:
 def against_time(scene: Scene, periods: int) -> Figure:
     """Heights in units of r T against time in periods."""
     units = Scene(scene.alpha, Fraction(1), Fraction(2), scene.starts)  # in which r T = T = 1
-    found = heights(units, [Fraction(k, A_PERIOD) for k in range(periods * A_PERIOD + 1)])
-    top = 1.05 * max(max(float(one.ball) for one in found), 0.25)
+    path = heights(units, [Fraction(k, A_PERIOD) for k in range(periods * A_PERIOD + 1)])
+    top = 1.05 * max(max(float(one.ball) for one in path), 0.25)
     figure = blank(6.4, 3.2)
     plane = Plane(figure, (0.1, 0.16, 0.87, 0.8), (0, periods), (-0.02 * top, top))
     plane.frame(
@@ -66,10 +65,10 @@ def against_time(scene: Scene, periods: int) -> Figure:
         r"height$\,/\,(\dot\rho_0 T)$",
         26,
     )
-    times = [float(one.time) for one in found]
+    times = [float(one.time) for one in path]
     for name, values, look in (
-        ("table", [float(one.table) for one in found], None),
-        ("ball", [float(one.ball) for one in found], B1),
+        ("table", [float(one.table) for one in path], None),
+        ("ball", [float(one.ball) for one in path], B1),
     ):
         points = list(zip(times, values))
         plane.line([straight(a, b) for a, b in zip(points, points[1:])], name, look, linewidth=1.2)
@@ -77,17 +76,18 @@ def against_time(scene: Scene, periods: int) -> Figure:
 
 
 @styled
-def in_the_plane(arrays: Mapping[str, Any]) -> Figure:
-    """The states in normal form, undecided ones marked apart; 5000 at most, taken evenly."""
+def in_the_plane(arrays: Mapping[str, Column]) -> Figure:
+    """The states in normal form, undecided ones with a cross; 5000 at most, taken evenly;
+    SceneError where there are none.
+    """
+    xs, ws = arrays["x"], arrays["w"]
     undecided = np.broadcast_to(
-        (arrays["end"] == ENDS.index("undecided")).reshape(-1, *[1] * (arrays["x"].ndim - 1)),
-        arrays["x"].shape,
+        (arrays["end"] == ENDS.index("undecided")).reshape(-1, *[1] * (xs.ndim - 1)), xs.shape
     )
-    near = np.flatnonzero(np.abs(arrays["x"]) + np.abs(arrays["w"]) < 1e300)
-    drawn = np.unravel_index(near[:: -(-len(near) // MOST_DOTS) or 1], arrays["x"].shape)
+    finite = np.flatnonzero(np.abs(xs) + np.abs(ws) < 1e300)
+    drawn = np.unravel_index(finite[:: -(-len(finite) // MOST_DOTS) or 1], xs.shape)
     states = [
-        (float(x), float(w), bool(odd))
-        for x, w, odd in zip(arrays["x"][drawn], arrays["w"][drawn], undecided[drawn])
+        (float(x), float(w), bool(odd)) for x, w, odd in zip(xs[drawn], ws[drawn], undecided[drawn])
     ]
     if not states:
         raise SceneError("no state is near enough to be drawn; choose a table instead")
@@ -98,8 +98,8 @@ def in_the_plane(arrays: Mapping[str, Any]) -> Figure:
     across, up = ((low - room, high + room) for low, high, room in zip(lows, highs, rooms))
     plane = Plane(figure, (0.13, 0.13, 0.84, 0.84), across, up)
     plane.frame(ticks(spaced(*across)), ticks(spaced(*up)), r"$x$", r"$w$", 30)
-    for odd, name, size, mark in ((False, "states", 1.6, "o"), (True, "undecided", 4.0, "x")):
+    for odd, name, size, marker in ((False, "states", 1.6, "o"), (True, "undecided", 4.0, "x")):
         some = [(x, w) for x, w, one in states if one is odd]
         if some:
-            plane.dots(some, name, size, mark)
+            plane.dots(some, name, size, marker)
     return figure

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
-from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
+from typing import Literal, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,9 +55,9 @@ class Starts(Protocol):
 def _converted(
     states: Sequence[tuple[Fraction, Fraction]],
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    pairs = [(*nearest(one), *nearest(two)) for one, two in states]
-    found = np.array(pairs, dtype=np.float64).reshape(-1, 4)
-    return found[:, 0].copy(), found[:, 2].copy(), found[:, 1].copy(), found[:, 3].copy()
+    pairs = [(*nearest(x), *nearest(w)) for x, w in states]
+    x, missed_x, w, missed_w = np.array(pairs, dtype=np.float64).reshape(-1, 4).T.copy()
+    return x, w, missed_x, missed_w
 
 
 @dataclass(frozen=True)
@@ -216,7 +216,7 @@ class Scene:
 
 def scene(alpha: Number, starts: Starts, r: Number = 1, g: Number = 1) -> Scene:
     """A scene: 0 < alpha < 1, r > 0 and g > 0; numbers are exact, floats the binary numbers that
-    they are.
+    they are.  SceneError for others.
 
     >>> from juggleproof.scenes.juggler import point
     >>> scene("1/3", point(0, 3)).alpha
@@ -264,7 +264,7 @@ MOST = 10**8  # starts of one scene
 
 
 def point(x: Number, w: Number) -> Listed:
-    """One state.
+    """One state; SceneError for x < 0 and for what is no number.
 
     >>> point(0, "3/2").exact(0)
     (Fraction(0, 1), Fraction(3, 2))
@@ -273,7 +273,7 @@ def point(x: Number, w: Number) -> Listed:
 
 
 def listed(states: Sequence[tuple[Number, Number]]) -> Listed:
-    """States one by one, at least one."""
+    """States (x, w) one by one, at least one; SceneError for others."""
     if not isinstance(states, (Sequence, np.ndarray)) or len(states) == 0:
         raise SceneError("no states are given; give one at least, as a list of pairs (x, w)")
     for pair in states:
@@ -299,7 +299,7 @@ def physical(beta: Number, v: Number, r: Number, g: Number) -> Listed:
 
 
 def axis(low: Number, high: Number, count: int, name: str) -> Even:
-    """So many numbers from low to high, equally far apart."""
+    """So many numbers from low to high, equally far apart; SceneError where there are none."""
     first, last = rational(low, name), rational(high, name)
     counted(count, f"the number of {name}", 1, MOST)
     if count > 1 and last <= first:
@@ -310,27 +310,26 @@ def axis(low: Number, high: Number, count: int, name: str) -> Even:
 
 
 def _grid_of(heights: Axis, speeds: Axis, names: tuple[str, str]) -> Grid:
-    (low, high, count), (low_speed, high_speed, count_speeds) = (
-        _parts(one, 3, name) for one, name in zip((heights, speeds), names)
-    )
-    found = Grid(
+    for one, name in zip((heights, speeds), names):
+        _refuse_other_parts(one, 3, name)
+    (low, high, count), (low_speed, high_speed, count_speeds) = heights, speeds
+    states = Grid(
         axis(low, high, count, names[0]), axis(low_speed, high_speed, count_speeds, names[1])
     )
-    height(found.heights.first, names[0])
-    counted(found.count, "the number of states", 1, MOST)
-    return found
+    height(states.heights.first, names[0])
+    counted(states.count, "the number of states", 1, MOST)
+    return states
 
 
-def _parts(given: Any, count: int, name: str) -> Any:
-    """What an axis or a side is given by: from, to, and for an axis how many."""
+def _refuse_other_parts(given: object, count: int, name: str) -> None:
+    """SceneError for what is not from, to, and for an axis how many."""
     if not isinstance(given, (tuple, list)) or len(given) != count:
         wanted = "an axis has from, to and how many" if count == 3 else "a side has from and to"
         raise SceneError(f"{name} = {brief(given)} has not {count} parts; {wanted}")
-    return given
 
 
 def grid(x: Axis, w: Axis) -> Grid:
-    """A grid of heights (from, to, how many) and closing speeds (likewise).
+    """A grid of heights (from, to, how many) and closing speeds (likewise); SceneError for others.
 
     >>> grid((0, 1, 3), (-1, 1, 2)).exact(3)
     (Fraction(1, 2), Fraction(1, 1))
@@ -360,7 +359,7 @@ def physical_grid(beta: Axis, v: Axis, r: Number, g: Number) -> Grid:
 
 def random(count: int, seed: int, x: Side = (0, 10), w: Side = (-5, 5)) -> Drawn:
     """So many states, uniform over a box of heights and closing speeds, whose ends are the floats
-    next to those given.
+    next to those given; SceneError for a box or a number out of range.
     """
     counted(count, "the number of states", 1, MOST)
     counted(seed, "seed", 0, 2**64 - 1)
@@ -375,7 +374,8 @@ def random(count: int, seed: int, x: Side = (0, 10), w: Side = (-5, 5)) -> Drawn
 
 
 def _side(given: Side, name: str) -> tuple[Fraction, Fraction]:
-    low, high = (rational(end, name) for end in _parts(given, 2, name))
+    _refuse_other_parts(given, 2, name)
+    low, high = (rational(end, name) for end in given)
     if high < low:
         raise SceneError(
             f"{name} runs from {brief(low)} to {brief(high)}; the second is to be the greater"
@@ -397,7 +397,9 @@ def physical_box(beta: Side, v: Side, r: Number, g: Number) -> tuple[Side, Side]
 
 
 def arrays(x: Floats, w: Floats) -> Array:
-    """Arrays of the same shape (n,), finite, with x >= 0."""
+    """States from arrays of the same shape (n,) and of float64, finite, with x >= 0; SceneError for
+    others.
+    """
     try:
         xs, ws = np.asarray(x), np.asarray(w)
     except ValueError:
@@ -421,8 +423,8 @@ def arrays(x: Floats, w: Floats) -> Array:
 
 
 def boundary(alpha: Number, count: int) -> OnBoundary:
-    """So many exact states on the boundary of R: half of them on its energy level, half on the side
-    x = 0 (the odd one on the level).
+    """So many exact states, from 2 to 10^6, on the boundary of R (23): half of them on its energy
+    level, half on the side x = 0 (the odd one on the level).
 
     On the level w runs over rationals within it, and x = (E - (1 - w)^2/2)/2 is rational too.
 

@@ -7,17 +7,18 @@ import io
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, nextafter
-from typing import Any, BinaryIO, NamedTuple
+from math import inf, nan, nextafter
+from typing import BinaryIO, NamedTuple
 
 import numpy as np
 from flint import arb, ctx
+from mpmath import mpf
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.bounded import CHUNK, ENDS, Bounded, radius_of
-from juggleproof.scenes.juggler.exact import flight, impact, lifted, strikes
+from juggleproof.scenes.juggler.bounded import CHUNK, ENDS, Bounded, Column, radius_of
+from juggleproof.scenes.juggler.exact import as_fraction, flight, impact, lifted, strikes
 from juggleproof.scenes.juggler.given import brief, formulas, nearest
-from juggleproof.scenes.juggler.orbits import Orbits, Row, orbit
+from juggleproof.scenes.juggler.orbits import Error, Orbits, Row, Value, orbit
 from juggleproof.scenes.juggler.starts import Scene, point, scene
 
 # -------------------------------------------------------------------------------------------------
@@ -42,30 +43,28 @@ def in_units(orbits: Orbits, row: Row, units: str) -> Row:
     if checked_units(units) == "normal":
         return row
     r, g, unscaled = orbits.scene.r, orbits.scene.g, formulas().unscaled
-    if isinstance(row.x, Fraction):
-        return row._replace(x=unscaled(row.x, row.w, r, g)[0], w=unscaled(row.x, row.w, r, g)[1])
-    if orbits.arithmetic == "fast":
-        bounds = row.error or (inf, inf)
-        found = unscaled(
-            *(Bounded(np.float64(v), np.float64(e)) for v, e in zip((row.x, row.w), bounds)),
-            Bounded.of(r),
-            Bounded.of(g),
+    if isinstance(row.x, Fraction) and isinstance(row.w, Fraction):
+        beta, v = unscaled(row.x, row.w, r, g)
+        return row._replace(x=beta, w=v)
+    if isinstance(row.x, float):
+        one, two = (
+            Bounded(np.array(value), np.array(error, np.float64))
+            for value, error in zip((row.x, row.w), row.error or (inf, inf))
         )
-        return row._replace(
-            x=float(found[0].v), w=float(found[1].v), error=(float(found[0].e), float(found[1].e))
-        )
+        one, two = unscaled(one, two, Bounded.of(r), Bounded.of(g))
+        return row._replace(x=float(one.v), w=float(two.v), error=(float(one.e), float(two.e)))
+    x: arb | mpf = row.x
+    w: arb | mpf = row.w
     if orbits.arithmetic == "enclosed":
-        with ctx.workprec(max(row.x.bits(), row.w.bits(), 128) + 64):
-            found = unscaled(row.x, row.w, arb(lifted(r)), arb(lifted(g)))
-        return row._replace(
-            x=found[0], w=found[1], error=(radius_of(found[0]), radius_of(found[1]))
-        )
-    mpf = row.x.context.mpf
-    found = unscaled(row.x, row.w, *(mpf(one.numerator) / one.denominator for one in (r, g)))
-    return row._replace(x=found[0], w=found[1])
+        with ctx.workprec(max(x.bits(), w.bits(), 128) + 64):
+            beta, v = unscaled(x, w, arb(lifted(r)), arb(lifted(g)))
+        return row._replace(x=beta, w=v, error=(radius_of(beta), radius_of(v)))
+    whole = x.context.mpf
+    beta, v = unscaled(x, w, *(whole(one.numerator) / one.denominator for one in (r, g)))
+    return row._replace(x=beta, w=v)
 
 
-def written(value: Any, error: Any, digits: int = DIGITS) -> tuple[str, str]:
+def as_text(value: Value, error: Error | None, digits: int = DIGITS) -> tuple[str, str]:
     """A number and its error as text: exact fractions as they are unless long, balls as enclosing
     decimals, "" for an error that is not known.
     """
@@ -81,7 +80,7 @@ def written(value: Any, error: Any, digits: int = DIGITS) -> tuple[str, str]:
     return str(value.context.nstr(value, value.context.dps)), ""
 
 
-def _ball(ball: Any, digits: int) -> tuple[str, str]:
+def _ball(ball: arb, digits: int) -> tuple[str, str]:
     """Midpoint and radius of decimals that enclose the ball."""
     text = ball.str(digits).strip("[]")
     middle, _, radius = text.partition(" +/- ")
@@ -124,32 +123,31 @@ def as_csv(orbits: Orbits, file: BinaryIO, units: str = "normal") -> None:
             [
                 shown.start,
                 *counts,
-                *written(shown.x, error[0]),
-                *written(shown.w, error[1]),
+                *as_text(shown.x, error[0]),
+                *as_text(shown.w, error[1]),
                 shown.end,
             ]
         )
     text.detach()
 
 
-def _as_float(value: Any, error: Any) -> tuple[float, float]:
+def _as_float(value: Value, error: Error | None) -> tuple[float, float]:
     """The float next to a number, and a bound on how far the true number is from it; nan where none
     is known.
     """
+    if error is None:
+        return float(value), nan
     if isinstance(value, float):
-        return value, error
+        return value, float(error)
     if isinstance(value, Fraction):
         return nearest(value)
-    if isinstance(value, arb):
-        middle = value.mid().fmpq()
-        found, missed = nearest(Fraction(int(middle.p), int(middle.q)))
-        return found, nextafter(nextafter(nearest(error)[0], inf) + missed, inf)
-    return float(value), float("nan")
+    middle, missed = nearest(as_fraction(value.mid().fmpq()))
+    return middle, nextafter(nextafter(nearest(Fraction(error))[0], inf) + missed, inf)
 
 
-def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Any]:
-    """Arrays of one entry a row: start, periods, impacts, the state and bounds on its error as
-    float64, end as its place in ENDS.
+def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Column]:
+    """Arrays of shape (n,), one entry a row: start, periods, impacts, the state and bounds on its
+    error as float64, end as its place in ENDS.
 
     In fast arithmetic the history, if kept, has the shape (starts, steps + 1) instead, nan where an
     orbit has no such state.
@@ -180,7 +178,7 @@ def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Any]:
         [_as_float(value, error) for value, error in zip((row.x, row.w), row.error or (None, None))]
         for row in shown
     ]
-    found = {
+    columns = {
         "start": np.array([row.start for row in shown]),
         "end": np.array([ENDS.index(row.end) for row in shown], dtype=np.uint8),
     }
@@ -188,15 +186,15 @@ def as_arrays(orbits: Orbits, units: str = "normal") -> dict[str, Any]:
         ("periods", [row.periods for row in shown]),
         ("impacts", [row.impacts for row in shown]),
     ):
-        found[name] = (
+        columns[name] = (
             np.array(counts)
             if all(count < 2**63 for count in counts)
             else np.array([str(count) for count in counts])
         )
     for place, name in enumerate(names):
-        found[name] = np.array([pair[place][0] for pair in pairs], dtype=np.float64)
-        found[f"error_{name}"] = np.array([pair[place][1] for pair in pairs], dtype=np.float64)
-    return found
+        columns[name] = np.array([pair[place][0] for pair in pairs], dtype=np.float64)
+        columns[f"error_{name}"] = np.array([pair[place][1] for pair in pairs], dtype=np.float64)
+    return columns
 
 
 def _unscaled(x: Bounded, w: Bounded, r: Bounded, g: Bounded) -> tuple[Bounded, Bounded]:
@@ -207,9 +205,9 @@ def _unscaled(x: Bounded, w: Bounded, r: Bounded, g: Bounded) -> tuple[Bounded, 
     for low in range(0, len(x.v), CHUNK):
         part = slice(low, low + CHUNK)
         with np.errstate(all="ignore"):
-            found = formulas().unscaled(x.at(part), w.at(part), r, g)
-        beta.put(part, found[0])
-        v.put(part, found[1])
+            some_beta, some_v = formulas().unscaled(x.at(part), w.at(part), r, g)
+        beta.put(part, some_beta)
+        v.put(part, some_v)
     return beta, v
 
 
@@ -274,9 +272,15 @@ class Finding(NamedTuple):
 
 
 def _case(
-    name: str, alpha: Fraction | str, x: Fraction | str, w: Fraction | str, steps: int, *more: Any
+    name: str,
+    alpha: Fraction | str,
+    x: Fraction | str,
+    w: Fraction | str,
+    steps: int,
+    impacts: bool = False,
+    most_bits: int | None = None,
 ) -> Case:
-    return Case(name, Fraction(alpha), Fraction(x), Fraction(w), steps, *more)
+    return Case(name, Fraction(alpha), Fraction(x), Fraction(w), steps, impacts, most_bits)
 
 
 CASES = (
@@ -338,7 +342,7 @@ def _branches(case: Case) -> Iterator[bool]:
 
 
 def finding(case: Case) -> Finding:
-    """All that is found of a case."""
+    """The case in plain floats and in three arithmetics."""
     floats, wrong = plain_floats(case)
     balls = orbit(case.scene, "enclosed", case.steps, impacts=case.impacts)
     return Finding(

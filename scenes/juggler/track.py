@@ -16,36 +16,38 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import isqrt
-from typing import Any, Literal, NamedTuple, Protocol
+from typing import Generic, Literal, NamedTuple, Protocol
 
-from juggleproof.scenes.juggler.given import formulas
+from flint import fmpq
+
+from juggleproof.scenes.juggler.given import N, formulas
 from juggleproof.scenes.juggler.starts import Goal
 
 End = Literal["", "reached", "trap", "undecided", "too long"]
 
 
-class Arithmetic(Protocol):
-    """Numbers that the formulas are evaluated in."""
+class Arithmetic(Protocol[N]):
+    """Numbers, of the kind N, that the formulas are evaluated in."""
 
-    def lift(self, value: Fraction) -> Any:
+    def lift(self, value: Fraction) -> N:
         """The number in this arithmetic."""
 
-    def sign(self, value: Any) -> int | None:
-        """1, 0 or -1; None where the arithmetic cannot tell."""
+    def sign(self, value: N) -> int | None:
+        """1, 0 or -1; None where the arithmetic cannot decide it."""
 
-    def middle(self, value: Any) -> Any:
-        """A number near the value that has `floor`, an exact rational."""
+    def middle(self, value: N) -> fmpq:
+        """A rational close to the value: the midpoint of a ball."""
 
-    def power(self, value: Any, exponent: int) -> Any:
-        """A power of the number; raises Stop where it would be too long."""
+    def power(self, alpha: N, exponent: int) -> N:
+        """(-alpha)^exponent; raises Stop where it would be too long."""
 
-    def check(self, track: Track) -> None:
+    def check(self, track: Track[N]) -> None:
         """Called before every move; raises Stop where the arithmetic has to give up or begin
         again.
         """
 
-    def settle(self, track: Track) -> int:
-        """The sign of the margin where `sign` cannot tell it, by other means; raises Stop where
+    def decide(self, track: Track[N]) -> int:
+        """The sign of the margin where `sign` does not decide it, by other means; raises Stop where
         there are none.
         """
 
@@ -57,22 +59,22 @@ class Stop(Exception):
         self.end: End = end
 
 
-class Sample(NamedTuple):
+class Sample(NamedTuple, Generic[N]):
     """A state of an orbit: after so many periods and impacts."""
 
     periods: int
     impacts: int
-    x: Any
-    w: Any
+    x: N
+    w: N
 
 
 @dataclass
-class Track:
+class Track(Generic[N]):
     """An orbit as far as it has been followed."""
 
-    alpha: Any
-    here: Sample
-    samples: list[Sample] | None = None  # every state, one a step of the goal; only if asked for
+    alpha: N
+    here: Sample[N]
+    samples: list[Sample[N]] | None = None  # every state, one a step of the goal; only if asked for
     edges: int = 0  # how often the state was proved to lie on x = w
     end: End = ""
     moves: int = field(default=0, repr=False)
@@ -83,7 +85,9 @@ class Track:
             self.samples.append(self.here)
 
 
-def begin(arithmetic: Arithmetic, alpha: Fraction, start: Sample, keep: bool) -> Track:
+def begin(
+    arithmetic: Arithmetic[N], alpha: Fraction, start: Sample[Fraction], keep: bool
+) -> Track[N]:
     """The track of an exact start."""
     track = Track(
         arithmetic.lift(alpha),
@@ -96,11 +100,11 @@ def begin(arithmetic: Arithmetic, alpha: Fraction, start: Sample, keep: bool) ->
 
 
 def advance(
-    track: Track,
-    arithmetic: Arithmetic,
+    track: Track[N],
+    arithmetic: Arithmetic[N],
     goal: Goal,
-    fixed: tuple[Any, Any],
-    report: Callable[[Track], None] | None = None,
+    fixed: tuple[N, N],
+    report: Callable[[Track[N]], None] | None = None,
 ) -> None:
     """Follows the track until the goal; `fixed` is e_1 in the arithmetic.  Raises Stop with the
     track at the last state that is certain.
@@ -116,21 +120,23 @@ def advance(
         margin = map_.margin(x, w)
         sign = arithmetic.sign(margin)
         if sign is None:
-            sign = arithmetic.settle(track)
+            sign = arithmetic.decide(track)
             periods, impacts, x, w = track.here
         if sign == 0:
             track.edges += 1
-        caught = sign > 0 and all(arithmetic.sign(part) == 1 for part in map_.kept(track.alpha, w))
-        if goal.until_trap and (caught or left <= 0):
-            track.end = "trap" if caught else "reached"
+        trapped = sign > 0 and all(
+            arithmetic.sign(part) == 1 for part in map_.trap_margins(track.alpha, w)
+        )
+        if goal.until_trap and (trapped or left <= 0):
+            track.end = "trap" if trapped else "reached"
             return
         track.moves += 1
         if report is not None and track.moves % 1024 == 0:
             report(track)
-        if caught and track.samples is None:
-            power = arithmetic.power(-track.alpha, left)
+        if trapped and track.samples is None:
+            power = arithmetic.power(track.alpha, left)
             track.here = Sample(
-                periods + left, impacts + left, *map_.later(x, w, *fixed, left, power)
+                periods + left, impacts + left, *map_.impact_power(x, w, *fixed, left, power)
             )
         elif sign > 0:
             track.here = Sample(periods + 1, impacts + 1, *map_.impact(track.alpha, x, w))
@@ -139,7 +145,7 @@ def advance(
             _fly(track, arithmetic, left if goal.unit == "periods" else None)
 
 
-def _fly(track: Track, arithmetic: Arithmetic, most: int | None) -> None:
+def _fly(track: Track[N], arithmetic: Arithmetic[N], most: int | None) -> None:
     """Flies on: as many periods as are certain to have no impact, at most so many; one, where only
     the present is certain.
     """
@@ -155,9 +161,9 @@ def _fly(track: Track, arithmetic: Arithmetic, most: int | None) -> None:
         track.keep()
 
 
-def certain_flight(arithmetic: Arithmetic, x: Any, w: Any) -> int:
+def certain_flight(arithmetic: Arithmetic[N], x: N, w: N) -> int:
     """A number K >= 1 of periods without an impact from a state whose margin is not positive; the
-    whole flight where the arithmetic can tell it.
+    whole flight where the arithmetic can decide it.  Raises Stop where it can decide no K.
 
     The margin after k periods is a convex parabola in k, not positive at k = 0: where it is not
     positive at K - 1 it is not between.
@@ -165,7 +171,7 @@ def certain_flight(arithmetic: Arithmetic, x: Any, w: Any) -> int:
     map_ = formulas()
     if arithmetic.sign(map_.margin(*map_.flight(x, w, 1))) == 1:
         return 1  # as most flights are
-    guess = near_end(arithmetic.middle, x, w)
+    guess = estimated_flight(arithmetic.middle, x, w)
     for length in (guess + 1, guess, guess - 1):
         if length <= 1:
             return 1
@@ -175,9 +181,9 @@ def certain_flight(arithmetic: Arithmetic, x: Any, w: Any) -> int:
     raise Stop("undecided")
 
 
-def near_end(middle: Callable[[Any], Any], x: Any, w: Any) -> int:
-    """A whole number near the length of the flight: 1 + floor((u - 1 - w)/2), or up to one less,
-    u^2 = 4 x + (w - 1)^2, at the rational middles.
+def estimated_flight(middle: Callable[[N], fmpq], x: N, w: N) -> int:
+    """The length of the flight, or a little less or more: 1 + floor((u - 1 - w)/2), or up to one
+    less, u^2 = 4 x + (w - 1)^2, at the rational midpoints.
     """
     b, square = (middle(part) for part in formulas().end_of_flight(x, w))
     floor = int(((isqrt(max(int(square.floor()), 0)) - b) / 2).floor())

@@ -41,7 +41,7 @@ def animation(
     executor: Executor | None = None,
 ) -> None:
     """Writes blocks that start at these angles, in radians, up to the horizon, in seconds; the same
-    to the byte for the same states.
+    to the byte for the same states.  SceneError for a horizon or a number of blocks out of range.
     """
     rows(len(angles))
     if not 0 < horizon <= MOST_FRAMES / RATE:
@@ -133,11 +133,11 @@ def varied(numbers: Iterable[int]) -> bytes:
     >>> varied([0, -1, 64, -64]).hex()
     '000180017f'
     """
-    found = bytearray()
+    encoded = bytearray()
     for number in numbers:
         rest = 2 * number if number >= 0 else -2 * number - 1
         while rest > 127:
-            found.append(rest & 127 | 128)
+            encoded.append(rest & 127 | 128)
             rest >>= 7
-        found.append(rest)
-    return bytes(found)
+        encoded.append(rest)
+    return bytes(encoded)

@@ -34,8 +34,8 @@ def _digest() -> str:
 
 
 def _folder() -> Path | None:
-    """Where machine code is kept, if anywhere: where numba is told to, or beside the other records
-    of the project (see `juggleproof.proofs.kept`).
+    """The folder of machine code, if there is one: that of NUMBA_CACHE_DIR, or beside the other
+    records of the project (see `juggleproof.proofs.kept`).
     """
     chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("JUGGLEPROOF_CACHE", "")
     if chosen == "off":
@@ -153,8 +153,8 @@ QUARTER = pi / 2
 
 @compiled
 def corner_x(p: Floats, i: int, c: float, s: float) -> float:
-    """How far corner i is to the right of the centre, where c and s are cosine and sine of theta;
-    corners 0 to 3 go around counterclockwise.
+    """How far corner i is to the right of the centre, in metres, where c and s are cosine and sine
+    of theta; corners 0 to 3 go around counterclockwise.
     """
     a, b = p[HALF_SHORT], p[HALF_LONG]
     if i == 0:
@@ -168,7 +168,7 @@ def corner_x(p: Floats, i: int, c: float, s: float) -> float:
 
 @compiled
 def corner_y(p: Floats, i: int, c: float, s: float) -> float:
-    """How far corner i is above the centre."""
+    """How far corner i is above the centre, in metres."""
     a, b = p[HALF_SHORT], p[HALF_LONG]
     if i == 0:
         return -a * s - b * c
@@ -181,35 +181,35 @@ def corner_y(p: Floats, i: int, c: float, s: float) -> float:
 
 @compiled
 def table_height(p: Floats, t: float) -> float:
-    """The height of the table."""
+    """The height of the table at the time t, in metres: A_y sin(W_y t + phase_y)."""
     return p[A_Y] * sin(p[W_Y] * t + p[PHASE_Y])
 
 
 @compiled
 def table_rise(p: Floats, t: float) -> float:
-    """The speed of the table upwards."""
+    """The speed of the table upwards, in m/s."""
     return p[A_Y] * p[W_Y] * cos(p[W_Y] * t + p[PHASE_Y])
 
 
 @compiled
 def table_lift(p: Floats, t: float) -> float:
-    """The acceleration of the table upwards."""
+    """The acceleration of the table upwards, in m/s^2."""
     return -p[A_Y] * p[W_Y] * p[W_Y] * sin(p[W_Y] * t + p[PHASE_Y])
 
 
 @compiled
 def table_place(p: Floats, t: float) -> float:
-    """The displacement of the table to the right."""
+    """The displacement of the table to the right, in metres: A_x sin(W_x t + phase_x)."""
     return p[A_X] * sin(p[W_X] * t + p[PHASE_X])
 
 
 @compiled
 def table_glide(p: Floats, t: float) -> float:
-    """The speed of the table to the right."""
+    """The speed of the table to the right, in m/s."""
     return p[A_X] * p[W_X] * cos(p[W_X] * t + p[PHASE_X])
 
 
 @compiled
 def table_push(p: Floats, t: float) -> float:
-    """The acceleration of the table to the right."""
+    """The acceleration of the table to the right, in m/s^2."""
     return -p[A_X] * p[W_X] * p[W_X] * sin(p[W_X] * t + p[PHASE_X])

@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from math import atan, degrees, floor, radians
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
-from juggleproof.scenes.part.motion import follow_all, watch_all
+from juggleproof.scenes.part.motion import follow_all, sample_all
 from juggleproof.scenes.part.setting import LONGEST, Array, Scene, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
@@ -30,6 +30,8 @@ WHY = {
     body.NO_PROGRESS: "events did not come to an end",
 }
 Job = tuple[Array, Array, float, Array]  # parameters, states, until, notes
+J = TypeVar("J")  # a job
+R = TypeVar("R")  # its result
 
 
 @dataclass(frozen=True)
@@ -57,26 +59,30 @@ class Run:
 
 
 def fresh_notes(count: int, since: float = 0.0) -> Array:
-    """Notes of blocks that have not moved yet; falls and rises are counted from the time `since`
-    on.
+    """Notes, shape (count, 16), of blocks that have not moved yet; falls and rises are counted from
+    the time `since` on.
     """
     notes = np.zeros((count, body.NOTES))
     notes[:, body.LEAST_GAP], notes[:, body.SINCE] = np.inf, since
     return notes
 
 
-def moved(job: Job) -> tuple[Array, Array]:
+def advanced(job: Job) -> tuple[Array, Array]:
     """A chunk of blocks, moved on: states and notes; SceneError where a counted bound on the work
     is reached.
     """
     p, states, until, notes = job[0], job[1].copy(), job[2], job[3].copy()
-    codes = follow_all(p, states, until, notes)
+    _refuse_failed(states, follow_all(p, states, until, notes))
+    return states, notes
+
+
+def _refuse_failed(states: Array, codes: Array) -> None:
+    """SceneError for the first block whose run did not end as asked."""
     for k in np.flatnonzero(codes):
         raise SceneError(
             f"block {k}, at t = {states[k, body.TIME]:.6g} s and theta ="
             f" {states[k, body.THETA]:.6g}: {WHY[int(codes[k])]}"
         )
-    return states, notes
 
 
 def run(
@@ -88,6 +94,7 @@ def run(
     executor: Executor | None = None,
 ) -> Run:
     """Moves blocks on to the time `until`, in seconds; `states` of shape (n, 10) stay as they are.
+    SceneError for arrays of other shapes, and where a counted bound on the work is reached.
 
     Without an executor the chunks are shared over the cores by threads; kernels do not hold the
     interpreter's lock.
@@ -105,32 +112,37 @@ def run(
         (p, states[k : k + CHUNK], until, notes[k : k + CHUNK])
         for k in range(0, len(states), CHUNK)
     ]
-    return joined(each(jobs, executor))
+    return joined(run_jobs(advanced, jobs, executor))
 
 
 def joined(parts: Iterable[tuple[Array, Array]]) -> Run:
     """Chunks in their order as one run."""
-    found = list(parts)
+    chunks = list(parts)
     return Run(
-        np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found])
+        np.concatenate([part[0] for part in chunks]), np.concatenate([part[1] for part in chunks])
     )
 
 
-def each(
-    jobs: list[Job], executor: Executor | None, tell: Callable[[int, int], None] | None = None
-) -> list[tuple[Array, Array]]:
-    """The chunks moved on, in the order given; `tell` hears how many are done, and of how many."""
+def run_jobs(
+    work: Callable[[J], R],
+    jobs: Sequence[J],
+    executor: Executor | None,
+    report: Callable[[int, int], None] | None = None,
+) -> list[R]:
+    """The work done on each job, in the order given; `report` is called with how many are done, and
+    of how many.
+    """
     if len(jobs) == 1 and executor is None:
-        return [moved(jobs[0])]
+        return [work(jobs[0])]
     if executor is None:
         with ThreadPoolExecutor(os.cpu_count()) as threads:
-            return each(jobs, threads, tell)
-    futures, done = [executor.submit(moved, job) for job in jobs], []
+            return run_jobs(work, jobs, threads, report)
+    futures, done = [executor.submit(work, job) for job in jobs], []
     try:
         for future in futures:
             done.append(future.result())
-            if tell:
-                tell(len(done), len(jobs))
+            if report:
+                report(len(done), len(jobs))
     finally:
         for future in futures:
             future.cancel()  # where one failed, or the user has had enough
@@ -146,7 +158,7 @@ MOST_STATES = 5_000_000
 
 
 class FrameJob(NamedTuple):
-    """A chunk of blocks with the times at which they are looked at."""
+    """A chunk of blocks with the times at which they are at at."""
 
     parameters: Array
     states: Array
@@ -165,48 +177,32 @@ def frames(
     Each orbit is, to the last bit, the one that `run` follows to the last of the times; a run to an
     earlier one may round its last event otherwise. Without an executor threads share the chunks.
     """
-    looked = np.asarray(times, dtype=float)
-    if (
-        looked.ndim != 1
-        or not len(looked)
-        or not np.isfinite(looked).all()
-        or (np.diff(looked) < 0).any()
-    ):
+    at = np.asarray(times, dtype=float)
+    if at.ndim != 1 or not len(at) or not np.isfinite(at).all() or (np.diff(at) < 0).any():
         raise SceneError("times: one row of finite numbers that do not fall is needed")
-    if looked[0] < 0 or looked[-1] > LONGEST:
+    if at[0] < 0 or at[-1] > LONGEST:
         raise SceneError(
-            f"times from {looked[0]:.6g} to {looked[-1]:.6g} s are not within 0 .. {LONGEST:g}"
+            f"times from {at[0]:.6g} to {at[-1]:.6g} s are not within 0 .. {LONGEST:g}"
         )
     states = standing(setting, angles)
-    if len(states) * len(looked) > MOST_STATES:
+    if len(states) * len(at) > MOST_STATES:
         raise SceneError(
-            f"{len(states)} blocks at {len(looked)} times are more than {MOST_STATES} states;"
+            f"{len(states)} blocks at {len(at)} times are more than {MOST_STATES} states;"
             " choose fewer times"
         )
     jobs = [
-        FrameJob(setting.parameters(), states[k : k + CHUNK], looked)
+        FrameJob(setting.parameters(), states[k : k + CHUNK], at)
         for k in range(0, len(states), CHUNK)
     ]
-    if len(jobs) == 1 and executor is None:
-        return watched(jobs[0])
-    if executor is not None:
-        return np.concatenate(
-            [future.result() for future in [executor.submit(watched, job) for job in jobs]], axis=1
-        )
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        return np.concatenate(list(threads.map(watched, jobs)), axis=1)
+    return np.concatenate(run_jobs(sampled, jobs, executor), axis=1)
 
 
-def watched(job: FrameJob) -> Array:
+def sampled(job: FrameJob) -> Array:
     """A chunk of blocks at its times; SceneError where a counted bound on the work is reached."""
     states = job.states.copy()
     seen = np.zeros((len(states), len(job.times), body.STATE))
-    codes = watch_all(job.parameters, states, job.times, fresh_notes(len(states)), seen)
-    for k in np.flatnonzero(codes):
-        raise SceneError(
-            f"block {k}, at t = {states[k, body.TIME]:.6g} s and theta ="
-            f" {states[k, body.THETA]:.6g}: {WHY[int(codes[k])]}"
-        )
+    notes = fresh_notes(len(states))
+    _refuse_failed(states, sample_all(job.parameters, states, job.times, notes, seen))
     return np.ascontiguousarray(seen.transpose(1, 0, 2))
 
 
@@ -248,8 +244,8 @@ def no_vibration(setting: Scene, executor: Executor | None = None) -> Split:
     neighbours that end apart.
 
     >>> block = Scene(0.01, 0.02, 0.5, 0.3, 0, 0, 0, 0, 0, 0, 9.81, 1e-12, 1e-3, "rest")
-    >>> found = no_vibration(block)
-    >>> found.as_printed(), found.upright < found.exact < found.lying, round(found.lying, 6)
+    >>> split = no_vibration(block)
+    >>> split.as_printed(), split.upright < split.exact < split.lying, round(split.lying, 6)
     (True, True, 26.565051)
     """
     still = replace(setting, A_x=0.0, f_x=0.0, phase_x=0.0, A_y=0.0, f_y=0.0, phase_y=0.0)
@@ -289,21 +285,21 @@ def ends_of(still: Scene, starts: Sequence[float], executor: Executor | None = N
     )
 
 
-def in_words(found: Split) -> str:
+def in_words(split: Split) -> str:
     """Where blocks end on a still table, and where they part.
 
-    >>> found = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
-    >>> print(in_words(found))  # doctest: +NORMALIZE_WHITESPACE
+    >>> split = Split((0,) * 27 + (90,) * 64, 26.56, 26.57, 26.565)
+    >>> print(in_words(split))  # doctest: +NORMALIZE_WHITESPACE
     Without vibration 27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the
     paper says. The two part
     between 26.5600000000 and 26.5700000000 degrees; atan(a/b) is 26.5650000000 degrees.
     """
-    up, count = found.ends.index(90), len(found.ends)
+    up, count = split.ends.index(90), len(split.ends)
     printed = (
-        "as the paper says" if found.as_printed() else "where the paper says 0 to 26 and 27 to 90"
+        "as the paper says" if split.as_printed() else "where the paper says 0 to 26 and 27 to 90"
     )
     return (
         f"Without vibration {up} blocks, 0 to {up - 1} degrees, end upright, and {count - up}, {up}"
-        f" to {count - 1} degrees, lie, {printed}. The two part between {found.upright:.10f} and"
-        f" {found.lying:.10f} degrees; atan(a/b) is {found.exact:.10f} degrees."
+        f" to {count - 1} degrees, lie, {printed}. The two part between {split.upright:.10f} and"
+        f" {split.lying:.10f} degrees; atan(a/b) is {split.exact:.10f} degrees."
     )

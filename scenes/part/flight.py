@@ -1,5 +1,5 @@
-"""Free flight, and the first corner that meets the table: conservative advancement, which cannot
-step over a meeting.
+"""Free flight, and the first corner that meets the table: conservative advancement (Mirtich 1996),
+which cannot step over a meeting.
 
 The gap of a corner at time s of a flight is at least gap + rate s - M s^2/2, where M = g + A_y
 W_y^2 + omega^2 rho bounds how fast its rate can fall. Each step goes to the first root of that
@@ -41,17 +41,17 @@ from juggleproof.scenes.part.body import (
 
 MOST_STEPS = 1_000_000  # of one flight
 NEWTON = 0.1  # how far from a straight line a gap may be over a step of Newton's
-# metres: roots this near one another are all computed, so that the order of the corners does not
-# matter
-NEAR = 1e-15
+# metres: the roots of corners whose gaps at the end of a step differ by no more are all computed,
+# so that the order of the corners does not matter
+EQUAL_GAPS = 1e-15
 LEAST_FLIGHT = 1e-10  # seconds: how long a flight takes that would end at once
-# of the time at which a corner comes down to a height, and the seconds to which it is found
-MOST_GUESSES, NEAR_TIME = 100, 1e-14
+# of the time at which a corner comes down to a height, the second in seconds
+MOST_GUESSES, TIME_RESOLUTION = 100, 1e-14
 
 
 @compiled
 def safe_step(value: float, rate: float, fall: float) -> float:
-    """How long value + rate s - fall s^2/2 stays at least 0, from value >= 0 on.
+    """How long value + rate s - fall s^2/2 stays at least 0, from value >= 0 on; fall > 0.
 
     >>> safe_step(1.0, 0.0, 2.0), safe_step(3.0, -1.0, 4.0), safe_step(0.0, 2.0, 4.0)
     (1.0, 1.0, 1.0)
@@ -87,10 +87,10 @@ def comes_down(p: Floats, z: Floats, i: int, late: float) -> float:
             late = s
         else:
             early = s
-        if late - early <= NEAR_TIME:
+        if late - early <= TIME_RESOLUTION:
             break
         guess = s + (height - gap) / rate if rate < 0 else early
-        if gap < height and s - guess <= NEAR_TIME and guess <= s:
+        if gap < height and s - guess <= TIME_RESOLUTION and guess <= s:
             break
         s = guess if early < guess < late else (early + late) / 2
     return max(late, LEAST_FLIGHT)
@@ -101,8 +101,8 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves a flying block on until a corner meets the table, or to the time `until`; DONE, or why
     it gave up.
 
-    The first step is taken even where a corner touches: the corner has been told to leave, and the
-    gap cannot fall below the tolerance's negative.
+    The first step is taken even where a corner touches: the last impact made it leave, and the gap
+    cannot fall below the tolerance's negative.
     """
     t, y, theta, rise, omega = z[TIME], z[Y], z[THETA], z[V_Y], z[OMEGA]
     a, b, tolerance = p[HALF_SHORT], p[HALF_LONG], p[TOLERANCE]
@@ -133,7 +133,7 @@ def fly(p: Floats, z: Floats, until: float, notes: Floats) -> int:
                 else:
                     back = min(back, 0.0)
             above = max(gap + 0.9 * tolerance, 0.1 * tolerance)
-            if above + (rate - fall * step / 2) * step < NEAR:
+            if above + (rate - fall * step / 2) * step < EQUAL_GAPS:
                 step = min(step, safe_step(above, rate, fall))
         first = False
         if met:

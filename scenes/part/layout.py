@@ -35,12 +35,12 @@ def rows(count: int) -> int:
     >>> rows(91)
     10
     """
-    found = -(-count // COLUMNS)
-    if not 1 <= found <= MOST_ROWS:
+    number = -(-count // COLUMNS)
+    if not 1 <= number <= MOST_ROWS:
         raise SceneError(
             f"{count} blocks are outside 1 .. {MOST_ROWS * COLUMNS}, which is what a picture shows"
         )
-    return found
+    return number
 
 
 def pitch(setting: Scene) -> float:
@@ -51,12 +51,12 @@ def pitch(setting: Scene) -> float:
 
 
 def lying(setting: Scene, states: Array) -> NDArray[np.bool_]:
-    """Which blocks are nearer to lying than to upright, as table I tells them apart
-    (`juggleproof.scenes.part.rest`).
+    """Which blocks are nearer to lying than to upright, as table I distinguishes them
+    (`juggleproof.scenes.part.rest`); of states (..., 10) the shape is (...).
     """
     split = np.arctan2(setting.a, setting.b)
-    found: NDArray[np.bool_] = np.abs(np.sin(states[..., body.THETA])) > np.sin(split)
-    return found
+    lies: NDArray[np.bool_] = np.abs(np.sin(states[..., body.THETA])) > np.sin(split)
+    return lies
 
 
 def vibration(setting: Scene) -> str:

@@ -31,7 +31,7 @@ MOST_AT_ONCE = 10_000  # events that do not move time on
 
 
 @compiled
-def go_on(p: Floats, z: Floats, until: float, notes: Floats) -> int:
+def next_event(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves one block on by one event, a flight with its impacts or a phase of contact, or to the
     time `until`; DONE, or why it gave up.
     """
@@ -57,7 +57,7 @@ def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
         before = z[TIME]
         if before >= until:
             return DONE
-        code = go_on(p, z, until, notes)
+        code = next_event(p, z, until, notes)
         if code != DONE:
             return code
         still = still + 1 if z[TIME] == before else 0
@@ -70,7 +70,9 @@ def follow(p: Floats, z: Floats, until: float, notes: Floats) -> int:
 def follow_all(
     p: Floats, states: NDArray[np.float64], until: float, notes: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Moves blocks on, a row of `states` and of `notes` each; how each run ended."""
+    """Moves n blocks on, a row of `states` (n, 10) and of `notes` (n, 16) each; how each run
+    ended, shape (n,).
+    """
     codes = np.zeros(len(states))
     for k in range(len(states)):
         codes[k] = follow(p, states[k], until, notes[k])
@@ -85,49 +87,49 @@ def follow_all(
 
 
 @compiled
-def watch(
-    p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, seen: NDArray[np.float64]
+def sample(
+    p: Floats, z: NDArray[np.float64], times: Floats, notes: Floats, samples: NDArray[np.float64]
 ) -> int:
-    """One block at times that do not fall, a row of `seen` each, while it is moved on, event by
+    """One block at times that do not fall, a row of `samples` each, while it is moved on, event by
     event, to the last; DONE, or why it gave up.
 
     Between two events the block is where a copy comes to that sets out from the earlier one; the
     block itself does not stop.
     """
-    aside, scratch = z.copy(), np.zeros(NOTES)
-    last, k, still = len(seen) - 1, 0, 0
+    earlier, scratch = z.copy(), np.zeros(NOTES)
+    last, k, still = len(samples) - 1, 0, 0
     for _ in range(MOST_EVENTS):
-        aside[:] = z
+        earlier[:] = z
         if z[TIME] < times[last]:
-            code = go_on(p, z, times[last], notes)
+            code = next_event(p, z, times[last], notes)
             if code != DONE:
                 return code
         while k <= last and times[k] <= z[TIME]:
-            seen[k] = aside
-            code = follow(p, seen[k], times[k], scratch)
+            samples[k] = earlier
+            code = follow(p, samples[k], times[k], scratch)
             if code != DONE:
                 return code
             k += 1
         if k > last:
             return DONE
-        still = still + 1 if z[TIME] == aside[TIME] else 0
+        still = still + 1 if z[TIME] == earlier[TIME] else 0
         if still > MOST_AT_ONCE:
             return NO_PROGRESS
     return NO_PROGRESS
 
 
 @compiled
-def watch_all(
+def sample_all(
     p: Floats,
     states: NDArray[np.float64],
     times: Floats,
     notes: NDArray[np.float64],
-    seen: NDArray[np.float64],
+    samples: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """The same for many blocks, one after another; `seen` has the shape (blocks, times, 10).  How
-    each ended.
+    """The same for many blocks, one after another; `samples` has the shape (blocks, times, 10); how
+    each run ended.
     """
     codes = np.zeros(len(states))
     for k in range(len(states)):
-        codes[k] = watch(p, states[k], times, notes[k], seen[k])
+        codes[k] = sample(p, states[k], times, notes[k], samples[k])
     return codes

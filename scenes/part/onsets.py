@@ -20,7 +20,7 @@ import numpy as np
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.part import body
 from juggleproof.scenes.part.body import COMPILED
-from juggleproof.scenes.part.ensemble import Job, Run, each, fresh_notes, joined
+from juggleproof.scenes.part.ensemble import Job, Run, advanced, fresh_notes, joined, run_jobs
 from juggleproof.scenes.part.setting import Array, Scene, changed, refuse_long, standing
 
 # -------------------------------------------------------------------------------------------------
@@ -105,13 +105,14 @@ def table_one(
     seed: int = 1,
     peak: float = 1.0,
     executor: Executor | None = None,
-    tell: Callable[[int, int], None] | None = None,
+    report: Callable[[int, int], None] | None = None,
 ) -> Table:
     """Table I with the block, contact and vertical vibration of a scene; its vibration along the
     table is replaced by that of each row.
 
     `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak
-    to peak.  `tell` hears how many ensembles are done, and of how many.
+    to peak.  `report` is called with how many ensembles are done, and of how many.
+    SceneError for numbers out of range, and without numba.
     """
     refuse_long(setting, horizon, "horizon")
     if horizon == 0:
@@ -126,16 +127,16 @@ def table_one(
         jobs += [
             (p, standing(shaken, row), horizon, fresh_notes(ANGLES, horizon / 2)) for row in angles
         ]
-    done = each(jobs, executor, tell)
+    done = run_jobs(advanced, jobs, executor, report)
     rows = tuple(
-        judged(row, [notes for _, notes in done[k * ensembles : (k + 1) * ensembles]], horizon)
+        row_of(row, [notes for _, notes in done[k * ensembles : (k + 1) * ensembles]], horizon)
         for k, row in enumerate(PAPER)
     )
     return Table(rows, joined(done))
 
 
-def judged(row: tuple[float, float, float | None], notes: list[Array], horizon: float) -> Row:
-    """A row of `PAPER` with the notes of its ensembles."""
+def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: float) -> Row:
+    """A row of `PAPER` with the notes of its ensembles, each of shape (91, 16)."""
     chaotic = tuple(bool(one[:, body.RISES].any() and one[:, body.FALLS].any()) for one in notes)
     last = np.array([one[:, body.LAST_UPRIGHT].max() for one in notes])
     return Row(
@@ -197,9 +198,11 @@ def sweep(
     seed: int,
     peak: float = 1.0,
     executor: Executor | None = None,
-    tell: Callable[[Point], None] | None = None,
+    report: Callable[[Point], None] | None = None,
 ) -> list[Point]:
-    """Table I at every pair of the grid, in its order; `tell` hears of each point as it is done."""
+    """Table I at every pair of the grid, in its order; `report` is called with each point as it is
+    done; SceneError for an empty or too large grid.
+    """
     if not 0 < len(es) * len(mus) <= MOST_POINTS:
         raise SceneError(f"a sweep of {len(es)} by {len(mus)} points is outside 1 .. {MOST_POINTS}")
     points = []
@@ -223,8 +226,8 @@ def sweep(
                     round(misfit(table), 6),
                 )
             )
-            if tell:
-                tell(points[-1])
+            if report:
+                report(points[-1])
     return points
 
 
@@ -272,10 +275,10 @@ def recorded() -> tuple[Point, ...]:
     True
     """
     try:
-        found = json.loads(RECORD.read_text(encoding="utf-8"))["points"]
+        points = json.loads(RECORD.read_text(encoding="utf-8"))["points"]
         return tuple(
             Point(p["e"], p["mu"], tuple(p["medians"]), tuple(p["chaotic"]), p["misfit"])
-            for p in found
+            for p in points
         )
     except (OSError, ValueError, KeyError, TypeError) as fault:
         raise SceneError(
@@ -420,10 +423,9 @@ def as_csv(table: Table, file: BinaryIO) -> None:
 
 
 def as_npz(table: Table, file: BinaryIO) -> None:
-    """Writes arrays: f_x and A_x of shape (6,), paper (6,) with nan for chaotic, onset and chaotic
-    (6, ensembles), and of each block, in shape
-
-    (6, ensembles, 91), the last time near upright, the number of impacts, and its angle at the end.
+    """Writes arrays: f_x [Hz], A_x [m] and paper [s, nan for chaotic] of shape (6,); onset [s] and
+    chaotic (6, ensembles); and of each block, (6, ensembles, 91), the last time nearer to upright
+    [s], the number of impacts, and its angle at the end [rad].
     """
     rows, ensembles = table.rows, len(table.rows[0].chaotic)
     shape = (len(rows), ensembles, -1)

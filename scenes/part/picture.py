@@ -49,7 +49,7 @@ def as_in_figure_two(setting: Scene) -> Scene:
 
 def figure_two(setting: Scene, file: BinaryIO, form: str = "svg") -> None:
     """Writes figure 2 for a scene as it is, as SVG or as PDF; `as_in_figure_two` gives the paper's
-    vibration.
+    vibration.  SceneError for another form.
     """
     if form not in FORMS:
         raise SceneError(f"form = {form[:40]!r}: choose from {', '.join(FORMS)}")
@@ -87,7 +87,7 @@ def alt(setting: Scene, seen: Array) -> str:
 
 @styled
 def drawn(setting: Scene, seen: Array) -> Figure:
-    """The states as grids side by side, one for each time."""
+    """The states, shape (times, n, 10), as grids side by side, one for each time."""
     step, count = pitch(setting), rows(seen.shape[1])
     across, up = (-0.62 * step, (COLUMNS - 0.38) * step), (-0.1 * step, (count - 0.2) * step)
     wide = (WIDTH - LEFT) / len(seen) - GAP
@@ -130,9 +130,9 @@ def drawn(setting: Scene, seen: Array) -> Figure:
                     va="bottom",
                     fontsize=7.5,
                 )
-    said = vibration(setting).replace("mu", r"$\mu$").replace("; e", r"; $e$")
+    line = vibration(setting).replace("mu", r"$\mu$").replace("; e", r"; $e$")
     plane.words(
-        (72 * WIDTH / 2, 72 * height), said[:1].upper() + said[1:], (0, -4), va="top", fontsize=10
+        (72 * WIDTH / 2, 72 * height), line[:1].upper() + line[1:], (0, -4), va="top", fontsize=10
     )
     legend(figure, height)
     return figure
@@ -156,7 +156,7 @@ def table(plane: Plane, setting: Scene, count: int, name: str) -> None:
 
 
 def outline(setting: Scene, state: Array, block: int) -> list[Point]:
-    """The corners of a block at its place of the grid."""
+    """The corners, in metres, of a block of state (10,) at its place of the grid."""
     step, p = pitch(setting), setting.parameters()
     column, row = place(block)
     x, y = column * step, row * step + state[body.Y] - body.table_height(p, state[body.TIME])
@@ -165,9 +165,9 @@ def outline(setting: Scene, state: Array, block: int) -> list[Point]:
 
 
 def legend(figure: Figure, height: float) -> None:
-    """What the two colours say."""
+    """The legend of the two colours."""
     plane = Plane(figure, (0, 0, 1, 1), (0, 72 * WIDTH), (0, 72 * height))
-    for x, look, said, (wide, high) in (
+    for x, look, label, (wide, high) in (
         (170.0, UPRIGHT, "nearer to upright", (6.0, 12.0)),
         (320.0, LYING, "nearer to lying", (12.0, 6.0)),
     ):
@@ -184,7 +184,7 @@ def legend(figure: Figure, height: float) -> None:
             None,
             look,
         )
-        plane.text((x, 6.0), said, (12, 0), ha="left", va="bottom", fontsize=10)
+        plane.text((x, 6.0), label, (12, 0), ha="left", va="bottom", fontsize=10)
 
 
 def fill(plane: Plane, polygons: Sequence[Sequence[Point]], name: str | None, look: Look) -> None:

@@ -108,14 +108,16 @@ def note_turn(p: Floats, notes: Floats, t0: float, theta0: float, t1: float, the
 # the end of a flight, from below.
 
 MOST_PHASES, MOST_STEPS = 100_000, 1_000_000
-SPEED_NEAR, FORCE_NEAR = 1e-12, 1e-9  # to what a stop and a slip are found, in m/s and m/s^2
+SPEED_RESOLUTION, FORCE_RESOLUTION = 1e-12, 1e-9  # of a stop, in m/s, and of a slip, in m/s^2
 LEAST_FALL = 1e-3  # keeps steps finite where nothing changes
 LONGEST_PIECE = 1.0  # seconds of one call, so that MOST_STEPS bound the work of any of them
 
 
 @compiled
 def lift_off(p: Floats, t: float) -> float:
-    """When the table next falls faster than g, now where it does; 1e300 where it never does."""
+    """The time (s) at which the table next falls faster than g, t where it does; 1e300 where it
+    never does.
+    """
     if p[G] + table_lift(p, t) <= 0:
         return t
     if p[A_Y] * p[W_Y] * p[W_Y] <= p[G]:
@@ -150,12 +152,18 @@ def slip_time(p: Floats, t: float, end: float, grip: float) -> float:
         step = end - t
         for way in (-1.0, 1.0):
             value, rate = face_margin(p, t, grip, way)
-            if value < -FORCE_NEAR and first or value <= FORCE_NEAR and rate < 0 and not first:
+            if (
+                value < -FORCE_RESOLUTION
+                and first
+                or value <= FORCE_RESOLUTION
+                and rate < 0
+                and not first
+            ):
                 return t
-            step = min(step, safe_step(max(value + FORCE_NEAR, 0.0), rate, fall))
+            step = min(step, safe_step(max(value + FORCE_RESOLUTION, 0.0), rate, fall))
         if t + step >= end:
             return end
-        if t + step == t and not first:  # as near as times can be told apart
+        if t + step == t and not first:  # the next float
             return t
         first = False
         t += step
@@ -176,12 +184,12 @@ def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
             p[G] * (t - start) + table_rise(p, t) - rise
         )
         rate = -slide * table_push(p, t) - mu * (p[G] + table_lift(p, t))
-        if speed <= SPEED_NEAR and rate < 0 and not first:
+        if speed <= SPEED_RESOLUTION and rate < 0 and not first:
             return t
-        step = safe_step(max(speed + SPEED_NEAR, 0.0), rate, fall)
+        step = safe_step(max(speed + SPEED_RESOLUTION, 0.0), rate, fall)
         if t + step >= end:
             return end
-        if t + step == t and not first:  # as near as times can be told apart
+        if t + step == t and not first:  # the next float
             return t
         first = False
         t += step
@@ -190,7 +198,9 @@ def stop_time(p: Floats, t: float, end: float, slide: float, S: float) -> float:
 
 @compiled
 def lie(p: Floats, z: Floats, until: float, notes: Floats) -> int:
-    """Moves a block that lies on a face on until it leaves it, or to the time `until`."""
+    """Moves a block that lies on a face on until it leaves it, or to the time `until`; DONE, or why
+    it gave up.
+    """
     t, x, vx, slide = z[TIME], z[X], z[V_X], z[SLIDE]
     upright = int(z[CORNER]) % 2 == 0
     half, tall = (p[HALF_SHORT], p[HALF_LONG]) if upright else (p[HALF_LONG], p[HALF_SHORT])
@@ -270,7 +280,7 @@ def tip(p: Floats, z: Floats, push: float) -> None:
 Moved = tuple[float, float, float, float]  # X, V_X, theta, omega
 
 LASTS, LETS_GO, SLIPS, STOPS, LANDS = range(5)
-NEAR = 1e-13  # seconds: to what the end of a phase is found
+TIME_RESOLUTION = 1e-13  # seconds, of the end of a phase
 MOST_GUESSES = 200
 FLAT = 1e-14  # radians
 
@@ -287,7 +297,7 @@ def pivoted(
     slide: float,
     h: float,
 ) -> Moved:
-    """(X, V_X, theta, omega) after a step of h, of fourth order."""
+    """(X, V_X, theta, omega) after a step of h, by Runge and Kutta's method of fourth order."""
     f1, _, a1 = hold(p, t, theta, omega, i, slide)
     theta2, omega2 = theta + h / 2 * omega, omega + h / 2 * a1
     f2, _, a2 = hold(p, t + h / 2, theta2, omega2, i, slide)
@@ -316,7 +326,7 @@ def pivoted(
 
 
 @compiled
-def pace(p: Floats, theta: float, i: int, slide: float) -> float:
+def step_factor(p: Floats, theta: float, i: int, slide: float) -> float:
     """The part of the usual step that is right here: near jamming the force at a sliding corner
     changes as fast as 1/(B2 +- mu B3) is large.
     """
@@ -364,7 +374,7 @@ def ending(
 
 
 @compiled
-def end_of(
+def end_of_phase(
     p: Floats,
     t: float,
     x: float,
@@ -377,36 +387,37 @@ def end_of(
     h: float,
     ended: int,
 ) -> tuple[float, float, int]:
-    """Two lengths of a step, NEAR apart, between which the phase first ends, the first 0 where it
-    ends at once; and how it ends.
+    """Two lengths of a step, TIME_RESOLUTION apart, between which the phase first ends, the first 0
+    where it ends at once; and how it ends.
 
-    Of a step of h, after which it has ended.  Guesses by the Illinois method; halves instead where
-    the bracket is longer than a third as many halvings would have left it.
+    Of a step of h, after which it has ended.  Guesses by the Illinois method (Dowell and Jarratt,
+    1971); halves instead where the bracket is longer than a third as many halvings would have left
+    it.
     """
     early, late, allowed, side = 0.0, h, 8 * h, 0
     above = margin(p, ended, t, vx, theta, omega, i, slide, turn)
     _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, late)
     below = margin(p, ended, t + late, vx2, theta2, omega2, i, slide, turn)
     for _ in range(MOST_GUESSES):
-        if late - early <= NEAR:
+        if late - early <= TIME_RESOLUTION:
             break
         guess = (early + late) / 2
         if above > 0 and below < 0 and late - early < allowed:
             secant = late - below * (late - early) / (below - above)
-            guess = min(max(secant, early + NEAR / 2), late - NEAR / 2)
+            guess = min(max(secant, early + TIME_RESOLUTION / 2), late - TIME_RESOLUTION / 2)
         allowed *= 0.8
         _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, guess)
-        found = ending(p, t + guess, vx2, theta2, omega2, i, slide, turn)
-        if found == LASTS:
+        how = ending(p, t + guess, vx2, theta2, omega2, i, slide, turn)
+        if how == LASTS:
             early, above = guess, margin(p, ended, t + guess, vx2, theta2, omega2, i, slide, turn)
             below = below / 2 if side > 0 else below
             side = 1
             continue
-        late, below = guess, margin(p, found, t + guess, vx2, theta2, omega2, i, slide, turn)
+        late, below = guess, margin(p, how, t + guess, vx2, theta2, omega2, i, slide, turn)
         above = above / 2 if side < 0 else above
         side = -1
-        if found != ended:
-            ended, side = found, 0
+        if how != ended:
+            ended, side = how, 0
             _, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, early)
             above = margin(p, ended, t + early, vx2, theta2, omega2, i, slide, turn)
     return early, late, ended
@@ -430,7 +441,7 @@ LEAST_STEP = 1e-10  # seconds: how long a phase lasts that would end at once
 @compiled
 def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     """Moves a pivoting block on until it leaves its corner or the next one strikes, or to the time
-    `until`.
+    `until`; DONE, or why it gave up.
     """
     i, slide = int(z[CORNER]), z[SLIDE]
     t, x, vx, theta, omega = z[TIME], z[X], z[V_X], z[THETA], z[OMEGA]
@@ -439,11 +450,11 @@ def pivot(p: Floats, z: Floats, until: float, notes: Floats) -> int:
     ended, code = LASTS, NO_PROGRESS
     notes[CONTACTS] += 1
     for _ in range(MOST_STEPS):
-        h = min(p[STEP] * pace(p, theta, i, slide), until - t)
+        h = min(p[STEP] * step_factor(p, theta, i, slide), until - t)
         x2, vx2, theta2, omega2 = pivoted(p, t, x, vx, theta, omega, i, slide, h)
         ended = ending(p, t + h, vx2, theta2, omega2, i, slide, turn)
         if ended != LASTS:
-            early, late, ended = end_of(p, t, x, vx, theta, omega, i, slide, turn, h, ended)
+            early, late, ended = end_of_phase(p, t, x, vx, theta, omega, i, slide, turn, h, ended)
             if ended == LANDS or ended == LETS_GO:
                 h = late
             else:

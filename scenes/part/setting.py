@@ -94,8 +94,8 @@ class Scene:
         return p
 
     def step(self) -> float:
-        """The length of a step of Runge and Kutta, by its error term: fifth derivatives of table
-        and fall, times h^5/120, make the tolerance.
+        """The length of a step of Runge and Kutta, in seconds, by its error term: fifth derivatives
+        of table and fall, times h^5/120, make the tolerance.
         """
         bound = (
             abs(self.A_y) * (2 * math.pi * self.f_y) ** 5.0
@@ -189,19 +189,20 @@ def changed(setting: Scene, **numbers: float) -> Scene:
 
 def _finite(value: float, name: str) -> float:
     try:
-        found = float(value)
+        number = float(value)
     except (TypeError, ValueError):
         raise SceneError(f"{name} = {str(value)[:40]!r} is no number") from None
-    if not math.isfinite(found):
-        raise SceneError(f"{name} = {found} is not finite")
-    return found
+    if not math.isfinite(number):
+        raise SceneError(f"{name} = {number} is not finite")
+    return number
 
 
 def standing(setting: Scene, angles: Sequence[float] | Array) -> Array:
     """States at time 0 with the lowest corner on the table, one row each; `angles` in radians,
     shape (n,); the result has shape (n, 10).
 
-    Blocks start at rest, or as fast as the table where the scene's launch says so.
+    Blocks start at rest, or as fast as the table where the scene's launch is "table".  SceneError
+    for angles of another shape, not finite, or of too many turns.
 
     >>> standing(scene(e=0.7, mu=0.08), [0.0])[0, body.Y]
     np.float64(0.02)
@@ -234,8 +235,8 @@ def moving(
     omega: float,
     t: float = 0.0,
 ) -> Array:
-    """One state, shape (1, 10), of the centre of mass in the resting frame; SceneError where the
-    block and the table overlap.
+    """One state, shape (1, 10), of the centre of mass in the resting frame, in m, rad, m/s, rad/s
+    and s; SceneError for numbers out of range, and where the block and the table overlap.
     """
     given = {"t": t, "X": X, "Y": Y, "theta": theta, "V_X": V_X, "V_Y": V_Y, "omega": omega}
     numbers = [_finite(value, name) for name, value in given.items()]

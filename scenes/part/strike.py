@@ -49,7 +49,7 @@ from juggleproof.scenes.part.body import (
 # -------------------------------------------------------------------------------------------------
 # One corner.
 #
-# Wang and Mason's five contact modes with Poisson's restitution, as
+# Wang and Mason's five contact modes (1992) with Poisson's restitution, as
 # `juggleproof.symbolic.corner_impact` derives them.
 #
 # The formulas stand here once more so that they can be compiled; a test compares them, exactly,
@@ -70,6 +70,7 @@ def mode_of(
     S0: float, C0: float, B1: float, B2: float, B3: float, e: float, mu: float, sigma: int
 ) -> int:
     """The mode of an impact in which the corner slides in the direction sigma at first; C0 < 0.
+    JAMMING where friction keeps it from leaving.
 
     P_d and P_q are the closing rate times sigma S0, and the stopping rate times -C0.
     """
@@ -107,7 +108,7 @@ def impulse(
     mu: float,
     sigma: int,
 ) -> tuple[float, float]:
-    """The impulse (P_x, P_y) at the corner, per unit of mass."""
+    """The impulse (P_x, P_y) at the corner, per unit of mass (m/s), in a mode of `mode_of`."""
     if mode == STICKING_IN_COMPRESSION:
         P_y = (1 + e) * -(B1 * C0 + B3 * S0) / (B1 * B2 - B3 * B3)
     elif mode == REVERSED_IN_COMPRESSION:
@@ -141,10 +142,9 @@ def impulse(
 def hold(
     p: Floats, t: float, theta: float, omega: float, i: int, slide: float
 ) -> tuple[float, float, float]:
-    """The force (F, N) per unit of mass at corner i that keeps it on the table, sliding in the
-    direction `slide`, or sticking where that is 0.
-
-    Third, the angular acceleration by this force.
+    """The force (F, N) per unit of mass (m/s^2) at corner i that keeps it on the table, sliding in
+    the direction `slide`, or sticking where that is 0; third, the angular acceleration by this
+    force (rad/s^2).
     """
     c, s = cos(theta), sin(theta)
     x, y = corner_x(p, i, c, s), corner_y(p, i, c, s)
@@ -190,7 +190,7 @@ SLACK, ROUNDING = 1e-12, 1e-14
 
 @compiled
 def energy(p: Floats, z: Floats, glide: float, rise: float) -> float:
-    """The kinetic energy in the table's frame, per unit of mass."""
+    """The kinetic energy in the table's frame, in joules per kilogram."""
     across, up = z[V_X] - glide, z[V_Y] - rise
     return (across * across + up * up + p[GYRATION] * z[OMEGA] * z[OMEGA]) / 2
 

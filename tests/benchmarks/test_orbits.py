@@ -28,10 +28,10 @@ def test_errors_are_distances_to_the_exact_orbit_holds(kind: str) -> None:
     setting = scene("9/10", point(1, -4))
     exact = orbit(setting, "exact", 50).row(0)
     row = orbit(setting, kind, 50).row(0)
-    off, _, bound = orbits.error(kind, row, exact).partition(" <= ")
+    off, _, bound = orbits.error(row, exact).partition(" <= ")
     assert (float(off) == 0.0) is (kind == "exact") and float(off) < 1e-12
     assert bound == "" if kind == "mp" else float(off) <= float(bound)
-    assert orbits.error(kind, row, exact._replace(x=exact.x + Fraction(1, 2))).startswith("5.0e-01")
+    assert orbits.error(row, exact._replace(x=exact.x + Fraction(1, 2))).startswith("5.0e-01")
 
 
 def test_each_arithmetic_has_its_row_holds(

@@ -21,12 +21,14 @@ def test_benchmark_prints_every_figure_and_draws_holds(
     assert (
         part.main(["--ensembles", "6", "--horizon", "0.2", "--runs", "1", "--plot", str(file)]) == 0
     )
-    said = capsys.readouterr().out
-    assert len(re.findall(r"table I once, [12] core", said)) == 2 and re.search(
-        r"parts\^-?[\d.]+ and time\^-?[\d.]+", said
+    output = capsys.readouterr().out
+    assert len(re.findall(r"table I once, [12] core", output)) == 2 and re.search(
+        r"parts\^-?[\d.]+ and time\^-?[\d.]+", output
     )
-    assert said.count("median error") == len(part.TOLERANCES) and said.count("median onset") == 2
-    assert file.read_text(encoding="utf-8").startswith("<?xml") and "nan" not in said
+    assert (
+        output.count("median error") == len(part.TOLERANCES) and output.count("median onset") == 2
+    )
+    assert file.read_text(encoding="utf-8").startswith("<?xml") and "nan" not in output
 
 
 def test_error_of_the_benchmark_falls_with_the_tolerance_holds() -> None:

@@ -7,16 +7,18 @@ from __future__ import annotations
 import doctest
 import sys
 import time
-from typing import Any
+from collections.abc import Callable
 
 import pytest
 
 from juggleproof.benchmarks import peers
 from juggleproof.benchmarks.processes import Clock
+from juggleproof.certificates import checker
 from juggleproof.certificates.votes.questions import read_statement
 from tests.certificates.votes.corpus import STATEMENTS
 
 SECONDS = 60.0  # far more than any of them takes, also on a busy machine
+Settle = Callable[[checker.Statement, float], peers.Answer]
 TRUE = ("square", "f1-in-H", "e1-in-B1", "collision-time", "B1-plus-not-empty", "sup-negative")
 FALSE = ("strict-square", "B2-by-time", "circle-half", "p-outside-R-whole", "some-state-gains-more")
 LINEAR = ("f1-in-H", "collision-time", "gain-identity")
@@ -32,7 +34,7 @@ LINEAR = ("f1-in-H", "collision-time", "gain-identity")
     ],
 )
 @pytest.mark.parametrize("name", [*TRUE, *FALSE])
-def test_a_peer_gives_the_right_answer_holds(name: str, settle: Any, present: object) -> None:
+def test_a_peer_gives_the_right_answer_holds(name: str, settle: Settle, present: object) -> None:
     if not present:
         pytest.skip(f"{settle.__name__} is not installed")
     statement, expected = STATEMENTS[name]

@@ -57,7 +57,7 @@ FLOORS = (
     ("certificates",),
     ("certificates.algebra", "scenes"),
     ("certificates.search.psatz",),
-    ("certificates.search", "certificates.votes"),
+    ("certificates.search", "certificates.votes", "certificates.coq"),
     ("proofs.reading",),
     ("proofs",),
     ("proofs.paper", "proofs.theorem", "proofs.part", "proofs.smtlib", "proofs.ledger"),

@@ -117,7 +117,7 @@ def test_without_the_options_nothing_is_judged_holds(inner: pytest.Pytester) -> 
 
 
 @pytest.mark.parametrize(
-    ("content", "told"),
+    ("content", "reason"),
     [
         ("def (:\n", "mine.py:1: does not parse"),
         ("x = 1\n", "mine.py: no claims; decorate"),
@@ -131,12 +131,12 @@ def test_without_the_options_nothing_is_judged_holds(inner: pytest.Pytester) -> 
         ),
     ],
 )
-def test_rejects_file_in_one_line(content: str, told: str, inner: pytest.Pytester) -> None:
+def test_rejects_file_in_one_line(content: str, reason: str, inner: pytest.Pytester) -> None:
     (inner.path / "mine.py").write_text(content, encoding="utf-8")
     result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py")
     assert (
         result.ret != 0
-        and any(told in line for line in lines(result))
+        and any(reason in line for line in lines(result))
         and "Traceback" not in result.stdout.str()
     )
 

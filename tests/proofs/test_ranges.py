@@ -13,8 +13,9 @@ from juggleproof.certificates.language import Roles, Statement, conjunction, rea
 from juggleproof.certificates.search.ranges import Line
 from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import read, speaks_of_range
-from juggleproof.proofs.judging import Resources, Sharp, judge
-from juggleproof.proofs.ranges import search_sharp_range, told
+from juggleproof.proofs.judgement import Resources, Sharp
+from juggleproof.proofs.judging import judge
+from juggleproof.proofs.ranges import line_text, search_sharp_range
 
 alpha, K, n, k, x = reals("alpha K n k x")
 WHOLE = (("range", alpha > 0), ("range", alpha < 1))
@@ -96,7 +97,7 @@ def test_end_points_are_told_under_their_names_in_the_statement():
     second = real_roots(fmpq_poly([-1, 10, -20, 10]))[1]
     poly = 10 * alpha**3 - 20 * alpha**2 + 10 * alpha - 1
     numbers = (("c1", poly, Fraction(0), Fraction(1, 2)), ("c2", poly, Fraction(1, 2), Fraction(1)))
-    assert told(
+    assert line_text(
         Line((second,), (False, False, True)), "alpha", numbers, (("0", "<"), ("1", "<"))
     ).startswith("c2 < alpha < 1; c2 = 0.")
 

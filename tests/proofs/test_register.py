@@ -10,7 +10,7 @@ import shutil
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import NoReturn
 from xml.etree import ElementTree
 
 import pytest
@@ -19,7 +19,7 @@ from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command import certify
 from juggleproof.proofs.command.main import run
-from juggleproof.proofs.register import PATH, Change, load_register
+from juggleproof.proofs.register import PATH, Change, Register, load_register
 from juggleproof.proofs.run import Options, Progress, Run
 from juggleproof.proofs.run import run as run_of_claims
 from tests.proofs.reports.runs import FALSE, HOLDS, file_with
@@ -38,10 +38,12 @@ def judged(claims: Sequence[Claim], options: Options, progress: Progress) -> Run
 
 
 @pytest.fixture
-def with_register(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Any], Certify]:
+def with_register(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[str | Register], Certify]:
     """The command with another register, and a copy of the store."""
 
-    def prepare(content: Any) -> Certify:
+    def prepare(content: str | Register) -> Certify:
         register = tmp_path / "register.json"
         register.write_text(
             content if isinstance(content, str) else json.dumps(content), encoding="utf-8"
@@ -60,7 +62,7 @@ def outputs(folder: Path) -> list[str]:
     return [f"--{option}={folder / f'out.{option}'}" for option in ("json", "junit", "markdown")]
 
 
-def changed() -> tuple[dict[str, Any], dict[str, tuple[str, str]]]:
+def changed() -> tuple[dict[str, dict[str, str]], dict[str, tuple[str, str]]]:
     """A register that differs from the sources in three ways, and the verdicts before and after."""
     register = load_register()
     register["eq-2"] = {"verdict": "holds"}
@@ -74,7 +76,9 @@ def changed() -> tuple[dict[str, Any], dict[str, tuple[str, str]]]:
 
 
 def test_changed_verdict_fails_and_is_shown_before_and_after_everywhere_holds(
-    with_register: Callable[[Any], Certify], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    with_register: Callable[[str | Register], Certify],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     register, expected = changed()
     assert with_register(register)(*outputs(tmp_path)) == 1
@@ -89,13 +93,13 @@ def test_changed_verdict_fails_and_is_shown_before_and_after_everywhere_holds(
             f"{name}: " in line and f"verdict was {before}, is {after}" in line for line in lines
         ), name
     data = json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
-    told = {
+    output = {
         one["claim"]: tuple(
             (one[side] or {"verdict": "absent"})["verdict"] for side in ("before", "after")
         )
         for one in data["changes"]
     }
-    assert told == expected and data["exit"] == 1
+    assert output == expected and data["exit"] == 1
     suite = ElementTree.parse(tmp_path / "out.junit").getroot()[0]
     failures = {
         case.get("name"): case.find("failure").get("message", "")
@@ -118,7 +122,9 @@ def test_changed_verdict_fails_and_is_shown_before_and_after_everywhere_holds(
 
 
 def test_selection_leaves_other_claims_of_the_register_alone_holds(
-    with_register: Callable[[Any], Certify], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    with_register: Callable[[str | Register], Certify],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     register, _ = changed()
     command = with_register(register)
@@ -133,15 +139,17 @@ def test_selection_leaves_other_claims_of_the_register_alone_holds(
 
 
 def test_accepting_writes_this_register_and_shows_before_and_after_holds(
-    with_register: Callable[[Any], Certify], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    with_register: Callable[[str | Register], Certify],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     committed = PATH.read_bytes()
     register, expected = changed()
     assert with_register(register)("--accept", *outputs(tmp_path)) == 0
-    told = capsys.readouterr().out
+    output = capsys.readouterr().out
     assert (
-        all(f"verdict was {before}, is {after}" in told for before, after in expected.values())
-        and "accepted  eq-1" in told
+        all(f"verdict was {before}, is {after}" in output for before, after in expected.values())
+        and "accepted  eq-1" in output
     )
     assert json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))["accepted"] is True
     assert (tmp_path / "register.json").read_bytes() == committed == PATH.read_bytes()
@@ -179,20 +187,20 @@ def test_rejects_register_with(
     monkeypatch.setattr(certify, "certify", partial(certify.certify, register=path))
     monkeypatch.setattr(certify, "run", _no_run)
     assert run(["certify", "--accept", *outputs(tmp_path)]) == 2
-    told = capsys.readouterr()
+    output = capsys.readouterr()
     assert (
-        not told.out
-        and len(told.err.splitlines()) == 1
-        and f"{path}: " in told.err
-        and reason in told.err
-    ), told.err
-    assert told.err.rstrip().endswith(
+        not output.out
+        and len(output.err.splitlines()) == 1
+        and f"{path}: " in output.err
+        and reason in output.err
+    ), output.err
+    assert output.err.rstrip().endswith(
         ("restore it from the repository", "restore the file from the repository")
     )
     assert [one.name for one in tmp_path.iterdir()] == ["register.json"]
 
 
-def _no_run(*_: object) -> Any:
+def _no_run(*_: object) -> NoReturn:
     raise AssertionError("nothing is judged before what was given is known to be right")
 
 
@@ -246,12 +254,12 @@ def test_rejects_output_before_the_run(
     content, path = claims.read_bytes(), bad_path(kind, tmp_path)
     before = sorted(tmp_path.iterdir())
     assert run(["certify", str(claims), f"--{option}={path}"]) == 2
-    told = capsys.readouterr()
+    output = capsys.readouterr()
     assert (
-        not told.out
-        and len(told.err.splitlines()) == 1
-        and f"--{option} {path}: " in told.err
-        and told.err.endswith("name another file\n")
+        not output.out
+        and len(output.err.splitlines()) == 1
+        and f"--{option} {path}: " in output.err
+        and output.err.endswith("name another file\n")
     )
     assert sorted(tmp_path.iterdir()) == before and claims.read_bytes() == content
 

@@ -16,7 +16,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import CERTIFICATES, DEFAULT, Store, certificate_lines
 from juggleproof.proofs.claims import Claim
-from juggleproof.proofs.judging import Judgement
+from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.run import Options, Reading, claims_of_file, run, shares
 

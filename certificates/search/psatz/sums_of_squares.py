@@ -18,13 +18,12 @@ from math import comb, prod
 import numpy as np
 from flint import fmpz_mpoly
 
-from juggleproof.certificates.algebra.polynomials import Ring, total_degree
+from juggleproof.certificates.algebra.polynomials import Monomial, Ring, total_degree
 from juggleproof.certificates.algebra.semidefinite import (
     Entry,
     Floats,
     GramBlock,
     LinearEquations,
-    Monomial,
     as_squares,
     rational_image,
 )

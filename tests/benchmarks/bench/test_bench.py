@@ -10,7 +10,6 @@ import sys
 import time
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import pytest
 import sympy
@@ -32,7 +31,7 @@ from juggleproof.benchmarks.bench.methods import (
     Method,
     bernstein,
 )
-from juggleproof.benchmarks.bench.numerics import Arb, Mpmath, never_negative
+from juggleproof.benchmarks.bench.numerics import Arb, Intervals, Mpmath, never_negative
 from juggleproof.benchmarks.bench.orbits import STARTS
 from juggleproof.benchmarks.bench.questions import (
     ALPHAS,
@@ -151,7 +150,7 @@ def test_rejects_a_bound_that_is_exceeded(monkeypatch: pytest.MonkeyPatch, name:
 
 
 @pytest.mark.parametrize("numbers", [Arb(), Mpmath()])
-def test_rejects_a_bound_below_the_supremum_by_boxes(numbers: Any) -> None:
+def test_rejects_a_bound_below_the_supremum_by_boxes(numbers: Intervals) -> None:
     for name in ("E-B1zero", "p-outside-R", "DE-H"):
         problem = questions()[name].problem()
         assert (
@@ -324,22 +323,23 @@ def test_a_quick_run_ends_with_table_plot_and_verdict_holds(
         )
         == 0
     )
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     assert (
-        "exact Bernstein, ours" in said
-        and "every enclosure holds the truth" in said
-        and "faster than Z3, one question" in said
+        "exact Bernstein, ours" in output
+        and "every enclosure holds the truth" in output
+        and "faster than Z3, one question" in output
     )
     assert (
-        "no certified peer was measured" in said and "faster than every certified peer" not in said
+        "no certified peer was measured" in output
+        and "faster than every certified peer" not in output
     )
-    assert "1e-1" in said and "1e-6" in said and "slope" in said
+    assert "1e-1" in output and "1e-6" in output and "slope" in output
     from juggleproof.benchmarks.bench.table import ABSENT, can_plot
 
     assert (
         (tmp_path / "bench" / "p-outside-R.svg").read_bytes().startswith(b"<?xml")
         if can_plot()
-        else ABSENT in said
+        else ABSENT in output
     )
 
 
@@ -351,10 +351,10 @@ def test_absent_peers_are_named_holds(
     }
     monkeypatch.setattr(run, "METHODS", absent)
     run.Run(run.Wish(("p-outside-R",), (COARSE,), 1.0, False), tmp_path, lambda what: None).all()
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     assert (
         "absent: cvc5 (pip install cvc5), coq-interval (Debian packages coq and libcoq-interval)"
-        in said
+        in output
     )
 
 
@@ -381,8 +381,8 @@ BAD = {
 def test_rejects(defect: str, capsys: pytest.CaptureFixture[str]) -> None:
     arguments, reason = BAD[defect]
     assert command(["bench", *arguments]) == 2
-    said = capsys.readouterr()
-    assert reason in said.err and len(said.err.strip().splitlines()) == 1 and not said.out
+    output = capsys.readouterr()
+    assert reason in output.err and len(output.err.strip().splitlines()) == 1 and not output.out
 
 
 def test_rejects_a_question_that_is_not_rational() -> None:

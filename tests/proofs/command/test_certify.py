@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
@@ -41,7 +41,7 @@ def run(*arguments: str) -> Done:
     out, err = io.StringIO(), io.StringIO()
     with redirect_stdout(out), redirect_stderr(err):
         try:
-            code: Any = main.run(arguments)
+            code = main.run(arguments)
         except SystemExit as ended:  # argparse rejects arguments so
             code = ended.code
     return Done(code, out.getvalue(), err.getvalue())
@@ -259,7 +259,7 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("body", "told"),
+    ("body", "reason"),
     [
         ("1 // 0", "mine raises ZeroDivisionError"),
         ("MapRule(over='a')", "mine raises TypeError"),
@@ -268,13 +268,13 @@ def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
         ("always(x == y)", "equal(a, b)"),
     ],
 )
-def test_rejects_claim_whose_function_fails(body: str, told: str, tmp_path: Path) -> None:
+def test_rejects_claim_whose_function_fails(body: str, reason: str, tmp_path: Path) -> None:
     done = certify(
         claim_file(tmp_path, body, more="from juggleproof.proofs import MapRule, exists_some")
     )
     assert (
         done.returncode == 2
-        and told in done.stderr
+        and reason in done.stderr
         and "mine.py:" in done.stderr
         and len(done.stderr.splitlines()) == 1
     ), done.stderr

@@ -5,7 +5,7 @@ nothing half-written.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import NoReturn
 
 import pytest
 
@@ -18,7 +18,7 @@ from tests.proofs.reports.runs import contents
 pytestmark = pytest.mark.usefixtures("kept_records")
 
 
-def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+def fault(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     assert run(["report", *arguments]) == 2
     shown = capsys.readouterr()
     assert shown.out == "" and shown.err.startswith("juggleproof: ") and shown.err.count("\n") == 1
@@ -41,22 +41,22 @@ def test_rejects_a_folder_that_cannot_be_made(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     (tmp_path / "file").write_text("as it was", encoding="utf-8")
-    assert "not a folder" in told(
+    assert "not a folder" in fault(
         capsys, "--format", "html", "-o", str(tmp_path / "file" / "below")
     )
     assert (tmp_path / "file").read_text(encoding="utf-8") == "as it was"
 
 
-def test_missing_library_is_told_and_nothing_written_holds(
+def test_missing_library_is_named_and_nothing_written_holds(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def absent(name: str) -> Any:
+    def absent(name: str) -> NoReturn:
         raise ImportError(name)
 
     monkeypatch.setattr(report, "gather", contents)
     monkeypatch.setattr(page, "pictures", lambda contents: ())
     monkeypatch.setattr(extras, "import_module", absent)
-    assert "jinja2 is needed for this report" in told(
+    assert "jinja2 is needed for this report" in fault(
         capsys, "--format", "html", "-o", str(tmp_path / "there")
     )
     assert not (tmp_path / "there").exists()

@@ -22,27 +22,27 @@ from juggleproof.scenes.juggler.bounded import CHUNK
 START = ["--alpha", "1/3", "--state", "x=1,w=2"]
 
 
-def told(capsys: pytest.CaptureFixture[str], *arguments: str, code: int = 0) -> str:
+def output(capsys: pytest.CaptureFixture[str], *arguments: str, code: int = 0) -> str:
     assert run(["simulate", "juggler", *arguments]) == code
     return capsys.readouterr().out
 
 
 def test_known_orbits_hold(capsys: pytest.CaptureFixture[str]) -> None:
-    assert "87       3        0.081  0.335  0      in the trap" in told(
+    assert "87       3        0.081  0.335  0      in the trap" in output(
         capsys, "--alpha", "3/10", "--state", "x=1000,w=-41", "--until-trap"
     )
-    edge = told(
+    edge = output(
         capsys, "--alpha", "1/3", "--state", "x=0,w=3", "--steps", "4", "--arithmetic", "enclosed"
     )
     assert "on x = w: 2 states, exactly" in edge
-    floats = told(
+    floats = output(
         capsys, "--alpha", "1/3", "--state", "x=0,w=3", "--steps", "4", "--arithmetic", "fast"
     )
     assert "undecided: 0 (period 1)" in floats and "branch undecided" in floats
-    assert "nothing proved" in told(capsys, *START, "--arithmetic", "mp") and "unknown" in told(
+    assert "nothing proved" in output(capsys, *START, "--arithmetic", "mp") and "unknown" in output(
         capsys, *START, "--arithmetic", "mp"
     )
-    physical = told(
+    physical = output(
         capsys,
         "--alpha",
         "1/3",
@@ -58,30 +58,32 @@ def test_known_orbits_hold(capsys: pytest.CaptureFixture[str]) -> None:
         "physical",
     )
     assert "beta" in physical and "0.8" in physical
-    assert told(capsys, *START, "--impacts", "--keep", "--steps", "3").count("\n") == 6
-    assert "0.875" in told(capsys, "--alpha", "1/3", "--state", "x=0,w=3", "--times", "0:2:5")
+    assert output(capsys, *START, "--impacts", "--keep", "--steps", "3").count("\n") == 6
+    assert "0.875" in output(capsys, "--alpha", "1/3", "--state", "x=0,w=3", "--times", "0:2:5")
 
 
 def test_words_hold(capsys: pytest.CaptureFixture[str]) -> None:
-    found = told(capsys, "--alpha", "1/2", "--words", "--longest", "4")
+    found = output(capsys, "--alpha", "1/2", "--words", "--longest", "4")
     assert "e_2" in found and "on x = w" in found and found.count("attracts near") == 2
-    assert "exists for no alpha" in told(capsys, "--word", "1,2")
+    assert "exists for no alpha" in output(capsys, "--word", "1,2")
 
 
 def test_a_word_is_told_with_its_orbit_where_it_exists_and_where_it_attracts_holds(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    found = told(capsys, "--word", "2")
+    found = output(capsys, "--word", "2")
     assert (
         "exists for 1/3 <= alpha < 1\n" in found
         and "attracts near states for 1/3 < alpha < 1\n" in found
     )
     assert "2*(3*alpha - 1)/(alpha + 1)^2" in found and "4/(alpha + 1)" in found
-    assert "1       4/9  8/3" in told(capsys, "--word", "2", "--alpha", "1/2")
-    assert "at alpha = 1/3, exactly; a state lies on x = w" in told(
+    assert "1       4/9  8/3" in output(capsys, "--word", "2", "--alpha", "1/2")
+    assert "at alpha = 1/3, exactly; a state lies on x = w" in output(
         capsys, "--word", "2", "--alpha", "1/3"
     )
-    assert "at alpha = 1/4 no orbit has this word" in told(capsys, "--word", "2", "--alpha", "1/4")
+    assert "at alpha = 1/4 no orbit has this word" in output(
+        capsys, "--word", "2", "--alpha", "1/4"
+    )
 
 
 def test_grids_and_boxes_in_physical_units_hold(
@@ -91,7 +93,7 @@ def test_grids_and_boxes_in_physical_units_hold(
         ["--alpha", "1/3", "--r", "2", "--g", "4", "--units", "physical", "--steps", "0"],
         tmp_path / "starts.csv",
     )
-    told(capsys, *units, "--grid", "beta=0:4:3,v=-1:1:2", "-o", str(path))
+    output(capsys, *units, "--grid", "beta=0:4:3,v=-1:1:2", "-o", str(path))
     rows = list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))))
     assert [(row["beta"], row["v"]) for row in rows] == [
         ("0", "-1"),
@@ -101,7 +103,7 @@ def test_grids_and_boxes_in_physical_units_hold(
         ("4", "-1"),
         ("4", "1"),
     ]
-    told(capsys, *units, "--random", "50", "--box", "beta=1:4,v=-1:1/2", "-o", str(path))
+    output(capsys, *units, "--random", "50", "--box", "beta=1:4,v=-1:1/2", "-o", str(path))
     rows = list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))))
     heights, speeds = ([Fraction(row[name]) for row in rows] for name in ("beta", "v"))
     assert (
@@ -113,7 +115,7 @@ def test_grids_and_boxes_in_physical_units_hold(
 
 
 def test_hard_cases_are_printed_holds(capsys: pytest.CaptureFixture[str]) -> None:
-    found = told(capsys, "--hard-cases")
+    found = output(capsys, "--hard-cases")
     assert (
         found.count("WRONG BRANCH") == 3
         and "undecided at period 1" in found
@@ -128,7 +130,7 @@ def test_files_hold_what_the_table_says(
     start = ["--alpha", "3/10", "--grid", "x=0:3:4,w=-2:2:3", "--steps", "9", "--arithmetic", kind]
     files = [tmp_path / name for name in ("a.csv", "a.npz", "b.csv", "b.npz")]
     for path in files:
-        assert "12 of 12 orbits written" in told(capsys, *start, "-o", str(path))
+        assert "12 of 12 orbits written" in output(capsys, *start, "-o", str(path))
     assert (
         files[0].read_bytes() == files[2].read_bytes()
         and files[1].read_bytes() == files[3].read_bytes()
@@ -151,9 +153,9 @@ def test_pictures_are_written_holds(tmp_path: Path, capsys: pytest.CaptureFixtur
         ),
     ):
         path = tmp_path / f"{name}.svg"
-        told(capsys, *start, "-o", str(path))
+        output(capsys, *start, "-o", str(path))
         first = path.read_bytes()
-        told(capsys, *start, "-o", str(path))
+        output(capsys, *start, "-o", str(path))
         assert first == path.read_bytes() and first.startswith(b"<?xml") and b"<svg" in first
     assert b"undecided" in first
 
@@ -235,15 +237,15 @@ WRONG = {
 
 @pytest.mark.parametrize("name", WRONG)
 def test_rejects_bad_input_in_one_line(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    arguments, said = WRONG[name]
+    arguments, reason = WRONG[name]
     try:
         code = run(["simulate", "juggler", *arguments])
     except SystemExit as end:
         code = int(end.code or 0)
     found = capsys.readouterr()
-    assert code == 2 and said in found.err and len(found.err.splitlines()) == 1 and not found.out, (
-        found
-    )
+    assert (
+        code == 2 and reason in found.err and len(found.err.splitlines()) == 1 and not found.out
+    ), found
 
 
 @pytest.mark.parametrize(

@@ -50,13 +50,13 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize(("options", "told"), BAD, ids=[" ".join(options) for options, _ in BAD])
+@pytest.mark.parametrize(("options", "reason"), BAD, ids=[" ".join(options) for options, _ in BAD])
 def test_rejects_a_wish_that_cannot_be_carried_out(
-    options: list[str], told: str, capsys: pytest.CaptureFixture[str]
+    options: list[str], reason: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run([*SMALL, *options]) == 2
     lines = capsys.readouterr().err.splitlines()
-    assert len(lines) == 1 and told in lines[0]
+    assert len(lines) == 1 and reason in lines[0]
 
 
 def test_table_is_told_with_what_it_assumes_holds(
@@ -69,10 +69,10 @@ def test_table_is_told_with_what_it_assumes_holds(
             assert run([*SMALL, "--check", "--jobs", jobs, "-o", str(path)]) == 0
             written[jobs, name] = path.read_bytes()
         assert written["1", name] == written["2", name]
-    told = capsys.readouterr().out
-    assert all(f"{f:g} Hz {1000 * a:g} mm" in told for f, a, _ in PAPER)
+    output = capsys.readouterr().out
+    assert all(f"{f:g} Hz {1000 * a:g} mm" in output for f, a, _ in PAPER)
     assert all(
-        word in told
+        word in output
         for word in ("given", "inferred", "chosen", "0 impulses that pull", "0 energy gained")
     )
     lines = list(csv.DictReader((tmp_path / "1" / "table.csv").open()))
@@ -112,10 +112,10 @@ def test_stored_sweep_gives_the_pair_of_the_scene_holds(capsys: pytest.CaptureFi
     best = chosen(recorded())
     assert all(best.misfit <= point.misfit for point in recorded()) and len(recorded()) > 50
     assert run([*SMALL, "--ensembles", "1"]) == 0
-    told = capsys.readouterr().out
-    told = " ".join(told.split())
+    output = capsys.readouterr().out
+    output = " ".join(output.split())
     for name, value in (("restitution e", best.e), ("friction mu", best.mu)):
-        assert f"{name} {value:g} inferred the least misfit of the stored sweep" in told
+        assert f"{name} {value:g} inferred the least misfit of the stored sweep" in output
 
 
 def row(paper: float | None, onsets: list[float], chaotic: tuple[bool, ...]) -> Row:
@@ -143,11 +143,11 @@ def test_difference_from_the_paper_is_told_holds() -> None:
 
 def test_still_table_is_told_holds(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*SMALL, "--still", "--e", "0.7", "--mu", "0.08"]) == 0
-    told = capsys.readouterr().out
+    output = capsys.readouterr().out
     assert (
         "27 blocks, 0 to 26 degrees, end upright, and 64, 27 to 90 degrees, lie, as the paper says"
-        in told
-        and "26.56505117" in told
+        in output
+        and "26.56505117" in output
     )
 
 

@@ -20,7 +20,6 @@ from juggleproof.proofs.reading.tree import (
     Group,
     Juxtaposition,
     Limit,
-    Mark,
     Name,
     Negative,
     Number,
@@ -30,6 +29,7 @@ from juggleproof.proofs.reading.tree import (
     Restriction,
     Root,
     SetBuilder,
+    Sign,
     Tree,
 )
 from tests.proofs.reading.paper_names import ALL, RESTORED
@@ -126,7 +126,7 @@ def test_different_marks_are_different_trees(one: str, other: str) -> None:
         ),
         (r"\lim_{k\to\infty} f", Limit(Chain(Name("k"), ((r"\rightarrow", Name(r"\infty")),)), F)),
         (r"\max_{x \le b} f", Extremum(r"\max", Chain(X, ((r"\le", B),)), F)),
-        (r"B^+", Power(Name("B"), Mark("+"))),
+        (r"B^+", Power(Name("B"), Sign("+"))),
         (r"k^{th}", Power(Name("k"), Name("th"))),
         (r"\forall x \in f, x < b", ForAll(Chain(X, ((r"\in", F),)), Chain(X, (("<", B),)))),
         (r"\{b \mid x < b\}", SetBuilder(B, (Chain(X, (("<", B),)),))),

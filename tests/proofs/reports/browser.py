@@ -8,9 +8,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
-from typing import Any
+from typing import TYPE_CHECKING
 
 import pytest
+
+if TYPE_CHECKING:
+    from selenium.webdriver.remote.webdriver import WebDriver
+    from selenium.webdriver.remote.webelement import WebElement
 
 # -------------------------------------------------------------------------------------------------
 # A strict reader of HTML: every element is closed where it was opened, every attribute stands once.
@@ -103,7 +107,7 @@ OPTIONS = (
 
 
 @contextmanager
-def chromium(width: int = 1280, height: int = 900) -> Iterator[Any]:
+def chromium(width: int = 1280, height: int = 900) -> Iterator[WebDriver]:
     """The driver of a browser with a window of this size."""
     pytest.importorskip("selenium", reason="selenium is not installed")
     program = next((found for found in map(shutil.which, NAMES) if found), None)
@@ -127,21 +131,21 @@ def chromium(width: int = 1280, height: int = 900) -> Iterator[Any]:
         driver.quit()
 
 
-def resize(driver: Any, width: int, height: int = 900) -> None:
+def resize(driver: WebDriver, width: int, height: int = 900) -> None:
     driver.execute_cdp_cmd(
         "Emulation.setDeviceMetricsOverride",
         {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False},
     )
 
 
-def scheme(driver: Any, name: str) -> None:
+def scheme(driver: WebDriver, name: str) -> None:
     driver.execute_cdp_cmd(
         "Emulation.setEmulatedMedia",
         {"media": "", "features": [{"name": "prefers-color-scheme", "value": name}]},
     )
 
 
-def requests(driver: Any) -> list[str]:
+def requests(driver: WebDriver) -> list[str]:
     """The addresses that were asked for since the last time."""
     messages = [json.loads(entry["message"])["message"] for entry in driver.get_log("performance")]
     return [
@@ -164,7 +168,7 @@ return [ink.slice(0, 3), paper.slice(0, 3), ink.length < 4 || ink[3] === 1];
 """
 
 
-def contrast(driver: Any, element: Any) -> float:
+def contrast(driver: WebDriver, element: WebElement) -> float:
     """The contrast ratio of WCAG 2: (lighter + 0.05) / (darker + 0.05) in relative luminance."""
     ink, paper, opaque = driver.execute_script(COLOURS, element)
     assert opaque

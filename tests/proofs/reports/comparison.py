@@ -89,21 +89,21 @@ def differences(pairs: Iterable[tuple[str, str]], seed: int = 0, points: int = 8
 
 def compare(text: str, latex: str, random: Random, points: int) -> None:
     try:
-        said = read_statement_text(text)
+        stated = read_statement_text(text)
     except NotRead as reason:
         raise Different(f"the text is not read: {reason}") from None
     try:
         printed = read(latex)
     except NotRead as reason:
         raise Different(f"the LaTeX is not read: {reason}") from None
-    sides = list(matched(said, printed))
-    names, wanted = unknowns(said, printed)
+    sides = list(matched(stated, printed))
+    names, wanted = unknowns(stated, printed)
     compared, why = 0, "none was tried"
     for _ in range(ATTEMPTS * points):
         if compared == points:
             return
         point = drawn(names, wanted, random)
-        values = [(both(one, other, point), one) for one, other in [*sides, (said, printed)]]
+        values = [(both(one, other, point), one) for one, other in [*sides, (stated, printed)]]
         for (left, right), _ in values:
             if isinstance(left, NotRead) is not isinstance(right, NotRead):
                 raise Different(
@@ -144,41 +144,41 @@ def opaque_root(under: Fraction) -> Fraction:
 # ------------------------------------------------------------ structure
 
 
-def matched(said: Node, printed: Node) -> Iterator[tuple[Term, Term]]:
+def matched(stated: Node, printed: Node) -> Iterator[tuple[Term, Term]]:
     """The terms that must be equal; Different where the trees have not one shape."""
-    if isinstance(said, Formula) and isinstance(printed, Formula):
-        yield from alike(plain(said), plain(printed))
+    if isinstance(stated, Formula) and isinstance(printed, Formula):
+        yield from alike(plain(stated), plain(printed))
     elif (
-        isinstance(said, Listed)
+        isinstance(stated, Listed)
         and isinstance(printed, Listed)
-        and len(said.entries) == len(printed.entries)
+        and len(stated.entries) == len(printed.entries)
     ):
-        for one, other in zip(said.entries, printed.entries):
+        for one, other in zip(stated.entries, printed.entries):
             yield from matched(one, other)
-    elif isinstance(said, Term) and isinstance(printed, Term):
-        yield said, printed
+    elif isinstance(stated, Term) and isinstance(printed, Term):
+        yield stated, printed
     else:
-        raise Different(f"{kind(said)} against {kind(printed)}")
+        raise Different(f"{kind(stated)} against {kind(printed)}")
 
 
-def alike(said: Formula, printed: Formula) -> Iterator[tuple[Term, Term]]:
-    if isinstance(said, Related) and isinstance(printed, Related) and said.sign == printed.sign:
-        yield said.left, printed.left
-        yield said.right, printed.right
+def alike(stated: Formula, printed: Formula) -> Iterator[tuple[Term, Term]]:
+    if isinstance(stated, Related) and isinstance(printed, Related) and stated.sign == printed.sign:
+        yield stated.left, printed.left
+        yield stated.right, printed.right
     elif (
-        isinstance(said, Joined)
+        isinstance(stated, Joined)
         and isinstance(printed, Joined)
-        and (said.how, len(said.parts)) == (printed.how, len(printed.parts))
+        and (stated.how, len(stated.parts)) == (printed.how, len(printed.parts))
     ):
-        for one, other in zip(said.parts, printed.parts):
+        for one, other in zip(stated.parts, printed.parts):
             yield from alike(one, other)
-    elif isinstance(said, Implied) and isinstance(printed, Implied) and said.how == printed.how:
-        yield from alike(said.left, printed.left)
-        yield from alike(said.right, printed.right)
-    elif isinstance(said, Not) and isinstance(printed, Not):
-        yield from alike(said.of, printed.of)
+    elif isinstance(stated, Implied) and isinstance(printed, Implied) and stated.how == printed.how:
+        yield from alike(stated.left, printed.left)
+        yield from alike(stated.right, printed.right)
+    elif isinstance(stated, Not) and isinstance(printed, Not):
+        yield from alike(stated.of, printed.of)
     else:
-        raise Different(f"{kind(said)} against {kind(printed)}")
+        raise Different(f"{kind(stated)} against {kind(printed)}")
 
 
 def plain(formula: Formula, denied: bool = False) -> Formula:
@@ -222,9 +222,9 @@ def kind(node: Node) -> str:
 # ------------------------------------------------------------ points
 
 
-def unknowns(said: Node, printed: Node) -> tuple[list[str], list[str]]:
+def unknowns(stated: Node, printed: Node) -> tuple[list[str], list[str]]:
     """The names to draw a value for, and those of the LaTeX alone that are defined by others."""
-    names = {name.printed for name in names_in(said)}
+    names = {name.printed for name in names_in(stated)}
     root = names & {"alpha", "s"}
     wanted: set[str] = set()
     for name in names_in(printed):

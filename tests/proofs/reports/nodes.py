@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from math import ceil, floor, isqrt
-from typing import Any
+from typing import Union
 
 LARGEST_EXPONENT = 400
 
@@ -21,10 +21,10 @@ class NotRead(Exception):
 
     def __init__(self, reason: str, position: int | None = None, source: str = "") -> None:
         where = "" if position is None else f"position {position}: "
-        near = (
+        excerpt = (
             f", at {source[position : position + 30]!r}" if position is not None and source else ""
         )
-        super().__init__(f"{where}{reason}{near}")
+        super().__init__(f"{where}{reason}{excerpt}")
         self.position, self.reason = position, reason
 
 
@@ -107,7 +107,7 @@ class Implied(Formula):
     right: Formula
 
 
-Value = Any  # Fraction | bool | tuple of such: what a caller expects, it compares with
+Value = Union[Fraction, bool, tuple["Value", ...]]
 Root = Callable[[Fraction], Fraction]
 HOLDS: dict[str, Callable[[Fraction, Fraction], bool]] = {
     "<": lambda a, b: a < b,
@@ -183,9 +183,9 @@ def number(node: Term, values: Mapping[str, Fraction], root: Root) -> Fraction:
     if isinstance(node, Name):
         found = [name for name in node.stands_for if name in values]
         if len(found) != 1:
-            said = "several of" if found else "none of"
+            count = "several of" if found else "none of"
             raise NotRead(
-                f"{node.printed} has no one value: {said} {', '.join(node.stands_for)} is known"
+                f"{node.printed} has no one value: {count} {', '.join(node.stands_for)} is known"
             )
         return Fraction(values[found[0]])
     if isinstance(node, Neg):

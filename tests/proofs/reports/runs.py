@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import load_register
+from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports.contents import Contents, gather
 from juggleproof.proofs.reports.page import Picture, build, pictures
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
@@ -52,7 +51,8 @@ def file_with(folder: Path, names: tuple[str, ...], says: str = "It says so.") -
 def own(folder: Path, names: tuple[str, ...], says: str = "It says so.") -> Results:
     path = file_with(folder, names, says)
     options = Options(path.with_suffix(".certificates"), jobs=1)
-    return _results(run(claims_of_file(path), options), None)
+    done = run(claims_of_file(path), options)
+    return results_of_run(done.claims, done.judgements, None, rejected=done.rejected)
 
 
 @cache
@@ -69,24 +69,19 @@ def contents() -> Contents:
     return gather()
 
 
-def paper(register: Mapping[str, Mapping[str, Any]] | None = None, **more: Any) -> Results:
-    done, theorem = paper_run()
-    return _results(done, load_register() if register is None else register, theorem, **more)
-
-
-def _results(
-    done: Run,
-    register: Mapping[str, Mapping[str, Any]] | None,
-    theorem: str = "",
-    **more: Any,
+def paper(
+    register: Register | None = None,
+    rejected: Sequence[tuple[str, str]] | None = None,
+    accepted: bool = False,
 ) -> Results:
+    done, theorem = paper_run()
     return results_of_run(
         done.claims,
         done.judgements,
-        register,
+        load_register() if register is None else register,
         theorem=theorem,
-        rejected=more.pop("rejected", done.rejected),
-        **more,
+        rejected=done.rejected if rejected is None else rejected,
+        accepted=accepted,
     )
 
 

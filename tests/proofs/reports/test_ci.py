@@ -84,7 +84,7 @@ def read(results: Results) -> ElementTree.Element:
     return suite
 
 
-def found(suite: ElementTree.Element, kind: str) -> dict[str, str]:
+def messages(suite: ElementTree.Element, kind: str) -> dict[str, str]:
     return {
         str(case.get("name")): str(node.get("message"))
         for case in suite
@@ -96,8 +96,8 @@ def test_paper_as_registered_has_no_failure_holds() -> None:
     suite = read(paper())
     assert (
         len(suite) == len(load_register())
-        and not found(suite, "failure")
-        and not found(suite, "error")
+        and not messages(suite, "failure")
+        and not messages(suite, "error")
     )
 
 
@@ -110,8 +110,8 @@ def test_change_is_a_failure_with_before_and_after_holds() -> None:
     register["gone"], register["eq-2"] = {"verdict": "gap"}, {"verdict": "holds"}
     del register["eq-1"]
     suite = read(paper(register))
-    failures = found(suite, "failure")
-    assert set(failures) == {"gone", "eq-1", "eq-2"} and not found(suite, "error")
+    failures = messages(suite, "failure")
+    assert set(failures) == {"gone", "eq-1", "eq-2"} and not messages(suite, "error")
     assert (
         "verdict was holds, is misprint" in failures["eq-2"]
         and "eq-2/main fails at " in failures["eq-2"]
@@ -120,32 +120,32 @@ def test_change_is_a_failure_with_before_and_after_holds() -> None:
         "verdict was gap, is absent" in failures["gone"]
         and "verdict was absent, is holds" in failures["eq-1"]
     )
-    assert not found(read(paper(register, accepted=True)), "failure")
+    assert not messages(read(paper(register, accepted=True)), "failure")
 
 
 def test_unknown_is_an_error_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, OPEN))
-    assert found(suite, "error") == {"open": "unknown: neither proved nor refuted"} and not found(
-        suite, "failure"
-    )
+    assert messages(suite, "error") == {
+        "open": "unknown: neither proved nor refuted"
+    } and not messages(suite, "failure")
 
 
 def test_false_claim_of_ones_own_is_a_failure_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, FALSE))
-    assert set(found(suite, "failure")) == {"above", "negative-square"} and not found(
+    assert set(messages(suite, "failure")) == {"above", "negative-square"} and not messages(
         suite, "error"
     )
-    assert found(suite, "failure")["above"] == "false; above/main fails at x = 1"
+    assert messages(suite, "failure")["above"] == "false; above/main fails at x = 1"
 
 
 def test_true_claims_of_ones_own_pass_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, HOLDS))
-    assert len(suite) == 1 and not found(suite, "failure") and not found(suite, "error")
+    assert len(suite) == 1 and not messages(suite, "failure") and not messages(suite, "error")
 
 
 def test_rejected_statement_is_an_error_holds() -> None:
     stated = paper().claims[0].statements[0].name
-    errors = found(
+    errors = messages(
         read(paper(rejected=[(stated, "the sum is not 0"), ("elsewhere/main", "no such kind")])),
         "error",
     )
@@ -337,12 +337,12 @@ def test_badge_of_the_paper_is_green_holds() -> None:
 def test_badge_is_red_where_something_is_wrong_holds(tmp_path: Path) -> None:
     register = {**load_register(), "eq-2": {"verdict": "holds"}}
     stated = paper().claims[0].statements[0].name
-    for results, told in (
+    for results, part in (
         (paper(register), "1 changed"),
         (replace(paper(), theorem=""), "theorem NOT proved"),
         (paper(rejected=[(stated, "no")]), "1 unknown"),
         (own(tmp_path, OPEN), "1 of 2 holds, 1 unknown"),
     ):
-        said, is_green = read_badge(results)
-        assert told in said and not is_green
+        message, is_green = read_badge(results)
+        assert part in message and not is_green
     assert read_badge(own(tmp_path, HOLDS)) == ("1 of 1 holds, 0 unknown", True)

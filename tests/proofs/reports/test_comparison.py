@@ -230,8 +230,8 @@ def test_points_depend_on_the_seed_alone_holds() -> None:
 # ------------------------------------------------------------ edits
 
 GLYPH = re.compile(
-    r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?|\\(?:alpha|gamma)\b"
-    r"|\b[xwutTK]\b(?!_)|\\tau_c"
+    r"\\dot\{\\rho\}_\{?0\}?|\\dot\{\\(?:bar|overline)\{?\\beta\}?\}(?:_\{?0\}?)?"
+    r"|\\(?:alpha|gamma)\b|\b[xwutTK]\b(?!_)|\\tau_c"
 )
 SWAPS = [
     (r"\\leq?\b", "<"), (r"\\geq?\b", ">"), ("<", r"\\le "), (">", r"\\ge "), ("<", ">"),
@@ -318,9 +318,9 @@ def sympy_of(node: Node, known: set[str]) -> sympy.Expr:
 def test_edits_of_the_print_are_noticed_holds() -> None:
     random, noticed, missed, refused, idle = Random(5), 0, [], 0, 0
     for text in [text for text in TEXTS if 8 < len(text) < LONGEST][::EVERY]:
-        latex, said = print_of(text), read_statement_text(text)
-        known = {name.printed for name in names_in(said)}
-        before = meaning(said, known)
+        latex, stated = print_of(text), read_statement_text(text)
+        known = {name.printed for name in names_in(stated)}
+        before = meaning(stated, known)
         for _, edited in zip(range(EDITS_EACH), edits(latex, random)):
             try:
                 after = meaning(read(edited), known)

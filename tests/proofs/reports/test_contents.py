@@ -14,10 +14,11 @@ from jsonschema import Draft202012Validator
 from juggleproof.proofs.command import report
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.ci import badge, markdown
-from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json
-from juggleproof.proofs.reports.results import Results, results_of
+from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json, results_of
+from juggleproof.proofs.reports.results import Results
 from tests.proofs.reports.runs import FALSE, OPEN, contents, own, paper
 
+Document = dict[str, Any]  # as JSON has it
 DESCRIBED = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))
 ERRATUM = "eq-2"
 
@@ -27,13 +28,13 @@ def validator() -> Draft202012Validator:
     return Draft202012Validator(DESCRIBED)
 
 
-def written(results: Results) -> Any:
+def written(results: Results) -> Document:
     content = as_json(results)
     assert content.isascii() and content == as_json(results)
     return json.loads(content)
 
 
-def claim(data: Any, name: str) -> Any:
+def claim(data: Document, name: str) -> Document:
     return next(one for one in data["claims"] if one["id"] == name)
 
 
@@ -67,11 +68,11 @@ def test_run_of_the_paper_is_as_described_holds() -> None:
     )
 
 
-def test_sharp_ranges_are_told_by_reading_holds() -> None:
+def test_sharp_ranges_stand_by_reading_holds() -> None:
     for one in paper().claims:
-        told = one.sharp_by_reading()
+        ranges = one.sharp_by_reading()
         assert "; ".join(
-            f"{name}: {text}" if name else text for name, text in told.items()
+            f"{name}: {text}" if name else text for name, text in ranges.items()
         ) == one.sharp.replace("no alpha", ""), one.id
 
 
@@ -90,7 +91,7 @@ def test_report_and_run_write_the_same_document_holds() -> None:
 def test_report_writes_what_a_run_would_holds(
     wanted: str,
     name: str,
-    build: Callable[[Any], bytes],
+    build: Callable[[Results], bytes],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -176,7 +177,7 @@ def test_docstring_that_no_file_can_hold_is_written_all_the_same_holds(tmp_path:
     assert data["claims"][0]["says"] == "a\ufffdb\ufffdc"
 
 
-def parts(schema: Any) -> Iterator[tuple[str, Any]]:
+def parts(schema: object) -> Iterator[tuple[str, Document]]:
     """Every property of every object that the schema describes."""
     if isinstance(schema, dict):
         for name, one in (
@@ -198,7 +199,7 @@ def test_every_field_is_described_holds() -> None:
 
 
 def test_every_object_of_a_run_is_closed_holds() -> None:
-    def closed(schema: Any) -> Iterator[bool]:
+    def closed(schema: object) -> Iterator[bool]:
         if isinstance(schema, dict):
             if (
                 schema.get("type") == "object"
@@ -218,8 +219,8 @@ def test_every_object_of_a_run_is_closed_holds() -> None:
     assert len(found) > 8 and all(found)
 
 
-def change(*path: str | int, to: Any) -> Callable[[Any], None]:
-    def edit(data: Any) -> None:
+def change(*path: str | int, to: object) -> Callable[[Document], None]:
+    def edit(data: Document) -> None:
         for step in path[:-1]:
             data = data[step]
         data[path[-1]] = to
@@ -227,8 +228,8 @@ def change(*path: str | int, to: Any) -> Callable[[Any], None]:
     return edit
 
 
-def drop(*path: str | int) -> Callable[[Any], None]:
-    def edit(data: Any) -> None:
+def drop(*path: str | int) -> Callable[[Document], None]:
+    def edit(data: Document) -> None:
         for step in path[:-1]:
             data = data[step]
         del data[path[-1]]
@@ -277,12 +278,12 @@ WRONG = {
 
 
 @pytest.fixture(scope="module")
-def good(tmp_path_factory: pytest.TempPathFactory) -> Any:
+def good(tmp_path_factory: pytest.TempPathFactory) -> Document:
     return written(own(tmp_path_factory.mktemp("own"), FALSE))
 
 
 @pytest.mark.parametrize("defect", sorted(WRONG))
-def test_rejects_document_with(defect: str, good: Any) -> None:
+def test_rejects_document_with(defect: str, good: Document) -> None:
     assert validator().is_valid(good)
     bad = copy.deepcopy(good)
     WRONG[defect](bad)

@@ -19,7 +19,7 @@ TITLES = list(errata.GROUPS.values())
 
 
 @pytest.fixture(scope="module")
-def told() -> dict[str, dict[str, str]]:
+def listing() -> dict[str, dict[str, str]]:
     """The entries by group and claim, as they are printed."""
     groups: dict[str, dict[str, str]] = {}
     for block in errata.as_text().split("\n\n"):
@@ -32,20 +32,24 @@ def told() -> dict[str, dict[str, str]]:
 
 
 def test_groups_stand_in_order_and_hold_every_claim_that_is_not_true(
-    told: dict[str, dict[str, str]],
+    listing: dict[str, dict[str, str]],
 ) -> None:
-    assert list(told) == TITLES
-    named = [name for group in told.values() for name in group]
+    assert list(listing) == TITLES
+    named = [name for group in listing.values() for name in group]
     register = load_register()
     assert sorted(named) == sorted(
         name for name, entry in register.items() if entry["verdict"] not in ("holds", "unknown")
     )
-    assert all(register[name]["verdict"] == "ambiguous" for name in told[errata.GROUPS["readings"]])
+    assert all(
+        register[name]["verdict"] == "ambiguous" for name in listing[errata.GROUPS["readings"]]
+    )
 
 
-def test_every_entry_says_what_is_wrong_and_where_it_fails(told: dict[str, dict[str, str]]) -> None:
+def test_every_entry_says_what_is_wrong_and_where_it_fails(
+    listing: dict[str, dict[str, str]],
+) -> None:
     register = load_register()
-    for group in told.values():
+    for group in listing.values():
         for name, text in group.items():
             verdict, rows = (
                 register[name]["verdict"],
@@ -59,10 +63,10 @@ def test_every_entry_says_what_is_wrong_and_where_it_fails(told: dict[str, dict[
             assert verdict not in ("misprint", "false") or "correction" in rows, text
 
 
-def test_every_stored_counterexample_is_told_holds(told: dict[str, dict[str, str]]) -> None:
+def test_every_stored_counterexample_is_printed_holds(listing: dict[str, dict[str, str]]) -> None:
     store, everything = (
         Store(DEFAULT),
-        "\n".join(text for group in told.values() for text in group.values()),
+        "\n".join(text for group in listing.values() for text in group.values()),
     )
     refuted = [
         name
@@ -77,29 +81,31 @@ def test_every_stored_counterexample_is_told_holds(told: dict[str, dict[str, str
         ), name
 
 
-def test_a_repeat_follows_a_listed_print_holds(told: dict[str, dict[str, str]]) -> None:
+def test_a_repeat_follows_a_listed_print_holds(listing: dict[str, dict[str, str]]) -> None:
     claims = {claim.id: claim for claim in paper_claims()}
-    listed = {name for group in told.values() for name in group}
-    assert told[errata.GROUPS["repeats"]]
-    for title, group in told.items():
+    listed = {name for group in listing.values() for name in group}
+    assert listing[errata.GROUPS["repeats"]]
+    for title, group in listing.items():
         for name in group:
             assert (claims[name].repeats in listed and bool(claims[name].repeats)) == (
                 title == errata.GROUPS["repeats"]
             ), name
 
 
-def test_transcription_errors_are_those_of_the_table_holds(told: dict[str, dict[str, str]]) -> None:
+def test_transcription_errors_are_those_of_the_table_holds(
+    listing: dict[str, dict[str, str]],
+) -> None:
     findings = json.loads((DEFAULT / FINDINGS).read_text(encoding="utf-8"))
-    for name in told[errata.GROUPS["transcription"]]:
+    for name in listing[errata.GROUPS["transcription"]]:
         assert findings[name]["correction"]["possible transcription error"]
     assert not any(
         findings[name].get("correction", {}).get("possible transcription error")
-        for name in told[errata.GROUPS["errors"]]
+        for name in listing[errata.GROUPS["errors"]]
     )
 
 
 @pytest.mark.parametrize(
-    "entry, sharp, said",
+    "entry, sharp, lines",
     [
         ({"verdict": "misprint"}, {"": "nowhere"}, ["false as printed, for every alpha"]),
         ({"verdict": "misprint"}, {"": "not found"}, ["false as printed"]),
@@ -131,9 +137,9 @@ def test_transcription_errors_are_those_of_the_table_holds(told: dict[str, dict[
     ],
 )
 def test_what_is_wrong_is_told_in_words(
-    entry: dict[str, str], sharp: dict[str, str], said: list[str]
+    entry: dict[str, str], sharp: dict[str, str], lines: list[str]
 ) -> None:
-    assert errata.what_is_wrong(entry, sharp) == said
+    assert errata.what_is_wrong(entry, sharp) == lines
 
 
 def test_rejects_errata_without_a_register(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""Ranges as the results tell them are read whole; figures get what they show from the claims and
+"""Ranges of the results are read whole; figures get what they show from the claims and
 from the theorem's definition.
 """
 
@@ -8,7 +8,7 @@ import re
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -16,12 +16,15 @@ from juggleproof.certificates.language import ClaimError, equal, reals
 from juggleproof.proofs.reports import figures
 from juggleproof.proofs.reports.words import read, rows, without_alpha
 
+if TYPE_CHECKING:
+    from juggleproof.scenes.figures.ours import Interval
+
 F = Fraction
 RESULTS = Path(__file__).resolve().parents[3] / "docs/results.md"
 ROW = re.compile(r"\| <a.*</a>([\w.-]+) \| [^|]* \| \[?(\w+)[^|]* \| [^|]* \| `?([^|`]*)`? \|")
 
 
-def results() -> list[Any]:
+def results() -> list[SimpleNamespace]:
     """Entries as in the table of results: id, verdict and range."""
     found = [ROW.fullmatch(line) for line in RESULTS.read_text(encoding="utf-8").splitlines()]
     return [
@@ -70,7 +73,7 @@ def results() -> list[Any]:
         ("floor: nowhere; sampled: not found", [("floor", []), ("sampled", None)]),
     ],
 )
-def test_range_is_read_holds(text: str, expected: list[Any]) -> None:
+def test_range_is_read_holds(text: str, expected: list[tuple[str, list[Interval]]]) -> None:
     assert read(text) == expected
 
 
@@ -94,17 +97,17 @@ def test_rejects_what_it_does_not_read(text: str) -> None:
 
 def test_every_range_of_the_results_is_read_holds() -> None:
     entries = results()
-    told = rows(entries)
+    ranges = rows(entries)
     assert len(entries) > 250 and without_alpha(entries) > 50
-    assert {name for name, _, intervals in told if intervals is None} == {
-        name for name, _, intervals in told if name == "eq-26 (sampled)"
+    assert {name for name, _, intervals in ranges if intervals is None} == {
+        name for name, _, intervals in ranges if name == "eq-26 (sampled)"
     }
-    assert {name.split(" ")[0] for name, _, _ in told} | {
+    assert {name.split(" ")[0] for name, _, _ in ranges} | {
         one.claim.id for one in entries if one.sharp == "no alpha"
     } == {one.claim.id for one in entries}
-    assert ("theorem", "holds", [(F(0), F(1, 3), False, False)]) in told
+    assert ("theorem", "holds", [(F(0), F(1, 3), False, False)]) in ranges
     assert all(
-        0 <= low <= high <= 1 for _, _, intervals in told for low, high, _, _ in intervals or []
+        0 <= low <= high <= 1 for _, _, intervals in ranges for low, high, _, _ in intervals or []
     )
 
 
@@ -148,7 +151,7 @@ def test_saved_figures_are_all_there_and_kept_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("matplotlib")
-    contents: Any = SimpleNamespace(entries=results())
+    contents = SimpleNamespace(entries=results())
     monkeypatch.setenv("JUGGLEPROOF_CACHE", str(tmp_path))
     first = figures.saved(contents)
     assert [one.slug for one in first] == [one.slug for one in figures.TABLE] and all(
@@ -167,7 +170,7 @@ def test_kept_figures_are_drawn_again_where_damaged_or_a_verdict_changed_holds(
 ) -> None:
     pytest.importorskip("matplotlib")
     monkeypatch.setenv("JUGGLEPROOF_CACHE", str(tmp_path))
-    drawn: list[Any] = []
+    drawn: list[SimpleNamespace] = []
     monkeypatch.setattr(
         figures,
         "figures",
@@ -176,7 +179,7 @@ def test_kept_figures_are_drawn_again_where_damaged_or_a_verdict_changed_holds(
         ),
     )
     monkeypatch.setattr(figures, "_file", lambda figure, slug, form: slug.encode())
-    contents: Any = SimpleNamespace(entries=results())
+    contents = SimpleNamespace(entries=results())
     assert figures.saved(contents) == figures.saved(contents) and len(drawn) == 1
     (kept,) = tmp_path.glob("figures-svg-*.json")
     kept.write_bytes(kept.read_bytes()[:-40])
@@ -190,7 +193,7 @@ def test_kept_figures_are_drawn_again_where_damaged_or_a_verdict_changed_holds(
 
 def test_rejects_an_unknown_form() -> None:
     with pytest.raises(ClaimError, match="'gif' is no form of figures"):
-        figures.saved(SimpleNamespace(entries=()), "gif")  # type: ignore[arg-type]
+        figures.saved(SimpleNamespace(entries=()), "gif")
 
 
 def test_figures_fail_without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -198,4 +201,4 @@ def test_figures_fail_without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> Non
 
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(ClaimError, match="matplotlib is needed"):
-        figures.figures(SimpleNamespace(entries=()))  # type: ignore[arg-type]
+        figures.figures(SimpleNamespace(entries=()))

@@ -1,16 +1,31 @@
-"""Every formula that reports set as LaTeX is read back by a reader that shares nothing with the
-printer, and has the same values.
+"""LaTeX: every formula that reports set is read back by a reader that shares nothing with the
+printer, and has the same values; fragments hold what they should, compile in one and in two columns
+without a fault, and bytes repeat.
 """
 
 from __future__ import annotations
 
+import re
+import shutil
+from functools import cache
+from pathlib import Path
+
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command import report, show
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.reports import tex_words
+from juggleproof.proofs.reports.contents import gather
 from juggleproof.proofs.reports.latex import latex_of, narrow, with_macros, without_macros
+from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 from juggleproof.proofs.reports.words import formulas_of
 from tests.proofs.reports.comparison import differences
 from tests.proofs.reports.runs import contents
+
+# -------------------------------------------------------------------------------------------------
+# Formulas.
 
 
 def texts() -> list[str]:
@@ -71,3 +86,187 @@ def test_macros_stand_for_what_was_printed_holds() -> None:
     assert len(prints) > 100
     for latex in prints:
         assert plain(without_macros(with_macros(latex))) == plain(latex), latex
+
+
+# -------------------------------------------------------------------------------------------------
+# The report.
+
+latex = pytest.mark.skipif(
+    not (shutil.which("latexmk") and shutil.which("pdflatex")),
+    reason="latexmk or pdflatex is absent",
+)
+
+
+@cache
+def made() -> dict[str, str]:
+    return {name: content.decode() for name, content in files(contents()).items()}
+
+
+def test_every_claim_of_the_appendices_stands_in_them_once_holds() -> None:
+    for letter in "AB":
+        text = made()[f"appendix-{letter.lower()}.tex"]
+        wanted = [
+            entry.claim.id for entry in contents().entries if entry.claim.section.startswith(letter)
+        ]
+        found = re.findall(r"\\jugclaim\{[^{}]*\}\{([^{}]*)\}", text)
+        assert len(wanted) > 20 and sorted(found) == sorted(wanted)
+
+
+def test_every_erratum_stands_with_its_verdict_and_its_counterexample_holds() -> None:
+    text = made()["errata.tex"]
+    blocks = {
+        re.findall(r"\]\{[^{}]*\}\{([^{}]*)\}", block)[0]: block
+        for block in re.split(r"(?=\\jugclaim\[errata:)", text)[1:]
+    }
+    listed = [entry for entry in contents().entries if entry.group]
+    assert len(listed) > 50 and set(blocks) == {entry.claim.id for entry in listed}
+    for entry in listed:
+        assert (
+            f"{{{entry.verdict}}}" in blocks[entry.claim.id]
+            and r"\jugnote{Fails}{at " in blocks[entry.claim.id]
+        )
+
+
+def test_labels_are_unique_and_every_reference_has_one_holds() -> None:
+    text = "".join(made().values())
+    labels = [
+        prefix + name
+        for prefix, name in re.findall(r"\\jugclaim(?:\[([^]]*)\])?\{[^{}]*\}\{([^{}]*)\}", text)
+    ]
+    labels += re.findall(r"\\jugitem\{D\d+\}\{([^{}]*)\}", text) + re.findall(
+        r"\\label\{jug:([^{}#]*)\}", text
+    )
+    assert len(labels) > 150 and len(set(labels)) == len(labels)
+    assert set(re.findall(r"\\ref\{jug:([^{}]*)\}", text)) <= set(labels)
+
+
+def test_every_line_of_the_written_proof_is_certified_and_printed_holds() -> None:
+    entry = contents().entry("theorem-by-hand")
+    assert len(entry.statements) == 25 and all(
+        one.outcome == "certified" for one in entry.statements
+    )
+    text, steps = made()["theorem.tex"], tex_words.Steps(entry)
+    left = [
+        label
+        for label in steps.by_label
+        if label != "fixed" and steps.show(label) not in text and steps.show(label, 0) not in text
+    ]
+    assert left == []
+
+
+def test_rejects_a_line_that_is_not_certified() -> None:
+    from dataclasses import replace
+
+    entry = contents().entry("theorem-by-hand")
+    broken = replace(
+        entry, statements=tuple(replace(one, outcome="unknown") for one in entry.statements)
+    )
+    with pytest.raises(ClaimError, match="theorem-by-hand/units is unknown"):
+        tex_words.Steps(broken).show("units")
+
+
+def test_templates_hold_no_formula_of_the_paper_holds() -> None:
+    """Between their slots the templates name things, and count from 0 or 1; every other number or
+    relation comes from a statement.
+    """
+    folder = Path(str(tex_words.__file__)).parent / "templates"
+    paths = sorted(folder.glob("*.j2"))
+    assert len(paths) > 5
+    for path in paths:
+        bare = re.sub(r"<<.*?>>|<%.*?%>", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+        for formula in re.findall(r"\$([^$]*)\$", bare) if "macros" not in path.name else []:
+            squares_aside = re.sub(r"(?:u|\\juglaunch)\^2", "", formula)
+            assert not re.search(
+                r"[2-9]|\\frac|\\beta|\\gamma|\\alpha|w <|x <|\\jugrestitution.*<", squares_aside
+            ), (path.name, formula)
+
+
+def test_bytes_repeat_holds() -> None:
+    assert {name: content.decode() for name, content in files(gather()).items()} == made()
+
+
+def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
+    text = equation(contents().entry("sB.3-f1"))
+    assert (
+        r":= -\jugrestitution A_T" in text
+        and r"\label{jug:sB.3-f1}" in text
+        and "% corrected; printed was:" in text
+    )
+    assert r"\tag{37}" in equation(contents().entry("eq-37"))
+
+
+def test_rejects_an_equation_that_the_paper_does_not_print(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(show, "gather", contents)
+    assert run(["export", "latex", "theorem"]) == 2
+    assert "theorem has no printed formula" in capsys.readouterr().err
+    assert run(["export", "latex", "no-such"]) == 2
+
+
+@latex
+@pytest.mark.parametrize("document", ["juggleproof", "juggleproof-twocolumn"])
+def test_documents_compile_without_a_fault_holds(document: str) -> None:
+    pdf, faults = compiled(files(contents()), document)
+    assert pdf.startswith(b"%PDF") and faults == []
+
+
+@latex
+def test_every_equation_compiles_alone_holds() -> None:
+    every = [equation(entry) for entry in contents().entries if entry.claim.printed]
+    assert len(every) > 100
+    body = (
+        "\\documentclass{article}\\usepackage{amsmath}\\begin{document}\n"
+        + "\n".join(every)
+        + "\\end{document}\n"
+    )
+    assert compiled({"all.tex": body.encode()}, "all")[0].startswith(b"%PDF")
+
+
+@latex
+def test_rejects_a_document_that_latex_cannot_read() -> None:
+    with pytest.raises(ClaimError, match="Undefined control sequence"):
+        compiled(
+            {"bad.tex": rb"\documentclass{article}\begin{document}\nosuchcommand\end{document}"},
+            "bad",
+        )
+
+
+@latex
+def test_rejects_what_a_reader_would_see() -> None:
+    source = (
+        rb"\documentclass{article}\begin{document}\ref{nowhere}"
+        rb" \noindent\hbox{\rule{500pt}{1pt}}\end{document}"
+    )
+    found = compiled({"wide.tex": source}, "wide")[1]
+    assert any("nowhere" in one for one in found) and any("too wide" in one for one in found)
+
+
+def test_rejects_only_lines_that_stick_out_far() -> None:
+    assert complaints("Overfull \\hbox (4.9pt too wide) in paragraph\n") == []
+    assert len(complaints("Overfull \\hbox (5.1pt too wide) in paragraph\n")) == 1
+
+
+def test_the_sources_are_written_where_latexmk_is_absent_holds(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(report, "gather", contents)
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    assert run(["report", "--format", "pdf", "-o", str(tmp_path / "out")]) == 2
+    assert (
+        "latexmk and pdflatex are needed" in capsys.readouterr().err
+        and (tmp_path / "out" / "juggleproof.tex").exists()
+    )
+
+
+def test_rejects_an_unknown_format_and_a_folder_that_is_a_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["report", "--format", "word"]) == 2
+    assert "--format word: choose from" in capsys.readouterr().err
+    (tmp_path / "file").write_text("")
+    assert run(["report", "--format", "latex", "-o", str(tmp_path / "file")]) == 2
+    assert "not a folder" in capsys.readouterr().err and (tmp_path / "file").read_text() == ""

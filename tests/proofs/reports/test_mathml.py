@@ -62,9 +62,9 @@ def prints() -> list[str]:
 def formulas() -> Iterator[str]:
     for entry in contents().entries:
         for shown in entry.statements:
-            for keyword, said in lines_of(shown.text):
+            for keyword, content in lines_of(shown.text):
                 if keyword in FORMULAS:
-                    yield from said
+                    yield from content
 
 
 def tree_of(latex: str) -> ElementTree.Element:

@@ -145,7 +145,7 @@ def test_statements_stand_as_the_checker_reads_them_holds() -> None:
 SAMPLE = {"eq-37/bound", "eq-26/sampled.enters-later", "theorem-in-units/descends"}
 
 
-def test_certificates_are_whole_or_told_where_they_stand_holds() -> None:
+def test_certificates_are_whole_or_named_by_their_file_holds() -> None:
     for block in document().with_class("statement"):
         name = block.attributes["id"]
         shown = (
@@ -164,7 +164,7 @@ def test_certificates_are_whole_or_told_where_they_stand_holds() -> None:
             ),
             None,
         )
-        told = next(
+        stored = next(
             (
                 re.fullmatch(r"certificate: (\d+) characters, in (\S+)", label)
                 for label in labels
@@ -172,15 +172,15 @@ def test_certificates_are_whole_or_told_where_they_stand_holds() -> None:
             ),
             None,
         )
-        assert bool(whole) != bool(told), name
+        assert bool(whole) != bool(stored), name
         if whole:
             assert len(list(block.all("pre"))[1].text()) == int(whole.group(1))
-        if told:
-            assert (ROOT / told.group(2)).is_file()
+        if stored:
+            assert (ROOT / stored.group(2)).is_file()
         if shown:
-            assert len(json.dumps(shown.certificate, separators=(",", ":"))) == int(
-                (whole or told)[1]
-            )  # type: ignore[index]
+            length = whole or stored
+            assert length
+            assert len(json.dumps(shown.certificate, separators=(",", ":"))) == int(length[1])
 
 
 def test_certificates_of_the_theorem_are_whole_holds() -> None:
@@ -271,7 +271,7 @@ def test_page_is_the_same_from_run_to_run_holds() -> None:
     assert build(contents(), drawn()) == page()
 
 
-def told(changed: Contents) -> Element:
+def page_of(changed: Contents) -> Element:
     return read_html(build(changed).decode("utf-8"))
 
 
@@ -282,7 +282,7 @@ def test_words_of_claims_are_escaped_holds() -> None:
     entry = replace(
         first, claim=claim, reading=hostile, settled_by=hostile, wrong=(hostile,), sharp=hostile
     )
-    found = told(
+    found = page_of(
         replace(
             contents(),
             entries=(entry,),
@@ -298,7 +298,7 @@ def test_words_of_claims_are_escaped_holds() -> None:
 
 def test_lost_theorem_is_told_holds() -> None:
     lost = "theorem: NOT proved; theorem/x is not certified, and theorem/exactly rests on it"
-    found = told(replace(contents(), entries=contents().entries[:1], theorem=lost))
+    found = page_of(replace(contents(), entries=contents().entries[:1], theorem=lost))
     assert [spaced(one) for one in found.with_class("headline")][0].startswith(
         "NOT proved; theorem/x is not certified"
     )
@@ -306,7 +306,9 @@ def test_lost_theorem_is_told_holds() -> None:
 
 def test_changed_verdicts_are_told_holds() -> None:
     change = "eq-1: verdict was holds, is false"
-    found = told(replace(contents(), entries=contents().entries[:1], rules=(), changes=(change,)))
+    found = page_of(
+        replace(contents(), entries=contents().entries[:1], rules=(), changes=(change,))
+    )
     assert change in [one.text() for one in found.all("li")]
     assert "1 verdict differs from the register" in " ".join(
         spaced(one) for one in found.with_class("warning")
@@ -320,7 +322,7 @@ def test_premise_that_is_not_certified_is_told_by_word_and_mark_holds() -> None:
         outcome="rejected",
         premises=(replace(rule.premises[0], outcome="rejected"), *rule.premises[1:]),
     )
-    found = told(replace(contents(), rules=(broken, *contents().rules[1:])))
+    found = page_of(replace(contents(), rules=(broken, *contents().rules[1:])))
     picture = next(one for one in found.all("svg"))
     labels = [one.attributes["aria-label"] for one in picture.all("a")]
     assert f"premise {rule.premises[0].name.rpartition('.')[2]} of {rule.name}; rejected" in labels

@@ -7,22 +7,27 @@ from __future__ import annotations
 import base64
 import shutil
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.proofs.reports.browser import chromium, contrast, read_html, requests, resize, scheme
 from tests.proofs.reports.runs import page, page_of_some, some_contents
 
+if TYPE_CHECKING:
+    from selenium.webdriver.remote.webdriver import WebDriver
+    from selenium.webdriver.remote.webelement import WebElement
+
+Load = Callable[..., "WebDriver"]  # of a place in a page
 RULE = "rule-theorem-in-units/contracts"
 PREMISE = "premise-theorem-in-units/contracts.closer-1"
 
 
 @pytest.fixture(scope="module")
-def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Any, Path]]:
+def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[WebDriver, Path]]:
     with chromium() as driver:
         folder = tmp_path_factory.mktemp("page")
         (folder / "juggleproof.html").write_bytes(page())
@@ -30,10 +35,10 @@ def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Any, Path
         yield driver, folder
 
 
-def shows(driver: Any, path: Path) -> Any:
+def shows(driver: WebDriver, path: Path) -> Load:
     """What loads a page anew at a place and returns the driver."""
 
-    def at(place: str = "") -> Any:
+    def at(place: str = "") -> WebDriver:
         driver.get("about:blank")
         driver.get(path.as_uri() + place)
         return driver
@@ -44,37 +49,36 @@ def shows(driver: Any, path: Path) -> Any:
 
 
 @pytest.fixture
-def show(opened: tuple[Any, Path]) -> Any:
+def show(opened: tuple[WebDriver, Path]) -> Load:
     """Loads a page with some of the claims."""
     return shows(opened[0], opened[1] / "some.html")
 
 
 @pytest.fixture
-def show_whole(opened: tuple[Any, Path]) -> Any:
+def show_whole(opened: tuple[WebDriver, Path]) -> Load:
     """Loads the page as users have it."""
     return shows(opened[0], opened[1] / "juggleproof.html")
 
 
-def find(driver: Any, selector: str) -> Any:
+def find(driver: WebDriver, selector: str) -> WebElement:
     from selenium.webdriver.common.by import By
 
     return driver.find_element(By.CSS_SELECTOR, selector)
 
 
-def find_all(driver: Any, selector: str) -> list[Any]:
+def find_all(driver: WebDriver, selector: str) -> list[WebElement]:
     from selenium.webdriver.common.by import By
 
-    found: list[Any] = driver.find_elements(By.CSS_SELECTOR, selector)
-    return found
+    return driver.find_elements(By.CSS_SELECTOR, selector)
 
 
-def named(driver: Any, name: str) -> Any:
+def named(driver: WebDriver, name: str) -> WebElement:
     from selenium.webdriver.common.by import By
 
     return driver.find_element(By.ID, name)
 
 
-def wait_for(driver: Any, script: str, *arguments: Any) -> None:
+def wait_for(driver: WebDriver, script: str, *arguments: WebElement) -> None:
     from selenium.webdriver.support.ui import WebDriverWait
 
     WebDriverWait(driver, 20, poll_frequency=0.02).until(
@@ -82,7 +86,7 @@ def wait_for(driver: Any, script: str, *arguments: Any) -> None:
     )
 
 
-def shown(driver: Any) -> set[str]:
+def shown(driver: WebDriver) -> set[str]:
     return set(
         driver.execute_script(
             "return [...document.querySelectorAll('article.claim:not([hidden])')].map((one) =>"
@@ -108,7 +112,7 @@ def words_of_claims() -> dict[str, str]:
     }
 
 
-def test_loads_without_error_and_asks_for_nothing_else_holds(show_whole: Any) -> None:
+def test_loads_without_error_and_asks_for_nothing_else_holds(show_whole: Load) -> None:
     driver = show_whole()
     driver.get_log("browser")
     requests(driver)
@@ -120,7 +124,7 @@ def test_loads_without_error_and_asks_for_nothing_else_holds(show_whole: Any) ->
     assert asked == {driver.current_url.partition("#")[0]} and next(iter(asked)).startswith("file:")
 
 
-def test_policy_stops_what_would_leave_the_file_holds(show: Any) -> None:
+def test_policy_stops_what_would_leave_the_file_holds(show: Load) -> None:
     driver = show()
     blocked = driver.execute_async_script("""
         const done = arguments[arguments.length - 1];
@@ -131,13 +135,13 @@ def test_policy_stops_what_would_leave_the_file_holds(show: Any) -> None:
     driver.get_log("browser")
 
 
-def fits(driver: Any) -> None:
+def fits(driver: WebDriver) -> None:
     for width in (360, 768, 1280):
         resize(driver, width)
         assert driver.execute_script("return document.documentElement.scrollWidth") <= width, width
 
 
-def test_every_formula_is_drawn_and_nothing_scrolls_sideways_holds(show_whole: Any) -> None:
+def test_every_formula_is_drawn_and_nothing_scrolls_sideways_holds(show_whole: Load) -> None:
     driver = show_whole()
     fits(driver)
     driver.execute_script(
@@ -154,7 +158,7 @@ def test_every_formula_is_drawn_and_nothing_scrolls_sideways_holds(show_whole: A
     fits(driver)
 
 
-def test_verdict_filter_shows_these_claims_only_holds(show: Any) -> None:
+def test_verdict_filter_shows_these_claims_only_holds(show: Load) -> None:
     driver = show()
     assert shown(driver) == with_verdict(
         "holds", "misprint", "false", "gap", "ambiguous", "unknown"
@@ -175,7 +179,7 @@ def test_verdict_filter_shows_these_claims_only_holds(show: Any) -> None:
     wait_for(driver, "return document.querySelectorAll('article.claim[hidden]').length === 0")
 
 
-def test_section_filter_shows_this_section_only_holds(show: Any) -> None:
+def test_section_filter_shows_this_section_only_holds(show: Load) -> None:
     from selenium.webdriver.support.ui import Select
 
     driver = show()
@@ -186,7 +190,7 @@ def test_section_filter_shows_this_section_only_holds(show: Any) -> None:
     assert driver.current_url.endswith("#?section=A.2")
 
 
-def test_search_finds_exactly_the_claims_with_all_words_holds(show: Any) -> None:
+def test_search_finds_exactly_the_claims_with_all_words_holds(show: Load) -> None:
     driver = show("#claims")
     for words in ("energy", "ENERGY  impact", "\\lambda", "eq-37", "psatz", "no such word"):
         named(driver, "q").clear()
@@ -205,7 +209,7 @@ def test_search_finds_exactly_the_claims_with_all_words_holds(show: Any) -> None
         assert named(driver, "none").is_displayed() == (not wanted)
 
 
-def test_shared_link_restores_the_filter_holds(show: Any) -> None:
+def test_shared_link_restores_the_filter_holds(show: Load) -> None:
     driver = show("#?verdict=misprint,false&section=4.3.1&q=impact")
     wanted = {
         entry.claim.id
@@ -222,7 +226,7 @@ def test_shared_link_restores_the_filter_holds(show: Any) -> None:
     )
 
 
-def test_nonsense_in_the_address_does_no_harm_holds(show: Any) -> None:
+def test_nonsense_in_the_address_does_no_harm_holds(show: Load) -> None:
     driver = show("#?verdict=nonsense&section=Q&q=")
     assert len(shown(driver)) == len(some_contents().entries)
     for place in ("#%E0%A4%A", "#?verdict=%00&q=%", "#no-such-place", "#<script>", "#?", "#"):
@@ -231,7 +235,7 @@ def test_nonsense_in_the_address_does_no_harm_holds(show: Any) -> None:
     assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"] == []
 
 
-def test_link_to_a_hidden_claim_shows_it_holds(show: Any) -> None:
+def test_link_to_a_hidden_claim_shows_it_holds(show: Load) -> None:
     driver = show("#?verdict=false")
     assert not named(driver, "eq-37").is_displayed()
     driver.execute_script("location.hash = '#eq-37/bound'")
@@ -244,7 +248,7 @@ def test_link_to_a_hidden_claim_shows_it_holds(show: Any) -> None:
     assert -1 <= top < 900
 
 
-def test_tally_links_to_the_claims_of_a_verdict_holds(show: Any) -> None:
+def test_tally_links_to_the_claims_of_a_verdict_holds(show: Load) -> None:
     driver = show()
     find(driver, ".tally a[href='#?verdict=gap']").click()
     wait_for(driver, "return location.hash === '#?verdict=gap'")
@@ -255,7 +259,7 @@ def test_tally_links_to_the_claims_of_a_verdict_holds(show: Any) -> None:
     )
 
 
-def is_open(driver: Any, name: str) -> bool:
+def is_open(driver: WebDriver, name: str) -> bool:
     return bool(
         driver.execute_script(
             "const box = document.getElementById(arguments[0]).getBoundingClientRect();"
@@ -265,7 +269,7 @@ def is_open(driver: Any, name: str) -> bool:
     )
 
 
-def test_node_of_the_tree_opens_its_statement_and_certificate_by_click_holds(show: Any) -> None:
+def test_node_of_the_tree_opens_its_statement_and_certificate_by_click_holds(show: Load) -> None:
     driver = show()
     link = find(driver, f"svg.tree a[href='#{PREMISE}']")
     driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", link)
@@ -283,7 +287,7 @@ def test_node_of_the_tree_opens_its_statement_and_certificate_by_click_holds(sho
     ) and certificate.startswith('["proof",')
 
 
-def test_node_of_the_tree_opens_by_keyboard_holds(show: Any) -> None:
+def test_node_of_the_tree_opens_by_keyboard_holds(show: Load) -> None:
     from selenium.webdriver.common.keys import Keys
 
     driver = show()
@@ -307,7 +311,7 @@ def test_node_of_the_tree_opens_by_keyboard_holds(show: Any) -> None:
     )
 
 
-def test_first_key_leads_past_the_contents_and_is_seen_holds(show: Any) -> None:
+def test_first_key_leads_past_the_contents_and_is_seen_holds(show: Load) -> None:
     from selenium.webdriver.common.keys import Keys
 
     driver = show()
@@ -322,7 +326,7 @@ def test_first_key_leads_past_the_contents_and_is_seen_holds(show: Any) -> None:
     wait_for(driver, "return document.activeElement.id === 'main'")
 
 
-def test_tree_is_legible_on_a_phone_holds(show: Any) -> None:
+def test_tree_is_legible_on_a_phone_holds(show: Load) -> None:
     driver = show()
     resize(driver, 360)
     size, wider = driver.execute_script(
@@ -335,7 +339,7 @@ def test_tree_is_legible_on_a_phone_holds(show: Any) -> None:
     assert size >= 12 and wider
 
 
-def test_text_and_badges_stand_out_holds(show: Any) -> None:
+def test_text_and_badges_stand_out_holds(show: Load) -> None:
     driver = show()
     driver.execute_script(
         "document.querySelectorAll('details').forEach((box) => { box.open = true; })"
@@ -382,7 +386,7 @@ def test_text_and_badges_stand_out_holds(show: Any) -> None:
         assert dark == (name == "dark")
 
 
-def test_tree_stands_out_holds(show: Any) -> None:
+def test_tree_stands_out_holds(show: Load) -> None:
     driver = show()
     for name in ("light", "dark"):
         scheme(driver, name)
@@ -398,7 +402,7 @@ def test_tree_stands_out_holds(show: Any) -> None:
             assert (max(ink, paper) + 0.05) / (min(ink, paper) + 0.05) >= 4.5
 
 
-def test_page_prints_with_derivation_and_rules_open_holds(show: Any, tmp_path: Path) -> None:
+def test_page_prints_with_derivation_and_rules_open_holds(show: Load, tmp_path: Path) -> None:
     driver = show()
     printed = base64.b64decode(
         driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"]
@@ -418,7 +422,7 @@ def test_page_prints_with_derivation_and_rules_open_holds(show: Any, tmp_path: P
     assert not driver.execute_script("return document.querySelectorAll('details[open]').length")
 
 
-def test_page_is_whole_without_a_script_holds(show: Any) -> None:
+def test_page_is_whole_without_a_script_holds(show: Load) -> None:
     driver = show()
     driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     try:

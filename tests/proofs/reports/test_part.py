@@ -1,4 +1,4 @@
-"""What the page tells of the part on the vibrating table: a kept run in words, said to be
+"""What the page shows of the part on the vibrating table: a kept run in words, named as
 simulated; and one line where there is none.
 """
 
@@ -8,12 +8,12 @@ from dataclasses import asdict, replace
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from juggleproof.proofs import kept as records
 from juggleproof.proofs.reports import part
+from juggleproof.proofs.reports.contents import Entry
 from juggleproof.proofs.reports.page import build
 from juggleproof.proofs.reports.part import HEADS, Results, kept_results
 from tests.proofs.reports.browser import Element, read_html
@@ -44,7 +44,7 @@ MADE = Results(
 )
 
 
-def told(scene: Results | None) -> Element:
+def section_of(scene: Results | None) -> Element:
     page = read_html(
         build(replace(contents(), entries=few(), rules=(), derivations=()), (), scene).decode(
             "utf-8"
@@ -54,7 +54,7 @@ def told(scene: Results | None) -> Element:
 
 
 @cache
-def few() -> Any:
+def few() -> tuple[Entry, ...]:
     return tuple(entry for entry in contents().entries if entry.claim.section == "part")[:2]
 
 
@@ -63,7 +63,7 @@ def words(element: Element) -> str:
 
 
 def test_results_stand_beside_the_papers_holds() -> None:
-    section = told(MADE)
+    section = section_of(MADE)
     table, assumed = section.all("table")
     assert [one.text() for one in table.all("th")][: len(HEADS)] == [*HEADS]
     cells = [one.text() for one in table.all("tr", "th", "td") if one.tag != "tr"][len(HEADS) :]
@@ -71,7 +71,7 @@ def test_results_stand_beside_the_papers_holds() -> None:
     assert [[one.text() for one in row.all("th", "td")] for row in list(assumed.all("tr"))[1:]] == [
         *map(list, MADE.assumed)
     ]
-    for said in (
+    for sentence in (
         MADE.run,
         MADE.rules[0],
         MADE.differs[0],
@@ -79,16 +79,16 @@ def test_results_stand_beside_the_papers_holds() -> None:
         MADE.still,
         MADE.figure["caption"],
     ):
-        assert said in words(section)
+        assert sentence in words(section)
     assert "rules" not in words(section).split("Where it differs")[1].split("Without")[
         0
     ] and "In no row" not in words(section)
-    assert "In no row." in words(told(replace(MADE, differs=[])))
+    assert "In no row." in words(section_of(replace(MADE, differs=[])))
 
 
 def test_scene_is_said_to_be_simulated_and_the_impact_law_linked_holds() -> None:
     for scene in (MADE, None):
-        section = told(scene)
+        section = section_of(scene)
         assert "simulated too, and not proved" in words(
             section
         ) and "2 of 2 hold, with certificates" in words(section)
@@ -106,17 +106,17 @@ def test_impact_law_is_called_proved_fails_without_verdicts_that_hold() -> None:
 
 
 def test_figure_tells_itself_holds() -> None:
-    picture = next(iter(told(MADE).all("svg")))
+    picture = next(iter(section_of(MADE).all("svg")))
     assert picture.attributes["aria-labelledby"] == "fig-2-title fig-2-desc"
     assert (
         next(picture.all("desc")).text() == MADE.figure["alt"]
         and "currentColor" in next(picture.all("style")).text()
     )
-    assert not list(told(replace(MADE, figure={})).all("figure"))
+    assert not list(section_of(replace(MADE, figure={})).all("figure"))
 
 
 def test_how_to_make_it_is_told_where_nothing_is_kept_holds() -> None:
-    section = told(None)
+    section = section_of(None)
     assert not list(section.all("table", "figure"))
     assert "juggleproof simulate part" in words(section) and "pip install -e '.[part]'" in words(
         section
@@ -125,7 +125,7 @@ def test_how_to_make_it_is_told_where_nothing_is_kept_holds() -> None:
 
 def test_words_are_escaped_holds() -> None:
     hostile = "<script>alert('x')</script> & </style>"
-    section = told(
+    section = section_of(
         replace(
             MADE, still=hostile, rows=[[hostile] * 6], figure={**MADE.figure, "caption": hostile}
         )
@@ -149,7 +149,7 @@ def test_results_are_kept_under_the_sources_holds(
 
 @pytest.mark.parametrize("found", [[], [{}], [{"run": "", "more": ""}]])
 def test_rejects_records_that_are_no_results(
-    found: list[dict[str, Any]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    found: list[records.Record], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(records.VARIABLE, str(tmp_path))
     records.keep(part.key(), found)
@@ -157,7 +157,7 @@ def test_rejects_records_that_are_no_results(
 
 
 def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A run as short as can be: it is told and kept where it is the report's, which a longer one
+    """A run as short as can be: it is shown and kept where it is the report's, which a longer one
     would be, and not where something was chosen.
     """
     pytest.importorskip("numba")
@@ -194,7 +194,7 @@ def test_run_of_table_one_in_words_holds(tmp_path: Path, monkeypatch: pytest.Mon
     assert ["friction mu", "0.08", "inferred"] in [[*line][:3] for line in kept.assumed]
     assert (
         kept.figure["alt"].startswith("3 grids of 91")
-        and words(told(kept)).count("nearer to lying") > 0
+        and words(section_of(kept)).count("nearer to lying") > 0
     )
 
 

@@ -255,3 +255,10 @@ def test_names_that_two_symbols_would_share_are_kept_apart_holds() -> None:
         "forall a_b a_b_2",
         "show not a_b > a_b_2",
     ]
+
+
+def test_variables_named_like_those_of_the_paper_keep_their_names_holds() -> None:
+    names = ("alpha", "r", "g")
+    declared = "".join(f"(declare-const {name} Real)" for name in names)
+    (problem,) = read_problems(f"{declared}(assert (< alpha r g))(check-sat)", "f")
+    assert tuple(variable.name for variable in problem.variables) == names

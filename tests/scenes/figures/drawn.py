@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 import pytest
+from sympy import Symbol
 
 from juggleproof.proofs.reports.figures import what_the_trap_shows
 from juggleproof.scenes.figures import TABLE
 from juggleproof.scenes.figures.ours import Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Path = pytest.importorskip("matplotlib.path", reason="matplotlib is not installed").Path
 PathPatch = pytest.importorskip("matplotlib.patches").PathPatch
@@ -24,12 +29,15 @@ ROWS: list[Row] = [
 
 
 @cache
-def figure(slug: str) -> Any:
-    given: dict[str, Any] = {"fig-ranges": lambda: (ROWS, 3), "fig-trap": what_the_trap_shows}
+def figure(slug: str) -> Figure:
+    given: dict[str, Callable[[], tuple[object, ...]]] = {
+        "fig-ranges": lambda: (ROWS, 3),
+        "fig-trap": what_the_trap_shows,
+    }
     return next(one for one in TABLE if one.slug == slug).draw(*given.get(slug, tuple)())
 
 
-def curves(slug: str, name: str) -> list[Any]:
+def curves(slug: str, name: str) -> list[PathPatch]:
     """The curves of this name, in the figure of this slug."""
     found = [one for one in figure(slug).findobj(PathPatch) if one.get_gid() == name]
     assert found, (slug, name)
@@ -64,7 +72,7 @@ def _bezier(ends: list[tuple[float, float]], t: float) -> tuple[float, float]:
     return ends[0]
 
 
-def states(slug: str, name: str) -> list[dict[Any, float]]:
+def states(slug: str, name: str) -> list[dict[Symbol, float]]:
     """The states beta, v of the points of a curve in the plane of states, where 1 is r T across and
     r up, at alpha = 1/4 and r = g = 1.
     """

@@ -70,13 +70,13 @@ def test_figures_of_the_paper_come_in_its_order_holds() -> None:
 @pytest.mark.parametrize("slug", SLUGS)
 def test_words_beside_a_figure_are_sentences_holds(slug: str) -> None:
     one = entry(slug)
-    for said in (one.alt, one.caption):
+    for text in (one.alt, one.caption):
         assert (
-            len(said.split()) >= 10
-            and said.endswith(".")
-            and said[0].isupper()
-            and "  " not in said
-        ), said
+            len(text.split()) >= 10
+            and text.endswith(".")
+            and text[0].isupper()
+            and "  " not in text
+        ), text
     assert one.title and not one.title.endswith(".") and one.alt != one.caption
 
 
@@ -190,20 +190,20 @@ def test_nothing_is_cut_off_or_overlaps_holds(slug: str) -> None:
             for one in shown.findobj(Text)
             if one.get_text()
         ]
-    for said, box in words:
+    for text, box in words:
         assert (
             shown.bbox.x0 <= box.x0
             and box.x1 <= shown.bbox.x1
             and shown.bbox.y0 <= box.y0
             and box.y1 <= shown.bbox.y1
-        ), said
-    for index, (said, box) in enumerate(words):
-        for other, near in words[index + 1 :]:
+        ), text
+    for index, (text, box) in enumerate(words):
+        for other, other_box in words[index + 1 :]:
             shared = [
-                min(box.x1, near.x1) - max(box.x0, near.x0),
-                min(box.y1, near.y1) - max(box.y0, near.y0),
+                min(box.x1, other_box.x1) - max(box.x0, other_box.x0),
+                min(box.y1, other_box.y1) - max(box.y0, other_box.y0),
             ]
-            assert min(shared) < 1.5, (said, other)
+            assert min(shared) < 1.5, (text, other)
 
 
 def test_matplotlib_is_left_as_it_was_holds() -> None:

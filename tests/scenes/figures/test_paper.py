@@ -6,17 +6,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import pytest
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from juggleproof import symbolic
 from juggleproof.scenes.figures import TABLE
+from juggleproof.symbolic import State
 from juggleproof.symbolic.algebra import alpha, beta, g, r, t, v
 from tests.scenes.figures.drawn import curves, figure, points, states
 
-NEAR = 1e-9
+TOLERANCE = 1e-9
 VANISH: dict[str, Callable[[], Expr]] = {
     "bounce-line": symbolic.collision_margin,
     "B10": symbolic.energy_change_1,
@@ -45,7 +45,7 @@ WHERE = [
 ]
 
 
-def at(expression: Expr, values: dict[Any, Any]) -> float:
+def at(expression: Expr, values: dict[Symbol, float]) -> float:
     return float(expression.subs(values))
 
 
@@ -53,8 +53,8 @@ def at(expression: Expr, values: dict[Any, Any]) -> float:
 def test_curve_satisfies_its_equation_holds(slug: str, name: str) -> None:
     equation = VANISH[name]()
     for where in states(slug, name):
-        assert abs(at(equation, where)) < NEAR, where
-        assert where[beta] > -NEAR
+        assert abs(at(equation, where)) < TOLERANCE, where
+        assert where[beta] > -TOLERANCE
 
 
 def test_line_drawn_elsewhere_fails_without_its_equation() -> None:
@@ -67,7 +67,7 @@ def test_levels_of_energy_are_levels_holds() -> None:
 
     for level in LEVELS:
         for where in states("fig-7", f"level-{level}"):
-            assert abs(at(symbolic.total_energy(), where) - level) < NEAR
+            assert abs(at(symbolic.total_energy(), where) - level) < TOLERANCE
 
 
 @pytest.mark.parametrize(
@@ -94,8 +94,8 @@ def test_outline_stays_on_the_right_side_holds(
     slug: str, name: str, margins: list[Callable[[], Expr]]
 ) -> None:
     for where in states(slug, name):
-        assert where[beta] > -NEAR
-        assert all(at(margin(), where) > -NEAR for margin in margins), where
+        assert where[beta] > -TOLERANCE
+        assert all(at(margin(), where) > -TOLERANCE for margin in margins), where
 
 
 def test_band_has_the_width_that_its_caption_says_holds() -> None:
@@ -127,14 +127,14 @@ def test_band_beyond_B1_fails_without_small_epsilon() -> None:
         ("fig-8", "greatest-gain", lambda: symbolic.largest_energy_change().state),
     ],
 )
-def test_marked_states_stand_where_they_are_holds(
-    slug: str, name: str, state: Callable[[], Any]
+def test_states_with_a_dot_stand_where_they_are_holds(
+    slug: str, name: str, state: Callable[[], State]
 ) -> None:
     from matplotlib.lines import Line2D
 
-    (mark,) = [one for one in figure(slug).findobj(Line2D) if one.get_gid() == name]
+    (dot,) = [one for one in figure(slug).findobj(Line2D) if one.get_gid() == name]
     (curve,) = curves(slug, "boundary-of-R")
-    place = mark.get_transform().transform(mark.get_xydata())[0]
+    place = dot.get_transform().transform(dot.get_xydata())[0]
     across, up = curve.get_transform().inverted().transform(place)
     height, speed = (float(entry.subs({alpha: Fraction(1, 4), r: 1, g: 1})) for entry in state())
     assert (across, up) == (pytest.approx(height / 2), pytest.approx(speed))
@@ -143,11 +143,11 @@ def test_marked_states_stand_where_they_are_holds(
 def test_table_and_its_phase_portrait_are_the_tables_motion_holds() -> None:
     height, speed = (entry.subs({r: 1, g: 1}) for entry in symbolic.table_at())
     for time, up in points("fig-10", "table"):
-        assert up * 2 == pytest.approx(float(height.subs(t, 2 * (time % 1))), abs=NEAR)
+        assert up * 2 == pytest.approx(float(height.subs(t, 2 * (time % 1))), abs=TOLERANCE)
     for across, up in points("fig-10", "phase-portrait"):
         assert (
-            across * 2 == pytest.approx(float(height.subs(t, 1 - up)), abs=NEAR)
-            and abs(up) < 1 + NEAR
+            across * 2 == pytest.approx(float(height.subs(t, 1 - up)), abs=TOLERANCE)
+            and abs(up) < 1 + TOLERANCE
         )
         assert up == pytest.approx(float(speed.subs(t, 1 - up)))
 
@@ -163,7 +163,7 @@ def test_ball_flies_falls_on_the_table_and_is_sampled_by_f_holds() -> None:
             0
         ] == pytest.approx(k + 1)
         table = symbolic.table_at()[0].subs({r: 1, g: 1})
-        assert all(2 * up > float(table.subs(t, 2 * (time - k))) - NEAR for time, up in path)
+        assert all(2 * up > float(table.subs(t, 2 * (time - k))) - TOLERANCE for time, up in path)
         branch = (
             symbolic.f1()
             if symbolic.collision_margin().subs({beta: state[0], v: state[1], **at_setting}) > 0

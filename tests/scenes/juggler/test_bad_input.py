@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import pytest
@@ -29,14 +28,14 @@ from juggleproof.scenes.juggler.tables import as_arrays
 
 NAN, INF = float("nan"), float("inf")
 STARTS = point(0, 1)
-WRONG: dict[str, tuple[Callable[[], Any], str]] = {
+WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "alpha 0": (lambda: scene(0, STARTS), "alpha = 0 is not between 0 and 1"),
     "alpha 1": (lambda: scene(1, STARTS), "alpha = 1 is not between 0 and 1"),
     "alpha negative": (lambda: scene(Fraction(-1, 3), STARTS), "0 < alpha < 1"),
     "alpha nan": (lambda: scene(NAN, STARTS), "alpha = nan is no finite number"),
     "alpha text": (lambda: scene("a third", STARTS), "'?a third'? is no finite number"),
     "alpha over 0": (lambda: scene("1/0", STARTS), "no finite number"),
-    "alpha None": (lambda: scene(None, STARTS), "no finite number"),  # type: ignore[arg-type]
+    "alpha None": (lambda: scene(None, STARTS), "no finite number"),
     "r": (lambda: scene("1/3", STARTS, r=0), "r = 0 is not positive"),
     "g": (lambda: scene("1/3", STARTS, g=-1), "g = -1 is not positive"),
     "below": (lambda: point(-1, 0), "x = -1 is below the table; a state has x >= 0"),
@@ -50,12 +49,12 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "dtype": (
         lambda: arrays(np.zeros(2, dtype=np.float32), np.zeros(2, dtype=np.float32)),
         "float64",
-    ),  # type: ignore[arg-type]
+    ),
     "array nan": (lambda: arrays(np.zeros(2), np.array([0, NAN])), "w = nan"),
     "array below": (lambda: arrays(np.array([0.0, -1e-300]), np.zeros(2)), "x = -1e-300 is below"),
     "array empty": (lambda: arrays(np.zeros(0), np.zeros(0)), "n >= 1"),
     "grid": (lambda: grid((0, 1, 0), (0, 1, 2)), "is not a whole number from 1"),
-    "grid parts": (lambda: grid((0, 1), (0, 1, 2)), "has not 3 parts"),  # type: ignore[arg-type]
+    "grid parts": (lambda: grid((0, 1), (0, 1, 2)), "has not 3 parts"),
     "grid order": (lambda: grid((1, 0, 2), (0, 1, 2)), "the second is to be the greater"),
     "grid below": (lambda: grid((-1, 0, 2), (0, 1, 2)), "below the table"),
     "grid size": (lambda: grid((0, 1, 10**5), (0, 1, 10**5)), "the number of states = 10000000000"),
@@ -68,7 +67,7 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: orbit(scene("1/3", STARTS), steps=-1),
         "steps = -1 is not a whole number from 0",
     ),
-    "steps half": (lambda: orbit(scene("1/3", STARTS), steps=0.5), "steps = 0.5"),  # type: ignore[arg-type]
+    "steps half": (lambda: orbit(scene("1/3", STARTS), steps=0.5), "steps = 0.5"),
     "steps true": (lambda: orbit(scene("1/3", STARTS), steps=True), "steps = True"),
     "arithmetic": (
         lambda: orbit(scene("1/3", STARTS), "double"),
@@ -97,14 +96,14 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "long power, parted": (lambda: scene("1e-9_999_999", STARTS), "longer than 14000 bits"),
     "two lines": (lambda: scene("a\nthird", STARTS), "alpha = a third is no finite number"),
     "alpha True": (lambda: scene(True, STARTS), "alpha = True is no finite number"),
-    "alpha of many": (lambda: scene(np.array([0.1, 0.2]), STARTS), "no finite number"),  # type: ignore[arg-type]
-    "no starts": (lambda: scene("1/3", (0, 3)), r"starts = \(0, 3\) are no starting states"),  # type: ignore[arg-type]
-    "no scene": (lambda: orbit(None), "scene = None is no scene"),  # type: ignore[arg-type]
-    "no pairs": (lambda: listed([1, 2]), "1 is no state; give pairs"),  # type: ignore[list-item]
-    "triples": (lambda: listed([(1, 2, 3)]), r"\(1, 2, 3\) is no state"),  # type: ignore[list-item]
-    "ragged": (lambda: arrays([[1.0], [1.0, 2.0]], [1.0]), "is no array"),  # type: ignore[arg-type, list-item]
-    "grid none": (lambda: grid(None, None), "x = None has not 3 parts"),  # type: ignore[arg-type]
-    "box none": (lambda: random(1, 1, x=None), "x = None has not 2 parts"),  # type: ignore[arg-type]
+    "alpha of many": (lambda: scene(np.array([0.1, 0.2]), STARTS), "no finite number"),
+    "no starts": (lambda: scene("1/3", (0, 3)), r"starts = \(0, 3\) are no starting states"),
+    "no scene": (lambda: orbit(None), "scene = None is no scene"),
+    "no pairs": (lambda: listed([1, 2]), "1 is no state; give pairs"),
+    "triples": (lambda: listed([(1, 2, 3)]), r"\(1, 2, 3\) is no state"),
+    "ragged": (lambda: arrays([[1.0], [1.0, 2.0]], [1.0]), "is no array"),
+    "grid none": (lambda: grid(None, None), "x = None has not 3 parts"),
+    "box none": (lambda: random(1, 1, x=None), "x = None has not 2 parts"),
     "grid beta": (
         lambda: physical_grid((-1, 0, 2), (0, 1, 2), 1, 1),
         "beta = -1 is below the table",
@@ -124,7 +123,7 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: orbit(scene("1/3", STARTS), steps=10**5000),
         "steps = a number of 16610 bits is not",
     ),
-    "row half": (lambda: orbit(scene("1/3", STARTS)).row(0.5), "orbit 0.5 is not among the 1"),  # type: ignore[arg-type]
+    "row half": (lambda: orbit(scene("1/3", STARTS)).row(0.5), "orbit 0.5 is not among the 1"),
     "arrays in feet": (
         lambda: as_arrays(orbit(scene("1/3", STARTS)), "feet"),
         "units = 'feet' is not one of",
@@ -134,14 +133,14 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
         "time = a number of 997 bits is before the start",
     ),
     "time nan": (lambda: heights(scene("1/3", STARTS), [NAN]), "time = nan is no finite number"),
-    "times": (lambda: heights(scene("1/3", STARTS), 1), "times are to be a list"),  # type: ignore[arg-type]
+    "times": (lambda: heights(scene("1/3", STARTS), 1), "times are to be a list"),
     "times index": (
         lambda: heights(scene("1/3", STARTS), [1], 1),
         "index = 1 is not a whole number from 0 to 0",
     ),
-    "word": (lambda: exists_for(None), "None is no word"),  # type: ignore[arg-type]
-    "word text": (lambda: orbit_of("12", "1/2"), "12 is no word"),  # type: ignore[arg-type]
-    "word half": (lambda: family((1.5,)), "a flight = 1.5 is not a whole number"),  # type: ignore[arg-type]
+    "word": (lambda: exists_for(None), "None is no word"),
+    "word text": (lambda: orbit_of("12", "1/2"), "12 is no word"),
+    "word half": (lambda: family((1.5,)), "a flight = 1.5 is not a whole number"),
     "many exact": (
         lambda: orbit(scene("1/3", random(10**7, 1)), "exact", 1),
         "10000000 starts in exact arithmetic; at most 1000000",
@@ -154,18 +153,18 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
 
 
 def test_numbers_of_numpy_are_taken_exactly_holds() -> None:
-    setting = scene(np.float32(0.5), listed(np.array([[1.0, 2.0]])), r=np.int64(2))  # type: ignore[arg-type]
+    setting = scene(np.float32(0.5), listed(np.array([[1.0, 2.0]])), r=np.int64(2))
     assert (setting.alpha, setting.r, setting.starts.exact(0)) == (Fraction(1, 2), 2, (1, 2))
-    assert orbit(setting, steps=np.int64(3)).row(0).periods == 3  # type: ignore[arg-type]
+    assert orbit(setting, steps=np.int64(3)).row(0).periods == 3
 
 
 @pytest.mark.parametrize("name", WRONG)
 def test_rejects_bad_input_in_one_line(name: str) -> None:
-    wrong, told = WRONG[name]
-    with pytest.raises(SceneError, match=told) as caught:
+    wrong, message = WRONG[name]
+    with pytest.raises(SceneError, match=message) as refused:
         wrong()
     assert (
-        isinstance(caught.value, ValueError)
-        and "\n" not in str(caught.value)
-        and len(str(caught.value)) < 200
+        isinstance(refused.value, ValueError)
+        and "\n" not in str(refused.value)
+        and len(str(refused.value)) < 200
     )

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import operator
 import tracemalloc
+from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import pytest
@@ -28,14 +28,15 @@ from juggleproof.scenes.juggler import (
 )
 from juggleproof.scenes.juggler import bounded as engine
 from juggleproof.scenes.juggler.bounded import Bounded, powers
-from juggleproof.scenes.juggler.given import nearest
+from juggleproof.scenes.juggler.given import N, nearest
 from juggleproof.scenes.juggler.picture import in_the_plane
 from juggleproof.scenes.juggler.starts import goal
 from juggleproof.scenes.juggler.tables import as_arrays
 
 FULL = st.floats(allow_nan=False, allow_infinity=False)
 SIZES = st.floats(0, 1e300) | st.sampled_from([0.0, 5e-324, 1e-310])
-OPERATIONS: tuple[Any, ...] = (operator.add, operator.sub, operator.mul, operator.truediv)
+Operation = Callable[[N, N], N]
+OPERATIONS = (operator.add, operator.sub, operator.mul, operator.truediv)
 
 
 def contains(found: Bounded, exact: Fraction) -> bool:
@@ -59,10 +60,10 @@ def contains(found: Bounded, exact: Fraction) -> bool:
 )  # the product of both errors counts
 @example(x=1.0, y=1.0, a=0.5, b=0.5, ends=(1, -1), which=operator.truediv)
 def test_bound_of_an_operation_holds(
-    x: float, y: float, a: float, b: float, ends: tuple[int, int], which: Any
+    x: float, y: float, a: float, b: float, ends: tuple[int, int], which: Operation[N]
 ) -> None:
     with np.errstate(all="ignore"):
-        found = which(Bounded(np.float64(x), np.float64(a)), Bounded(np.float64(y), np.float64(b)))
+        found = which(Bounded(np.array(x), np.array(a)), Bounded(np.array(y), np.array(b)))
     true_x, true_y = Fraction(x) + ends[0] * Fraction(a), Fraction(y) + ends[1] * Fraction(b)
     if which is operator.truediv and true_y == 0:
         assert not (found.e < np.inf)
@@ -164,7 +165,7 @@ def test_a_million_starts_are_not_made_before_they_are_asked_for_holds(name: str
         assert abs(Fraction(float(w[place])) - exact[1]) <= Fraction(float(error_w[place]))
 
 
-def test_what_is_told_of_many_states_takes_little_beside_them_holds() -> None:
+def test_results_of_many_states_take_little_beside_them_holds() -> None:
     pytest.importorskip("matplotlib")
     count = 300000
     found = orbit(
@@ -172,13 +173,13 @@ def test_what_is_told_of_many_states_takes_little_beside_them_holds() -> None:
     )  # all on x = w
     in_the_plane(as_arrays(found))
     used = {}
-    for name, tell in (
+    for name, use in (
         ("undecided", lambda: next(found.each_undecided())),
         ("arrays", lambda: as_arrays(found, "physical")["v"][-1]),
         ("picture", lambda: in_the_plane(as_arrays(found)) is not None),
     ):
         tracemalloc.start()
-        assert tell() == {"undecided": (0, 0), "arrays": 2, "picture": True}[name]
+        assert use() == {"undecided": (0, 0), "arrays": 2, "picture": True}[name]
         used[name] = tracemalloc.get_traced_memory()[1] / count
         tracemalloc.stop()
     assert found.counts() == {"undecided": count}

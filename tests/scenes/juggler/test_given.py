@@ -13,7 +13,7 @@ from juggleproof.certificates.language import term
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.theorem.definition import FIXED, PIECES, TRAP, holds_at, value_of
 from juggleproof.proofs.theorem.orbits import SHEARED, from_the_fixed_point
-from juggleproof.scenes.juggler.exact import flight, flight_length, impact, later, strikes
+from juggleproof.scenes.juggler.exact import flight, flight_length, impact, impact_power, strikes
 from juggleproof.scenes.juggler.given import formulas, region
 from juggleproof.symbolic import (
     lowest_terms,
@@ -73,7 +73,7 @@ def test_one_period_is_the_map_of_the_statements_holds(
 def test_scene_trap_is_the_trap_of_the_theorem_up_to_one_half_holds(
     alpha: Fraction, x: Fraction, w: Fraction
 ) -> None:
-    caught = strikes(x, w) and all(part > 0 for part in formulas().kept(alpha, w))
+    caught = strikes(x, w) and all(part > 0 for part in formulas().trap_margins(alpha, w))
     of_theorem = holds_at(TRAP, {"alpha": alpha, "x": x, "w": w})
     assert caught == of_theorem if 2 * alpha <= 1 else caught <= of_theorem
 
@@ -86,7 +86,7 @@ def test_trap_is_invariant_and_its_closed_form_is_the_iteration_holds(
 ) -> None:
     w = abs(w) / 9 / alpha
     x = share * w
-    if not (strikes(x, w) and all(part > 0 for part in formulas().kept(alpha, w))):
+    if not (strikes(x, w) and all(part > 0 for part in formulas().trap_margins(alpha, w))):
         return
     place = (x, w)
     for _ in range(periods):
@@ -94,9 +94,9 @@ def test_trap_is_invariant_and_its_closed_form_is_the_iteration_holds(
         assert (
             strikes(*place)
             and place[0] >= 0
-            and all(part > 0 for part in formulas().kept(alpha, place[1]))
+            and all(part > 0 for part in formulas().trap_margins(alpha, place[1]))
         )
-    assert later(alpha, x, w, periods) == place
+    assert impact_power(alpha, x, w, periods) == place
     fixed = [value_of(term(entry), {"alpha": alpha}) for entry in FIXED.entries]
     offset = [
         value_of(part, {"p": x - fixed[0], "q": w - fixed[1], "n": Fraction(periods)})
@@ -111,7 +111,7 @@ def test_trap_of_the_theorem_is_not_invariant_above_one_half_holds() -> None:
     place = (Fraction(0), Fraction(1, 10))
     assert holds_at(TRAP, {"alpha": alpha, "x": place[0], "w": place[1]})
     assert not strikes(*impact(alpha, *impact(alpha, *place)))
-    assert not all(part > 0 for part in formulas().kept(alpha, place[1]))
+    assert not all(part > 0 for part in formulas().trap_margins(alpha, place[1]))
 
 
 @given(x=heights, w=speeds, more=st.integers(0, 10**40))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import pytest
@@ -33,7 +32,7 @@ def holds(ball: Row, exact: Row) -> bool:
     return encloses(ball.x, exact.x) and encloses(ball.w, exact.w)
 
 
-def encloses(ball: Any, exact: Fraction) -> bool:
+def encloses(ball: arb, exact: Fraction) -> bool:
     return abs(as_fraction(ball.mid().fmpq()) - exact) <= radius_of(ball)
 
 
@@ -156,8 +155,8 @@ def test_states_on_the_edge_are_proved_to_be_there_holds() -> None:
         beside.tracks[0].edges == 0 and abs(float(beside.row(0).x) - 0.375) < 1e-12
     )  # e_1, not e_2
     # The margin is 10^-3000: far more bits than one begins with, and no edge.
-    near = orbit(scene("1/2", point(1 - Fraction(1, 10**3000), 1)), "enclosed", 1, precision=2)
-    assert near.tracks[0].edges == 0 and near.row(0).impacts == 1
+    close = orbit(scene("1/2", point(1 - Fraction(1, 10**3000), 1)), "enclosed", 1, precision=2)
+    assert close.tracks[0].edges == 0 and close.row(0).impacts == 1
 
 
 def test_exact_numbers_that_grow_too_long_end_the_orbit_holds() -> None:

@@ -87,7 +87,7 @@ def test_a_false_orbit_of_floats_has_another_limit_holds() -> None:
 
 
 def test_every_hard_case_is_there_holds() -> None:
-    said = " ".join(case.name for case in CASES)
+    names = " ".join(case.name for case in CASES)
     for wanted in (
         "alpha -> 0",
         "1/3 from below",
@@ -109,4 +109,4 @@ def test_every_hard_case_is_there_holds() -> None:
         LONG,
         "digits that grow",
     ):
-        assert wanted in said, wanted
+        assert wanted in names, wanted

@@ -17,11 +17,11 @@ of contact, the orbit.  Metres, seconds and radians throughout.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeAlias
 
-from mpmath import MPContext
+from mpmath import MPContext, mpf
 
 from juggleproof.scenes.errors import SceneError
 
@@ -29,25 +29,29 @@ from juggleproof.scenes.errors import SceneError
 # The part, its table and its state: exact numbers, and the same in mpmath numbers.
 
 FEWEST_DIGITS = 30
-GUARD_DIGITS = 10  # digits left to rounding: times and gaps are told apart to the others
+GUARD_DIGITS = 10  # digits left to rounding: times and gaps are distinguished to the others
 JAMMING = Fraction(4, 3)  # from this friction on a corner of some rectangle can jam
+Number: TypeAlias = mpf | Fraction | float
+Given: TypeAlias = Number | str
 
 
 @dataclass(frozen=True)
 class Setting:
-    """The part and its table; made by `setting`."""
+    """A rectangle of half-sides a and b, its restitution and friction, gravity, and its table at
+    A sin(2 pi f t + phase), along x and along y; made by `setting`.
+    """
 
     a: Fraction
     b: Fraction
     e: Fraction
     mu: Fraction
-    g: Fraction
-    A_x: Fraction
-    f_x: Fraction
-    phase_x: Fraction
-    A_y: Fraction
-    f_y: Fraction
-    phase_y: Fraction
+    g: Fraction = Fraction("9.81")
+    A_x: Fraction = Fraction(0)
+    f_x: Fraction = Fraction(0)
+    phase_x: Fraction = Fraction(0)
+    A_y: Fraction = Fraction(0)
+    f_y: Fraction = Fraction(0)
+    phase_y: Fraction = Fraction(0)
 
 
 class State(NamedTuple):
@@ -55,16 +59,16 @@ class State(NamedTuple):
     counterclockwise), and their velocities.
     """
 
-    t: Any
-    X: Any
-    Y: Any
-    theta: Any
-    VX: Any
-    VY: Any
-    omega: Any
+    t: Number = 0
+    X: Number = 0
+    Y: Number = 0
+    theta: Number = 0
+    VX: Number = 0
+    VY: Number = 0
+    omega: Number = 0
 
 
-def exact(value: Any, name: str) -> Fraction:
+def exact(value: Given, name: str) -> Fraction:
     """A number as the rational that it is; floats are the binary numbers that they are.
 
     >>> exact("0.7", "e"), exact(0.5, "e")
@@ -76,30 +80,15 @@ def exact(value: Any, name: str) -> Fraction:
         raise SceneError(f"{name} = {value!r} is not a number") from error
 
 
-def setting(
-    a: Any,
-    b: Any,
-    *,
-    e: Any,
-    mu: Any,
-    g: Any = "9.81",
-    A_x: Any = 0,
-    f_x: Any = 0,
-    phase_x: Any = 0,
-    A_y: Any = 0,
-    f_y: Any = 0,
-    phase_y: Any = 0,
-) -> Setting:
-    """A rectangle of half-sides a and b on a table at A sin(2 pi f t + phase), along x and along y;
-    metres, seconds, radians.
+def setting(a: Given, b: Given, **others: Given) -> Setting:
+    """A setting of half-sides a and b, and `others` by the names of its fields; SceneError for a
+    number that is not allowed.
 
     >>> setting("0.01", "0.02", e="0.7", mu="0.08").mu
     Fraction(2, 25)
     """
-    given = locals()
-    numbers = Setting(
-        **{field.name: exact(given[field.name], field.name) for field in fields(Setting)}
-    )
+    given = {"a": a, "b": b, **others}
+    numbers = Setting(**{name: exact(value, name) for name, value in given.items()})
     allowed = {
         "a": ("> 0", numbers.a > 0),
         "b": ("> 0", numbers.b > 0),
@@ -125,7 +114,7 @@ class Model:
             raise SceneError(f"digits = {digits} is too few: at least {FEWEST_DIGITS}")
         self.context = MPContext()
         self.context.dps = digits
-        lifted = {field.name: self.lift(getattr(numbers, field.name)) for field in fields(Setting)}
+        lifted = {name: self.lift(value) for name, value in asdict(numbers).items()}
         self.a, self.b, self.e, self.mu, self.g = (
             lifted[name] for name in ("a", "b", "e", "mu", "g")
         )
@@ -136,7 +125,7 @@ class Model:
         self.rho = self.context.sqrt(self.a**2 + self.b**2)
         self.noise = self.context.mpf(10) ** (GUARD_DIGITS - digits)
 
-    def lift(self, value: Any) -> Any:
+    def lift(self, value: Given) -> mpf:
         """A number in this context: exact ones divided once, those of mpmath as they are."""
         if hasattr(value, "_mpf_"):
             if not self.context.isfinite(value):
@@ -148,7 +137,7 @@ class Model:
     def lifted(self, state: State) -> State:
         return State(*map(self.lift, state))
 
-    def table(self, t: Any) -> tuple[Any, Any, Any]:
+    def table(self, t: mpf) -> tuple[mpf, mpf, mpf]:
         """The table at the time t: its height, and its velocity sideways and upwards.
 
         >>> still = Model(setting(1, 2, e=1, mu=0, A_y=3), 30)
@@ -159,7 +148,7 @@ class Model:
         height, up = self._shaken(self.upwards, t)
         return height, along, up
 
-    def _shaken(self, axis: tuple[Any, ...], t: Any) -> tuple[Any, Any]:
+    def _shaken(self, axis: tuple[mpf, ...], t: mpf) -> tuple[mpf, mpf]:
         """A sin(W t + phase) and its rate."""
         amplitude, frequency, phase = axis
         if not amplitude:
@@ -167,11 +156,6 @@ class Model:
         W = 2 * self.context.pi * frequency
         cosine, sine = self.context.cos_sin(W * t + phase)
         return amplitude * sine, amplitude * W * cosine
-
-    def greatest_table_acceleration(self) -> Any:
-        """A bound of the table's acceleration upwards and downwards: A_y W^2."""
-        amplitude, frequency, _ = self.upwards
-        return abs(amplitude) * (2 * self.context.pi * frequency) ** 2
 
 
 # -------------------------------------------------------------------------------------------------
@@ -181,7 +165,7 @@ class Model:
 class Stopped(SceneError):
     """The orbit cannot be followed further; `events` holds what it met until then."""
 
-    events: tuple[Any, ...] = ()
+    events: tuple[Event, ...] = ()
 
 
 class Chatter(Stopped):
@@ -206,11 +190,10 @@ class Undecided(Stopped):
 CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
-def places(model: Model, theta: Any) -> list[tuple[Any, Any]]:
+def places(model: Model, theta: mpf) -> list[tuple[mpf, mpf]]:
     """The four corners from the centre of mass: (+-a, +-b) turned by theta.
 
-    >>> from fractions import Fraction
-    >>> model = Model(Setting(*map(Fraction, (3, 4, 0, 0, 1, 0, 0, 0, 0, 0, 0))), 30)
+    >>> model = Model(setting(3, 4, e=0, mu=0), 30)
     >>> [(int(x), int(y)) for x, y in places(model, model.lift(0))]
     [(3, 4), (-3, 4), (-3, -4), (3, -4)]
     """
@@ -225,7 +208,7 @@ class Flight:
     def __init__(self, model: Model, start: State) -> None:
         self.model, self.start = model, start
 
-    def state(self, t: Any) -> State:
+    def state(self, t: mpf) -> State:
         """The state at the time t: the parabola, and the even turn."""
         start, lasted = self.start, t - self.start.t
         return State(
@@ -238,12 +221,11 @@ class Flight:
             start.omega,
         )
 
-    def gaps(self, t: Any) -> list[tuple[Any, Any]]:
+    def gaps(self, t: mpf) -> list[tuple[mpf, mpf]]:
         """The gap between each corner and the table at the time t, and its rate.
 
-        >>> from fractions import Fraction
-        >>> model = Model(Setting(*map(Fraction, (3, 4, 0, 0, 10, 0, 0, 0, 0, 0, 0))), 30)
-        >>> flight = Flight(model, model.lifted(State(0, 0, 9, 0, 0, 0, 2)))
+        >>> model = Model(setting(3, 4, e=0, mu=0, g=10), 30)
+        >>> flight = Flight(model, model.lifted(State(Y=9, omega=2)))
         >>> [(int(gap), int(rate)) for gap, rate in flight.gaps(model.lift(0))]
         [(13, 6), (13, -6), (5, -6), (5, 6)]
         """
@@ -253,41 +235,29 @@ class Flight:
             for x, y in places(self.model, now.theta)
         ]
 
-    def bound(self) -> Any:
+    def bound(self) -> mpf:
         """A bound of the second derivative of every gap: gravity, the table's acceleration, and
         omega^2 times the corner's distance.
         """
-        return (
-            self.model.g
-            + self.model.greatest_table_acceleration()
-            + self.start.omega**2 * self.model.rho
-        )
+        model = self.model
+        amplitude, frequency, _ = model.upwards
+        shaken = abs(amplitude) * (2 * model.context.pi * frequency) ** 2
+        return model.g + shaken + self.start.omega**2 * model.rho
 
 
 def dropped(
-    setting: Setting,
-    theta: Any,
-    height: Any,
-    *,
-    X: Any = 0,
-    VX: Any = 0,
-    VY: Any = 0,
-    omega: Any = 0,
-    t: Any = 0,
-    digits: int = 50,
+    setting: Setting, theta: Given, height: Given, digits: int = 50, **others: Given
 ) -> State:
-    """The state at the time t whose lowest corner stands so high above the table.
+    """The state whose lowest corner stands so high above the table; `others` by their names.
 
     For a comparison with an integrator in float64, round it and start both at
     `State(*map(float, state))`.
 
-    >>> from fractions import Fraction
-    >>> block = Setting(*map(Fraction, (3, 4, 0, 0, 10, 0, 0, 0, 0, 0, 0)))
-    >>> int(dropped(block, 0, 2).Y)
+    >>> int(dropped(setting(3, 4, e=0, mu=0), 0, 2).Y)
     6
     """
     model = Model(setting, digits)
-    start = model.lifted(State(t, X, 0, theta, VX, VY, omega))
+    start = model.lifted(State(theta=theta, **others))
     lowest = min(gap for gap, _ in Flight(model, start).gaps(start.t))
     return start._replace(Y=model.lift(height) - lowest)
 
@@ -302,9 +272,8 @@ def dropped(
 # at (1 + e) n (Poisson).  Numbers of any kind: exact rationals, or mpmath's.
 
 # velocity of the centre of mass relative to the table, and angular velocity
-Motion = tuple[Any, Any, Any]
-Vector = tuple[Any, Any]
-AT_REST = (0, 0, 0)
+Motion = tuple[Number, Number, Number]
+Vector = tuple[Number, Number]
 
 
 class Impact(NamedTuple):
@@ -327,11 +296,10 @@ def corner_velocity(motion: Motion, place: Vector) -> Vector:
     return v_x - omega * y, v_y + omega * x
 
 
-def pushed(motion: Motion, place: Vector, k2: Any, impulse: Vector) -> Motion:
+def pushed(motion: Motion, place: Vector, k2: Number, impulse: Vector) -> Motion:
     """The motion after an impulse there; k2 is the square of the radius of gyration (momentum and
     angular momentum).
 
-    >>> from fractions import Fraction
     >>> pushed((0, 0, 0), (3, 4), Fraction(2), (1, 0))
     (1, 0, Fraction(-2, 1))
     """
@@ -339,12 +307,11 @@ def pushed(motion: Motion, place: Vector, k2: Any, impulse: Vector) -> Motion:
     return v_x + along, v_y + up, omega + (x * up - y * along) / k2
 
 
-def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
+def impact(motion: Motion, place: Vector, k2: Number, e: Number, mu: Number) -> Impact:
     """The impact of a corner that approaches the table; the motion is that relative to the table.
 
     A part that falls on the corner below its centre leaves with e times its speed:
 
-    >>> from fractions import Fraction
     >>> half = Fraction(1, 2)
     >>> fallen = impact((0, -2, 0), (0, -5), Fraction(25, 3), half, half)
     >>> fallen.motion == (0, 1, 0), fallen.mode
@@ -358,11 +325,11 @@ def impact(motion: Motion, place: Vector, k2: Any, e: Any, mu: Any) -> Impact:
     ((Fraction(-3, 100), Fraction(3, 1)), 'sliding')
     """
 
-    def growth(slope: Any) -> Vector:
+    def growth(slope: Number) -> Vector:
         """What a unit of normal impulse, with so much friction, adds to the corner's velocity."""
-        return corner_velocity(pushed(AT_REST, place, k2, (slope, 1)), place)
+        return corner_velocity(pushed((0, 0, 0), place, k2, (slope, 1)), place)
 
-    def from_a_stop() -> tuple[int, Any]:
+    def from_a_stop() -> tuple[int, Number]:
         """The way in which a corner without tangential velocity goes on, and its friction: it
         sticks where friction can hold it.
         """
@@ -419,26 +386,25 @@ def _mode(way: int, stopped: str | None) -> str:
 # gap(m) - |gap'(m)| h - M h^2/2 > 0 leaves no root in it; |gap'(m)| > M h makes the gap rise or
 # fall through all of it.
 
-Gaps = Callable[[Any], list[tuple[Any, Any]]]  # the gaps at a time, each with its rate
+Gaps = Callable[[mpf], list[tuple[mpf, mpf]]]  # the gaps at a time, each with its rate
 MOST_STEPS = 1000
 
 
 def first_crossing(
-    gaps: Gaps, bound: Any, start: Any, end: Any, noise: Any
-) -> tuple[Any, int] | None:
+    gaps: Gaps, bound: mpf, start: mpf, end: mpf, noise: mpf
+) -> tuple[mpf, int] | None:
     """The first time from start to end at which a gap falls from above 0 to 0, and which one; none
     where there is no such time.
 
-    Numbers closer than the noise are not told apart: a gap that touches 0 so closely is undecided.
+    Numbers closer than the noise are not distinguished: Undecided is raised for a gap that touches
+    0 so closely.
 
-    >>> from mpmath import mpf
     >>> first_crossing(lambda t: [(2 - t, -1), (3 - 2 * t, -2)], 0, mpf(0), mpf(8), mpf("1e-9"))
     (mpf('1.5'), 1)
     >>> touching = lambda t: [((t - 2)**2 + mpf("0.001"), 2 * (t - 2))]
     >>> first_crossing(touching, 2, mpf(0), mpf(8), mpf("1e-9"))
     """
-    everyone = list(range(len(gaps(start))))
-    pieces = [(start, end, everyone)]
+    pieces = [(start, end, list(range(len(gaps(start)))))]
     while pieces:
         left, right, watched = pieces.pop()
         half = (right - left) / 2
@@ -459,7 +425,7 @@ def first_crossing(
 
 
 def _sorted_out(
-    here: list[tuple[Any, Any]], watched: list[int], bound: Any, half: Any, noise: Any
+    here: list[tuple[mpf, mpf]], watched: list[int], bound: mpf, half: mpf, noise: mpf
 ) -> tuple[list[int], list[int]]:
     """Those of the watched gaps that fall through all of the piece, and those that are not decided;
     the others do not fall to 0 in it.
@@ -476,11 +442,10 @@ def _sorted_out(
     return falling, unclear
 
 
-def crossing(gaps: Gaps, one: int, left: Any, right: Any, width: Any) -> Any:
+def crossing(gaps: Gaps, one: int, left: mpf, right: mpf, width: mpf) -> mpf:
     """The root of a gap that falls from above 0 to below, from the side where it is above, to this
-    width (the Illinois method).
+    width (the Illinois method); Undecided where the gap does not change its sign.
 
-    >>> from mpmath import mpf
     >>> crossing(lambda t: [(1 - t**2, -2 * t)], 0, mpf(0), mpf(3), mpf("1e-15")) - 1 < mpf("1e-15")
     True
     """
@@ -521,7 +486,7 @@ class Event(NamedTuple):
     and after it.
     """
 
-    time: Any
+    time: mpf
     corner: int
     mode: str
     before: State
@@ -531,15 +496,13 @@ class Event(NamedTuple):
 def reference_orbit(
     setting: Setting,
     start: State,
-    until: Any,
+    until: Given,
     digits: int = 50,
     *,
-    together: Any = TOGETHER,
-    most: int = MOST_IMPACTS,
-    within: Any = WITHIN,
+    together: Given = TOGETHER,
 ) -> list[Event]:
-    """The impacts from a state in flight until a time; what it cannot follow raises, with the
-    impacts until then in `events`.
+    """The impacts from a state in flight until a time; Stopped where it cannot be followed, with
+    the impacts until then in `events`; SceneError for a start that does not fly.
 
     Dropped by 0.2 m under g = 10, with its centre above the corner, a part strikes after 0.2 s and,
     with e = 1/2, again after 0.2 s:
@@ -558,9 +521,11 @@ def reference_orbit(
     try:
         for event in _impacts(model, begun, last, model.lift(together)):
             events.append(event)
-            if len(events) > most and event.time - events[-1 - most].time < model.lift(within):
+            many = len(events) > MOST_IMPACTS
+            if many and event.time - events[-1 - MOST_IMPACTS].time < model.lift(WITHIN):
                 raise Chatter(
-                    f"more than {most} impacts within {within} s before t = {float(event.time):.9f}"
+                    f"more than {MOST_IMPACTS} impacts within {WITHIN} s before t ="
+                    f" {float(event.time):.9f}"
                 )
     except Stopped as stopped:
         stopped.events = tuple(events)
@@ -568,7 +533,7 @@ def reference_orbit(
     return events
 
 
-def _refuse_what_does_not_fly(model: Model, start: State, last: Any) -> None:
+def _refuse_what_does_not_fly(model: Model, start: State, last: mpf) -> None:
     if last < start.t:
         raise SceneError(f"the orbit would end at t = {last}, before it begins at t = {start.t}")
     for corner, (gap, rate) in enumerate(Flight(model, start).gaps(start.t)):
@@ -579,7 +544,7 @@ def _refuse_what_does_not_fly(model: Model, start: State, last: Any) -> None:
             )
 
 
-def _impacts(model: Model, start: State, last: Any, together: Any) -> Iterator[Event]:
+def _impacts(model: Model, start: State, last: mpf, together: mpf) -> Iterator[Event]:
     while True:
         flight = Flight(model, start)
         met = first_crossing(flight.gaps, flight.bound(), start.t, last, model.noise)
@@ -595,7 +560,7 @@ def _impacts(model: Model, start: State, last: Any, together: Any) -> Iterator[E
         start = event.after
 
 
-def struck(model: Model, flight: Flight, time: Any, corner: int) -> Event:
+def struck(model: Model, flight: Flight, time: mpf, corner: int) -> Event:
     """The impact of a corner at this time of a flight: only the velocities change."""
     before = flight.state(time)
     _, along, up = model.table(time)
@@ -616,7 +581,7 @@ def struck(model: Model, flight: Flight, time: Any, corner: int) -> Event:
     )
 
 
-def refuse_others_that_strike_too(flight: Flight, event: Event, together: Any) -> None:
+def refuse_others_that_strike_too(flight: Flight, event: Event, together: mpf) -> None:
     """Raise where another corner is as good as on the table and approaches it, before this impact
     or after it.
 

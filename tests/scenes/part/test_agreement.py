@@ -6,15 +6,15 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 
 from juggleproof.scenes.part import body, fresh_notes, scene
 from juggleproof.scenes.part.flight import fly
+from juggleproof.scenes.part.setting import Array
 from juggleproof.scenes.part.strike import first_slide, mode_of, strike
-from tests.scenes.part.reference import Chatter, State, dropped, reference_orbit, setting
+from tests.scenes.part.reference import Chatter, Event, State, dropped, reference_orbit, setting
 
 UNTIL = 0.2
 MODES = (
@@ -45,7 +45,7 @@ STARTS = tuple(
 
 
 @cache
-def by_reference(which: int) -> tuple[Any, tuple[Any, ...]]:
+def by_reference(which: int) -> tuple[State, tuple[Event, ...]]:
     table, e, mu, theta, omega = STARTS[which]
     slow = setting(0.01, 0.02, e=e, mu=mu, g=9.81, **table)
     start = State(*map(float, dropped(slow, theta, 0.001, VX=0.05, omega=omega)))
@@ -55,13 +55,13 @@ def by_reference(which: int) -> tuple[Any, tuple[Any, ...]]:
         return start, stopped.events[:4]  # before impacts accumulate
 
 
-def fast(which: int, tolerance: float) -> list[tuple[int, str, Any]]:
+def fast(which: int, tolerance: float) -> list[tuple[int, str, Array]]:
     """Corner, mode and state after each impact: flights and impacts, one after another."""
     table, e, mu, _, _ = STARTS[which]
-    block = scene(e=e, mu=mu, rest_speed=1e-6, tolerance=tolerance, **table)  # type: ignore[arg-type]
+    block = scene(e=e, mu=mu, rest_speed=1e-6, tolerance=tolerance, **table)
     p, notes, z = block.parameters(), fresh_notes(1)[0], np.zeros(body.STATE)
     z[:7] = by_reference(which)[0]
-    found: list[tuple[int, str, Any]] = []
+    found: list[tuple[int, str, Array]] = []
     while True:
         if z[body.MODE] != body.FLIGHT or len(found) > 200:
             return found

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from math import nan
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -22,7 +22,11 @@ from juggleproof.scenes.part.animation import ANGLE, LENGTH, RATE, animation, di
 from juggleproof.scenes.part.ensemble import frames
 from juggleproof.scenes.part.layout import ANGLES, lying
 from juggleproof.scenes.part.picture import as_in_figure_two
+from juggleproof.scenes.part.setting import Array
 from tests.proofs.reports.browser import Element, chromium, read_html, requests, resize
+
+if TYPE_CHECKING:
+    from selenium.webdriver.chrome.webdriver import WebDriver
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
 
@@ -32,7 +36,7 @@ TIMES = np.arange(round(HORIZON * RATE) + 1) / RATE
 MEDIA = "Emulation.setEmulatedMedia"
 
 
-def made(angles: Any = ANGLES, horizon: float = HORIZON) -> bytes:
+def made(angles: Array = ANGLES, horizon: float = HORIZON) -> bytes:
     file = io.BytesIO()
     animation(SETTING, angles, horizon, file)
     return file.getvalue()
@@ -49,7 +53,7 @@ def document() -> Element:
 
 
 @cache
-def seen() -> Any:
+def seen() -> Array:
     return frames(SETTING, ANGLES, TIMES)
 
 
@@ -121,7 +125,7 @@ def test_rejects_more_blocks_than_are_seen() -> None:
 
 
 @pytest.fixture(scope="module")
-def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[WebDriver]:
     path = tmp_path_factory.mktemp("animation") / "part.html"
     path.write_bytes(page())
     with chromium(1000, 1000) as browser:
@@ -129,7 +133,7 @@ def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
         yield browser
 
 
-def opened(driver: Any, motion: str = "reduce") -> Any:
+def opened(driver: WebDriver, motion: str = "reduce") -> WebDriver:
     """The page, loaded anew."""
     driver.execute_cdp_cmd(
         MEDIA, {"media": "", "features": [{"name": "prefers-reduced-motion", "value": motion}]}
@@ -142,7 +146,7 @@ def opened(driver: Any, motion: str = "reduce") -> Any:
     return driver
 
 
-def told(driver: Any) -> str:
+def status(driver: WebDriver) -> str:
     return str(driver.execute_script("return document.getElementById('told').textContent"))
 
 
@@ -151,11 +155,11 @@ def words(frame: int) -> str:
     return f"{TIMES[frame]:.2f} s: {91 - down} of 91 nearer to upright, {down} nearer to lying"
 
 
-def pixels(driver: Any) -> str:
+def pixels(driver: WebDriver) -> str:
     return str(driver.execute_script("return document.getElementById('picture').toDataURL()"))
 
 
-def slide(driver: Any, time: float) -> None:
+def slide(driver: WebDriver, time: float) -> None:
     driver.execute_script(
         "const s = document.getElementById('time'); s.value = arguments[0]; s.dispatchEvent(new"
         " Event('input'));",
@@ -163,32 +167,32 @@ def slide(driver: Any, time: float) -> None:
     )
 
 
-def press(driver: Any, key: str) -> None:
+def press(driver: WebDriver, key: str) -> None:
     from selenium.webdriver.common.action_chains import ActionChains
 
     ActionChains(driver).send_keys(key).perform()
 
 
-def test_loads_without_error_and_asks_for_nothing_else_holds(driver: Any) -> None:
+def test_loads_without_error_and_asks_for_nothing_else_holds(driver: WebDriver) -> None:
     opened(driver)
     assert driver.get_log("browser") == []
     assert set(requests(driver)) - {"about:blank"} == {driver.address}
 
 
-def test_slider_moves_the_blocks_holds(driver: Any) -> None:
+def test_slider_moves_the_blocks_holds(driver: WebDriver) -> None:
     opened(driver)
     shots = {pixels(driver)}
-    assert told(driver) == words(0)
+    assert status(driver) == words(0)
     for frame in (30, 48, 180):
         slide(driver, TIMES[frame])
-        assert told(driver) == words(frame)
+        assert status(driver) == words(frame)
         shots.add(pixels(driver))
     assert len(shots) == 4
     slide(driver, 0)
-    assert pixels(driver) in shots and told(driver) == words(0)
+    assert pixels(driver) in shots and status(driver) == words(0)
 
 
-def test_blocks_are_drawn_where_they_are_holds(driver: Any) -> None:
+def test_blocks_are_drawn_where_they_are_holds(driver: WebDriver) -> None:
     """The middle of every block has its kind's colour, at the start and half a second on."""
     opened(driver)
     for frame in (0, 30):
@@ -215,7 +219,7 @@ def pitch() -> float:
     return of(SETTING)
 
 
-def test_keys_move_time_holds(driver: Any) -> None:
+def test_keys_move_time_holds(driver: WebDriver) -> None:
     from selenium.webdriver.common.keys import Keys
 
     opened(driver)
@@ -227,14 +231,14 @@ def test_keys_move_time_holds(driver: Any) -> None:
         (Keys.HOME, 0),
     ):
         press(driver, key)
-        assert told(driver) == words(frame)
+        assert status(driver) == words(frame)
     press(driver, " ")
     assert driver.execute_script("return document.getElementById('play').textContent") == "Pause"
     press(driver, " ")
     assert driver.execute_script("return document.getElementById('play').textContent") == "Play"
 
 
-def test_plays_to_the_end_and_again_holds(driver: Any) -> None:
+def test_plays_to_the_end_and_again_holds(driver: WebDriver) -> None:
     from selenium.webdriver.support.ui import WebDriverWait
 
     opened(driver)
@@ -242,16 +246,16 @@ def test_plays_to_the_end_and_again_holds(driver: Any) -> None:
     driver.execute_script(
         "document.getElementById('speed').value = '2'; document.getElementById('play').click();"
     )
-    WebDriverWait(driver, 20).until(lambda _: told(driver) == words(180))
+    WebDriverWait(driver, 20).until(lambda _: status(driver) == words(180))
     assert driver.execute_script("return document.getElementById('play').textContent") == "Play"
     driver.execute_script(
         "document.getElementById('speed').value = '0.05'; document.getElementById('play').click();"
     )
-    WebDriverWait(driver, 20).until(lambda _: told(driver).startswith("0."))
+    WebDriverWait(driver, 20).until(lambda _: status(driver).startswith("0."))
     assert driver.execute_script("return document.getElementById('play').textContent") == "Pause"
 
 
-def test_moves_by_itself_only_where_motion_is_not_to_be_reduced_holds(driver: Any) -> None:
+def test_moves_by_itself_only_where_motion_is_not_to_be_reduced_holds(driver: WebDriver) -> None:
     from selenium.webdriver.support.ui import WebDriverWait
 
     opened(driver)
@@ -261,18 +265,18 @@ def test_moves_by_itself_only_where_motion_is_not_to_be_reduced_holds(driver: An
     )
     assert still == words(0)
     opened(driver, "no-preference")
-    WebDriverWait(driver, 20).until(lambda _: told(driver) != words(0))
+    WebDriverWait(driver, 20).until(lambda _: status(driver) != words(0))
 
 
-def test_drift_is_shown_when_asked_for_holds(driver: Any) -> None:
+def test_drift_is_shown_when_asked_for_holds(driver: WebDriver) -> None:
     opened(driver)
     slide(driver, 3)
     without = pixels(driver)
     driver.execute_script("document.getElementById('drift').click()")
-    assert pixels(driver) != without and told(driver) == words(180)
+    assert pixels(driver) != without and status(driver) == words(180)
 
 
-def test_readers_who_do_not_see_are_told_what_things_are_holds(driver: Any) -> None:
+def test_readers_who_do_not_see_are_told_what_things_are_holds(driver: WebDriver) -> None:
     opened(driver)
     label = driver.execute_script(
         "return document.getElementById('picture').getAttribute('aria-label')"
@@ -296,7 +300,7 @@ def test_readers_who_do_not_see_are_told_what_things_are_holds(driver: Any) -> N
     )
 
 
-def test_fits_a_phone_holds(driver: Any) -> None:
+def test_fits_a_phone_holds(driver: WebDriver) -> None:
     opened(driver)
     resize(driver, 360, 740)
     assert driver.execute_script("return document.documentElement.scrollWidth") <= 360

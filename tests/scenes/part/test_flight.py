@@ -5,7 +5,6 @@ gets below the tolerance's negative.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,13 +12,14 @@ import pytest
 from juggleproof.scenes.part import body, moving, scene
 from juggleproof.scenes.part.ensemble import fresh_notes
 from juggleproof.scenes.part.flight import fly, safe_step
+from juggleproof.scenes.part.setting import Array, Scene
 from tests.scenes.part.reference import Flight, Model, State, first_crossing, setting
 
 UNTIL = 0.2
 TO_REFERENCE = (2, 3, 0, 1)  # the corner's number there
 
 
-def flights(count: int, tolerance: float) -> list[tuple[Any, Any]]:
+def flights(count: int, tolerance: float) -> list[tuple[Scene, Array]]:
     """Scenes and states in flight: some spin fast, some are near the table, some graze it, some are
     flat.
     """
@@ -61,7 +61,7 @@ def flights(count: int, tolerance: float) -> list[tuple[Any, Any]]:
     return found
 
 
-def gaps(p: Any, z: Any, s: Any) -> Any:
+def gaps(p: Array, z: Array, s: Array | float) -> Array:
     """The four gaps at times s of the flight that leaves z, from the definition."""
     theta = z[body.THETA] + z[body.OMEGA] * s
     table = p[body.A_Y] * np.sin(p[body.W_Y] * (z[body.TIME] + s) + p[body.PHASE_Y])
@@ -75,7 +75,7 @@ def gaps(p: Any, z: Any, s: Any) -> Any:
     )
 
 
-def flown(block: Any, start: Any) -> tuple[Any, float]:
+def flown(block: Scene, start: Array) -> tuple[Array, float]:
     z, notes = start.copy(), fresh_notes(1)[0]
     assert fly(block.parameters(), z, UNTIL, notes) == body.DONE
     return z, float(notes[body.LEAST_GAP])

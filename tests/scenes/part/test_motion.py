@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +11,7 @@ from juggleproof.scenes.part import body, fresh_notes, moving, run, scene, stand
 from juggleproof.scenes.part.motion import follow_all
 from juggleproof.scenes.part.onsets import PAPER
 from juggleproof.scenes.part.rest import LANDS, LASTS, LETS_GO, SLIPS, STOPS, ending, pivot
+from juggleproof.scenes.part.setting import Array, Scene
 from juggleproof.scenes.part.strike import strike
 
 # -------------------------------------------------------------------------------------------------
@@ -21,7 +21,7 @@ from juggleproof.scenes.part.strike import strike
 GUARANTEES = [body.PULLS, body.CONES, body.GAINS, body.CLOSINGS]
 
 
-def drawn(seed: int) -> tuple[Any, Any]:
+def drawn(seed: int) -> tuple[Scene, Array]:
     """A scene and ten blocks: squares and slivers, no friction and much, no restitution and all,
     hard and soft shaking, standing or thrown.
     """
@@ -66,7 +66,7 @@ def drawn(seed: int) -> tuple[Any, Any]:
     return block, np.concatenate(rows)
 
 
-def check(block: Any, states: Any, until: float) -> Any:
+def check(block: Scene, states: Array, until: float) -> Array:
     notes, p = fresh_notes(len(states)), block.parameters()
     codes = follow_all(p, states, until, notes)
     assert not codes.any() and np.isfinite(states).all() and (states[:, body.TIME] == until).all()
@@ -145,7 +145,7 @@ SCENES: dict[str, dict[str, float]] = {
 
 @pytest.mark.parametrize("name", SCENES)
 def test_scene_that_broke_an_integrator_runs_to_its_end_holds(name: str) -> None:
-    block = scene(**SCENES[name])  # type: ignore[arg-type]
+    block = scene(**SCENES[name])
     check(
         block,
         np.concatenate([standing(block, ANGLES), moving(block, 0, block.b * 1.01, 0.0, 0.1, 0, 3)]),
@@ -170,7 +170,7 @@ def test_still_table_gives_no_energy_near_jamming_either_holds(mu: float) -> Non
         )
         k2 = (block.a**2 + block.b**2) / 3
 
-        def energies(states: Any, k2: float = k2) -> Any:
+        def energies(states: Array, k2: float = k2) -> Array:
             return (
                 states[:, body.V_X] ** 2
                 + states[:, body.V_Y] ** 2
@@ -234,21 +234,21 @@ def test_corner_that_leaves_without_speed_flies_on_holds() -> None:
     check(block, z, 0.2)
 
 
-def test_each_end_of_a_pivot_is_told_from_the_others_holds() -> None:
+def test_each_end_of_a_pivot_is_distinguished_holds() -> None:
     block = scene(e=0.5, mu=0.3, A_y=0.0)
     p = block.parameters()
 
-    def told(theta: float, omega: float, slide: float, speed: float = 0.0) -> int:
+    def end(theta: float, omega: float, slide: float, speed: float = 0.0) -> int:
         across = speed + omega * body.corner_y(p, 0, math.cos(theta), math.sin(theta))
         return ending(p, 0.0, across, theta, omega, 0, slide, 0.0)
 
     assert (
-        told(0.46, 0.0, 0.0) == LASTS
-        and told(-1e-9, 0.0, 0.0) == LANDS
-        and told(math.pi / 2 + 1e-9, 0.0, 0.0) == LANDS
+        end(0.46, 0.0, 0.0) == LASTS
+        and end(-1e-9, 0.0, 0.0) == LANDS
+        and end(math.pi / 2 + 1e-9, 0.0, 0.0) == LANDS
     )
-    assert told(0.46, 60.0, 0.0) == LETS_GO and told(1.2, 0.0, 0.0) == SLIPS
-    assert told(0.46, 0.0, 1.0, 0.1) == LASTS and told(0.46, 0.0, 1.0, -0.1) == STOPS
+    assert end(0.46, 60.0, 0.0) == LETS_GO and end(1.2, 0.0, 0.0) == SLIPS
+    assert end(0.46, 0.0, 1.0, 0.1) == LASTS and end(0.46, 0.0, 1.0, -0.1) == STOPS
 
 
 # -------------------------------------------------------------------------------------------------
@@ -260,7 +260,7 @@ EVEN = [body.TIME, body.Y, body.V_Y, body.MODE]
 ODD = [body.X, body.THETA, body.V_X, body.OMEGA, body.SLIDE]
 COUNTED = [body.IMPACTS, body.STEPS, body.CONTACTS, body.LEAST_GAP, body.LARGEST_REMOVED]
 MIRRORED_CORNER = np.array([1, 0, 3, 2])
-MIRRORED: list[dict[str, Any]] = [
+MIRRORED: list[dict[str, object]] = [
     *({"e": 0.7, "mu": 0.08, "row": row} for row in range(6)),
     {"e": 0.7, "mu": 0.08, "row": 2, "tolerance": 1e-9},
     {"e": 0.7, "mu": 0.08, "row": 3, "tolerance": 1e-6},
@@ -275,7 +275,7 @@ MIRRORED: list[dict[str, Any]] = [
 
 
 @pytest.mark.parametrize("given", MIRRORED, ids=str)
-def test_mirrored_start_gives_the_mirrored_orbit_holds(given: dict[str, Any]) -> None:
+def test_mirrored_start_gives_the_mirrored_orbit_holds(given: dict[str, object]) -> None:
     numbers = {name: value for name, value in given.items() if name != "row"}
     frequency, amplitude, _ = PAPER[given["row"]]
     here, there = (scene(f_x=frequency, A_x=sign * amplitude, **numbers) for sign in (1, -1))

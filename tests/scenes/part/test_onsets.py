@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from juggleproof.scenes.part import body, run, scene, standing, table_one
-from juggleproof.scenes.part.onsets import PAPER, jittered, judged
+from juggleproof.scenes.part.onsets import PAPER, jittered, row_of
 from juggleproof.scenes.part.setting import Scene
 
 HORIZON, ENSEMBLES = 6.0, 24
@@ -95,7 +95,7 @@ def test_one_part_that_stays_upright_censors_its_ensemble_holds() -> None:
         one[:, body.LAST_UPRIGHT] = np.linspace(0, 2 + k, 91)
     notes[1][7, body.LAST_UPRIGHT] = 12.0  # still upright at the end
     notes[2][3, body.FALLS], notes[2][80, body.RISES] = 1, 1  # both ways, late
-    row = judged(PAPER[0], notes, 12.0)
+    row = row_of(PAPER[0], notes, 12.0)
     assert (
         list(row.onsets) == [2.0, math.inf, math.inf, 5.0]
         and row.chaotic == (False, False, True, False)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import io
 import re
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -18,7 +18,11 @@ from juggleproof.scenes.part import body, run, scene, standing
 from juggleproof.scenes.part import picture as p
 from juggleproof.scenes.part.layout import ANGLES, lying, pitch, place, rows
 from juggleproof.scenes.part.rest import side
+from juggleproof.scenes.part.setting import Array
 from tests.scenes.figures.test_drawing import DEFICIENCIES, apart, filled, lab, seen
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 pytest.importorskip("numba", reason="numba, the extra `part`, is not installed")
 PathPatch = pytest.importorskip(
@@ -29,16 +33,16 @@ SETTING = p.as_in_figure_two(scene(e=0.7, mu=0.08))
 
 
 @cache
-def states() -> Any:
+def states() -> Array:
     return p.frames(SETTING, ANGLES, p.TIMES)
 
 
 @cache
-def drawn() -> Any:
+def drawn() -> Figure:
     return p.drawn(SETTING, states())
 
 
-def rectangles(name: str) -> np.ndarray[Any, Any]:
+def rectangles(name: str) -> Array:
     """The corners of the rectangles of this name, in metres: shape (n, 4, 2)."""
     patches = [one for one in drawn().findobj(PathPatch) if one.get_gid() == name]
     return (

@@ -12,11 +12,11 @@ from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import mpmath
 import pytest
-from sympy import Rational
+from mpmath import mpf
+from sympy import Rational, Symbol
 
 import juggleproof.symbolic as s
 from juggleproof.scenes.errors import SceneError
@@ -25,12 +25,17 @@ from tests.scenes.part.reference import (
     Chatter,
     Event,
     Flight,
+    Gaps,
+    Given,
     Model,
+    Motion,
+    Number,
     Setting,
     Simultaneous,
     State,
     Stopped,
     Undecided,
+    Vector,
     corner_velocity,
     dropped,
     first_crossing,
@@ -80,7 +85,7 @@ def flights(which: int) -> list[tuple[Flight, State]]:
     return list(zip(found, ended))
 
 
-def energy(model: Model, state: State, frame: tuple[Any, Any] = (0, 0)) -> Any:
+def energy(model: Model, state: State, frame: Vector = (0, 0)) -> mpf:
     across, up = state.VX - frame[0], state.VY - frame[1]
     return model.g * state.Y + (across**2 + up**2 + model.k2 * state.omega**2) / 2
 
@@ -192,7 +197,7 @@ def test_turning_part_lands_where_the_gap_has_its_first_root_holds() -> None:
     with mpmath.workdps(50):
         a, b = mpmath.mpf("0.01"), mpmath.mpf("0.02")
 
-        def lowest(t: Any) -> Any:
+        def lowest(t: mpf) -> mpf:
             theta = mpmath.mpf("0.4") + 80 * t
             return (
                 mpmath.mpf(start.Y)
@@ -226,7 +231,11 @@ def test_part_on_a_corner_below_its_centre_rebounds_with_e_times_its_speed_holds
     assert event.before.VY < 0
 
 
-def random_impacts(count: int) -> list[tuple[Any, ...]]:
+# motion and place of a corner, k^2, restitution and friction
+Struck = tuple[Motion, Vector, Fraction, Fraction, Fraction]
+
+
+def random_impacts(count: int) -> list[Struck]:
     """Exact motions of exact rectangles turned by exact angles, at a corner that approaches; some
     without friction, restitution or sliding.
     """
@@ -235,7 +244,7 @@ def random_impacts(count: int) -> list[tuple[Any, ...]]:
     def number(low: int, high: int) -> Fraction:
         return Fraction(dice.randint(60 * low, 60 * high), 60)
 
-    found: list[tuple[Any, ...]] = []
+    found: list[Struck] = []
     while len(found) < count:
         a, b, half_tangent = number(0, 1) + 1, number(1, 3), number(-1, 1)
         cosine, sine = (
@@ -264,7 +273,9 @@ def sign(number: Fraction) -> int:
     return (number > 0) - (number < 0)
 
 
-def derived(motion: Any, place: Any, k2: Fraction, e: Fraction, mu: Fraction) -> dict[Any, Any]:
+def derived(
+    motion: Motion, place: Vector, k2: Fraction, e: Fraction, mu: Fraction
+) -> dict[Symbol, Rational]:
     """The symbols of the derived modes, and their numbers in this impact."""
     x, y = place
     tangential, normal = corner_velocity(motion, place)
@@ -284,7 +295,7 @@ def derived(motion: Any, place: Any, k2: Fraction, e: Fraction, mu: Fraction) ->
     }
 
 
-def modes_that_hold(exact: dict[Any, Any]) -> set[str]:
+def modes_that_hold(exact: dict[Symbol, Rational]) -> set[str]:
     """By the derived conditions: all modes whose boundaries the impact lies on, if on any."""
     past_compression, past_restitution, back = (
         criterion().xreplace(exact)
@@ -340,7 +351,7 @@ def test_corner_that_stops_just_where_a_phase_ends_holds() -> None:
 
 
 def test_rounded_impacts_are_the_exact_ones_holds() -> None:
-    def rounded(value: Any) -> Any:
+    def rounded(value: Number | tuple[Number, ...]) -> mpf | tuple[mpf, ...]:
         return (
             tuple(map(rounded, value))
             if isinstance(value, tuple)
@@ -350,19 +361,19 @@ def test_rounded_impacts_are_the_exact_ones_holds() -> None:
     moving = [given for given in random_impacts(100) if corner_velocity(given[0], given[1])[0]]
     assert len(moving) > 60
     for given in moving:
-        exact, near = impact(*given), impact(*map(rounded, given))
+        exact, rounding = impact(*given), impact(*map(rounded, given))
         assert (
-            max(abs(rounded(ours) - theirs) for ours, theirs in zip(exact.motion, near.motion))
+            max(abs(rounded(ours) - theirs) for ours, theirs in zip(exact.motion, rounding.motion))
             < SMALL
         )
 
 
-def dip(depth: str) -> Any:
+def dip(depth: str) -> Gaps:
     """A gap that touches -depth at t = 1/3 and is high elsewhere, beside one that falls to 0 at t =
     3/4.
     """
 
-    def gaps(t: Any) -> list[tuple[Any, Any]]:
+    def gaps(t: mpf) -> list[tuple[mpf, mpf]]:
         return [
             ((t - MP.mpf(1) / 3) ** 2 - MP.mpf(depth), 2 * (t - MP.mpf(1) / 3)),
             (3 - 4 * t, MP.mpf(-4)),
@@ -439,7 +450,7 @@ def test_rejects_a_corner_that_stays_on_the_table() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong, told",
+    "wrong, message",
     [
         ({"a": 0}, "a must be > 0"),
         ({"b": -1}, "b must be > 0"),
@@ -452,9 +463,9 @@ def test_rejects_a_corner_that_stays_on_the_table() -> None:
         ({"A_y": math.nan}, "is not a number"),
     ],
 )
-def test_rejects_a_setting_that_is_not_allowed(wrong: dict[str, Any], told: str) -> None:
-    allowed: dict[str, Any] = {"a": "0.01", "b": "0.02", "e": "0.7", "mu": "0.08"}
-    with pytest.raises(SceneError, match=told):
+def test_rejects_a_setting_that_is_not_allowed(wrong: dict[str, Given], message: str) -> None:
+    allowed: dict[str, Given] = {"a": "0.01", "b": "0.02", "e": "0.7", "mu": "0.08"}
+    with pytest.raises(SceneError, match=message):
         setting(**{**allowed, **wrong})
 
 

@@ -5,30 +5,35 @@ digits; coming to rest adds no energy.
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
+from types import ModuleType
+from typing import TypeAlias
 
 import mpmath
 import numpy as np
 import pytest
+from mpmath import matrix, mpf
 
 from juggleproof.scenes.part import body, moving, run, scene, standing
 from juggleproof.scenes.part.ensemble import fresh_notes
 from juggleproof.scenes.part.motion import follow
 from juggleproof.scenes.part.rest import lie, lift_off, pivot, slip_time, stop_time
+from juggleproof.scenes.part.setting import Array, Scene
 from juggleproof.scenes.part.strike import lie_down
 
+Real: TypeAlias = float | mpf
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 
-def place(block: Any, i: int, theta: Any, lib: Any = math) -> tuple[Any, Any]:
+def place(block: Scene, i: int, theta: Real, lib: ModuleType = math) -> tuple[Real, Real]:
     """Corner i from the centre, by the definition of a turn."""
     (x, y), c, s = CORNERS[i], lib.cos(theta), lib.sin(theta)
     return x * block.a * c - y * block.b * s, x * block.a * s + y * block.b * c
 
 
 def pivoting(
-    block: Any, i: int, theta: float, omega: float, slide: float = 0.0, speed: float = 0.0
-) -> Any:
+    block: Scene, i: int, theta: float, omega: float, slide: float = 0.0, speed: float = 0.0
+) -> Array:
     """A block at time 0 with corner i on the table; the corner slides at `speed`."""
     p = block.parameters()
     x, y = place(block, i, theta)
@@ -46,7 +51,7 @@ def pivoting(
     return z
 
 
-def lying(block: Any, speed: float = 0.0, slide: float = 0.0, turns: int = 0) -> Any:
+def lying(block: Scene, speed: float = 0.0, slide: float = 0.0, turns: int = 0) -> Array:
     """A block on a face at time 0, sliding at `speed`."""
     p = block.parameters()
     z = moving(
@@ -63,7 +68,7 @@ def lying(block: Any, speed: float = 0.0, slide: float = 0.0, turns: int = 0) ->
     return z
 
 
-def kinetic(block: Any, z: Any) -> float:
+def kinetic(block: Scene, z: Array) -> float:
     k2 = (block.a**2 + block.b**2) / 3
     return float(z[body.V_X] ** 2 + z[body.V_Y] ** 2 + k2 * z[body.OMEGA] ** 2) / 2
 
@@ -80,9 +85,11 @@ def test_sticking_pivot_on_a_still_table_keeps_the_energy_holds(tolerance: float
         assert abs(place(block, i, z[body.THETA])[0] + z[body.X]) <= 1e-15  # the foot stays
 
 
-def by_newton(block: Any, z: Any, i: int, slide: int, until: Any) -> Any:
+def by_newton(
+    block: Scene, z: Array, i: int, slide: int
+) -> tuple[Callable[[Real], list[mpf]], Callable[[Real, Real, Real], matrix]]:
     """(X, V_X, theta, omega) by Newton and Euler with the constraint, its forces eliminated by
-    linear algebra; as a function of time.
+    linear algebra; as a function of time, and the forces.
     """
     lib = mpmath
     g, k2, mu = (
@@ -92,7 +99,7 @@ def by_newton(block: Any, z: Any, i: int, slide: int, until: Any) -> Any:
     )
     wx, wy = 2 * lib.pi * block.f_x, 2 * lib.pi * block.f_y
 
-    def forces(t: Any, theta: Any, omega: Any) -> Any:
+    def forces(t: Real, theta: Real, omega: Real) -> matrix:
         x, y = place(block, i, theta, lib)
         lift = -block.A_y * wy**2 * lib.sin(wy * t + block.phase_y)
         push = -block.A_x * wx**2 * lib.sin(wx * t + block.phase_x)
@@ -105,7 +112,7 @@ def by_newton(block: Any, z: Any, i: int, slide: int, until: Any) -> Any:
             lib.matrix([lift + g + y * omega**2, 0, right]),
         )
 
-    def rates(t: Any, state: Any) -> Any:
+    def rates(t: mpf, state: list[mpf]) -> list[mpf]:
         _, v, theta, omega = state
         along, _, alpha = forces(t, theta, omega)
         return [v, along, omega, alpha]
@@ -122,7 +129,7 @@ def by_newton(block: Any, z: Any, i: int, slide: int, until: Any) -> Any:
     )
 
 
-def state_of(z: Any) -> Any:
+def state_of(z: Array) -> Array:
     return np.array([z[body.X], z[body.V_X], z[body.THETA], z[body.OMEGA]])
 
 
@@ -131,7 +138,7 @@ def test_sliding_pivot_is_that_of_newton_and_euler_holds(slide: int) -> None:
     block = scene(e=0.5, mu=0.2, A_x=1e-4, f_x=30.0, A_y=1e-5, f_y=60.0, phase_x=0.3)
     z = pivoting(block, 0, 0.6, -1.0, slide, slide * 0.3)
     with mpmath.workdps(20):
-        exact, _ = by_newton(block, z, 0, slide, 0.02)
+        exact, _ = by_newton(block, z, 0, slide)
         assert (
             pivot(block.parameters(), z, 0.02, fresh_notes(1)[0]) == body.DONE
             and z[body.SLIDE] == slide
@@ -148,9 +155,9 @@ def test_sticking_pivot_slips_when_friction_is_used_up_holds() -> None:
     block = scene(e=0.5, mu=0.4, A_x=1e-4, f_x=60.0, A_y=1e-5, f_y=60.0)
     z = pivoting(block, 0, 0.5, 0.0)
     with mpmath.workdps(20):
-        exact, forces = by_newton(block, z, 0, 0, 0.02)
+        exact, forces = by_newton(block, z, 0, 0)
 
-        def left(t: Any) -> Any:
+        def left(t: Real) -> mpf:
             _, _, theta, omega = exact(t)
             along, normal, _ = forces(t, theta, omega)
             return mpmath.mpf(block.mu) * normal - abs(along)
@@ -218,7 +225,7 @@ def test_face_slips_and_stops_at_the_roots_of_its_forces_holds() -> None:
     block = scene(e=0.5, mu=0.3, A_x=1e-4, f_x=60.0, A_y=2e-5, f_y=60.0, phase_y=1.0)
     p, (wx, wy) = block.parameters(), (2 * mpmath.pi * 60,) * 2
 
-    def left(t: Any) -> Any:
+    def left(t: Real) -> mpf:
         return 0.3 * (9.81 - 2e-5 * wy**2 * mpmath.sin(wy * t + 1)) - abs(
             1e-4 * wx**2 * mpmath.sin(wx * t)
         )
@@ -233,7 +240,7 @@ def test_face_slips_and_stops_at_the_roots_of_its_forces_holds() -> None:
         stops = stop_time(p, slips, 1.0, slide, 0.0)
         start = mpmath.mpf(slips)
 
-        def speed(t: Any) -> Any:
+        def speed(t: mpf) -> mpf:
             glide, rise = (
                 A * w * (mpmath.cos(w * t + phase) - mpmath.cos(w * start + phase))
                 for A, w, phase in ((1e-4, wx, 0), (2e-5, wy, 1))
@@ -258,7 +265,7 @@ def test_face_slides_as_the_integral_of_its_forces_holds() -> None:
     start = z.copy()
     assert lie(p, z, 0.01, fresh_notes(1)[0]) == body.DONE and z[body.SLIDE] == 1
 
-    def normal(t: Any) -> Any:
+    def normal(t: mpf) -> mpf:
         return 9.81 - 2e-5 * (120 * mpmath.pi) ** 2 * mpmath.sin(120 * mpmath.pi * t + 1)
 
     lost = 0.3 * mpmath.quad(normal, [0, 0.01])

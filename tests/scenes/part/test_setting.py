@@ -9,9 +9,9 @@ import multiprocessing
 import re
 import subprocess
 import sys
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from collections.abc import Callable
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -27,14 +27,14 @@ from juggleproof.scenes.part import (
     sweep,
     table_one,
 )
-from juggleproof.scenes.part.ensemble import moved
+from juggleproof.scenes.part.ensemble import advanced
 
 ROOT = Path(__file__).resolve().parents[3]
 BLOCK = scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3)
 
 
 @pytest.mark.parametrize(
-    "wrong, told",
+    "wrong, message",
     [
         ({"mu": -0.1}, "mu = -0.1 is below 0"),
         ({"mu": 4 / 3}, "not below 4/3: from there on a corner can jam"),
@@ -64,13 +64,13 @@ BLOCK = scene(e=0.7, mu=0.08, f_x=30.0, A_x=2e-3)
         ({"launch": "throw"}, "'throw'"),
     ],
 )
-def test_rejects_a_scene_that_is_not_one(wrong: dict[str, Any], told: str) -> None:
-    with pytest.raises(SceneError, match=told.replace("(", r"\(").replace("+", r"\+")) as refused:
+def test_rejects_a_scene_that_is_not_one(wrong: dict[str, float | str], message: str) -> None:
+    with pytest.raises(SceneError, match=re.escape(message)) as refused:
         scene(**{"e": 0.7, "mu": 0.08, **wrong})
     assert "\n" not in str(refused.value) and len(str(refused.value)) < 160
 
 
-def refused(what: Any) -> str:
+def refused(what: Callable[[], object]) -> str:
     with pytest.raises(SceneError) as found:
         what()
     assert "\n" not in str(found.value)
@@ -110,12 +110,13 @@ def test_rejects_a_run_that_is_not_one() -> None:
     )
 
 
-def test_run_that_cannot_go_on_is_told_in_one_line_holds() -> None:
+def test_run_that_cannot_go_on_is_reported_in_one_line_holds() -> None:
     p, states = BLOCK.parameters(), standing(BLOCK, [0.0, 0.6])
     p[body.FRICTION] = 5.0
     assert (
-        "block 0, at t = " in (said := refused(lambda: moved((p, states, 1.0, fresh_notes(2)))))
-        and "friction is too large" in said
+        "block 0, at t = "
+        in (message := refused(lambda: advanced((p, states, 1.0, fresh_notes(2)))))
+        and "friction is too large" in message
     )
 
 
@@ -129,7 +130,7 @@ def test_start_is_left_as_it_is_holds() -> None:
     )
 
 
-def same_as_alone(executor: Any) -> bool:
+def same_as_alone(executor: Executor) -> bool:
     states = standing(BLOCK, np.radians(np.linspace(0, 90, 300)))
     alone, shared = run(BLOCK, states, 0.5), run(BLOCK, states, 0.5, executor=executor)
     return (

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import random
 from collections import Counter
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,6 +16,7 @@ import juggleproof.symbolic as s
 from juggleproof.scenes.part import body, fresh_notes, moving, scene, strike, table_one
 from juggleproof.scenes.part import strike as striking
 from juggleproof.scenes.part.body import plain
+from juggleproof.scenes.part.setting import Array
 from juggleproof.scenes.part.strike import impulse
 
 # -------------------------------------------------------------------------------------------------
@@ -38,7 +39,7 @@ SYMBOLS = (s.S0, s.C0, s.B1, s.B2, s.B3, s.e, s.mu, s.sigma)
 
 
 @cache
-def as_function(which: str, mode: str = "") -> Any:
+def as_function(which: str, mode: str = "") -> Callable[..., Fraction | list[Fraction]]:
     """A derived expression as a function of exact numbers."""
     found = getattr(s, which)(mode) if mode else getattr(s, which)()
     return sympy.lambdify(SYMBOLS, list(found) if mode else found, modules=[])
@@ -173,7 +174,8 @@ def test_mirror_image_of_an_impact_is_one_holds(sign: int) -> None:
 # What the impact law guarantees holds at every one of a million impacts; and each count can fail: a
 # wrong law is noticed.
 
-SCENES: tuple[dict[str, Any], ...] = (
+Law = Callable[..., tuple[float, float]]  # an impulse
+SCENES: tuple[dict[str, float], ...] = (
     {"e": 0.7, "mu": 0.08},
     {"e": 1.0, "mu": 1.3},
     {"e": 0.9, "mu": 0.5},
@@ -199,7 +201,7 @@ def test_million_impacts_break_no_guarantee_holds() -> None:
     assert impacts >= 1e6
 
 
-def struck(law: Any, monkeypatch: pytest.MonkeyPatch) -> Any:
+def struck(law: Law, monkeypatch: pytest.MonkeyPatch) -> Array:
     """The notes of one impact by another law."""
     block = scene(e=0.5, mu=0.3, A_y=0.0)
     z, notes = moving(block, 0, 0.1, 0.3, 0.5, -0.5, 3.0)[0], fresh_notes(1)[0]
@@ -226,7 +228,7 @@ def struck(law: Any, monkeypatch: pytest.MonkeyPatch) -> Any:
     ],
 )
 def test_wrong_impulse_is_counted_holds(
-    wrong: Any, counted: set[int], monkeypatch: pytest.MonkeyPatch
+    wrong: Law, counted: set[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     notes = struck(lambda *given: wrong(*plain(impulse)(*given)), monkeypatch)
     assert {

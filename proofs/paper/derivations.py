@@ -1,53 +1,85 @@
-"""Derived expressions as terms that say what made them; what a claim rests on in `symbolic`: each
-derivation that its statements contain, with what this says of itself, its result, and what it is
-made from.
+"""Derived expressions as terms that carry their origin; what a claim rests on in `symbolic`: each
+derivation that its statements contain, with its sentence, its result, and what it is made from.
 """
 
 from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from types import CodeType
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar, Union
 
-from sympy import ImmutableMatrix, MatrixBase
+from sympy import Expr, ImmutableMatrix, MatrixBase
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import Formula, Term, origins_in, real, term
+from juggleproof.certificates.language import ClaimError, Formula, Term, origins_in, real, term
 from juggleproof.proofs.claims import Body, assertions
-from juggleproof.proofs.encoding import from_sympy, paper_form
+from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.paper.paper_form import paper_form
 from juggleproof.proofs.reading.values import Matrix, Vector
 
 Rows = tuple[tuple[str, ...], ...]
+Derived = Union[Term, Vector, Matrix]
+Made = TypeVar("Made", Term, Formula, Vector, Matrix, Derived)
 
 
 class Origin(NamedTuple):
     """What made a term: a function of `symbolic` by its name, and its arguments."""
 
     function: str
-    arguments: tuple[Any, ...] = ()
+    arguments: tuple[Hashable, ...] = ()
 
 
-def derived(name: str, *arguments: Any) -> Any:
-    """A derived expression of `symbolic` by its function's name: a term, or a vector or matrix of
-    terms, each of which says what made it.
+def derived(name: str, *arguments: Hashable) -> Term:
+    """A derived expression of `symbolic` by its function's name, as a term that says what made it.
 
     >>> str(derived("E_max")), derived("E_max").origins
     ('r^2*(alpha + 1)^2/(2*(alpha - 1)^2)', (Origin(function='E_max', arguments=()),))
+
+    Raises ClaimError where the function comes to a column or matrix.
     """
-    return _derived(Origin(name, arguments))
+    value = derived_value(Origin(name, arguments))
+    if not isinstance(value, Term):
+        raise ClaimError(f"symbolic.{name} is no single expression")
+    return value
+
+
+def derived_vector(name: str, *arguments: Hashable) -> Vector:
+    """A derived column, each of whose entries says what made it.
+
+    >>> derived_vector("launch_state")
+    Vector(entries=(Term('0'), Term('r')))
+
+    Raises ClaimError where the function comes to anything else.
+    """
+    value = derived_value(Origin(name, arguments))
+    if not isinstance(value, Vector):
+        raise ClaimError(f"symbolic.{name} is no column")
+    return value
+
+
+def derived_matrix(name: str, *arguments: Hashable) -> Matrix:
+    """A derived matrix, each of whose entries says what made it.
+
+    Raises ClaimError where the function comes to anything else.
+    """
+    value = derived_value(Origin(name, arguments))
+    if not isinstance(value, Matrix):
+        raise ClaimError(f"symbolic.{name} is no matrix")
+    return value
 
 
 @cache
-def _derived(origin: Origin) -> Any:
+def derived_value(origin: Origin) -> Derived:
+    """What the function of an origin derives, whatever it is."""
     return made_by(origin, encoded(_result(origin)))
 
 
-def _result(origin: Origin) -> Any:
-    """What the function comes to; several expressions as a column, and an extremum as the state to
+def _result(origin: Origin) -> Expr | MatrixBase:
+    """The value of the function; several expressions as a column, and an extremum as the state to
     which it belongs.
     """
     value = getattr(symbolic, origin.function)(*origin.arguments)
@@ -56,22 +88,26 @@ def _result(origin: Origin) -> Any:
     return ImmutableMatrix(value) if isinstance(value, tuple) else value
 
 
-def made_by(origin: Origin, thing: Any) -> Any:
+def made_by(origin: Origin, value: Made) -> Made:
     """The same term, formula, vector or matrix, each of whose entries or sides says that this made
     it.
     """
-    if isinstance(thing, Term):
-        return thing.made_by(origin)
-    if isinstance(thing, Formula):
-        return Formula(thing.op, *(made_by(origin, part) for part in thing.args))
-    if isinstance(thing, Vector):
-        return Vector(tuple(made_by(origin, term(entry)) for entry in thing.entries))
-    return Matrix(tuple(tuple(made_by(origin, term(one)) for one in row) for row in thing.rows))
+    if isinstance(value, Term):
+        return value.made_by(origin)
+    if isinstance(value, Formula):
+        if value.parts:
+            return Formula(value.op, *(made_by(origin, part) for part in value.parts))
+        return Formula(value.op, *(made_by(origin, side) for side in value.sides))
+    if isinstance(value, Vector):
+        return Vector(tuple(made_by(origin, term(entry)) for entry in value.entries))
+    return Matrix(tuple(tuple(made_by(origin, term(one)) for one in row) for row in value.rows))
 
 
-def encoded(value: Any) -> Any:
+def encoded(value: Expr | MatrixBase) -> Derived:
     """A SymPy expression, column or matrix in the values of the reader; the square root of 2 + 2
     alpha is named s.
+
+    Raises ClaimError for floats, functions and other roots.
     """
     if isinstance(value, MatrixBase):
         if value.shape[1] == 1:
@@ -85,7 +121,7 @@ def encoded(value: Any) -> Any:
     return _term(value)
 
 
-def _term(expression: Any) -> Term:
+def _term(expression: Expr) -> Term:
     s = real("s")
     return from_sympy(
         expression, {2 * symbolic.alpha + 2: s, symbolic.alpha / 2 + symbolic.alpha**0 / 2: s / 2}
@@ -101,29 +137,29 @@ class Derivation:
     """
 
     function: str
-    said: str
+    sentence: str
     rows: Rows
     shown: Rows
     uses: tuple[str, ...]
 
     @property
     def line(self) -> str:
-        """The derivation in one line, as `explain` tells it."""
+        """The derivation in one line, as `explain` prints it."""
         shown = "; ".join(
             "(" * (len(row) > 1) + ", ".join(row) + ")" * (len(row) > 1) for row in self.rows
         )
-        return f"symbolic.{self.function.partition('(')[0]}: {self.said} {shown}"
+        return f"symbolic.{self.function.partition('(')[0]}: {self.sentence} {shown}"
 
     @property
     def title(self) -> str:
         """What is derived, in words: the sentence up to its colon, without formula or source."""
         arguments = self.function.partition("(")[2].rstrip(")")
-        said = re.sub(
+        title = re.sub(
             r" \((section|equation|inequality|appendix|after|figure)[^()]*\)",
             "",
-            self.said.partition(":")[0],
+            self.sentence.partition(":")[0],
         ).rstrip(".")
-        return said + (f", for {arguments}" if arguments else "")
+        return title + (f", for {arguments}" if arguments else "")
 
 
 @cache
@@ -144,9 +180,9 @@ def derivation(origin: Origin) -> Derivation:
         for listed in (tuple(terms), tuple(manner))
     )
     summary = (inspect.getdoc(getattr(symbolic, name)) or "").partition("\n\n")[0]
-    said = " ".join(summary.split())
+    sentence = " ".join(summary.split())
     given = f"({', '.join(map(str, arguments))})" if arguments else ""
-    return Derivation(name + given, said, rows, shown, made_from(name))
+    return Derivation(name + given, sentence, rows, shown, made_from(name))
 
 
 @cache
@@ -162,7 +198,7 @@ def made_from(name: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_called(getattr(symbolic, name), {name})))
 
 
-def _called(function: Any, seen: set[str]) -> Iterator[str]:
+def _called(function: Callable[..., object], seen: set[str]) -> Iterator[str]:
     plain = inspect.unwrap(function)
     for name in _names_in(plain.__code__):
         called = plain.__globals__.get(name)
@@ -187,7 +223,7 @@ def _names_in(code: CodeType) -> Iterator[str]:
             yield from _names_in(inner)
 
 
-def _is_derivation(function: Any, name: str) -> bool:
+def _is_derivation(function: Callable[..., object], name: str) -> bool:
     """Whether it takes no arguments and comes to an expression, column or matrix."""
     if name not in dir(symbolic) or inspect.signature(function).parameters:
         return False

@@ -9,10 +9,10 @@ import sys
 from pathlib import Path
 
 from juggleproof.certificates.language import origins_in, reals, substitute
-from juggleproof.proofs.derivations import Origin, derivations_of, derived
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import Origin, derivations_of, derived, derived_vector
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def listed() -> dict[str, list[str]]:
@@ -25,7 +25,7 @@ def listed() -> dict[str, list[str]]:
 def test_listed_derivations_are_the_ones_that_statements_contain_holds() -> None:
     """For every claim; what a statement contains is found by marks, in a process of its own."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.proofs.marked_derivations"],
+        [sys.executable, "-m", "tests.proofs.paper.marked_derivations"],
         cwd=ROOT,
         capture_output=True,
         text=True,
@@ -49,7 +49,9 @@ def test_an_origin_stays_with_its_term_holds() -> None:
     moved = substitute(energy, {"v": v + y, "beta": y}) + 1
     assert list(origins_in(moved)) == [made]
     assert list(origins_in(pickle.loads(pickle.dumps(moved)))) == [made]
-    assert list(origins_in([derived("launch_state").component(2) > v])) == [Origin("launch_state")]
+    assert list(origins_in([derived_vector("launch_state").component(2) > v])) == [
+        Origin("launch_state")
+    ]
     plain = v**2 / 2 + 0
     assert plain.made_by(made) == plain and hash(plain.made_by(made)) == hash(plain)
     assert list(origins_in(plain)) == []

@@ -1,0 +1,161 @@
+"""What a claim is judged with, the judgement on it, and what of this a later run tries first."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib.metadata import version
+from typing import TypedDict
+
+from juggleproof.certificates.language import NO_ROLES, Roles
+from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.store import Store
+from juggleproof.certificates.votes.vote import Vote
+from juggleproof.proofs.claims import Claim, Verdict
+
+ROUTES = ("exact", "z3", "boxes")
+DEFAULT_BUDGET = 2_000_000
+
+# -------------------------------------------------------------------------------------------------
+# Findings: what the file `findings` of a store keeps of a claim; it saves time and proves nothing.
+
+# `text` is the corrected LaTeX, the corrected right-hand side, or the true assertion nearby
+Correction = TypedDict(
+    "Correction",
+    {"kind": str, "change": str, "text": str, "possible transcription error": bool},
+)
+
+
+class RecordedVote(TypedDict):
+    """A vote as the file has it."""
+
+    route: str
+    answer: str
+    detail: str
+
+
+class RecordedVotes(TypedDict):
+    """The votes on one statement, and the digest of what they were cast on."""
+
+    on: str
+    votes: list[RecordedVote]
+
+
+# sharp ranges as text and digests of searches that ended without one, both by the prefix of an
+# assertion; the correction; the votes by the name of the statement
+Finding = TypedDict(
+    "Finding",
+    {
+        "sharp": dict[str, str],
+        "not found": dict[str, str],
+        "correction": Correction,
+        "votes": dict[str, RecordedVotes],
+    },
+    total=False,
+)
+
+
+@cache
+def _tools() -> str:
+    return " ".join(version(tool) for tool in ("z3-solver", "python-flint"))
+
+
+def digest(text: str) -> str:
+    """The text together with the versions of the tools that vote and search, in 16 hex digits."""
+    return hashlib.sha256(f"{_tools()}\n{text}".encode()).hexdigest()[:16]
+
+
+# -------------------------------------------------------------------------------------------------
+# Resources and judgements.
+
+
+@dataclass(frozen=True)
+class Resources:
+    """What a claim is judged with: which routes vote, how much counted work a statement may take,
+    and the findings of an earlier run by claim.
+
+    `lemmas` has the texts of statements that other claims state, by name; `checked` the checker's
+    outcomes of the stored statements, by name, when it read the whole store at the start of this
+    run.
+    """
+
+    routes: tuple[str, ...] = ROUTES
+    budget: int = DEFAULT_BUDGET
+    store: Store | None = None
+    findings: Mapping[str, Finding] = field(default_factory=dict)
+    lemmas: Mapping[str, str] = field(default_factory=dict)
+    checked: Mapping[str, str] = field(default_factory=dict)
+
+    def only(self, claim: Claim) -> Resources:
+        """What these are for one claim, with the stored certificates read, so that no folder
+        is needed.
+        """
+        used = {claim.id, *(name.split("/")[0] for name in claim.hints.get("uses", ()))}
+        return replace(
+            self,
+            store=self.store.only(used) if self.store else None,
+            findings={id: one for id, one in self.findings.items() if id == claim.id},
+            checked={
+                name: outcome
+                for name, outcome in self.checked.items()
+                if name.split("/")[0] in used
+            },
+            lemmas={
+                name: text
+                for name, text in self.lemmas.items()
+                if name in claim.hints.get("uses", ())
+            },
+        )
+
+
+@dataclass(frozen=True)
+class Sharp:
+    """A sharp range of the parameters: as text, and the names of the statements that settle it.
+
+    Where the search ended without one, `tried` is a digest of what it was for, so that the same
+    search is not made again.
+    """
+
+    text: str
+    by: tuple[str, ...] = ()
+    tried: str = ""
+
+
+@dataclass
+class Judgement:
+    """All that is known of one claim once it is judged; plain data, which passes between
+    processes.
+
+    Statements with their texts are in order; certificates, outcomes and votes are by the name of
+    the statement.
+    """
+
+    id: str
+    statements: list[tuple[str, str]] = field(default_factory=list)
+    certificates: dict[str, Certificate] = field(default_factory=dict)
+    outcomes: dict[str, str] = field(default_factory=dict)
+    votes: dict[str, Sequence[Vote]] = field(default_factory=dict)
+    sharp: dict[str, Sharp] = field(default_factory=dict)  # by the prefix of an assertion
+    verdict: Verdict = field(default_factory=lambda: Verdict("unknown"))
+    correction: Correction | None = None
+    recorded: dict[str, RecordedVotes] = field(default_factory=dict)
+    rests_on: tuple[str, ...] = ()  # map rules, as a rule of other claims
+    # the verdict if they are certified
+    by_rules: Verdict = field(default_factory=lambda: Verdict("unknown"))
+    follows: bool = False
+    roles: Roles = NO_ROLES
+    reused: int = 0
+
+    def finding(self) -> Finding:
+        """What a later run may try first: the sharp ranges, the correction and the votes."""
+        finding: Finding = {"sharp": {prefix: one.text for prefix, one in self.sharp.items()}}
+        tried = {prefix: one.tried for prefix, one in self.sharp.items() if one.tried}
+        if tried:
+            finding["not found"] = tried
+        if self.correction:
+            finding["correction"] = self.correction
+        if self.recorded:
+            finding["votes"] = self.recorded
+        return finding
