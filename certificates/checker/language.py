@@ -1,7 +1,7 @@
 """What an auditor's file means: statements, and statements over polynomials.
 
-A file is a list of lines.  A blank line, or one that starts with #, says nothing.  `statement
-ID/part` begins a statement; the lines below it say what it is (`LINES` and `ORDERS`).  Terms and
+A file is a list of lines.  One that starts with # is a comment.  `statement ID/part` begins a
+statement, a blank line ends it; the lines between say what it is (`LINES` and `ORDERS`).  Terms and
 formulas are written with integers, names, + - * / ^, < <= = != >= >, and, or, not, implies(,),
 iff(,).  Definitions: see `text.py`.
 """
@@ -179,7 +179,7 @@ class Context:
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
             return self.reciprocal(node.left) * self.reciprocal(node.right)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
-            return self.reciprocal(node.left) ** exponent(node.right)
+            return self.reciprocal(node.left) ** exponent(node)
         raise Rejected(Kind.DIVISION, self.show(value))
 
     def value(self, node: ast.expr) -> Poly:
@@ -195,7 +195,7 @@ class Context:
         if isinstance(node, ast.BinOp):
             left, op, right = self.value(node.left), type(node.op), node.right
             if op is ast.Pow:
-                return left ** exponent(right)
+                return left ** exponent(node)
             if op is ast.Div:
                 return left * self.reciprocal(right)
             if op in ARITHMETIC:
@@ -260,10 +260,10 @@ class Context:
         return re.sub(r"\b1\*(?=[A-Za-z])", "", " + ".join(parts)).replace("+ -", "- ") or "0"
 
 
-def exponent(node: ast.expr) -> int:
+def exponent(node: ast.BinOp) -> int:
     """The exponent of a power: an integer as it stands."""
-    if isinstance(node, ast.Constant) and type(node.value) is int:
-        return node.value
+    if isinstance(node.right, ast.Constant) and type(node.right.value) is int:
+        return node.right.value
     raise Rejected(Kind.TERM, ast.unparse(node))
 
 
@@ -434,6 +434,8 @@ def read_statements(text: str, work: Work | None = None) -> dict[str, Statement]
                 if not current:
                     raise Rejected(Kind.LINE, line)
                 current.add(keyword, rest, definitions, statements)
+            elif not keyword:
+                current = None  # where a reader sees a block end, no line can be added to it
         except Rejected as reason:
             raise reason.within(f"statements, line {count}") from None
         except (ValueError, TypeError, RecursionError, MemoryError) as error:

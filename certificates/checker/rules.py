@@ -298,17 +298,17 @@ def close_by_use(
     for key, new in sorted(fresh.items()):
         context.declare(new, any(key in line for line in known[name].get("integer")))
         values[key] = context.values[new]
-    story = Unfolding(known[name], Context(context, values))
-    one_value_each(state.context, story, arguments, fresh, story.variables)
+    unfolding = Unfolding(known[name], Context(context, values))
+    one_value_each(state.context, unfolding, arguments, fresh, unfolding.variables)
     # a term for what exists would choose the witness, which only the lemma may
-    require(set(arguments) == set(story.universal), Kind.FRESH, name)
-    instance = join("or", [negate(join("and", story.premises)), story.goal(True)])
+    require(set(arguments) == set(unfolding.universal), Kind.FRESH, name)
+    instance = join("or", [negate(join("and", unfolding.premises)), unfolding.goal(True)])
     close(state.branch(instance, context), node, known)
 
 
 def one_value_each(
     context: Context,
-    story: Unfolding,
+    unfolding: Unfolding,
     terms: Mapping[str, str],
     others: Collection[str],
     needed: Collection[str],
@@ -317,7 +317,7 @@ def one_value_each(
     an integer polynomial in integers.
     """
     whole = True
-    for name in story.integers & set(terms):
+    for name in unfolding.integers & set(terms):
         value = context.polynomial(terms[name])
         # n/2 would pass for an integer
         whole = whole and value.den == 1 and variables_of(context, value) <= context.integers
@@ -362,17 +362,17 @@ def prove(
     found for the `exists` variables that make the goals hold.
     """
     way, steps, last = certificate
-    story = Unfolding(statement, Context(work=work), sharp)
+    unfolding = Unfolding(statement, Context(work=work), sharp)
     # strict: a `have` without a node would be assumed, not shown
-    for (count, negation), node in zip(story.obligations, steps, strict=True):
-        close(state_of(story, count).assume(negation), node, known)
+    for (count, negation), node in zip(unfolding.obligations, steps, strict=True):
+        close(state_of(unfolding, count).assume(negation), node, known)
     # with `proof`, a variable that exists would be taken as one that is for all
     require(way == ("witness" if statement.get("exists") else "proof"), Kind.WAY, way)
     if way == "proof":
-        close(state_of(story).assume(story.goal(False)), last, known)
+        close(state_of(unfolding).assume(unfolding.goal(False)), last, known)
     else:
-        own = {name: story.context.values[name] for name in story.universal}
-        find(state_of(story), last, known, "witness", {statement.name: statement}, own, sharp)
+        own = {name: unfolding.context.values[name] for name in unfolding.universal}
+        find(state_of(unfolding), last, known, "witness", {statement.name: statement}, own, sharp)
 
 
 def find(
@@ -414,13 +414,13 @@ def find(
     # `base` comes last: a certificate has no say in what is given to it
     values = {key: state.context.value(parse(text)) for key, text in terms.items()}
     inner = Context(state.context, {**values, **base})
-    story = Unfolding(statement, inner, sharp, purpose != "point")
-    needed = story.variables if purpose == "witness" else story.universal
-    one_value_each(state.context, story, terms, base, needed)
-    shown = story.goals if purpose == "witness" else story.premises
+    unfolding = Unfolding(statement, inner, sharp, purpose != "point")
+    needed = unfolding.variables if purpose == "witness" else unfolding.universal
+    one_value_each(state.context, unfolding, terms, base, needed)
+    shown = unfolding.goals if purpose == "witness" else unfolding.premises
     close(state.branch(negate(join("and", shown))), node, known)
     for last in rest:
-        close(state.branch(story.goal(True), story.context), last, known)
+        close(state.branch(unfolding.goal(True), unfolding.context), last, known)
 
 
 def rational_value(context: Context, node: ast.expr) -> Fraction:

@@ -32,6 +32,7 @@ from .text import names_in, put
 MAX_FILE = 16 << 20
 MAX_STATEMENTS = 2 << 20  # a syntax tree takes some 500 bytes for a letter
 MAX_FOLDER_WORK = 10**9  # for all statements of a folder
+MAX_REFUSED = 1000  # lines of certificates, after which no more are read
 PER_LETTER = 20  # elementary products that a letter of a premise stands for
 STATEMENTS = "statements.txt"
 CERTIFICATES = "certificates.jsonl"
@@ -537,6 +538,8 @@ def read_certificates(text: str) -> tuple[dict[str, Hint], list[tuple[int, Rejec
     if lines.pop():
         refused.append((len(lines) + 1, Rejected(Kind.CERTIFICATE_LINE, "no newline at the end")))
     for count, line in enumerate(lines, 1):
+        if len(refused) > MAX_REFUSED:
+            break  # what is not read certifies nothing
         try:
             name, certificate = read_certificate(line)
             require(name not in certificates, Kind.CERTIFICATE_TWICE, name)

@@ -5,6 +5,7 @@ wrong, whatever the files hold.
 from __future__ import annotations
 
 import json
+import os
 import py_compile
 import shutil
 import subprocess
@@ -333,7 +334,27 @@ def test_a_file_without_end_is_rejected(tmp_path: Path) -> None:
     (tmp_path / "statements.txt").write_text(TRUE)
     done = run(tmp_path)
     assert (done.returncode, done.stderr) == (1, "")
-    assert "\nrejected  certificates.jsonl: a file is too large" in done.stdout
+    assert "\nrejected  certificates.jsonl: a file cannot be read" in done.stdout
+
+
+def test_a_pipe_is_rejected_and_not_waited_for(tmp_path: Path) -> None:
+    (tmp_path / "certificates.jsonl").write_text("")
+    os.mkfifo(tmp_path / "statements.txt")
+    done = run(tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert one_line(done.stderr).startswith("checker: a file cannot be read")
+
+
+@pytest.mark.parametrize(
+    "name, most", [("statements.txt", 2 << 20), ("certificates.jsonl", 1 << 24)]
+)
+def test_a_file_that_is_too_large_is_rejected(tmp_path: Path, name: str, most: int) -> None:
+    (tmp_path / "statements.txt").write_text(TRUE)
+    (tmp_path / "certificates.jsonl").write_text(line("a/b", UNKNOWN))
+    (tmp_path / name).write_text("\n" * most)
+    assert "too large" not in (done := run(tmp_path)).stdout + done.stderr
+    (tmp_path / name).write_text("\n" * (most + 1))
+    assert "a file is too large" in (done := run(tmp_path)).stdout + done.stderr
 
 
 def test_a_reason_is_one_printable_line() -> None:
@@ -349,3 +370,10 @@ def test_a_name_cannot_fake_a_line(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (1, "")
     assert len(done.stdout.splitlines()) == 2
     assert done.stdout.isascii()
+
+
+def test_a_blank_line_ends_a_statement(tmp_path: Path) -> None:
+    text = "statement a/b\nforall x\n\nshow x > 0\n"
+    done = check(tmp_path, text, line("a/b", UNKNOWN))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "line 4: an unknown kind of line" in one_line(done.stderr)

@@ -20,8 +20,9 @@ resource.setrlimit(resource.RLIMIT_CPU, (20, 20))
 sys.path.insert(0, {str(ROOT)!r})
 from juggleproof.certificates import checker
 for text, certificate in json.load(sys.stdin):
-    (statement,) = checker.read_statements(text).values()
-    outcome = checker.check_one(statement, certificate, {{}}, {{}}, checker.Work(checker.MAX_WORK // 20))
+    *known, (_, statement) = checker.read_statements(text).items()
+    work = checker.Work(checker.MAX_WORK // 20)
+    outcome = checker.check_one(statement, certificate, dict(known), {{}}, work)
     print(*outcome, flush=True)
 """
 AT = {"x": "0", "y": "0", "z": "0"}
@@ -121,7 +122,39 @@ BOXES: dict[str, tuple[tuple[str, ...], str, list[list[int]], str]] = {
     "an axis for each of forty variables": (MANY, "*".join(VARIABLES) + " <= 2", SIDES, "."),
     "the faces of forty variables": (MANY, " + ".join(VARIABLES) + " <= 41", SIDES, "A" * 40 + "."),
 }
+PIECES = [f"piece x >= {k} and x < {k + 1} -> x" for k in range(1500)]
+DEEP: Json = CLOSE
+for _ in range(150):
+    DEEP = ["sign", "x", CLOSE, CLOSE, DEEP]
+FORKS: Json = ["cases", 0, [CLOSE, CLOSE]]
+LEMMAS: dict[str, tuple[str, Json]] = {
+    "a map of 1,500 pieces": (
+        lines("over a", "domain a > 0", "state x", "space x >= 0", *PIECES),
+        {"certified": {}},
+    ),
+    "a periodic orbit of a million steps": (
+        lines(
+            "over a", "domain a > 0", "state x", "space x >= 0", "piece x >= 0 -> x", name="a/map"
+        )
+        + "\n"
+        + lines("map a/map", "domain a > 0", "point 0", "start 1", "word" + " 1" * 900_000),
+        {"certified": {}},
+    ),
+    "branches of a state with many facts": (
+        lines("forall x", *[f"given x > -{k}" for k in range(4000)], "show x < 2"),
+        proof(["sign", "x", *[["sign", "x", *[["sign", "x", *[DEEP] * 3]] * 3]] * 3], at=AT),
+    ),
+    "licences without number": (
+        lines(
+            "forall x",
+            *[f"given x > -{k + 1}" for k in range(1500)],
+            "show " + "*".join(f"(1/(x + {k + 1}))" for k in range(1500)) + " > 0",
+        ),
+        proof(CLOSE, at=AT),
+    ),
+}
 CASES: dict[str, tuple[str, Json]] = {
+    **LEMMAS,
     **{
         name: (lines(*rows, f"show {shown}"), proof(["boxes", len(rows) - 1, sides, tree], at=AT))
         for name, (rows, shown, sides, tree) in BOXES.items()

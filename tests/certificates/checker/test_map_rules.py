@@ -23,6 +23,7 @@ ON = "on x < 1\npoint 0\nweights 1\nrate a\nradius 1/2\nsize 1"
 # (statement, what stands there, what is put in its place, the premise that fails)
 FAILING = [
     ("map", "domain a > 0 and a <= 1", "domain a > 0 and a < 0", "possible"),
+    ("map", "space x >= 0", "space x >= 0 and x < 0", "possible"),
     ("map", "piece x >= 1", "piece x > 1", "covers"),
     ("map", "piece x < 1", "piece x <= 1", "apart-2-1"),
     ("map", "x - 1", "x - 2", "stays-1"),

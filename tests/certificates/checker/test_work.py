@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.checker import Kind, Rejected, Work
+from juggleproof.certificates.checker import Kind, Rejected, Work, settling
 from juggleproof.certificates.checker.rules import State, prove
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused
 
@@ -17,7 +19,7 @@ CERTIFICATE = proof(CLOSE, at={"x": "0"})
 
 
 def outcome(limit: int) -> tuple[str, Kind | None]:
-    found, reason = checker.check_one(STATEMENT, CERTIFICATE, {}, {}, limit)
+    found, reason = checker.check_one(STATEMENT, CERTIFICATE, {}, {}, Work(limit))
     return found, reason.kind if reason else None
 
 
@@ -78,7 +80,7 @@ def test_an_orbit_rule_has_one_meter_for_all_premises() -> None:
     limits = [
         limit
         for limit in range(2000)
-        if checker.check_one(statement, done, {}, {}, limit)[0] == "certified"
+        if checker.check_one(statement, done, {}, {}, Work(limit))[0] == "certified"
     ]
     parts = []
     for premise in checker.premises_of(statement, {}).values():
@@ -86,3 +88,21 @@ def test_an_orbit_rule_has_one_meter_for_all_premises() -> None:
         prove(premise, ["proof", [], CLOSE], {}, work=work)
         parts.append(checker.MAX_WORK - work.left)
     assert limits[0] == sum(parts) > max(parts)
+
+
+def test_all_statements_of_a_folder_have_one_meter(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What one has spent, those after it have not; a statement alone has at most MAX_WORK."""
+    names = ["a/a", "a/b", "a/c"]
+    texts = [POWER.replace("rule/case", name) for name in names]
+    entries = [
+        json.dumps([name, json.loads(json.dumps(CERTIFICATE).replace("rule/case", name))])
+        for name in names
+    ]
+    (tmp_path / checker.STATEMENTS).write_text("\n".join(texts))
+    (tmp_path / checker.CERTIFICATES).write_text("\n".join(entries) + "\n")
+    for enough in range(4):
+        monkeypatch.setattr(settling, "MAX_FOLDER_WORK", enough * least() + least() // 2)
+        outcomes = [outcome for _, outcome, _ in checker.check_folder(str(tmp_path))]
+        assert outcomes == (["certified"] * enough + ["rejected"] * 3)[:3]

@@ -62,14 +62,16 @@ given x*(1 - alpha) = 1 + alpha
 show n <= x"""
 
 
-def test_a_range_over_a_whole_number_has_a_whole_sample():
+def test_a_range_over_a_whole_number_has_a_whole_point():
     statement = cases.read(FLIGHTS)
     found = find_sharp_region(
         [statement], ["alpha", "K"], UNIT & (K >= 1), "plane/sharp", {}, cases.budget()
     )
     assert str(found.statement.condition) == "alpha*K + alpha - K + 1 >= 0"
     assert settled(statement, found) == "certified"
-    half = [*found.certificate[:2], {"alpha": "1/2", "K": "3/2"}]
+    inside, outside, points = found.certificate
+    name, adjoined, values, node = points[statement.name]
+    half = [inside, outside, {name: [name, adjoined, {**values, "K": "3/2"}, node]}]
     named = {statement.name: statement}
     outcome, reason = checker.check_one(read(found.statement), {"certified": half}, {}, named)
-    assert outcome == "rejected" and reason.kind == checker.Kind.SAMPLE
+    assert outcome == "rejected" and reason.kind == checker.Kind.VALUES

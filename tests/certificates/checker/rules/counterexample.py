@@ -61,6 +61,24 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    Case(
+        "a root that is used before its line",
+        lines("forall x", "given s > 3", "root s = sqrt(x)", "show x < 16"),
+        refuted(values(x="16", s="4")),
+        (Kind.UNDECLARED, "s"),
+    ),
+    Case(
+        "a root of itself",
+        lines("root s = sqrt(s)", "show s < 1"),
+        refuted(values(s="1")),
+        (Kind.UNDECLARED, "s"),
+    ),
+    Case(
+        "a division that only the value allows",
+        lines("forall x", "show 1/x > 2"),
+        refuted(values(x="1")),
+        Kind.DIVISION,
+    ),
     Case("a premise that fails", GREATER, refuted(values(x="-2", y="1")), Kind.NOTHING_FALSE),
     Case("a goal that holds", GREATER, refuted(values(x="2", y="1")), Kind.NOTHING_FALSE),
     Case(

@@ -29,12 +29,18 @@ LOOSE = [
     [],
     ["psatz", [[1, [[4, 1]], "1"], [1, [[2, 1]], "1"], [1, [[3, 1]], "1"], [1, [[3, 2]], "1"]], []],
 ]
-HALF = {"a": "1/2"}
 EARLIER = {name: {"unknown": "holds only in a range"} for name in ("rule/squares", "rule/counts")}
 
 
-def sharp(inside: Json, outside: Json, sample: Json = None) -> Json:
-    return {"certified": [inside, outside, HALF if sample is None else sample]}
+def point(values: Json, node: Json = CLOSE, name: str = "rule/squares") -> Json:
+    return {name: [name, [], values, node]}
+
+
+HALF = point({"a": "1/2", "x": "1"})
+
+
+def sharp(inside: Json, outside: Json, points: Json = None) -> Json:
+    return {"certified": [inside, outside, HALF if points is None else points]}
 
 
 def found(outside: Json = FAILS, premises: Json = MET, values: Json = None) -> Json:
@@ -68,7 +74,7 @@ BEYOND = ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"], [1, [], "1"]], []]
 
 
 def counted(
-    defect: str, expected: str = "certified", rows: tuple[str, ...] = COUNTS, sample: str = "1"
+    defect: str, expected: str = "certified", rows: tuple[str, ...] = COUNTS, n: str = "1"
 ) -> Case:
     text = lines(*rows, name="rule/squares") + "\n" + lines("sharp rule/squares", *BELOW_2)
     met = [
@@ -82,7 +88,7 @@ def counted(
     return Case(
         defect,
         text,
-        sharp({"rule/squares": COUNTED}, found(BEYOND, met), {"n": sample}),
+        sharp({"rule/squares": COUNTED}, found(BEYOND, met), point({"n": n, "x": "1"})),
         expected,
         EARLIER,
     )
@@ -119,6 +125,7 @@ ACCEPTED = [
 
 MAP = lines("forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K", name="rule/map")
 EMPTY = ["empty", CLOSE]
+CONTRADICTION = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"]], []]
 
 REJECTED = [
     counted(
@@ -126,10 +133,14 @@ REJECTED = [
         Kind.INTEGRAL,
         (COUNTS[0], *COUNTS[2:]),
     ),
-    counted("a sample between integers", Kind.SAMPLE, sample="3/2"),
+    counted("a point between integers", Kind.VALUES, n="3/2"),
     case(
         "a parameter that is an integer in one statement only",
-        sharp({"rule/squares": INSIDE, "rule/counts": COUNTED}, found()),
+        sharp(
+            {"rule/squares": INSIDE, "rule/counts": COUNTED},
+            found(),
+            HALF | point({"a": "1", "x": "1"}, name="rule/counts"),
+        ),
         Kind.SHARP_INTEGERS,
         SQUARES
         + "\n"
@@ -140,13 +151,13 @@ REJECTED = [
     Case(
         "a statement of another kind",
         MAP + "\n" + lines("sharp rule/map", "over x", "domain x > 0", "holds 0 = 0"),
-        sharp({"rule/map": ["proof", [], CLOSE]}, EMPTY, {"x": "1"}),
+        sharp({"rule/map": ["proof", [], CLOSE]}, EMPTY, point({"x": "1"}, name="rule/map")),
         Kind.SHARP,
         {"rule/map": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}},
     ),
     case(
         "a statement that does not exist, with a proof",
-        sharp({"rule/none": INSIDE}, found()),
+        sharp({"rule/none": INSIDE}, found(), point({}, name="rule/none")),
         Kind.SHARP,
         over("sharp rule/none", *SHARP[1:]),
     ),
@@ -169,33 +180,76 @@ REJECTED = [
         over(*SHARP[:3], "holds a < 1"),
     ),
     case(
-        "an empty domain",
-        VALID,
-        Kind.SAMPLE,
-        over("sharp rule/squares", "over a", "domain a^2 < 0", "holds a = 5"),
+        "a point outside of an empty domain",
+        sharp({"rule/squares": ["proof", [], CONTRADICTION]}, ["empty", CONTRADICTION]),
+        Kind.NOTHING_FALSE,
+        over("sharp rule/squares", "over a", "domain a > 0 and a < 0", "holds a = 5"),
     ),
     case(
-        "a sample outside of the domain",
-        sharp({"rule/squares": INSIDE}, found(), {"a": "10"}),
-        Kind.SAMPLE,
+        "givens that contradict one another",
+        sharp({"rule/squares": ["proof", [], CONTRADICTION]}, EMPTY),
+        Kind.NOTHING_FALSE,
+        lines("forall a x", "given a > 0", "given a < 0", "show x > a", name="rule/squares")
+        + "\n"
+        + lines("sharp rule/squares", "over a", "domain 0 = 0", "holds 0 = 0"),
     ),
     case(
-        "a sample without value",
-        sharp({"rule/squares": INSIDE}, found(), {}),
-        Kind.SAMPLE,
+        "a range over what exists",
+        sharp({"rule/squares": ["witness", [], found()]}, EMPTY, point({})),
+        Kind.SHARP_OVER,
+        lines("exists a", "show a > 0", name="rule/squares")
+        + "\n"
+        + lines("sharp rule/squares", "over a", "domain 0 = 0", "holds 0 = 0"),
     ),
     case(
-        "a sample with a value too many",
-        sharp({"rule/squares": INSIDE}, found(), {"a": "1/2", "x": "1"}),
-        Kind.SAMPLE,
+        "a range over a root",
+        sharp({"rule/squares": ["proof", [CLOSE], CLOSE]}, EMPTY, point({})),
+        Kind.SHARP_OVER,
+        lines("forall x", "root a = sqrt(x^2)", "show a >= 0", name="rule/squares")
+        + "\n"
+        + lines("sharp rule/squares", "over a", "domain 0 = 0", "holds 0 = 0"),
     ),
     case(
-        "a float for a sample",
-        sharp({"rule/squares": INSIDE}, found(), {"a": 0.5}),
-        (Kind.RATIONAL, "0.5"),
+        "a division that only the condition licenses",
+        sharp({"rule/squares": ["proof", [], CLOSE]}, ["empty", CLOSE], point({"a": "1"})),
+        Kind.DIVISION,
+        lines("forall a", "show a/a = 1", name="rule/squares")
+        + "\n"
+        + lines("sharp rule/squares", "over a", "domain a >= 0", "holds a > 0"),
     ),
     case(
-        "no sample",
+        "a point outside of the domain",
+        sharp({"rule/squares": INSIDE}, found(), point({"a": "10", "x": "1"})),
+        Kind.NOTHING_FALSE,
+    ),
+    case(
+        "a point that does not meet a given",
+        sharp({"rule/squares": INSIDE}, found(), point({"a": "1/2", "x": "1/2"})),
+        Kind.NOTHING_FALSE,
+    ),
+    case(
+        "a point without a value",
+        sharp({"rule/squares": INSIDE}, found(), point({"a": "1/2"})),
+        Kind.VALUES,
+    ),
+    case(
+        "a point with a value too many",
+        sharp({"rule/squares": INSIDE}, found(), point({"a": "1/2", "x": "1", "b": "1"})),
+        Kind.NO_VARIABLE,
+    ),
+    case(
+        "a point of another statement",
+        sharp({"rule/squares": INSIDE}, found(), {"rule/squares": HALF["rule/squares"][:1] * 4}),
+        Kind.MALFORMED,
+    ),
+    case("no point", sharp({"rule/squares": INSIDE}, found(), {}), Kind.SHARP),
+    case(
+        "a point too many",
+        sharp({"rule/squares": INSIDE}, found(), HALF | point({"a": "1/2"}, name="rule/other")),
+        Kind.SHARP,
+    ),
+    case(
+        "points left out",
         {"certified": [{"rule/squares": INSIDE}, found()]},
         (Kind.MALFORMED, "ValueError"),
     ),
@@ -250,8 +304,8 @@ REJECTED = [
     ),
     case(
         "a parameter that the statement has not",
-        sharp({"rule/squares": INSIDE}, found(), {"b": "1/2"}),
-        (Kind.UNDECLARED, "b"),
+        VALID,
+        (Kind.SHARP_OVER, "rule/squares"),
         over("sharp rule/squares", "over b", "domain b > 0", "holds b <= 1"),
     ),
     case(
