@@ -172,7 +172,7 @@ def points_of(
                 State(checker.Context()),
                 "point",
                 {},
-                known,
+                dict(known),
                 budget,
                 [domain],
                 depth,
