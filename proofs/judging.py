@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import cast
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import (
@@ -49,7 +48,7 @@ from juggleproof.proofs.forms import (
     speaks_of_range,
 )
 from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
-from juggleproof.proofs.ranges import search_sharp_range
+from juggleproof.proofs.ranges import search_sharp_range, text_of_range
 from juggleproof.proofs.rules import range_of_rule, whole_text
 
 QUICK_BUDGET = 150_000
@@ -482,7 +481,7 @@ class Judge:
         over = tuple(name for name in sought if all(name in part.forall for part in open_parts))
         if not over:
             return None
-        sharp = self.stored_sharp_range(prefix, open_parts) or self.new_sharp_range(
+        sharp = self.stored_sharp_range(prefix, open_parts, over) or self.new_sharp_range(
             prefix, open_parts, over
         )
         return replace(sharp, by=(*sharp.by, *everywhere)) if sharp.by else sharp
@@ -494,21 +493,27 @@ class Judge:
         text = range_of_rule(name, dict(self.judgement.statements), self.judgement.roles)
         return Sharp(text, (name,)) if text else None
 
-    def stored_sharp_range(self, prefix: str, parts: Sequence[Statement]) -> Sharp | None:
-        """The stored sharp range of these statements, if the checker accepts it."""
+    def stored_sharp_range(
+        self, prefix: str, parts: Sequence[Statement], over: Sequence[str]
+    ) -> Sharp | None:
+        """The stored sharp range of these statements, if the checker accepts it and it is on the
+        whole domain.
+        """
         name, store = f"{self.claim.id}/{prefix}sharp", self.resources.store
         text = store.texts.get(name) if store else None
-        remembered = self.finding.get("sharp", {}).get(prefix)
-        if store is None or text is None or not remembered:
+        if store is None or text is None:
             return None
         if text.splitlines()[1] != "sharp " + " ".join(part.name for part in parts):
             return None
         certificate = store.certificate(name, text)
         if certificate is None or self.sharp_outcome(name, text, certificate, parts) != "certified":
             return None
+        shown = text_of_range(text, parts, over, self.judgement.roles, self.resources.budget)
+        if shown is None:
+            return None
         self.record(name, text, certificate, "certified")
         self.judgement.reused += 1
-        return Sharp(remembered, (name,))
+        return Sharp(shown, (name,))
 
     def new_sharp_range(
         self, prefix: str, parts: Sequence[Statement], over: Sequence[str]
@@ -524,14 +529,15 @@ class Judge:
         result = search_sharp_range(name, parts, over, self.known, SHARP * budget, roles)
         if result is None:
             return Sharp(NOT_FOUND, tried=tried)
-        sharp, proof, shown = result
-        certificate = cast(Certificate, {"certified": proof})
+        sharp, proof = result
+        certificate: Certificate = {"certified": proof}
         earlier = {part.name: read(part.text(), part.name) for part in parts}
         outcome, reason = checker.check_one(
             read(sharp.text(), name), certificate, self.known, earlier
         )
-        if outcome != "certified":
-            return Sharp(f"{NOT_FOUND} ({reason})")
+        shown = text_of_range(sharp.text(), parts, over, roles, budget)
+        if outcome != "certified" or shown is None:
+            return Sharp(f"{NOT_FOUND} ({reason or 'not on the whole domain'})")
         self.record(name, sharp.text(), certificate, outcome)
         return Sharp(shown, (name,))
 

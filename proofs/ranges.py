@@ -1,4 +1,6 @@
-"""Sharp ranges: the search for one, and its text as intervals with exact end points."""
+"""Sharp ranges: the search for one, and the text of a certified one as intervals with exact end
+points.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +9,7 @@ from fractions import Fraction
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
+from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.language import (
     End,
     Formula,
@@ -20,8 +23,9 @@ from juggleproof.certificates.language import (
     disjunction,
     interval_text,
 )
+from juggleproof.certificates.nodes import Sharp
 from juggleproof.certificates.search.families import implies_domain, solved
-from juggleproof.certificates.search.ranges import Line, pinned, polynomial_term
+from juggleproof.certificates.search.ranges import Line, line_on, pinned, polynomial_term
 from juggleproof.certificates.search.sharp import Range, find_sharp_range, whole_parameters
 from juggleproof.certificates.search.sharp_plane import find_sharp_region
 from juggleproof.certificates.work import Budget, Exhausted
@@ -37,9 +41,9 @@ def search_sharp_range(
     known: Mapping[str, checker.Statement],
     budget: int,
     roles: Roles,
-) -> tuple[SharpRange, Sequence[object], str] | None:
-    """The sharp range of the statements, its certificate and its text; None where the search
-    does not find one.
+) -> tuple[SharpRange, Sharp] | None:
+    """The sharp range of the statements and its certificate; None where the search does not find
+    one.
 
     It is sought in the domains of the parameters that it is over.  A whole number that the
     hypotheses tie to the first one, as floor and ceiling do, joins it, and they bound the domain.
@@ -58,7 +62,7 @@ def search_sharp_range(
                 parsed, (first, number), domain, name, known, Budget(budget // 3), roles
             )
             if region.statement is not None and region.certificate is not None:
-                return region.statement, region.certificate, paired_text(region.statement, number)
+                return region.statement, region.certificate
     if first == roles.parameter and not whole:
         try:
             sharp = find_sharp_range(
@@ -66,23 +70,64 @@ def search_sharp_range(
             )
         except Exhausted:
             sharp = Range()
-        if sharp.statement is not None and sharp.certificate is not None and sharp.line is not None:
-            return (
-                sharp.statement,
-                sharp.certificate,
-                line_text(
-                    sharp.line.simplified(),
-                    first,
-                    sharp.statement.numbers,
-                    bounds_of(str(domains[first]), first) or (None, None),
-                ),
-            )
+        if sharp.statement is not None and sharp.certificate is not None:
+            return sharp.statement, sharp.certificate
     if len(over) > 1:
         domain = conjunction([domains[parameter] for parameter in over])
         region = find_sharp_region(parsed, over, domain, name, known, Budget(budget), roles)
         if region.statement is not None and region.certificate is not None:
-            return region.statement, region.certificate, region_text(region.statement, whole)
+            return region.statement, region.certificate
     return None
+
+
+def text_of_range(
+    text: str, statements: Sequence[Statement], over: Sequence[str], roles: Roles, budget: int
+) -> str | None:
+    """A certified sharp range of the statements as a person reads it, from its own lines; None
+    where it is over other parameters, or on another domain than the whole one.
+
+    The whole domain is that of the parameters, with what ties a whole number to the first one.
+    """
+    sharp = sharp_range_of(text)
+    parsed = [read(statement.text(), statement.name) for statement in statements]
+    first, domains = sharp.over[0], {name: roles.domains.get(name, ()) for name in sharp.over}
+    if sharp.of != tuple(one.name for one in statements) or first != over[0]:
+        return None
+    if str(sharp.domain) == str(conjunction([conjunction(one) for one in domains.values()])):
+        if sharp.over not in ((first,), tuple(over)):
+            return None
+        if len(sharp.over) > 1:
+            return region_text(sharp, whole_parameters(sharp.over, parsed))
+        line = line_on(checker.parse(str(sharp.condition)), first, checker.parse(str(sharp.domain)))
+        ends = bounds_of(str(sharp.domain), first) or (None, None)
+        return None if line is None else line_text(line.simplified(), first, sharp.numbers, ends)
+    tied = _tied(parsed, first, conjunction(domains[first]), budget, roles)
+    if tied is None or sharp.over != (first, tied[0]):
+        return None
+    whole = conjunction([conjunction(domains[first]), tied[1]])
+    return paired_text(sharp, tied[0]) if str(sharp.domain) == str(whole) else None
+
+
+def sharp_range_of(text: str) -> SharpRange:
+    """The sharp range that a text of the statement language states.
+
+    >>> text = "statement x/sharp\\nsharp x/main\\nover a\\ndomain a > 0\\nholds a < 1/3"
+    >>> sharp_range_of(text).text() == text
+    True
+    """
+    statement = read(text, text.split("\n")[0].removeprefix("statement "))
+    (of,), (over,), (domain,), (condition,) = map(
+        statement.get, ("sharp", "over", "domain", "holds")
+    )
+    numbers = [(name, *map(term_of, ends)) for name, ends in statement.get("number")]
+    return SharpRange(
+        statement.name,
+        tuple(of),
+        tuple(over),
+        formula_of(domain),
+        formula_of(condition),
+        tuple((name, poly, low, high) for name, poly, low, high in numbers),
+    )
 
 
 def _tied(

@@ -285,31 +285,31 @@ class Reading:
 
     def _by_shares(self) -> Checked:
         """The results of all shares, if every outcome that one of them assumed is the one that
-        another came to; else none.
+        another came to, and the work of all leaves enough for one more statement; else none.
 
-        Then each statement was checked with the very lemmas that `check_folder` would have given
-        it.
+        Then each statement was checked with the very lemmas, and the very limit of work, that
+        `check_folder` would have given it.
         """
         try:
-            parts = [receiver.recv() for _process, receiver in self._processes]
+            parts: list[Share] = [receiver.recv() for _process, receiver in self._processes]
         except EOFError:  # a process died
             return []
-        true = {name: outcome for _, checked, _ in parts for name, outcome in checked.items()}
-        if not parts or any(
-            outcome != true.get(name)
-            for _, _, assumed in parts
-            for name, outcome in assumed.items()
-        ):
+        true = {name: outcome for part in parts for name, outcome in part.checked.items()}
+        agreed = all(
+            outcome == true.get(name) for part in parts for name, outcome in part.assumed.items()
+        )
+        work = sum(part.work for part in parts) + checker.MAX_WORK
+        if not parts or not agreed or work > checker.MAX_FOLDER_WORK:
             return []
         reasons = {
             (name, outcome): reason
-            for results, checked, _ in parts
-            for name, outcome, reason in results
-            if name in checked
+            for part in parts
+            for name, outcome, reason in part.results
+            if name in part.checked
         }
         return [
             (name, outcome, reasons.get((name, outcome), reason))
-            for name, outcome, reason in parts[0][0]
+            for name, outcome, reason in parts[0].results
         ]
 
 
@@ -332,20 +332,35 @@ def shares(folder: Path, count: int) -> list[Set[str]]:
     return [*split]
 
 
-def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str], dict[str, str]]:
-    """The results of `check_folder` where outcomes outside the share are assumed to be those that
-    their certificates claim; with the outcomes inside, and those assumed.
+@dataclass(frozen=True)
+class Share:
+    """The results of `check_folder` for some of the claims: the outcomes of their own statements,
+    those of others, which are assumed, and the work that was spent.
     """
-    checked, assumed = dict[str, str](), dict[str, str]()
+
+    results: Checked
+    checked: Mapping[str, str]
+    assumed: Mapping[str, str]
+    work: int
+
+
+def check_share(folder: Path, share: Set[str]) -> Share:
+    """The results of `check_folder` where outcomes outside the share are assumed to be those that
+    their certificates claim.
+    """
+    checked, assumed, spent = dict[str, str](), dict[str, str](), list[int]()
 
     def check_own(
         statement: checker.Statement,
         certificate: object,
         known: Mapping[str, checker.Statement],
         earlier: Mapping[str, checker.Statement],
+        work: checker.Work,
     ) -> tuple[str, checker.Rejected | None]:
         if statement.name.split("/")[0] in share:
-            outcome, reason = checker.check_one(statement, certificate, known, earlier)
+            limit = work.left
+            outcome, reason = checker.check_one(statement, certificate, known, earlier, work)
+            spent.append(limit - work.left)
             checked[statement.name] = outcome
             return outcome, reason
         claimed = [
@@ -356,7 +371,7 @@ def check_share(folder: Path, share: Set[str]) -> tuple[Checked, dict[str, str],
         assumed[statement.name] = claimed[0] if claimed else "rejected"
         return assumed[statement.name], None
 
-    return _read(folder, check_own), checked, assumed
+    return Share(_read(folder, check_own), checked, assumed, sum(spent))
 
 
 def _read(folder: Path, check: Check = checker.check_one) -> Checked:

@@ -33,14 +33,15 @@ from .language import (
     read_statements, univariate, variables_of,
 )
 from .settling import (
-    CERTIFICATES, STATEMENTS, check_folder, check_one, closes, finds, load, main, orbit_rules,
-    premises_of, proves, read_certificates, report,
+    CERTIFICATES, MAX_FOLDER_WORK, STATEMENTS, check_folder, check_one, closes, finds, load, main,
+    orbit_rules, premises_of, proves, read_certificates, report,
 )
 
 __all__ = [
     # the check: a folder, one statement, a part of a certificate; and why something is rejected
-    "CERTIFICATES", "Kind", "Rejected", "STATEMENTS", "check_folder", "check_one", "closes",
-    "finds", "load", "main", "orbit_rules", "premises_of", "proves", "read_certificates", "report",
+    "CERTIFICATES", "Kind", "MAX_FOLDER_WORK", "Rejected", "STATEMENTS", "check_folder",
+    "check_one", "closes", "finds", "load", "main", "orbit_rules", "premises_of", "proves",
+    "read_certificates", "report",
     # the language: text, statements and polynomials, for who writes statements or searches
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
     "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "count_roots", "fold",

@@ -174,6 +174,31 @@ class Line:
         return [*found, Interval(*start, None, False)] if start is not None else found
 
 
+def line_on(condition: ast.expr, parameter: str, domain: ast.expr) -> Line | None:
+    """The set of one parameter on which a condition holds, within a domain; None where this is not
+    one interval.
+
+    >>> line = line_on(checker.parse("3*a < 1"), "a", checker.parse("a > 0 and a < 1"))
+    >>> [str(number.as_fraction()) for number in line.numbers], line.verdicts
+    (['1/3'], (True, False, False))
+    """
+    context = checker.Context()
+    context.declare(parameter)
+    within = Condition.of(context, context.formula(domain))
+    holds = Condition.of(context, context.formula(condition))
+    own, cells = holds.in_one_variable(parameter), within.in_one_variable(parameter)
+    numbers = candidate_numbers([*holds.polys, *within.polys], parameter)
+    separate(numbers)
+    inner = [n for n in numbers if within.univariate_truth(parameter, n, cells)]
+    samples = _cell_samples(numbers, len(inner) + 1, within, parameter, cells)
+    if samples is None:
+        return None
+    verdicts = [holds.univariate_truth(parameter, samples[0], own)]
+    for number, sample in zip(inner, samples[1:]):
+        verdicts += [holds.univariate_truth(parameter, at, own) for at in (number, sample)]
+    return Line(tuple(inner), tuple(verdicts))
+
+
 def condition_of(line: Line, parameter: str, domain: Formula) -> Formula:
     """A condition that holds, within the domain, on the cells and numbers of verdict True.
 
