@@ -38,7 +38,8 @@ __all__ = [
     "NAME", "NO_ROLES", "RELATIONS", "RESERVED", "AnyStatement", "ClaimError", "End", "Formula",
     "Iterates", "Line", "MapRule", "Number", "Roles", "SharpRange", "Statement", "Term",
     "bounds_of", "conjunction", "different", "disjunction", "equal", "iff", "implies",
-    "interval_text", "names_in", "origins_in", "real", "reals", "rests_on", "substitute", "term",
+    "interval_text", "lemmas_of", "names_in", "origins_in", "real", "reals", "rests_on",
+    "substitute", "term",
 ]
 # fmt: on
 
@@ -214,6 +215,16 @@ RESTING = ("attraction", "escape", "descent", "contraction", "map")
 def rests_on(statement: checker.Statement) -> list[str]:
     """The map rules that a parsed map rule names."""
     return [name for keyword, name in statement.lines if keyword in RESTING]
+
+
+def lemmas_of(certificate: object) -> set[str]:
+    """The earlier statements that a certificate uses."""
+    if isinstance(certificate, Mapping):
+        return set().union(*map(lemmas_of, certificate.values()))
+    if not isinstance(certificate, (list, tuple)):
+        return set()
+    own = {certificate[1]} if len(certificate) == 5 and certificate[0] == "use" else set()
+    return own.union(*map(lemmas_of, certificate))
 
 
 AnyStatement = Union[Statement, SharpRange, Iterates, MapRule]

@@ -12,9 +12,10 @@ import textwrap
 import threading
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
@@ -23,7 +24,7 @@ from typing import TypeVar
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
-from juggleproof.certificates.language import ClaimError, SharpRange
+from juggleproof.certificates.language import ClaimError, SharpRange, lemmas_of, rests_on
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import (
     CERTIFICATES,
@@ -160,6 +161,65 @@ def judge_stored(
         resources = replace(resources, checked=reading.outcomes())
     judgements, seconds = judge_all(chosen, resources, jobs, progress, executor)
     return Run(chosen, judgements, seconds, reading.results, options.store)
+
+
+def judge_some(chosen: Sequence[Claim], claims: Sequence[Claim], folder: Path) -> list[Judgement]:
+    """The judgements on some of the claims by their stored certificates: the checker is asked of
+    these, and of what they rest on, and no other route is.
+
+    Raises what `judge` raises, and ClaimError where the folder cannot be read.
+    """
+    store, ids = Store(folder), {claim.id for claim in chosen}
+    own = [name for name in store.texts if name.split("/")[0] in ids]
+    resources = Resources(
+        ("exact",),
+        store=store,
+        findings=findings_in(folder),
+        lemmas=lemmas(claims, chosen),
+        checked=outcomes_of(folder, own),
+    )
+    judgements = [judge(claim, resources) for claim in chosen]
+    rules = [name for one in judgements for name in one.rests_on]
+    settle_by_rules(judgements, outcomes_of(folder, rules), store.texts)
+    return judgements
+
+
+def outcomes_of(folder: Path, names: Iterable[str]) -> dict[str, str]:
+    """The checker's outcomes of some stored statements and of all that these rest on; the others
+    are not checked.
+
+    Raises ClaimError, one line, where the folder cannot be read.
+    """
+    try:
+        statements = _statements(checker.load(str(folder / STATEMENTS), checker.MAX_STATEMENTS))
+        certificates = _certificates(checker.load(str(folder / CERTIFICATES)))
+    except checker.Rejected as reason:
+        raise ClaimError(f"{folder}: {reason}; `juggleproof certify` writes it anew") from None
+    wanted = [name for name in names if name in statements]
+    for name in wanted:
+        below = {*lemmas_of(certificates.get(name)), *rests_on(statements[name])}
+        below.update(*statements[name].get("sharp"))
+        wanted += sorted(one for one in below if one in statements and one not in wanted)
+    outcomes: dict[str, str] = {}
+    known: dict[str, checker.Statement] = {}
+    earlier: dict[str, checker.Statement] = {}
+    for name, statement in ((name, statements[name]) for name in statements if name in wanted):
+        certificate = certificates.get(name)
+        outcomes[name], _ = checker.check_one(statement, certificate, known, earlier)
+        earlier[name] = statement
+        if outcomes[name] == "certified":
+            known[name] = statement
+    return outcomes
+
+
+@lru_cache(1)
+def _statements(text: str) -> Mapping[str, checker.Statement]:
+    return checker.read_statements(text)
+
+
+@lru_cache(1)
+def _certificates(text: str) -> Mapping[str, object]:
+    return checker.read_certificates(text)[0]
 
 
 def refuse_duplicates(claims: Sequence[Claim]) -> None:

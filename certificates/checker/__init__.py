@@ -6,9 +6,9 @@ and runs alone:
     python -I -S certificates/checker [DIR]
 
 DIR holds `statements.txt`, which an auditor reads, and `certificates.jsonl`, a line for each
-statement: ["ID/part", {"certified": ..}], sorted by name.  Exit 0: nothing rejected; 1: a
-certificate rejected or missing; 2: unusable input.  The files, in reading order, each resting on
-those before it:
+statement: ["ID/part", {"certified": ..}], sorted by name.  Exit 0: every statement is certified or
+refuted; 1: one is unknown, or a certificate rejected or missing; 2: unusable input.  The files, in
+reading order, each resting on those before it:
 
     algebra.py   polynomials, Sturm's theorem, Bernstein coefficients; knows of no proof
     text.py      terms and formulas as syntax trees; definitions, written out where they are used
@@ -33,15 +33,15 @@ from .language import (
     read_statements, univariate, variables_of,
 )
 from .settling import (
-    CERTIFICATES, MAX_FOLDER_WORK, STATEMENTS, check_folder, check_one, closes, finds, load, main,
-    orbit_rules, premises_of, proves, read_certificates, report,
+    CERTIFICATES, MAX_FOLDER_WORK, MAX_STATEMENTS, STATEMENTS, check_folder, check_one, closes,
+    finds, load, main, orbit_rules, premises_of, proves, read_certificates, report,
 )
 
 __all__ = [
     # the check: a folder, one statement, a part of a certificate; and why something is rejected
-    "CERTIFICATES", "Kind", "MAX_FOLDER_WORK", "Rejected", "STATEMENTS", "check_folder",
-    "check_one", "closes", "finds", "load", "main", "orbit_rules", "premises_of", "proves",
-    "read_certificates", "report",
+    "CERTIFICATES", "Kind", "MAX_FOLDER_WORK", "MAX_STATEMENTS", "Rejected", "STATEMENTS",
+    "check_folder", "check_one", "closes", "finds", "load", "main", "orbit_rules", "premises_of",
+    "proves", "read_certificates", "report",
     # the language: text, statements and polynomials, for who writes statements or searches
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
     "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "count_roots", "fold",

@@ -584,8 +584,8 @@ def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, 
 
 
 def report(results: list[tuple[str, str, str]]) -> int:
-    """Prints what is rejected, and how many statements have which outcome; 0 where nothing is
-    rejected, else 1.
+    """Prints what is rejected, and how many statements have which outcome; 0 where every one is
+    certified or refuted, else 1.
     """
     for name, outcome, reason in results:
         if outcome == "rejected":
@@ -595,7 +595,7 @@ def report(results: list[tuple[str, str, str]]) -> int:
     for kind in ("certified", "refuted", "unknown", "rejected"):
         counts.append(f"{sum(outcome == kind for _, outcome, _ in results)} {kind}")
     print(f"{len(results)} statements: " + ", ".join(counts))
-    return int(not results or any(outcome == "rejected" for _, outcome, _ in results))
+    return int(not results or any(outcome in ("rejected", "unknown") for _, outcome, _ in results))
 
 
 def main(arguments: list[str]) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.reports.tree import theorem_line
+from juggleproof.proofs.reports.tree import LOST, theorem_line
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -18,7 +18,7 @@ def command(parsed: argparse.Namespace) -> int:
 
 def check(folder: Path | None) -> int:
     """Prints what the checker rejects, the counts of outcomes, and one line for the theorem; 0
-    where nothing is rejected, else 1.
+    where every statement is certified or refuted, and the theorem, if it is there, proved; else 1.
 
     Raises ClaimError, one line, where the folder cannot be read.
     """
@@ -33,4 +33,4 @@ def check(folder: Path | None) -> int:
     line = theorem_line(Store(where), {name: outcome for name, outcome, _ in results})
     if line:
         print(line)
-    return int(code)
+    return max(code, int(line.startswith(LOST)))

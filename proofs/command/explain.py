@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Mapping
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import derivations_of
-from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.errata import counterexample
-from juggleproof.proofs.reports.results import reading_of
+from juggleproof.proofs.reports.results import reading_of, sharp_range
 from juggleproof.proofs.reports.tree import print_tree
+from juggleproof.proofs.run import judge_some
+
+NO_RANGE = "none: the claim has no range of alpha to settle"
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -58,26 +60,23 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
                 else "; `juggleproof list` names them"
             )
         )
-    claim, store = claims[claim_id], Store(DEFAULT)
+    claim = claims[claim_id]
     body = claim.body()
+    (judgement,) = judge_some([claim], [*claims.values()], DEFAULT)
     print(f"{claim.id}   section {claim.section} {claim.place}")
     print(f"  {claim.says}")
     _print_of(claim)
     for one in derivations_of(body):
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(body)}")
-    for name in store.texts:
-        if name.split("/")[0] == claim_id:
-            _statement(name, store.texts[name], store)
-    entry: Mapping[str, object] = load_register().get(claim_id) or {}
-    print(f"sharp range {entry.get('sharp', 'none: the claim has no range of alpha to settle')}")
-    if "correction" in entry:
-        print(f"correction  {entry['correction']}")
-    print(
-        f"verdict     {entry.get('verdict', 'not judged')}"
-        + (f"; {entry['detail']}" if "detail" in entry else "")
-    )
-    print_tree(claim_id, getattr(body, "rests_on", ()), store, with_premises)
+    for name, text in judgement.statements:
+        _statement(text, judgement.outcomes[name], judgement.certificates[name])
+    sharp, verdict = sharp_range(judgement, claim), judgement.verdict
+    print(f"sharp range {sharp if judgement.sharp else NO_RANGE}")
+    if judgement.correction:
+        print(f"correction  {judgement.correction['text']}")
+    print(f"verdict     {verdict.word}" + (f"; {verdict.detail}" if verdict.detail else ""))
+    print_tree(claim_id, judgement.rests_on, Store(DEFAULT), with_premises)
     return 0
 
 
@@ -91,17 +90,14 @@ def _print_of(claim: Claim) -> None:
         print(f"repeats     {claim.repeats}")
 
 
-def _statement(name: str, text: str, store: Store) -> None:
-    certificate = store.certificate(name, text)
+def _statement(text: str, outcome: str, certificate: Certificate) -> None:
     print()
     for line in text.splitlines():
         print(f"    {line}")
-    if not isinstance(certificate, dict):
-        print("    -> no certificate is stored")
-    elif "unknown" in certificate:
-        print(f"    -> unknown: {certificate['unknown']}")
-    elif "refuted" in certificate:
+    if outcome == "refuted":
         print(f"    -> refuted at {counterexample(certificate['refuted'])}")
+    elif outcome != "certified":
+        print(f"    -> {outcome}: {certificate.get('unknown', 'the checker rejects it')}")
     else:
         shown = json.dumps(certificate["certified"], separators=(",", ":"))
         if len(shown) >= 400:

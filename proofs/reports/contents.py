@@ -11,12 +11,12 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import rests_on
+from juggleproof.certificates.language import lemmas_of, rests_on
 from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.judgement import Correction, Finding, Judgement
+from juggleproof.proofs.judgement import Correction, Judgement
 from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
@@ -31,7 +31,7 @@ from juggleproof.proofs.register import (
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
-from juggleproof.proofs.run import Options, findings_in, judge_stored
+from juggleproof.proofs.run import Options, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
@@ -124,7 +124,6 @@ def gather(register: Path = PATH) -> Contents:
     done = judge_stored(paper_claims(), Options(DEFAULT))
     judgements, checked = done.judgements, done.outcomes
     settle_by_rules(judgements, checked, store.texts)
-    findings = findings_in(DEFAULT)
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(done.claims, judgements)}
     derived, entries = dict[str, Derivation](), list[Entry]()
@@ -132,9 +131,7 @@ def gather(register: Path = PATH) -> Contents:
         body = claim.body()
         steps = derivations_of(body)
         derived.update((one.function, one) for one in behind(steps))
-        entries.append(
-            _entry(claim, judgement, by_id, findings, store, tuple(steps), reading_of(body))
-        )
+        entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading_of(body)))
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
         tuple(entries),
@@ -174,13 +171,12 @@ def _entry(
     claim: Claim,
     judgement: Judgement,
     by_id: Register,
-    findings: Mapping[str, Finding],
     store: Store,
     steps: tuple[Derivation, ...],
     reading: str,
 ) -> Entry:
-    finding = findings.get(claim.id, {})
-    group = errata.group_of(claim, by_id, findings)
+    finding = judgement.finding()
+    group = errata.group_of(claim, by_id, {claim.id: finding})
     return Entry(
         claim,
         judgement.verdict.word,
@@ -246,7 +242,7 @@ def _rules(
                 outcome,
                 premises,
                 tuple(rests_on(rules[name])),
-                tuple(sorted(tree.lemmas(certificate))),
+                tuple(sorted(lemmas_of(certificate))),
             )
         )
     return tuple(nodes)

@@ -10,12 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.judgement import Correction, Finding
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.register import Register, load_register
-from juggleproof.proofs.run import findings_in
+from juggleproof.proofs.register import Register, load_register, registered
+from juggleproof.proofs.run import judge_some
 
 ERRORS = ("misprint", "false", "gap")
 HEAD = """\
@@ -51,18 +52,24 @@ def as_text() -> str:
 
     Raises ClaimError, one line, where no verdict is registered yet.
     """
-    register, store = load_register(), Store(DEFAULT)
+    register, claims = {**load_register()}, paper_claims()
     if not register:
         raise ClaimError(
             "no verdict is registered yet; `juggleproof certify --accept` registers them"
         )
-    findings, claims = findings_in(DEFAULT), paper_claims()
+    doubted = [claim for claim in claims if register.get(claim.id, {}).get("verdict") != "holds"]
+    judged = {one.id: one for one in judge_some(doubted, claims, DEFAULT)}
+    for name, one in judged.items():
+        register[name] = registered(one.verdict.word, one.verdict.detail, "", "")
+    findings = {name: one.finding() for name, one in judged.items()}
     lines = [HEAD]
     for group, title in GROUPS.items():
         members = [claim for claim in claims if group_of(claim, register, findings) == group]
         lines.append(f"{title} ({len(members)})\n")
         for claim in members:
-            lines += [*entry_of(claim, register, findings.get(claim.id, {}), store), ""]
+            one = judged[claim.id]
+            settled = [(*part, one.certificates[part[0]]) for part in one.statements]
+            lines += [*entry_of(claim, register, findings[claim.id], settled), ""]
     names = restored(claims, register)
     mangled = (
         f"Mangled in the transcription, and true as restored ({len(names)}):"
@@ -95,6 +102,15 @@ def group_of(
     )
 
 
+Settled = tuple[str, str, Certificate | None]  # a statement: its name, its text, its certificate
+
+
+def stored(claim: Claim, store: Store) -> list[Settled]:
+    """The statements of a claim as a store holds them."""
+    names = (name for name in store.texts if name.split("/")[0] == claim.id)
+    return [(name, store.texts[name], store.certificate(name, store.texts[name])) for name in names]
+
+
 class Row(NamedTuple):
     """One row of an entry: its title, empty where it goes on with the row before, and its text.
 
@@ -112,7 +128,7 @@ def rows_of(
     claim: Claim,
     register: Register,
     finding: Finding,
-    store: Store,
+    settled: Sequence[Settled],
 ) -> list[Row]:
     """One entry: a heading with place and verdict, then what is said, the print, what is wrong, the
     correction, exact counterexamples.
@@ -140,13 +156,13 @@ def rows_of(
     if correction:
         form = "term" if correction["kind"] in ("coefficients", "derived") else "print"
         rows.append(Row("correction", correction["text"], form))
-        change = "; ".join([correction["change"], *_roots_named(correction, claim, store)])
+        change = "; ".join([correction["change"], *_roots_named(correction, settled)])
         rows.append(Row("", change, code="\\" in change or "=" in change))
     elif entry["verdict"] not in ("ambiguous", "gap"):
         rows.append(Row("correction", "none found"))
     return [
         *rows,
-        *(Row("fails at", text, code=True) for text in _counterexamples(claim, store)),
+        *(Row("fails at", text, code=True) for text in _counterexamples(settled)),
     ]
 
 
@@ -154,10 +170,10 @@ def entry_of(
     claim: Claim,
     register: Register,
     finding: Finding,
-    store: Store,
+    settled: Sequence[Settled],
 ) -> list[str]:
     """The lines of one entry, as `juggleproof errata` prints them."""
-    heading, *rows = rows_of(claim, register, finding, store)
+    heading, *rows = rows_of(claim, register, finding, settled)
     return [
         heading.text,
         *(
@@ -232,14 +248,10 @@ def _for_alpha(sharp: str, word: str) -> str:
     return ", for every alpha" if sharp == "nowhere" else f"; it would be true exactly for {sharp}"
 
 
-def _roots_named(correction: Correction, claim: Claim, store: Store) -> Iterator[str]:
+def _roots_named(correction: Correction, settled: Sequence[Settled]) -> Iterator[str]:
     """What a name of a root in a corrected term means: the statements say it."""
     lines = {
-        line
-        for name, text in store.texts.items()
-        if name.split("/")[0] == claim.id
-        for line in text.splitlines()
-        if line.startswith("root ")
+        line for _, text, _ in settled for line in text.splitlines() if line.startswith("root ")
     }
     for line in sorted(lines):
         name = line.split()[1]
@@ -262,14 +274,13 @@ def counterexample(refutation: object) -> str:
     raise ClaimError("a refutation without values; `juggleproof certify --fresh` searches anew")
 
 
-def _counterexamples(claim: Claim, store: Store) -> list[str]:
+def _counterexamples(settled: Sequence[Settled]) -> list[str]:
     """The exact values of every refuted statement, with the part of the claim that fails there, and
     what it says where that is short.
     """
     goals = dict[str, str]()
-    for name, text in store.texts.items():
-        certificate = store.certificate(name, text) if name.split("/")[0] == claim.id else None
-        if isinstance(certificate, dict) and "refuted" in certificate:
+    for name, text, certificate in settled:
+        if certificate is not None and "refuted" in certificate:
             label = name.split("/")[1].removesuffix(".main")
             values = counterexample(certificate["refuted"]) + (
                 "" if label == "main" else f"   [{label}]"

@@ -94,7 +94,7 @@ def _entry(
     finding: Finding,
     store: Store,
 ) -> list[str]:
-    heading, *rows = errata.rows_of(claim, register, finding, store)
+    heading, *rows = errata.rows_of(claim, register, finding, errata.stored(claim, store))
     name, rest = claim.id, heading.text.removeprefix(claim.id)
     lines = [f'<a id="{name}"></a>**[{name}](results.md#{name})**{rest}', ""]
     for row in rows:

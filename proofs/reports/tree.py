@@ -4,13 +4,16 @@ down to the inequalities.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import hashlib
+from collections.abc import Iterable, Mapping, Sequence
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import ClaimError, rests_on
+from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.vote import Vote
-from juggleproof.proofs.theorem import SENTENCE, THEOREM
+from juggleproof.proofs.theorem import DIGEST, SENTENCE, THEOREM
+
+LOST = "theorem: NOT proved"
 
 
 def rules_of(store: Store) -> dict[str, checker.Statement]:
@@ -29,18 +32,27 @@ def rules_of(store: Store) -> dict[str, checker.Statement]:
 
 
 def with_all_below(name: str, rules: Mapping[str, checker.Statement]) -> list[str]:
-    """The rule and all rules that it rests on, each once, those that rest on others first."""
+    """The rule and all rules that it rests on, each once, those that rest on others first; none
+    where one is not there.
+    """
     names = [name]
     for one in names:
+        if one not in rules:
+            return []
         names += [inner for inner in rests_on(rules[one]) if inner not in names]
     return names
+
+
+def digest_of(texts: Iterable[str]) -> str:
+    """A digest of statements in order, with definitions written out."""
+    return hashlib.sha256("\n\n".join(texts).encode()).hexdigest()
 
 
 def theorem_line(
     store: Store, outcomes: Mapping[str, str], votes: Mapping[str, Sequence[Vote]] | None = None
 ) -> str:
     """One line for the theorem: proved, resting on how many statements, and under which rules; or
-    where its proof is lost.
+    where its proof is lost, or that what is stored under its name is not the theorem.
 
     Empty where the store does not hold it.
     """
@@ -48,7 +60,9 @@ def theorem_line(
         return ""
     rules = rules_of(store)
     names = with_all_below(THEOREM, rules)
-    used = set().union(*(lemmas(store.certificate(name, store.texts[name])) for name in names))
+    if digest_of(store.texts[name] for name in names) != DIGEST:
+        return f"{LOST}; {THEOREM}, or what it rests on, is not as the sources state it"
+    used = set().union(*(lemmas_of(store.certificate(name, store.texts[name])) for name in names))
     cast = [
         vote
         for name, each in (votes or {}).items()
@@ -62,7 +76,7 @@ def theorem_line(
     ]
     lost = [name for name in [*sorted(used), *reversed(names)] if outcomes.get(name) != "certified"]
     if lost:
-        return f"theorem: NOT proved; {lost[0]} is not certified, and {THEOREM} rests on it"
+        return f"{LOST}; {lost[0]} is not certified, and {THEOREM} rests on it"
     count = sum(len(checker.premises_of(rules[name], rules)) for name in names)
     kinds = ", ".join(dict.fromkeys(rules[name].kind for name in reversed(names)))
     return (
@@ -125,20 +139,10 @@ def _branch(
         print(f"{'  ' * depth}{name} (above)")
         return
     shown[name] = premises = checker.premises_of(rules[name], rules)
-    used = sorted(lemmas(store.certificate(name, store.texts[name])))
+    used = sorted(lemmas_of(store.certificate(name, store.texts[name])))
     print(
         f"{'  ' * depth}{name}: {len(premises)} premises: {' '.join(premises)}"
         + (f"; by {', '.join(used)}" if used else "")
     )
     for inner in rests_on(rules[name]):
         _branch(inner, depth + 1, rules, store, shown)
-
-
-def lemmas(certificate: object) -> set[str]:
-    """The earlier statements that a certificate uses."""
-    if isinstance(certificate, Mapping):
-        return set().union(*map(lemmas, certificate.values()))
-    if not isinstance(certificate, list):
-        return set()
-    own = {certificate[1]} if len(certificate) == 5 and certificate[0] == "use" else set()
-    return own.union(*map(lemmas, certificate))

@@ -11,6 +11,9 @@ premises the checker writes.
 
 SECTIONS = ("definition", "stability", "orbits")
 THEOREM = "theorem-in-units/exactly"
+# of the statements that the theorem and all that it rests on are, as the sources write them: a
+# certified statement of the same name may say anything
+DIGEST = "f04e6abda0ad366483f97f4d3c08568e3fb46b61d5c96b1b247c08449e6b4193"
 SENTENCE = (
     "for 0 < alpha < 1, e_1 is stable and attracts every state of H if and only if alpha < 1/3"
 )

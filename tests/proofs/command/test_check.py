@@ -1,0 +1,87 @@
+"""`juggleproof check`: a folder is believed for what its statements say, not for their names."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.store import CERTIFICATES, DEFAULT, STATEMENTS, certificate_lines
+from juggleproof.proofs.claims import assertions, named_statements
+from juggleproof.proofs.command.check import check
+from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.reports.tree import digest_of, with_all_below
+from juggleproof.proofs.theorem import DIGEST, THEOREM
+from tests.certificates.checker.maps import SUBTRACT, searched
+
+ANOTHER = SUBTRACT.replace("demo/", "theorem-in-units/")
+
+
+def write(folder: Path, text: str, certificates: dict[str, object]) -> Path:
+    folder.mkdir(exist_ok=True)
+    (folder / STATEMENTS).write_text(text)
+    (folder / CERTIFICATES).write_bytes(certificate_lines(certificates))
+    return folder
+
+
+def test_the_stored_theorem_is_proved_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert check(None) == 0
+    assert "\ntheorem: proved by exact certificates: " in capsys.readouterr().out
+
+
+def test_the_digest_is_of_what_the_sources_state_holds() -> None:
+    """Where the theorem is stated anew on purpose, the digest changes with it."""
+    (claim,) = (one for one in paper_claims() if one.id == THEOREM.split("/")[0])
+    texts = {
+        part.name: part.text()
+        for prefix, assertion in assertions(claim.body())
+        for part in named_statements(claim.id, prefix, assertion)
+    }
+    rules = checker.read_statements("\n\n".join(texts.values()))
+    names = with_all_below(THEOREM, rules)
+    assert len(names) == 6 and digest_of(texts[name] for name in names) == DIGEST
+
+
+@pytest.mark.parametrize("text", [ANOTHER, f"statement {THEOREM}\nshow 0 < 1\n"])
+def test_rejects_another_statement_of_the_theorems_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str
+) -> None:
+    proof = {"certified": ["proof", [], ["close"]], "point": [THEOREM, [], {}, ["close"]]}
+    certificates = searched(text) if text == ANOTHER else {THEOREM: proof}
+    assert check(write(tmp_path, text, certificates)) == 1
+    shown = capsys.readouterr().out
+    assert "0 unknown, 0 rejected\ntheorem: NOT proved; theorem-in-units/exactly, or what" in shown
+
+
+def test_rejects_a_theorem_that_rests_on_itself(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = f"statement {THEOREM}\nattraction {THEOREM}\nescape {THEOREM}\n"
+    assert check(write(tmp_path, text, {THEOREM: {"certified": {}}})) == 1
+    assert "theorem: NOT proved" in capsys.readouterr().out
+
+
+def test_rejects_a_store_whose_theorem_is_open(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(DEFAULT, tmp_path / "store")
+    path = tmp_path / "store" / CERTIFICATES
+    lines = [json.loads(line) for line in path.read_text().splitlines()]
+    path.write_bytes(
+        certificate_lines({n: {"unknown": ""} if n == THEOREM else c for n, c in lines})
+    )
+    assert check(tmp_path / "store") == 1
+    assert f"theorem: NOT proved; {THEOREM} is not certified" in capsys.readouterr().out
+
+
+def test_an_open_statement_is_told_by_the_exit_code_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = write(tmp_path, "statement a/b\nshow 0 < 1\n", {"a/b": {"unknown": "not tried"}})
+    assert check(folder) == 1
+    assert capsys.readouterr().out == (
+        "1 statements: 0 certified, 0 refuted, 1 unknown, 0 rejected\n"
+    )
