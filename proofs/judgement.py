@@ -12,7 +12,7 @@ from typing import TypedDict
 from juggleproof.certificates.language import NO_ROLES, Roles
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store
-from juggleproof.certificates.votes.vote import Vote
+from juggleproof.certificates.votes.vote import ANSWERS, Vote
 from juggleproof.proofs.claims import Claim, Verdict
 
 ROUTES = ("exact", "z3", "boxes")
@@ -55,6 +55,34 @@ Finding = TypedDict(
     },
     total=False,
 )
+
+
+def is_finding(data: object) -> bool:
+    """Whether what a file holds has the shape of a finding; anyone may have written it."""
+    if not isinstance(data, dict) or not data.keys() <= Finding.__annotations__.keys():
+        return False
+    texts = [*_values(data.get("sharp", {})), *_values(data.get("not found", {}))]
+    correction = data.get("correction", dict.fromkeys(Correction.__annotations__, ""))
+    if not isinstance(correction, dict) or {*correction} != {*Correction.__annotations__}:
+        return False
+    if not all(isinstance(correction[name], str) for name in ("kind", "change", "text")):
+        return False
+    for votes in _values(data.get("votes", {})):
+        if not isinstance(votes, dict) or {*votes} != {"on", "votes"}:
+            return False
+        cast = votes["votes"]
+        shaped = isinstance(cast, list) and all(isinstance(one, dict) for one in cast)
+        if not shaped or any({*one} != {"route", "answer", "detail"} for one in cast):
+            return False
+        if any(one["answer"] not in ANSWERS for one in cast):
+            return False
+        texts += [votes["on"], *(text for one in cast for text in one.values())]
+    return all(isinstance(text, str) and text.isprintable() for text in texts)
+
+
+def _values(data: object) -> list[object]:
+    """The values of a mapping; of anything else one that is no text."""
+    return [*data.values()] if isinstance(data, dict) else [None]
 
 
 @cache

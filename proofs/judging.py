@@ -26,7 +26,7 @@ from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.votes.casting import cast_votes
-from juggleproof.certificates.votes.vote import Vote, compare
+from juggleproof.certificates.votes.vote import Vote, agree
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.claims import (
     Argument,
@@ -257,24 +257,20 @@ class Judge:
         return outcome if outcome != "rejected" else self.check(read(text, name), certificate)
 
     def votes(self, name: str, text: str, outcome: str) -> Sequence[Vote]:
-        """One vote a route; a vote that an earlier run recorded on this very text, with these
-        tools, is not cast again.
+        """One vote a route; votes that an earlier run recorded on this very text, with these tools,
+        are quoted as such, unless they contradict the outcome.
         """
         routes = [route for route in self.resources.routes if route != "exact"]
         earlier = self.finding.get("votes", {}).get(name)
-        if (
-            earlier
-            and earlier.get("on") == digest(text)
-            and set(routes) <= {one["route"] for one in earlier["votes"]}
-        ):
+        if earlier and earlier["on"] == digest(text):
             recorded = [
-                Vote(one["route"], one["answer"], one["detail"])
+                Vote(one["route"], one["answer"], one["detail"], recorded=True)
                 for one in earlier["votes"]
                 if one["route"] in routes
             ]
-            compare(name, outcome, recorded)
-            self.judgement.recorded[name] = earlier
-            return recorded
+            if {vote.route for vote in recorded} == {*routes} and agree(name, outcome, recorded):
+                self.judgement.recorded[name] = earlier
+                return recorded
         cast = cast_votes(read(text, name), outcome, routes, None) if routes else ()
         if set(routes) == {"z3", "boxes"}:
             self.judgement.recorded[name] = {

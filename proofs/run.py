@@ -44,7 +44,14 @@ from juggleproof.proofs.claims import (
     claims_of,
     named_statements,
 )
-from juggleproof.proofs.judgement import DEFAULT_BUDGET, ROUTES, Finding, Judgement, Resources
+from juggleproof.proofs.judgement import (
+    DEFAULT_BUDGET,
+    ROUTES,
+    Finding,
+    Judgement,
+    Resources,
+    is_finding,
+)
 from juggleproof.proofs.judging import judge, settle_by_rules
 
 FINDINGS = "findings"
@@ -99,6 +106,7 @@ class Run:
     seconds: Mapping[str, float]
     checked: Checked
     store: Path
+    restated: tuple[str, ...] = ()
 
     @property
     def outcomes(self) -> dict[str, str]:
@@ -130,11 +138,18 @@ def run(
     first claim in order that cannot be stated.
     """
     done = judge_stored(claims, options, progress, executor)
+    before = Store(options.store).texts
+    restated = tuple(
+        name
+        for one in done.judgements
+        for name, text in one.statements
+        if before.get(name, text) != text
+    )
     changed = _write(options.store, claims, done)
     checked = done.checked
     if changed or not checked:
         checked = checker.check_folder(str(options.store))
-    settled = replace(done, checked=checked)
+    settled = replace(done, checked=checked, restated=restated)
     settle_by_rules(done.judgements, settled.outcomes, Store(options.store).texts)
     return settled
 
@@ -246,14 +261,14 @@ def _selected(claims: Sequence[Claim], only: Sequence[str]) -> Sequence[Claim]:
 
 def findings_in(folder: Path) -> dict[str, Finding]:
     """The findings of an earlier run by claim, which are tried first; none where the file cannot be
-    read.
+    read, or what it holds has not their shape.
     """
     try:
         data = json.loads((folder / FINDINGS).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
-    findings: dict[str, Finding] = data if isinstance(data, dict) else {}
-    return findings
+    entries = data.items() if isinstance(data, dict) else ()
+    return {claim: one for claim, one in entries if is_finding(one)}
 
 
 def _definitions(claims: Sequence[Claim]) -> Sequence[Definition]:

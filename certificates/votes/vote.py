@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 AGREES = {"certified": "holds", "refuted": "fails"}
+ANSWERS = ("holds", "fails", "unknown", "enclosed", "not applicable")
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,8 @@ class Vote:
     """The answer of one route about one statement: `holds` or `fails` decide it; `unknown`,
     `enclosed` and `not applicable` do not.
 
-    `model` is an exact point (name, value) at which the statement fails.
+    `model` is an exact point (name, value) at which the statement fails.  A vote that is `recorded`
+    was cast by an earlier run, and is quoted.
     """
 
     route: str
@@ -66,6 +68,7 @@ class Vote:
     work: int = 0
     model: tuple[tuple[str, str], ...] = ()
     enclosures: tuple[Enclosure, ...] = ()
+    recorded: bool = False
 
     @property
     def decided(self) -> bool:
@@ -93,6 +96,15 @@ class Disagreement(Exception):
 
     def __reduce__(self) -> tuple[type[Disagreement], tuple[str, str, str]]:
         return Disagreement, (self.statement, self.first, self.second)
+
+
+def agree(statement: str, outcome: str, votes: Sequence[Vote]) -> bool:
+    """Whether no vote contradicts the checked outcome or another vote."""
+    try:
+        compare(statement, outcome, votes)
+    except Disagreement:
+        return False
+    return True
 
 
 def compare(statement: str, outcome: str, votes: Sequence[Vote]) -> None:

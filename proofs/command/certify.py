@@ -71,6 +71,8 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     print(table.summary(done.judgements))
     theorem = "" if options.files else theorem_of_run(done)
     print(theorem, end="\n" if theorem else "")
+    for name in done.restated:
+        print(f"restated {name}: what was stored is not the statement of the sources")
     for name, reason in done.rejected:
         print(f"rejected by the checker: {name}: {reason}")
     accepts = options.accept and not done.rejected
