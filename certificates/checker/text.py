@@ -25,6 +25,8 @@ from functools import lru_cache
 
 from .algebra import Kind, Rational, Rejected, Work, require
 
+MAX_TEXT = 1 << 18  # letters of a term or formula: its syntax tree takes some 500 bytes for each
+
 # --------------------------------- text: Python's expression syntax, with ^ and = as in mathematics
 
 WORDS = {"and", "or", "not", "implies", "iff"}  # never names: `names_in` does not count them
@@ -33,7 +35,7 @@ RESERVED = WORDS | {"sqrt", "root"}
 
 def parse(text: object) -> ast.expr:
     """The syntax tree of a term or formula."""
-    if not isinstance(text, str) or len(text) > 1 << 18:
+    if not isinstance(text, str) or len(text) > MAX_TEXT:
         raise Rejected(Kind.TEXT, text)
     return tree(text) if len(text) < 200 else tree.__wrapped__(text)  # what is kept is small
 

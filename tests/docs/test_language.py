@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.checker import algebra, language, rules, settling
+from juggleproof.certificates.checker import algebra, language, rules, settling, text
 from juggleproof.certificates.store import DEFAULT
 from tests.docs.pages import PAGES, ROOT, code, name, text_of
 
@@ -73,6 +73,9 @@ def test_limits_are_the_checkers_holds() -> None:
         algebra.MAX_BITS,
         settling.MAX_FILE,
         algebra.MAX_WORK,
+        settling.MAX_FOLDER_WORK,
+        settling.MAX_STATEMENTS,
+        text.MAX_TEXT,
     }
 
 
