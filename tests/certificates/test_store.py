@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import CERTIFICATES, DEFAULT, STATEMENTS, Store, write_store
+from juggleproof.certificates.store import (
+    CERTIFICATES,
+    DEFAULT,
+    STATEMENTS,
+    Store,
+    WrittenOut,
+    write_store,
+)
 
 TEXT = "# a title\n\nstatement b/main\nforall x\nshow x = x\n\nstatement a/main\nshow 1 < 2\n"
 CERTIFIED = {
@@ -50,3 +61,40 @@ def test_definitions_are_not_the_text_of_a_statement(tmp_path: Path) -> None:
     write_store(tmp_path, text, CERTIFIED)
     assert Store(tmp_path).texts["b/main"] == "statement b/main\nforall x\nshow x = x"
     assert checker.check_folder(str(tmp_path))[0] == ("b/main", "certified", "")
+
+
+LINES = (
+    "",
+    " ",
+    "# a comment",
+    " # one that is shifted",
+    "given x > 0",
+    " given x > 0",
+    "show x = x",
+    "show same(x)",
+    "forall x",
+    "statement b/main",
+    "statement c/main",
+    "define same(t) := t = t",
+    "define other(t) := t > t",
+)
+
+
+@settings(max_examples=400, deadline=None, derandomize=True)
+@given(st.lists(st.sampled_from(LINES), max_size=9))
+def test_both_readers_of_a_file_read_the_same_statements(lines: list[str]) -> None:
+    """What the store says that a statement is, the checker has checked."""
+    text = "\n".join(["define half := 1/2", "", "statement a/main", "forall x", *lines, ""])
+    try:
+        checked = checker.read_statements(text)
+    except checker.Rejected:
+        return
+    for name, plain in WrittenOut(text).items():
+        try:
+            (alone,) = checker.read_statements(plain).values()
+            checker.Unfolding(checked[name], checker.Context())
+        except checker.Rejected:  # no text of the sources, or one that nothing can settle
+            continue
+        read = [(word, ast.dump(one)) for word, one in checked[name].lines if word == "show"]
+        assert read == [(word, ast.dump(one)) for word, one in alone.lines if word == "show"]
+        assert [word for word, _ in checked[name].lines] == [word for word, _ in alone.lines]

@@ -182,3 +182,16 @@ def outcomes() -> dict[str, str]:
 @pytest.mark.parametrize("name", CASES)
 def test_ends_in_a_rejection(outcomes: dict[str, str], name: str) -> None:
     assert outcomes[name].startswith("rejected ")
+
+
+def test_hostile_files_end_in_an_outcome_or_are_refused() -> None:
+    """`python -m tests.certificates.checker.fuzz 100000` tries more."""
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.certificates.checker.fuzz", "2000"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+    )
+    assert done.returncode == 0, done.stdout
+    for word in ("certified", "refuted", "rejected", "refused"):
+        assert f" {word}" in done.stdout
