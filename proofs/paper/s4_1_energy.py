@@ -162,7 +162,9 @@ def greatest_energy_that_is_kept(printed: Printed) -> list[Statement]:
 
 @claim("s4.1-Emax-maintain", "4.1", "line 447")
 def table_maintains_that_energy_at_most() -> list[Statement]:
-    """Above E_max every impact loses energy, and a state of the energy E_max keeps it for ever."""
+    """An impact from a state of more energy than E_max loses energy; some state of the energy E_max
+    keeps it over one impact.
+    """
     greatest = derived("E_max")
     return [
         always(energy(f1(b)) < energy(b), given=[B1(b), energy(b) > greatest], label="not-more"),

@@ -82,7 +82,7 @@ def impact_shrinks() -> Statement:
 @claim("s4.3.1-approach-constant", "4.3.1", "line 500")
 def velocity_at_impacts_settles() -> Following:
     """In R the kinetic energy at the impacts tends to a constant: the orbit tends to e_1, and each
-    impact brings K closer to that of e_1.
+    impact multiplies K, the kinetic energy of the motion relative to e_1, by alpha squared.
     """
     return Following(STABILITY, Assertion((impact_shrinks(),)))
 
@@ -347,6 +347,6 @@ def flight_in_the_region_approaches_too() -> Readings:
 @claim("s4.3.1-plain-english", "4.3.1", "line 543", repeats="s4.3.1-lim-b")
 def kinetic_energy_settles_in_the_region() -> Following:
     """In R the kinetic energy of an orbit tends to that of the fixed point of f1, and each impact
-    brings it closer.
+    multiplies K, the kinetic energy of the motion relative to e_1, by alpha squared.
     """
     return Following(STABILITY, Assertion((impact_shrinks(),)))
