@@ -79,9 +79,7 @@ class Box(NamedTuple):
         return Fraction(1), [(self.name, strict)], strict
 
 
-def boxes(
-    branch: Branch, index: int, bounds: Sequence[tuple[int, int]], tree: str
-) -> list[str]:
+def boxes(branch: Branch, index: int, bounds: Sequence[tuple[int, int]], tree: str) -> list[str]:
     """The rule `boxes`."""
     poly, relation = branch.state.facts[index]
     places = sorted(poly.places())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq.text import (
@@ -17,6 +18,7 @@ Factors = list[tuple[str, bool]]  # a proof of the sign of each, and whether it 
 Weighed = tuple[Fraction, Factors, bool]  # a weight, factors, and whether all are strict
 Equation = tuple[str, str, Fraction]  # a proof, a cofactor's numerator, and what divides both
 Known = Mapping[str, checker.Statement]
+Hint = Any  # of a certificate, which anyone may have written: what does not fit, Coq refuses
 
 
 class Branch:
@@ -88,9 +90,7 @@ def contradiction(weighed: Sequence[Weighed], cofactors: Sequence[Equation] = ()
     return [f"exact (no_positive_zero _ {positive_sum(weighed, cofactors)[0]}\n  ltac:(ring))."]
 
 
-def positive_sum(
-    weighed: Sequence[Weighed], cofactors: Sequence[Equation] = ()
-) -> tuple[str, int]:
+def positive_sum(weighed: Sequence[Weighed], cofactors: Sequence[Equation] = ()) -> tuple[str, int]:
     """(a proof that the sum of products is positive, what it was multiplied by to be whole); it is
     only >= 0 where no product is strict.
     """

@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq.branch import Branch, Known
+from juggleproof.certificates.coq.branch import Branch, Hint, Known
 from juggleproof.certificates.coq.roots import only_root
 from juggleproof.certificates.coq.rules import shown
 from juggleproof.certificates.coq.text import (
     NotWritten,
     coq_name,
     lemma_name,
-    polynomial,
-    proposition,
-    some,
 )
 from juggleproof.certificates.coq.transfer import Form, Transfer
 from juggleproof.certificates.coq.values import (
@@ -24,7 +21,7 @@ from juggleproof.certificates.coq.values import (
     as_witness,
     found,
 )
-from juggleproof.certificates.nodes import Certificate, Proof, Sharp, Values
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.states import State
 
 
@@ -37,10 +34,12 @@ def lemmas(statement: checker.Statement, certificate: Certificate, known: Known)
     Of a rule on orbits there is a lemma for each premise, `statement_NAME_PREMISE`, and none for
     what the rule concludes. Raises NotWritten where the certificate has what is not written.
     """
+    if "unknown" in certificate or not certificate:
+        raise NotWritten("it has no certificate that settles it")
     try:
         if "refuted" in certificate:
             return _refuted(statement, certificate["refuted"], known)
-        proof = certificate["certified"]
+        proof: Hint = certificate["certified"]
         if statement.kind == "universal":
             return _certified(statement, proof, known) + _possible(
                 lemma_name(statement.name), statement, certificate["point"], known
@@ -51,15 +50,16 @@ def lemmas(statement: checker.Statement, certificate: Certificate, known: Known)
         return "\n".join(_certified(premises[name], proof[name], known) for name in premises)
     except checker.Rejected as problem:
         raise NotWritten(f"a part of its certificate is not understood: {problem}") from None
-    except KeyError as missing:
-        raise NotWritten(f"its certificate lacks {missing}, or is of unknown") from None
 
 
 def _lemma(name: str, comment: str, text: str, rows: Sequence[str]) -> str:
-    return "\n".join([f"(* {comment} *)", f"Lemma {name} :", f"  {text}.", "Proof.", *rows, "Qed."]) + "\n"
+    return (
+        "\n".join([f"(* {comment} *)", f"Lemma {name} :", f"  {text}.", "Proof.", *rows, "Qed."])
+        + "\n"
+    )
 
 
-def _certified(statement: checker.Statement, proof: Proof, known: Known) -> str:
+def _certified(statement: checker.Statement, proof: Hint, known: Known) -> str:
     form = Form(statement)
     count = [0]
     branch = Branch(State(form.unfolding.context), known, count)
@@ -71,7 +71,7 @@ def _introduced(
     branch: Branch,
     form: Form,
     hypotheses: Mapping[int, str],
-    proof: Proof,
+    proof: Hint,
     sharp: Range | None = None,
 ) -> list[str]:
     """The proof of a form in the branch; hypotheses: the names of premises that are known."""
@@ -106,17 +106,19 @@ def _introduced(
 def _possible(
     name: str,
     statement: checker.Statement,
-    point: Values,
+    point: Hint,
     known: Known,
     sharp: Range | None = None,
 ) -> str:
     form = Form(statement, (), sharp)
     form.given = sorted({*form.given, *range(len(sharp or ()))})
     rows = found(Branch(State(checker.Context()), known, [0]), point, as_point(form, sharp))
-    return _lemma(f"{name}_possible", f"{statement.name}: its premises hold somewhere", form.possible(), rows)
+    return _lemma(
+        f"{name}_possible", f"{statement.name}: its premises hold somewhere", form.possible(), rows
+    )
 
 
-def _refuted(statement: checker.Statement, values: Values, known: Known) -> str:
+def _refuted(statement: checker.Statement, values: Hint, known: Known) -> str:
     form = Form(statement)
     branch = Branch(State(checker.Context()), known, [0])
     name = branch.fresh()
@@ -130,7 +132,7 @@ def _refuted(statement: checker.Statement, values: Values, known: Known) -> str:
     )
 
 
-def _sharp(statement: checker.Statement, certificate: Sharp, known: Known) -> str:
+def _sharp(statement: checker.Statement, certificate: Hint, known: Known) -> str:
     """For all parameters in the domain: the condition <=> all the statements hold."""
     inside, outside, points = certificate
     (names,), (over,) = statement.get("sharp"), statement.get("over")
@@ -147,7 +149,8 @@ def _sharp(statement: checker.Statement, certificate: Sharp, known: Known) -> st
     in_domain, holds, all_hold, fails = (branch.fresh() for _ in range(4))
     domain_formula = context.formula(domain)
     rows = [
-        " ".join(["intros", *map(coq_name, over), *(branch.fresh() for _ in whole), in_domain]) + ".",
+        " ".join(["intros", *map(coq_name, over), *(branch.fresh() for _ in whole), in_domain])
+        + ".",
         f"split; [intro {holds}|intro {all_hold}].",
         "{",
     ]

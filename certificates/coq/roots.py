@@ -10,9 +10,7 @@ from juggleproof.certificates.coq.transfer import value_text
 from juggleproof.certificates.states import State
 
 
-def only_root(
-    poly: checker.Poly, low: checker.Poly, high: checker.Poly
-) -> tuple[str, list[str]]:
+def only_root(poly: checker.Poly, low: checker.Poly, high: checker.Poly) -> tuple[str, list[str]]:
     """(what is stated, its proof): the polynomial, in one variable, has different signs at two
     numbers and exactly one root between them.
 
@@ -57,10 +55,10 @@ def only_root(
         axes.append(axis_of(branch, context.index[variable], count - 2, count - 1))
     bounds = list(branch.facts)
     boxes, zeros = [], []
-    for value, own in ((at(x), axes[:1]), (at(y), axes[1:]), (quotient, axes)):
+    for value, along in ((at(x), axes[:1]), (at(y), axes[1:]), (quotient, axes)):
         for signed in (value, -value):
             name = branch.fresh()
-            boxes.append(Box(signed, ">=", name, own))
+            boxes.append(Box(signed, ">=", name, along))
             zeros.append(f"assert ({name} : 0 <= {text(signed)}) by lra.")
     p, q = text(function), text(quotient)
     p_of_y = text(at(y))
@@ -78,14 +76,15 @@ def only_root(
         f"intros x y {' '.join(bounds)} of_x of_y.",
         "destruct (Req_dec y x) as [of_same|of_apart]; [exact of_same|exfalso].",
         f"assert (of_quotient : {q} = 0).",
-        f"{{ apply (Rmult_eq_reg_l (x - y)); [|lra]. rewrite Rmult_0_r.",
+        "{ apply (Rmult_eq_reg_l (x - y)); [|lra]. rewrite Rmult_0_r.",
         f"  transitivity (({p}) - ({p_of_y})); [ring|lra]. }}",
         *zeros,
         *excluded(branch, boxes),
         "}",
         "split; [lra|].",
         f"destruct (crossing (fun x => {text(rising)}) {ends[0]} {ends[1]}",
-        "  ltac:(continuous) ltac:(lra) ltac:(lra) ltac:(lra)) as (x & of_low & of_high & of_zero).",
+        "  ltac:(continuous) ltac:(lra) ltac:(lra) ltac:(lra))",
+        "  as (x & of_low & of_high & of_zero).",
         f"assert (of_x : {p} = 0) by lra.",
         f"assert (x <> {ends[0]}) by (intros ->; lra).",
         f"assert (x <> {ends[1]}) by (intros ->; lra).",

@@ -26,6 +26,7 @@ from juggleproof.certificates.coq.text import (
 from juggleproof.certificates.coq.transfer import Form, Transfer, nonzero, premise_proofs
 from juggleproof.certificates.nodes import Cofactor, Node, Power, Product
 
+
 def shown(
     branch: Branch, formula: checker.Formula, denied: checker.Formula, node: Node, name: str
 ) -> list[str]:
@@ -51,7 +52,8 @@ def closed(branch: Branch, node: Node) -> list[str]:
 
 
 def _close(branch: Branch) -> list[str]:
-    return [f"exact {branch.absurd}."]
+    # where nothing false is assumed, Coq is to say so
+    return [f"destruct {branch.absurd}." if branch.absurd else "contradiction."]
 
 
 def _cases(branch: Branch, index: int, nodes: Sequence[Node]) -> list[str]:
@@ -157,7 +159,11 @@ def _use(
     claim = some(
         [keys[fresh[key]] for key in form.existential],
         [
-            *(f"whole {coq_name(keys[fresh[key]])}" for key in form.existential if key in form.integers),
+            *(
+                f"whole {coq_name(keys[fresh[key]])}"
+                for key in form.existential
+                if key in form.integers
+            ),
             rest.write(instance),
         ],
     )

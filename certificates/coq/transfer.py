@@ -11,7 +11,7 @@ import ast
 import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from itertools import product
+from itertools import combinations, product
 from math import prod
 
 from juggleproof.certificates import checker
@@ -61,11 +61,7 @@ def nonzero(branch: Branch, values: Numbers) -> list[str]:
     """Hypotheses by which `field` may divide by what the values divide by."""
     rows = []
     for index in sorted(
-        {
-            denominator(branch, licence)[0]
-            for value in values.values()
-            for licence, _ in value.under
-        }
+        {denominator(branch, licence)[0] for value in values.values() for licence, _ in value.under}
     ):
         relation, name = branch.state.facts[index][1], branch.facts[index]
         if relation == ">":
@@ -157,6 +153,12 @@ class Transfer:
             text, proof = f"({before}) {sign} ({text})", f"({lemma} _ _ _ _ {first} {proof})"
         return f"({text})", proof
 
+    def fact(self, text: str, value: checker.Poly, target: checker.Formula) -> str:
+        """A proof that an atom about a text of this value is equivalent to the target."""
+        if isinstance(target, bool) or target[0] != "atom":
+            raise NotWritten("an adjoined number is the root of a number")
+        return self.atom(text, value, target[2], target[1])[1]
+
     def atom(
         self, text: str, value: checker.Poly, relation: str, target: checker.Poly
     ) -> tuple[str, str]:
@@ -167,9 +169,9 @@ class Transfer:
         if f"({wanted})" == text:
             return atom(wanted, relation), f"(iff_refl ({atom(wanted, relation)}))"
         signed = ">" in relation
-        ratio, exponents = _multiple(value, target)
+        under, ratio, exponents = self._multiple(value, target)
         share, above, below = ratio / value.den, Factors(), Factors()
-        for (licence, _), exponent in zip(value.under, exponents):
+        for licence, exponent in zip(under, exponents):
             index, content = denominator(self.branch, licence)
             known, name = self.branch.state.facts[index][1], self.branch.facts[index]
             share *= Fraction(content) ** exponent
@@ -198,6 +200,26 @@ class Transfer:
         ]
         return atom(wanted, relation), proof
 
+    def _multiple(
+        self, value: checker.Poly, target: checker.Poly
+    ) -> tuple[list[checker.Poly], Fraction, list[int]]:
+        """(factors, c, exponents) with (the factors)^exponents * value = c * target, of numerators:
+        the factors are what the value divides by, and at most two more that are known to be
+        nonzero.
+        """
+        under = [(licence, exponent) for (licence, _), exponent in value.under.items()]
+        known = [licence.terms for licence, _ in under]
+        others = [
+            (licence, 0)
+            for licence, _ in self.branch.state.context.licensed.values()
+            if licence.terms not in known
+        ]
+        for more in ((), *combinations(others, 1), *combinations(others, 2)):
+            result = _exponents(value, target, [*under, *more])
+            if result:
+                return [licence for licence, _ in [*under, *more]], *result
+        raise NotWritten("values change an atom by more than what is known to be nonzero")
+
 
 def _apart(weight: int, factors: Factors) -> str:
     """A proof that a product of factors other than 0 is other than 0."""
@@ -207,15 +229,13 @@ def _apart(weight: int, factors: Factors) -> str:
     return proof
 
 
-def _multiple(value: checker.Poly, target: checker.Poly) -> tuple[Fraction, list[int]]:
-    """(c, exponents) with (what the value divides by)^exponents * numerator of the value = c *
-    numerator of the target, for values without the denominator that is a number.
-    """
-    numerator, goal = value.over({}), target.over({})
-    under = [(licence, exponent) for (licence, _), exponent in value.under.items()]
-    choices = product(*(range(-1, exponent + 2) for _, exponent in under))
+def _exponents(
+    value: checker.Poly, target: checker.Poly, under: Sequence[tuple[checker.Poly, int]]
+) -> tuple[Fraction, list[int]] | None:
+    """(c, exponents) with (what is below)^exponents * value = c * target, of numerators."""
+    choices = product(*(range(min(-1, e - 2), e + 2) for _, e in under))
     for powers in sorted(choices, key=lambda one: (sum(map(abs, one)), one)):
-        own, other = numerator, goal
+        own, other = value.over({}), target.over({})
         for (licence, _), e in zip(under, powers):
             own, other = own * licence ** max(-e, 0), other * licence ** max(e, 0)
         if own.terms.keys() == other.terms.keys():
@@ -223,22 +243,22 @@ def _multiple(value: checker.Poly, target: checker.Poly) -> tuple[Fraction, list
             if len(ratios) < 2:
                 exponents = [exponent - e for (_, exponent), e in zip(under, powers)]
                 return (ratios.pop() if ratios else Fraction(1)), exponents
-    raise NotWritten("values change an atom by more than what they divide by")
+    return None
 
 
-def _paired(
-    own: checker.Formula, target: checker.Formula, pairs: dict[int, checker.Poly]
-) -> None:
+def _paired(own: checker.Formula, target: checker.Formula, pairs: dict[int, checker.Poly]) -> None:
     """Finds for each atom of a formula that of another one of the same shape."""
     if isinstance(own, bool) or isinstance(target, bool):
         same = own is target
-    elif own[0] == "atom" or target[0] == "atom":
-        same = own[0] == target[0] and own[2] == target[2]
+    elif own[0] == "atom" and target[0] == "atom":
+        same = own[2] == target[2]
         pairs[id(own[1])] = target[1]
-    else:
+    elif own[0] != "atom" and target[0] != "atom":
         same = own[0] == target[0] and len(own[1]) == len(target[1])
         for one, other in zip(own[1], target[1]):
             _paired(one, other, pairs)
+    else:
+        same = False
     if not same:
         raise NotWritten("values change the shape of a formula")
 
@@ -264,9 +284,7 @@ class Form:
         self.unfolding = checker.Unfolding(statement, checker.Context(), sharp)
         keyword = [key for key, _ in statement.lines if key in ("have", "root")]
         derived = {
-            count
-            for (count, _), key in zip(self.unfolding.obligations, keyword)
-            if key == "have"
+            count for (count, _), key in zip(self.unfolding.obligations, keyword) if key == "have"
         } | set(range(len(sharp or ())))
         self.derived = derived
         self.given = [k for k in range(len(self.unfolding.premises)) if k not in derived]

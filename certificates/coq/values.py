@@ -6,11 +6,10 @@ import ast
 from collections.abc import Callable, Mapping, Sequence
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq.branch import Branch
+from juggleproof.certificates.coq.branch import Branch, Hint
 from juggleproof.certificates.coq.rules import closed, shown, signs
 from juggleproof.certificates.coq.text import (
     NotWritten,
-    atom,
     conjoined,
     conjunctive,
     coq_name,
@@ -24,11 +23,12 @@ from juggleproof.certificates.coq.transfer import (
     premise_proofs,
     value_text,
 )
-from juggleproof.certificates.nodes import Node, Values
+from juggleproof.certificates.nodes import Node
 
 Range = Sequence[ast.expr]
 
-def found(branch: Branch, values: Values, leaf: Callable[..., list[str]]) -> list[str]:
+
+def found(branch: Branch, values: Hint, leaf: Callable[..., list[str]]) -> list[str]:
     """The tactics for values that are found by cases; `leaf` writes one case."""
     if values[0] == "sign":
         first, cases = signs(branch, values[1])
@@ -63,7 +63,7 @@ def adjoin(
     before, after = branch.fresh(), branch.fresh()
     rows = shown(branch, checker.negate(crossed), crossed, below, before)
     rows += shown(branch, checker.negate(rises), rises, above, after)
-    rows += nonzero(branch, dict(enumerate(ends)))
+    rows += nonzero(branch, {"low": ends[0], "high": ends[1]})
     inner = checker.Context(context)
     inner.declare(name)
     poly = inner.value(tree)
@@ -84,7 +84,7 @@ def adjoin(
         rows.append(f"destruct {before} as {conjunctive(parts)}.")
     whole = context.number(poly.den)
     transfer = Transfer(branch, {}, {})
-    sides = []
+    sides: list[str] = []
     for term, value, target in (
         (f"({high_text} - {low_text})", ends[1] - ends[0], order),
         (f"(- ({at_low}))", -(first * whole), falls),
@@ -96,7 +96,7 @@ def adjoin(
             transfer.rows.append(f"assert ({known} : 0 <= {term}) by (clear; lra).")
             sides.append(known)
         else:
-            sides.append(f"(proj2 {transfer.atom(term, value, target[2], target[1])[1]} {known})")
+            sides.append(f"(proj2 {transfer.fact(term, value, target)} {known})")
     ranges = [branch.fresh() for _ in range(3)]
     own = coq_name(name)
     rows += [
@@ -112,9 +112,7 @@ def adjoin(
         (ranges[1], f"({high_text} - {own})", ends[1] - root, context.atom(root, "<=", ends[1])),
         (ranges[2], f"({function})", poly * whole, context.atom(poly, "=", zero)),
     ):
-        if isinstance(target, bool):
-            raise NotWritten("an adjoined number is the root of a number")
-        same, new = transfer.atom(term, value, target[2], target[1])[1], branch.fresh()
+        same, new = transfer.fact(term, value, target), branch.fresh()
         transfer.rows.append(f"pose proof (proj1 {same} {known}) as {new}.")
         transfer.rows += branch.assume(target, new)
     return [*rows, *transfer.rows]
@@ -124,14 +122,18 @@ def adjoin(
 # What the values are for.
 
 
-def values_of(branch: Branch, terms: Mapping[str, str], base: Sequence[str]) -> dict[str, checker.Poly]:
+def values_of(
+    branch: Branch, terms: Mapping[str, str], base: Sequence[str]
+) -> dict[str, checker.Poly]:
     """The value of each variable: a term, or for those of `base` the variable itself."""
     context = branch.state.context
     values = {key: context.value(checker.parse(text)) for key, text in terms.items()}
     return {**values, **{key: context.values[key] for key in base}}
 
 
-def exhibited(transfer: Transfer, form: Form, names: Sequence[str], proofs: Sequence[str]) -> list[str]:
+def exhibited(
+    transfer: Transfer, form: Form, names: Sequence[str], proofs: Sequence[str]
+) -> list[str]:
     """Proves that variables exist, from what holds at their values."""
     facts = ["ltac:(wholly)"] * len(form.whole(names))
     rows = [f"exists {transfer.texts[name]}." for name in names]
@@ -145,7 +147,7 @@ def as_point(form: Form, sharp: Range | None = None) -> Callable[..., list[str]]
         values = values_of(branch, terms, ())
         context = checker.Context(branch.state.context, values)
         inner = checker.Unfolding(form.statement, context, sharp, False)
-        rows, proofs = _premises(branch, form, inner, values, node)
+        rows, proofs, _ = _premises(branch, form, inner, values, node)
         transfer = Transfer(branch, form.names, values)
         return [*rows, *exhibited(transfer, form, form.universal, proofs)]
 
@@ -154,12 +156,15 @@ def as_point(form: Form, sharp: Range | None = None) -> Callable[..., list[str]]
 
 def _premises(
     branch: Branch, form: Form, inner: checker.Unfolding, values: Numbers, node: Node
-) -> tuple[list[str], list[str]]:
-    together, holds = checker.join("and", inner.premises), branch.fresh()
+) -> tuple[list[str], list[str], Branch]:
+    """Tactics that show the premises, a proof of each, and the branch that assumes them."""
+    together, holds, parts = checker.join("and", inner.premises), branch.fresh(), branch.fresh()
     rows = nonzero(branch, values)
     rows += shown(branch, together, checker.negate(together), node, holds)
-    more, proofs = premise_proofs(branch, form, inner, holds, values)
-    return [*rows, *more], proofs
+    known = branch.copy()
+    rows += [f"pose proof {holds} as {parts}.", *known.assume(together, parts)]
+    more, proofs = premise_proofs(known, form, inner, holds, values)
+    return [*rows, *more], proofs, known
 
 
 def as_witness(form: Form, sharp: Range | None = None) -> Callable[..., list[str]]:
@@ -192,10 +197,10 @@ def as_counterexample(
         inner = checker.Unfolding(
             form.statement, checker.Context(branch.state.context, values), sharp
         )
-        rows, proofs = _premises(branch, form, inner, values, node)
+        rows, proofs, known = _premises(branch, form, inner, values, node)
         rest = branch.copy(inner.context)
         values |= {key: inner.context.values[key] for key in form.existential}
-        transfer = Transfer(rest, form.names, values)
+        transfer = Transfer(known.copy(inner.context), form.names, values)
         same = transfer.same(form.unfolding.goal(True), inner.goal(True))
         terms_ = [transfer.texts[key] for key in form.universal]
         facts = ["ltac:(wholly)"] * len(form.whole(form.universal))
