@@ -48,7 +48,9 @@ def lemmas(statement: checker.Statement, certificate: Certificate, known: Known)
             return _sharp(statement, proof, known)
         premises = checker.premises_of(statement, known)
         return "\n".join(_certified(premises[name], proof[name], known) for name in premises)
-    except checker.Rejected as problem:
+    except NotWritten:
+        raise
+    except (checker.Rejected, LookupError, TypeError, ValueError) as problem:
         raise NotWritten(f"a part of its certificate is not understood: {problem}") from None
 
 

@@ -148,10 +148,9 @@ def test_a_box_tree_compiles(polynomial: str, box: Any, tmp_path: Path) -> None:
     assert result.returncode == 0, result.stderr
 
 
-@pytest.mark.parametrize("polynomial, box", BOUNDS)
-@pytest.mark.parametrize("tree", [".", "a..", "A."])
-def test_rejects_a_wrong_box_tree(polynomial: str, box: Any, tree: str, tmp_path: Path) -> None:
-    statement, entry = bounded(polynomial, box)
+@pytest.mark.parametrize("tree", [".", "A.", "aA..", "b.."])
+def test_rejects_a_wrong_box_tree(tree: str, tmp_path: Path) -> None:
+    statement, entry = bounded(*BOUNDS[1])
     entry["certified"][2][3] = tree
     assert checker.check_one(statement, entry, {}, {})[0] == "rejected"
     assert coq_of(tmp_path, lemmas(statement, entry, {})).returncode != 0
@@ -168,7 +167,7 @@ def in_refutation(entry: Any) -> None:
 
 
 def in_point(entry: Any) -> None:
-    with_value(entry["point"], "alpha", "2")
+    with_value(entry["point"], "r", "-1")
 
 
 def in_witness(entry: Any) -> None:
@@ -213,7 +212,7 @@ def test_rejects_a_forged_certificate(
     "case, old, new",
     [
         (("universal", "integral"), r"  whole \w+ ->\n", ""),
-        (("sharp", "", "number"), r"(?m)^  \((?=.*<->)", "  (0 < 1 -> "),
+        (("sharp", "", "number"), r" <-> \(forall", r" <-> (False /\\ forall"),
         (("refuted",), r"~ \(", "("),
     ],
 )
@@ -261,7 +260,7 @@ def test_export_writes_lemmas_on_the_axioms_of_the_reals(
     coqc()
     assert run(["export", "coq", "eq-7", "s3.0-closed-form"]) == 0
     out, err = capsys.readouterr()
-    assert "5 of    5  statements are written" in err and out.count("Lemma statement_") > 5
+    assert "4 of    4  statements are written" in err and out.count("Lemma statement_") > 4
     result = compiled(
         tmp_path, "Exported.v", out + "\nPrint Assumptions statement_eq_7_only_these.\n"
     )
