@@ -143,36 +143,27 @@ def _use(
     values = {key: branch.state.context.value(checker.parse(t)) for key, t in arguments.items()}
     rows = nonzero(branch, values)
     form = Form(statement)
+    names: dict[str, str] = {}  # of what exists, in the branch
     for key, new in sorted(fresh.items()):
         context.declare(new, key in form.integers)
         values[key] = context.values[new]
+        names[key] = list(context.index)[-1]
     inner = checker.Unfolding(statement, checker.Context(context, values))
     together, goal = checker.join("and", inner.premises), inner.goal(True)
     instance = checker.join("or", [checker.negate(together), goal])
     rest = branch.copy(context)
     holds, fails, shows, own = (branch.fresh() for _ in range(4))
-    new_names = [list(context.index)[-len(fresh) :][k] for k in range(len(fresh))]
-    order = [new for _, new in sorted(fresh.items())]
-    keys = dict(zip(order, new_names))
-    variables = [coq_name(keys[fresh[key]]) for key in form.existential]
-    whole = [branch.fresh() for key in form.existential if key in form.integers]
-    claim = some(
-        [keys[fresh[key]] for key in form.existential],
-        [
-            *(
-                f"whole {coq_name(keys[fresh[key]])}"
-                for key in form.existential
-                if key in form.integers
-            ),
-            rest.write(instance),
-        ],
-    )
+    variables = [coq_name(names[key]) for key in form.existential]
+    integers = [coq_name(names[key]) for key in form.existential if key in form.integers]
+    whole = [branch.fresh() for _ in integers]
+    parts = [*(f"whole {integer}" for integer in integers), rest.write(instance)]
+    claim = some([names[key] for key in form.existential], parts)
     inside = rest.copy()
     more, proofs = premise_proofs(inside, form, inner, holds, values)
     transfer = Transfer(inside, form.names, values)
     same = transfer.same(form.unfolding.goal(True), goal)
     terms = [transfer.texts[key] for key in form.universal]
-    facts = ["ltac:(wholly)"] * len(form.whole(form.universal))
+    facts = transfer.whole(form, form.universal)
     applied = " ".join([lemma_name(name), *terms, *facts, *proofs])
     result = f"({' & '.join([*variables, *whole, shows])})" if variables else shows
     rows += [

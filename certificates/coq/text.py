@@ -130,7 +130,6 @@ Lemma both (A B C D : Prop) : (A <-> C) -> (B <-> D) -> (A /\\ B <-> C /\\ D). P
 Lemma either (A B C D : Prop) : (A <-> C) -> (B <-> D) -> (A \\/ B <-> C \\/ D). Proof. tauto. Qed.
 Ltac number t := lazymatch t with IZR _ => idtac | - IZR _ => idtac end.
 Ltac of_number H := lazymatch type of H with
-  | False => idtac
   | 0 < ?t => number t
   | 0 <= ?t => number t
   | ?t = 0 => number t
@@ -141,6 +140,7 @@ Ltac taken_apart H := lazymatch type of H with
       let left := fresh "of_left" in let right := fresh "of_right" in
       destruct H as [left right]; taken_apart left; taken_apart right
   | _ \\/ _ => destruct H as [H|H]; taken_apart H
+  | False => destruct H
   | _ => try (of_number H; exfalso; clear - H; lra)
   end.
 Ltac put_together := lazymatch goal with

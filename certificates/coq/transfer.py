@@ -153,6 +153,11 @@ class Transfer:
             text, proof = f"({before}) {sign} ({text})", f"({lemma} _ _ _ _ {first} {proof})"
         return f"({text})", proof
 
+    def whole(self, form: Form, names: Sequence[str]) -> list[str]:
+        """Proofs that the values of integer variables are integers."""
+        integers = [self.texts[name] for name in names if name in form.integers]
+        return [f"(ltac:(wholly) : whole {text})" for text in integers]
+
     def fact(self, text: str, value: checker.Poly, target: checker.Formula) -> str:
         """A proof that an atom about a text of this value is equivalent to the target."""
         if isinstance(target, bool) or target[0] != "atom":
@@ -286,7 +291,6 @@ class Form:
         derived = {
             count for (count, _), key in zip(self.unfolding.obligations, keyword) if key == "have"
         } | set(range(len(sharp or ())))
-        self.derived = derived
         self.given = [k for k in range(len(self.unfolding.premises)) if k not in derived]
         self.names = self.unfolding.context.index
         self.universal = [name for name in self.unfolding.universal if name not in base]

@@ -135,7 +135,7 @@ def exhibited(
     transfer: Transfer, form: Form, names: Sequence[str], proofs: Sequence[str]
 ) -> list[str]:
     """Proves that variables exist, from what holds at their values."""
-    facts = ["ltac:(wholly)"] * len(form.whole(names))
+    facts = transfer.whole(form, names)
     rows = [f"exists {transfer.texts[name]}." for name in names]
     return [*transfer.rows, *rows, f"exact {conjoined([*facts, *proofs])}."]
 
@@ -203,7 +203,7 @@ def as_counterexample(
         transfer = Transfer(known.copy(inner.context), form.names, values)
         same = transfer.same(form.unfolding.goal(True), inner.goal(True))
         terms_ = [transfer.texts[key] for key in form.universal]
-        facts = ["ltac:(wholly)"] * len(form.whole(form.universal))
+        facts = transfer.whole(form, form.universal)
         shows, goal = branch.fresh(), branch.fresh()
         applied = " ".join([all_hold[name], *terms_, *facts, *proofs])
         rows.append(f"pose proof ({applied}) as {shows}.")

@@ -43,8 +43,8 @@ def list_claims() -> int:
 
 
 # -------------------------------------------------------------------------------------------------
-# `juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, the certified ones as
-# Coq lemmas with proofs, prints as LaTeX.
+# `juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, as Coq lemmas
+# with proofs, prints as LaTeX.
 
 
 def export_smt2(ids: Sequence[str], folder: Path | None) -> int:

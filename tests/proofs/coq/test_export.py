@@ -156,6 +156,73 @@ def test_rejects_a_wrong_box_tree(tree: str, tmp_path: Path) -> None:
     assert coq_of(tmp_path, lemmas(statement, entry, {})).returncode != 0
 
 
+USES = """
+statement t/inverse
+forall x
+given x > 0
+exists y
+show x*y = 1
+
+statement t/sign
+forall x z
+given x > 0
+given x*z = 1
+show z > 0
+
+statement t/next
+forall n
+integer n m
+exists m
+show m = n + 1
+
+statement t/least
+forall n
+integer n
+given n > 0
+show n >= 1
+"""
+
+
+def product(*facts: int) -> Any:
+    return ["1", [[fact, 1] for fact in facts], "1"]
+
+
+def used() -> dict[str, Any]:
+    """Certificates that name what an earlier statement says to exist, also an integer."""
+    inverse: Any = ["t/inverse", [], {"y": "1/x"}, ["close"]]
+    fails = ["psatz", [product(0), product(3)], []]
+    holds = ["psatz", [product(0, 2), product()], [[1, "1"]]]
+    sign = ["use", "t/inverse", {"x": "x"}, {"y": "y"}, ["cases", 0, [fails, holds]]]
+    below = ["psatz", [product(3), product(0)], [[2, "1"]]]
+    equal = ["psatz", [product(0)], [[2, "1"], [3, "-1"]]]
+    above = ["integral", 3, ["psatz", [product(4), product(1)], [[2, "-1"]]]]
+    least = ["use", "t/next", {"n": "n"}, {"m": "m"}, ["sign", "m - 1", below, equal, above]]
+    proofs: Any = {
+        "t/inverse": (["witness", [], inverse], {"x": "1"}),
+        "t/sign": (["proof", [], sign], {"x": "1", "z": "1"}),
+        "t/next": (["witness", [], ["t/next", [], {"m": "n + 1"}, ["close"]]], {"n": "0"}),
+        "t/least": (["proof", [], least], {"n": "1"}),
+    }
+    return {
+        name: {"certified": proof, "point": [name, [], point, ["close"]]}
+        for name, (proof, point) in proofs.items()
+    }
+
+
+def test_an_earlier_statement_with_exists_is_used_in_coq(tmp_path: Path) -> None:
+    statements = checker.read_statements(USES)
+    for name, entry in used().items():
+        assert checker.check_one(statements[name], entry, statements, statements) == (
+            "certified",
+            None,
+        )
+    texts = [lemmas(statements[name], entry, statements) for name, entry in used().items()]
+    result = coq_of(tmp_path, "\n".join(texts))
+    assert result.returncode == 0, result.stderr
+    alone = coq_of(tmp_path, "\n".join(texts[:-2] + texts[-1:]))
+    assert alone.returncode != 0 and "statement_t_next" in alone.stderr
+
+
 def with_value(part: Any, name: str, value: str) -> Any:
     """Values found, with another one for a variable."""
     part[2][name] = value
