@@ -3,7 +3,10 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: certify test lint coq docs figure clean
+JOBS ?= $(shell nproc)
+SHARE ?= 1
+
+.PHONY: certify test lint coq coq-store docs figure clean
 
 certify: $(VENV)/installed
 	$(BIN)/juggleproof certify
@@ -21,6 +24,19 @@ coq:
 	@coqc --version | head -n 1
 	@rm -rf build/coq && mkdir -p build/coq && cp proofs/coq/*.v build/coq
 	@cd build/coq && for file in $$(grep '\.v$$' ../../proofs/coq/_CoqProject); do echo "coqc $$file"; coqc -q -Q . Juggleproof $$file || exit 1; done
+
+# The stored statements as Coq lemmas, each proved by its certificate: all of them, or with SHARE=12 one in 12.
+coq-store: $(VENV)/installed
+	@command -v coqc >/dev/null || { echo "coqc is needed: Debian's package is called coq"; exit 1; }
+	@rm -rf build/coq-store
+	$(BIN)/python -m juggleproof.certificates.coq build/coq-store --share $(SHARE)
+	@$(MAKE) --no-print-directory --keep-going -j $(JOBS) $$(ls build/coq-store/*.v | sed 's/v$$/vo/')
+
+build/coq-store/Part%.vo: build/coq-store/Part%.v build/coq-store/Prelude.vo
+	cd build/coq-store && coqc -q -Q . Store Part$*.v
+
+build/coq-store/Prelude.vo: build/coq-store/Prelude.v
+	cd build/coq-store && coqc -q -Q . Store Prelude.v
 
 # The pages of docs as a site in build/site; a broken link is an error.
 docs: $(VENV)/installed

@@ -14,5 +14,5 @@ In reading order:
 - `search`: finds certificates;
 - `votes`: other ways to decide a statement, recorded beside the certificate;
 - `store`: statements and certificates as files;
-- `coq`: certified statements as Coq lemmas.
+- `coq`: the stored statements as Coq lemmas.
 """

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import PRELUDE, lemma
+from juggleproof.certificates.coq import PRELUDE, export
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.certificates.votes.smtlib import script
@@ -43,8 +43,8 @@ def list_claims() -> int:
 
 
 # -------------------------------------------------------------------------------------------------
-# `juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, the certified ones as
-# Coq lemmas with proofs, prints as LaTeX.
+# `juggleproof export`: the stored statements as SMT-LIB 2 for other solvers, as Coq lemmas
+# with proofs, prints as LaTeX.
 
 
 def export_smt2(ids: Sequence[str], folder: Path | None) -> int:
@@ -67,27 +67,25 @@ def export_smt2(ids: Sequence[str], folder: Path | None) -> int:
 
 
 def export_coq(ids: Sequence[str], folder: Path | None) -> int:
-    """Writes the certified statements named (or all) as Coq lemmas with proofs; says on standard
-    error which it cannot, and why.
+    """Writes the statements named (or all) as Coq lemmas with proofs, after those that their
+    certificates use; says on standard error how many of each class, and which it cannot write.
 
     Raises ClaimError for an unknown name, or where nothing at all can be written.
     """
     store = Store(DEFAULT)
-    statements = checker.read_statements("\n\n".join(store.texts.values()))
-    written = 0
-    for name in _names(store, ids):
-        try:
-            text = lemma(statements[name], store.certificate(name, store.texts[name]))
-        except ClaimError as problem:
-            print(f"juggleproof: not written for Coq: {problem}", file=sys.stderr)
-            continue
-        if folder:
-            write_file(folder / (_file_name(name) + ".v"), f"{PRELUDE}\n{text}".encode())
-        else:
-            print(text if written else f"{PRELUDE}\n{text}")
-        written += 1
-    if not written:
+    names = _names(store, ids)
+    exported = export(store, names)
+    print("\n".join(exported.table()), file=sys.stderr)
+    if not exported.texts:
         raise ClaimError("none of the statements named can be written for Coq")
+    if not folder:
+        print("\n".join([PRELUDE, *exported.texts.values()]))
+        return 0
+    for name in names:
+        if name in exported.texts:
+            texts = export(store, [name]).texts.values() if exported.needs[name] else ()
+            content = "\n".join([PRELUDE, *(texts or [exported.texts[name]])])
+            write_file(folder / (_file_name(name) + ".v"), content.encode())
     return 0
 
 

@@ -4,7 +4,6 @@ told in one line.
 
 from __future__ import annotations
 
-import json
 import re
 import shlex
 from fractions import Fraction
@@ -13,7 +12,6 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import lemma
 from juggleproof.certificates.language import ClaimError, reals
 from juggleproof.proofs.bounds import ATTAINED, LOWER, enclose_minimum
 from juggleproof.proofs.command.bound import decimals
@@ -236,18 +234,6 @@ def test_rejects_a_float_and_an_empty_budget() -> None:
         enclose_minimum("x", {"x": (0, 0.5)}, 1)
     with pytest.raises(ClaimError, match="budget 0 is below 1"):
         enclose_minimum("x", UNIT, 1, budget=0)
-
-
-def test_a_box_tree_is_refused_for_coq() -> None:
-    found = enclose_minimum("x^2 - x", UNIT, 0)
-    certificate = json.loads(json.dumps(found.certificates[LOWER]))
-    with pytest.raises(
-        ClaimError,
-        match=(
-            "uses the rule boxes; only psatz, cases, sign, close and integral are written for Coq"
-        ),
-    ):
-        lemma(checker.read_statements(found.statements)[LOWER], certificate)
 
 
 def test_rejects_a_long_text_in_a_short_line() -> None:

@@ -1,11 +1,14 @@
-"""Certified statements as Coq lemmas: they compile, tampered ones do not, and what is not written
-is refused by name.
+"""Stored statements as Coq lemmas: each class compiles, what is forged does not, and what is not
+written is counted.
 """
 
 from __future__ import annotations
 
 import copy
+import json
 import re
+from collections.abc import Callable
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -13,9 +16,10 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import PRELUDE, lemma
-from juggleproof.certificates.language import ClaimError
+from juggleproof.certificates.coq import PRELUDE, NotWritten, export, lemmas, share_of, write
+from juggleproof.certificates.coq.files import CLASSES, Export
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.bounds import LOWER, enclose_minimum
 from juggleproof.proofs.command.main import run
 from tests.proofs.coq.development import compiled, coqc
 
@@ -26,76 +30,304 @@ def stored() -> tuple[Store, dict[str, Any]]:
     return store, checker.read_statements("\n\n".join(store.texts.values()))
 
 
+@cache
+def exported() -> Export:
+    return export(stored()[0])
+
+
 def certificate(name: str) -> Any:
     return stored()[0].certificate(name, stored()[0].texts[name])
 
 
 def kinds(node: Any) -> set[str]:
-    if not isinstance(node, list):
+    """The rules of a certificate, and `adjoined` where it adjoins a number."""
+    if isinstance(node, dict):
+        return set().union(*map(kinds, node.values()))
+    if not isinstance(node, (list, tuple)):
         return set()
-    return {part for part in node[:1] if isinstance(part, str)}.union(*map(kinds, node))
+    own = {part for part in node[:1] if isinstance(part, str)}
+    if len(node) == 6 and all(isinstance(part, str) for part in node[:4]):
+        own.add("adjoined")
+    return own.union(*map(kinds, node))
 
 
-@cache
-def written() -> dict[str, str]:
-    """Every stored statement that is written for Coq."""
-    lemmas = {}
-    for name in stored()[0].texts:
-        try:
-            lemmas[name] = lemma(stored()[1][name], certificate(name))
-        except ClaimError:
-            continue
-    return lemmas
-
-
-def small(rule: str, line: str = "") -> str:
-    """The shortest lemma whose certificate uses the rule and whose statement has such a line."""
+def smallest(kind: str, rule: str = "", line: str = "") -> str:
+    """The statement with the shortest lemmas of a class whose certificate uses the rule and whose
+    text has such a line.
+    """
+    store = exported()
     fitting = [
         name
-        for name in written()
-        if rule in kinds(certificate(name)["certified"])
+        for name, text in store.texts.items()
+        if store.classes[name] == CLASSES.get(kind, CLASSES["orbit"])
+        and (kind in CLASSES or stored()[1][name].kind == kind)
+        and (not rule or rule in kinds(certificate(name)))
         and (not line or stored()[1][name].get(line))
     ]
-    return min(fitting, key=lambda name: (len(written()[name]), name))
+    return min(fitting, key=lambda name: (len(store.texts[name]), name))
 
 
-def test_most_certified_statements_are_written_under_names_of_their_own_holds() -> None:
-    heads = [text.splitlines()[1] for text in written().values()]
-    assert len(heads) == len(set(heads)) > 300
-    assert {"psatz", "cases", "sign"} <= set().union(
-        *(kinds(certificate(name)["certified"]) for name in written())
-    )
+CASES = [
+    *(("universal", rule, "") for rule in ("psatz", "cases", "sign", "close", "integral")),
+    *(("universal", rule, "") for rule in ("interval", "use", "adjoined")),
+    *(("universal", "", line) for line in ("have", "root", "integer")),
+    *(("exists", rule, "") for rule in ("", "sign", "empty")),
+    ("refuted", "", ""),
+    ("refuted", "adjoined", ""),
+    ("refuted", "", "exists"),
+    ("refuted", "", "integer"),
+    ("sharp", "", ""),
+    ("sharp", "adjoined", ""),
+    ("sharp", "", "number"),
+    *((kind, "", "") for kind in ("iterates", "map", "descends", "contracts", "attracts")),
+    *((kind, "", "") for kind in ("escapes", "exactly")),
+]
 
 
-@pytest.mark.parametrize(
-    "rule, line",
-    [
-        ("psatz", ""),
-        ("cases", ""),
-        ("sign", ""),
-        ("close", ""),
-        ("integral", ""),
-        ("psatz", "have"),
-        ("psatz", "root"),
-        ("psatz", "integer"),
-    ],
-)
-def test_a_written_lemma_compiles(rule: str, line: str, tmp_path: Path) -> None:
+def test_every_statement_of_the_store_is_written_holds() -> None:
+    statements, counts = stored()[1], exported().table()
+    assert exported().reasons == {} and list(exported().texts) == list(statements)
+    assert counts == [
+        *(f"{n:4} of {n:4}  {kind}" for kind, n in sizes().items()),
+        f"{len(statements):4} of {len(statements):4}  statements are written for Coq",
+    ]
+    heads = re.findall(r"^Lemma (\w+)", "\n".join(exported().texts.values()), re.MULTILINE)
+    assert len(heads) == len(set(heads)) > len(statements)
+
+
+def sizes() -> dict[str, int]:
+    """How many statements of each class the store has, by their kinds and outcomes alone."""
+    classes = []
+    for name, statement in stored()[1].items():
+        if "refuted" in certificate(name):
+            classes.append("refuted")
+        elif statement.kind == "universal":
+            classes.append("exists" if statement.get("exists") else "universal")
+        else:
+            classes.append("sharp" if statement.kind == "sharp" else "orbit")
+    return {CLASSES[key]: classes.count(key) for key in CLASSES}
+
+
+def test_a_store_with_one_statement_of_each_class_compiles(tmp_path: Path) -> None:
     coqc()
-    result = compiled(tmp_path, "Exported.v", f"{PRELUDE}\n{written()[small(rule, line)]}")
+    small = export(stored()[0], {smallest(*case) for case in CASES})
+    write(small, tmp_path, files=1)
+    assert small.reasons == {} and set(small.classes.values()) == set(CLASSES.values())
+    for name in ("Prelude.v", "Part01.v"):
+        text = (tmp_path / name).read_text().replace("From Store ", "From Juggleproof ")
+        result = compiled(tmp_path, name, text)
+        assert result.returncode == 0, result.stderr
+
+
+def coq_of(folder: Path, text: str) -> Any:
+    """What Coq says of lemmas."""
+    coqc()
+    return compiled(folder, "Exported.v", f"{PRELUDE}\n{text}")
+
+
+def written(name: str, changed: Any = None) -> str:
+    """The lemmas of a stored statement, of another certificate where one is given."""
+    return lemmas(stored()[1][name], changed or certificate(name), stored()[1])
+
+
+BOUNDS = [("x^2 - x", {"x": (0, 1)}), ("(x*y - 1/3)^2 + x", {"x": (-1, 1), "y": (0, 2)})]
+
+
+def bounded(polynomial: str, box: Any) -> tuple[checker.Statement, Any]:
+    """A statement with a box tree, and its certificate."""
+    found = enclose_minimum(polynomial, box, Fraction(1, 10))
+    statement = checker.read_statements(found.statements)[LOWER]
+    return statement, json.loads(json.dumps(found.certificates[LOWER]))
+
+
+@pytest.mark.parametrize("polynomial, box", BOUNDS)
+def test_a_box_tree_compiles(polynomial: str, box: Any, tmp_path: Path) -> None:
+    statement, entry = bounded(polynomial, box)
+    assert {"a", "A", "."} <= set(entry["certified"][2][3])
+    result = coq_of(tmp_path, lemmas(statement, entry, {}))
     assert result.returncode == 0, result.stderr
 
 
-def test_a_file_of_several_lemmas_compiles_on_the_axioms_of_the_reals(
+@pytest.mark.parametrize("tree", [".", "A.", "aA..", "b.."])
+def test_rejects_a_wrong_box_tree(tree: str, tmp_path: Path) -> None:
+    statement, entry = bounded(*BOUNDS[1])
+    entry["certified"][2][3] = tree
+    assert checker.check_one(statement, entry, {}, {})[0] == "rejected"
+    assert coq_of(tmp_path, lemmas(statement, entry, {})).returncode != 0
+
+
+USES = """
+statement t/inverse
+forall x
+given x > 0
+exists y
+show x*y = 1
+
+statement t/sign
+forall x z
+given x > 0
+given x*z = 1
+show z > 0
+
+statement t/next
+forall n
+integer n m
+exists m
+show m = n + 1
+
+statement t/least
+forall n
+integer n
+given n > 0
+show n >= 1
+"""
+
+
+def product(*facts: int) -> Any:
+    return ["1", [[fact, 1] for fact in facts], "1"]
+
+
+def used() -> dict[str, Any]:
+    """Certificates that name what an earlier statement says to exist, also an integer."""
+    inverse: Any = ["t/inverse", [], {"y": "1/x"}, ["close"]]
+    fails = ["psatz", [product(0), product(3)], []]
+    holds = ["psatz", [product(0, 2), product()], [[1, "1"]]]
+    sign = ["use", "t/inverse", {"x": "x"}, {"y": "y"}, ["cases", 0, [fails, holds]]]
+    below = ["psatz", [product(3), product(0)], [[2, "1"]]]
+    equal = ["psatz", [product(0)], [[2, "1"], [3, "-1"]]]
+    above = ["integral", 3, ["psatz", [product(4), product(1)], [[2, "-1"]]]]
+    least = ["use", "t/next", {"n": "n"}, {"m": "m"}, ["sign", "m - 1", below, equal, above]]
+    proofs: Any = {
+        "t/inverse": (["witness", [], inverse], {"x": "1"}),
+        "t/sign": (["proof", [], sign], {"x": "1", "z": "1"}),
+        "t/next": (["witness", [], ["t/next", [], {"m": "n + 1"}, ["close"]]], {"n": "0"}),
+        "t/least": (["proof", [], least], {"n": "1"}),
+    }
+    return {
+        name: {"certified": proof, "point": [name, [], point, ["close"]]}
+        for name, (proof, point) in proofs.items()
+    }
+
+
+def test_an_earlier_statement_with_exists_is_used_in_coq(tmp_path: Path) -> None:
+    statements = checker.read_statements(USES)
+    for name, entry in used().items():
+        assert checker.check_one(statements[name], entry, statements, statements) == (
+            "certified",
+            None,
+        )
+    texts = [lemmas(statements[name], entry, statements) for name, entry in used().items()]
+    result = coq_of(tmp_path, "\n".join(texts))
+    assert result.returncode == 0, result.stderr
+    alone = coq_of(tmp_path, "\n".join(texts[:-2] + texts[-1:]))
+    assert alone.returncode != 0 and "statement_t_next" in alone.stderr
+
+
+def with_value(part: Any, name: str, value: str) -> Any:
+    """Values found, with another one for a variable."""
+    part[2][name] = value
+    return part
+
+
+def in_refutation(entry: Any) -> None:
+    with_value(entry["refuted"], "z2", "1")
+
+
+def in_point(entry: Any) -> None:
+    with_value(entry["point"], "r", "-1")
+
+
+def in_witness(entry: Any) -> None:
+    with_value(entry["certified"][2], "S0", "-1/2")
+
+
+def in_sharp_range(entry: Any) -> None:
+    with_value(entry["certified"][1], "z2", "1")
+
+
+def in_sharp_point(entry: Any) -> None:
+    with_value(entry["certified"][2]["s4.3.1-DK-negative/main"], "alpha", "2")
+
+
+def in_exponent(entry: Any) -> None:
+    entry["certified"][2][2][1][1][0][0] = 5
+
+
+FORGED: list[tuple[str, Callable[[Any], None]]] = [
+    ("s4.3.1-DK-negative/main", in_refutation),
+    ("eq-7/only-these", in_point),
+    ("eq-7/only-these", in_exponent),
+    ("part-newton/main", in_witness),
+    ("s4.3.1-DK-negative/sharp", in_sharp_range),
+    ("s4.3.1-DK-negative/sharp", in_sharp_point),
+]
+
+
+@pytest.mark.parametrize("name, forge", FORGED)
+def test_rejects_a_forged_certificate(
+    name: str, forge: Callable[[Any], None], tmp_path: Path
+) -> None:
+    changed = copy.deepcopy(certificate(name))
+    forge(changed)
+    assert changed != certificate(name)
+    result = coq_of(tmp_path, written(name, changed))
+    assert result.returncode != 0 and "yntax" not in result.stderr
+    assert coq_of(tmp_path, written(name)).returncode == 0
+
+
+@pytest.mark.parametrize(
+    "case, old, new",
+    [
+        (("universal", "integral"), r"  whole \w+ ->\n", ""),
+        (("sharp", "", "number"), r" <-> \(forall", r" <-> (False /\\ forall"),
+        (("refuted",), r"~ \(", "("),
+    ],
+)
+def test_rejects_the_proof_of_another_statement(
+    case: tuple[str, ...], old: str, new: str, tmp_path: Path
+) -> None:
+    text = exported().texts[smallest(*case)]
+    changed = re.sub(old, new, text)
+    assert changed != text and coq_of(tmp_path, changed).returncode != 0
+
+
+def test_rejects_a_root_that_is_not_the_only_one(tmp_path: Path) -> None:
+    name = smallest("sharp", "", "number")
+    text = stored()[0].texts[name]
+    ((_, (poly, low, high)),) = stored()[1][name].get("number")
+    wide = text.replace(", 0, 1)", ", -100, 100)")
+    assert wide != text
+    statement = checker.read_statements(f"{wide}")[name]
+    with pytest.raises(NotWritten, match="no polynomial is negative on a part of a box"):
+        lemmas(statement, certificate(name), stored()[1])
+
+
+def test_what_is_not_written_is_counted_by_class(tmp_path: Path) -> None:
+    folder = tmp_path / "store"
+    folder.mkdir()
+    name = "s4.3.1-DK-negative/main"
+    (folder / "statements.txt").write_text(stored()[0].texts[name] + "\n")
+    unknown = json.dumps([name, {"unknown": "too hard"}])
+    (folder / "certificates.jsonl").write_text(unknown + "\n")
+    left_out = export(Store(folder))
+    assert left_out.texts == {} and left_out.table()[0] == "   0 of    1  for all"
+    assert left_out.table()[-1] == f"not written: {name}: it has no certificate that settles it"
+
+
+def test_a_share_is_a_part_of_the_store_holds() -> None:
+    names = list(stored()[0].texts)
+    share = share_of(names, 12)
+    assert len(names) / 24 < len(share) < len(names) / 6 and set(share) < set(names)
+    assert share_of(reversed(names), 12) == share[::-1] and share_of(names, 1) == names
+
+
+def test_export_writes_lemmas_on_the_axioms_of_the_reals(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     coqc()
     assert run(["export", "coq", "eq-7", "s3.0-closed-form"]) == 0
     out, err = capsys.readouterr()
-    assert (
-        out.count("Lemma statement_") == 3
-        and "eq-7/strikes: only certified statements without `exists`" in err
-    )
+    assert "4 of    4  statements are written" in err and out.count("Lemma statement_") > 4
     result = compiled(
         tmp_path, "Exported.v", out + "\nPrint Assumptions statement_eq_7_only_these.\n"
     )
@@ -106,57 +338,13 @@ def test_a_file_of_several_lemmas_compiles_on_the_axioms_of_the_reals(
     ), result.stderr
 
 
-def test_rejects_a_lemma_whose_certificate_was_tampered_with(tmp_path: Path) -> None:
-    coqc()
-    name = "eq-7/only-these"
-    changed = copy.deepcopy(certificate(name))
-    changed["certified"][2][2][1][1][0][0] = 5
-    result = compiled(tmp_path, "Exported.v", f"{PRELUDE}\n{lemma(stored()[1][name], changed)}")
-    assert changed != certificate(name) and result.returncode != 0 and "ring" in result.stderr
-
-
-def test_rejects_the_proof_of_another_statement(tmp_path: Path) -> None:
-    coqc()
-    text = written()["eq-7/only-these"]
-    assert text.count("0 < - v + r)") == 1
-    result = compiled(
-        tmp_path, "Exported.v", f"{PRELUDE}\n{text.replace('0 < - v + r)', '0 < - v + 2 * r)')}"
-    )
-    assert result.returncode != 0
-
-
-@pytest.mark.parametrize("name", ["eq-7/strikes", "eq-18a/floor.sharp"])
-def test_rejects_kinds_that_are_not_written(name: str) -> None:
-    if name not in stored()[1]:
-        name = next(n for n, statement in stored()[1].items() if statement.kind == "sharp")
-    with pytest.raises(ClaimError, match="are written for Coq"):
-        lemma(stored()[1][name], certificate(name))
-
-
-def test_rejects_a_rule_that_is_not_written_by_its_name() -> None:
-    changed = copy.deepcopy(certificate("eq-7/only-these"))
-    changed["certified"][2] = ["use", "eq-7/strikes", {}, {}, ["close"]]
-    with pytest.raises(
-        ClaimError,
-        match="uses the rule use; only psatz, cases, sign, close and integral are written",
-    ):
-        lemma(stored()[1]["eq-7/only-these"], changed)
-
-
-def test_an_integer_lemma_fails_without_its_integers(tmp_path: Path) -> None:
-    coqc()
-    text = written()[small("integral", "")]
-    reals = re.sub(r"  whole \w+ ->\n", "", text).replace("wholly", "fail")
-    assert reals != text and compiled(tmp_path, "Exported.v", f"{PRELUDE}\n{reals}").returncode != 0
-
-
 def test_export_writes_one_file_a_statement_holds(tmp_path: Path) -> None:
     assert run(["export", "coq", "eq-7/only-these", "-o", str(tmp_path)]) == 0
     assert [path.name for path in tmp_path.iterdir()] == ["S_eq_7_only_these.v"]
 
 
-def test_export_of_nothing_that_is_written_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert (
-        run(["export", "coq", "eq-7/strikes"]) == 2
-        and "none of the statements named" in capsys.readouterr().err
-    )
+def test_a_file_has_the_lemmas_that_its_certificate_uses(tmp_path: Path) -> None:
+    name = smallest("universal", "use")
+    assert run(["export", "coq", name, "-o", str(tmp_path)]) == 0
+    (path,) = tmp_path.iterdir()
+    assert coq_of(tmp_path, path.read_text().removeprefix(PRELUDE)).returncode == 0
