@@ -43,6 +43,13 @@ from juggleproof.certificates.work import Budget
 # solution.
 
 
+# the products of facts used, each with the number of the root that it is times the square of (-1:
+# none), and the monomials times equations, with their coefficients
+Solution = tuple[
+    list[tuple[tuple[Factors, int], Fraction]], list[tuple[MonomialCofactor, Fraction]]
+]
+
+
 class Combination:
     """Products of at most `degree` facts, times Bernstein polynomials of the bounded variable,
     times squares of the roots.
@@ -168,15 +175,15 @@ class Combination:
                 np.tile(values, len(monomials)),
             )
 
-    def node(self, budget: Budget) -> Node | None:
-        """Solves the program, and gives the node of its solution."""
+    def solution(self, budget: Budget) -> Solution | None:
+        """Solves the program."""
         budget.spend(3 * self.program.count + 3 * len(self.cofactors))
         found = solve(self.program, budget)
         if found is None:
             return None
         used = [(self._column(k), c) for k, c in found[0].items()]
         cofactors = [(self.cofactors[k], c) for k, c in found[1].items()]
-        return lift(self.problem, used, cofactors, self.roots)
+        return used, cofactors
 
 
 @dataclass
@@ -335,10 +342,10 @@ class Level:
 # vanishes identically.
 
 MOST_FOR_TRIPLES = 10
-MOST_FAILED = 5000
-_failed: dict[
-    tuple[Hashable, int, int, str], int
-] = {}  # (facts, stage) -> the work that it takes to find nothing
+MOST_SOLVED = 5000
+# (facts, stage) -> the solution, and the work that it takes: the same facts come back, in other
+# cases and at greater effort
+_solved: dict[tuple[Hashable, int, int, str], tuple[Solution | None, int]] = {}
 # (products of facts, extra Bernstein degree, kind of squares; or "goal": no squares, and only facts
 # in the goal's variables)
 Stage = tuple[int, int, str]
@@ -392,34 +399,34 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
     if not problem.facts and not problem.reduction.left:
         return None
     key = problem.content()
-    roots: dict[str, list[fmpz_mpoly]] = {"": []}
+    roots: dict[str, list[fmpz_mpoly]] = {"": [], "goal": []}
     for degree, bernstein, kind in stages:
         stage = (key, degree, bernstein, kind)
-        if (
-            stage in _failed
-            # the same facts come back, in other cases and at greater effort: the work counts, but
-            # is not done again
-        ):
-            budget.spend(_failed[stage])
+        solution, work = _solved.get(stage, (None, 0))
+        budget.spend(work)
+        if solution is None and work:
             continue
-        left = budget.left
-        goal_facts = problem.goal_facts() if kind == "goal" else None
         if kind not in roots:
-            roots[kind] = problem.candidates(kind) if kind != "goal" else []
-        same = (
-            bernstein == 2
-            and degree == 2
-            and problem.bounded is None
-            and not problem.reduction.left
-        )
-        if goal_facts is None if kind == "goal" else not roots[kind] if kind else same:
-            continue  # nothing that a smaller stage did not have
-        if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
-            continue
-        node = Combination(problem, degree, bernstein, roots[kind], goal_facts).node(budget)
+            roots[kind] = problem.candidates(kind)
+        if solution is None:
+            goal_facts = problem.goal_facts() if kind == "goal" else None
+            same = (
+                bernstein == 2
+                and degree == 2
+                and problem.bounded is None
+                and not problem.reduction.left
+            )
+            if goal_facts is None if kind == "goal" else not roots[kind] if kind else same:
+                continue  # nothing that a smaller stage did not have
+            if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
+                continue
+            left = budget.left
+            program = Combination(problem, degree, bernstein, roots[kind], goal_facts)
+            solution = program.solution(budget)
+            if len(_solved) >= MOST_SOLVED:
+                _solved.clear()
+            _solved[stage] = solution, left - budget.left
+        node = None if solution is None else lift(problem, *solution, roots[kind])
         if node is not None:
             return node
-        if len(_failed) >= MOST_FAILED:
-            _failed.clear()
-        _failed[stage] = left - budget.left
     return None

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from threading import local
 
 import highspy
 import numpy as np
@@ -224,14 +225,13 @@ def optimum(
     right = np.zeros(rows + 1)
     right[rows] = 1.0
     model.row_lower_ = model.row_upper_ = right
-    at_column, at_row = np.nonzero(whole.T)
+    turned = whole.T
+    at_column, at_row = np.nonzero(turned)
     model.a_matrix_.format_ = highspy.MatrixFormat.kColwise
     model.a_matrix_.start_ = np.searchsorted(at_column, np.arange(columns + 1)).astype(np.int32)
     model.a_matrix_.index_ = at_row.astype(np.int32)
-    model.a_matrix_.value_ = whole[at_row, at_column]
-    solver = highspy.Highs()
-    for option, value in OPTIONS:
-        solver.setOptionValue(option, value)
+    model.a_matrix_.value_ = turned[at_column, at_row]
+    solver = SOLVER.highs
     solver.passModel(model)
     solver.run()
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
@@ -251,6 +251,18 @@ OPTIONS = (
     ("simplex_iteration_limit", 5000),
     ("primal_feasibility_tolerance", 1e-10),
 )
+
+
+class Solver(local):
+    """One HiGHS for each thread, which is dear to make; a new model clears it of the last one."""
+
+    def __init__(self) -> None:
+        self.highs = highspy.Highs()
+        for option, value in OPTIONS:
+            self.highs.setOptionValue(option, value)
+
+
+SOLVER = Solver()
 
 
 def exact(

@@ -193,7 +193,7 @@ class Problem:
             if self.reduction.steps
             else ()
         )
-        return facts, equations, self.bounded, before
+        return self.ring.names, facts, equations, self.bounded, before
 
     def row(self, poly: fmpz_mpoly, packing: Packing) -> Row:
         """A polynomial as arrays; its exponents are read once."""
