@@ -34,7 +34,13 @@ from juggleproof.certificates.search.psatz.lifting import (
     lift,
     powers_of,
 )
-from juggleproof.certificates.search.psatz.linear_program import Floats, Mask, Program, solve
+from juggleproof.certificates.search.psatz.linear_program import (
+    Floats,
+    Mask,
+    Program,
+    counted,
+    solve,
+)
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.work import Budget
 
@@ -287,15 +293,6 @@ class Products:
             (self.keys[:, None] + row[0]).ravel(),
             (self.values[:, None] * row[1]).ravel(),
         )
-
-
-def counted(counts: Keys) -> Keys:
-    """0, 1, .., c - 1 for every count c in turn.
-
-    >>> counted(np.array([2, 0, 3])).tolist()
-    [0, 1, 0, 1, 2]
-    """
-    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 class Level:
