@@ -18,6 +18,7 @@ from flint import fmpz_mpoly
 
 from juggleproof.certificates.algebra.polynomials import (
     Keys,
+    Monomial,
     Packing,
     Row,
     collect,
@@ -83,7 +84,7 @@ class Combination:
         self.packing = Packing(problem.ring, [*problem.polys(), *roots])
         squares = [collect(multiply(row, row)) for row in map(self.packing.row, roots)]
         heights = [2 * self._height(root) for root in roots]
-        own_heights = [self._height(fact.poly) for fact in facts]
+        own_heights = [self._height(fact.poly) for fact in facts] if roots else []
         highest = max([2, *own_heights])
         products = Products(problem, others, self.packing)
         in_bounded, in_others = (
@@ -388,6 +389,28 @@ def close_by_equations(problem: Problem) -> Node | None:
     return None
 
 
+def contrary_bounds(problem: Problem) -> Solution | None:
+    """A sum of two facts, each times a number, that leaves a number less than it has to be."""
+    bounds: dict[tuple[Monomial, bool], list[int]] = {}
+    for k, fact in enumerate(problem.facts):
+        poly, lead = fact.poly, int(fact.poly.leading_coefficient())
+        leading = poly.monomial(0)
+        for other in bounds.get((leading, lead < 0), ()):
+            first = problem.facts[other]
+            a, b = abs(lead), abs(int(first.poly.leading_coefficient()))
+            value = (
+                constant_of(first.poly * a + poly * b)
+                if len(first.poly) - len(poly) in (-1, 0, 1)
+                else None
+            )
+            if value is None or value > 0 or value == 0 and not (first.strict or fact.strict):
+                continue
+            terms = [((), -value), (((other, 1),), a), (((k, 1),), b)]
+            return [((factors, -1), Fraction(c)) for factors, c in terms if c], []
+        bounds.setdefault((leading, lead > 0), []).append(k)
+    return None
+
+
 def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | None:
     """The first node that one of the stages finds; None where none does.
 
@@ -395,6 +418,9 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
     """
     if not problem.facts and not problem.reduction.left:
         return None
+    solution = contrary_bounds(problem)
+    if solution is not None:
+        return lift(problem, *solution, [])
     key = problem.content()
     roots: dict[str, list[fmpz_mpoly]] = {"": [], "goal": []}
     for degree, bernstein, kind in stages:
