@@ -390,24 +390,22 @@ def close_by_equations(problem: Problem) -> Node | None:
 
 
 def contrary_bounds(problem: Problem) -> Solution | None:
-    """A sum of two facts, each times a number, that leaves a number less than it has to be."""
-    bounds: dict[tuple[Monomial, bool], list[int]] = {}
+    """Two facts of which a positive combination is a number less than it has to be."""
+    before: dict[tuple[Monomial, bool], list[int]] = {}  # by the leading monomial and its sign
     for k, fact in enumerate(problem.facts):
-        poly, lead = fact.poly, int(fact.poly.leading_coefficient())
-        leading = poly.monomial(0)
-        for other in bounds.get((leading, lead < 0), ()):
+        leading, lead = fact.poly.monomial(0), int(fact.poly.leading_coefficient())
+        for other in before.get((leading, lead < 0), ()):
             first = problem.facts[other]
             a, b = abs(lead), abs(int(first.poly.leading_coefficient()))
-            value = (
-                constant_of(first.poly * a + poly * b)
-                if len(first.poly) - len(poly) in (-1, 0, 1)
-                else None
-            )
-            if value is None or value > 0 or value == 0 and not (first.strict or fact.strict):
-                continue
-            terms = [((), -value), (((other, 1),), a), (((k, 1),), b)]
-            return [((factors, -1), Fraction(c)) for factors, c in terms if c], []
-        bounds.setdefault((leading, lead > 0), []).append(k)
+            value = constant_of(first.poly * a + fact.poly * b)
+            if value is not None and (value < 0 or value == 0 and (first.strict or fact.strict)):
+                terms: list[tuple[Factors, int]] = [
+                    ((), -value),
+                    (((other, 1),), a),
+                    (((k, 1),), b),
+                ]
+                return [((factors, -1), Fraction(c)) for factors, c in terms if c], []
+        before.setdefault((leading, lead > 0), []).append(k)
     return None
 
 

@@ -155,8 +155,9 @@ def assemble(program: Program, budget: Budget) -> Floats | None:
         return None
     places = np.concatenate(program.places)
     if program.rewritings:
-        forms = normal_forms(keys, program)
-        if forms is None:
+        try:
+            forms = normal_forms(keys, program)
+        except RecursionError:
             return None
         lengths = np.array([len(form) for form in forms])
         starts, whole = np.cumsum(lengths) - lengths, lengths[inverse]
@@ -169,7 +170,7 @@ def assemble(program: Program, budget: Budget) -> Floats | None:
         inverse = inverse[part]
         if len(keys) * columns > MOST_ENTRIES:
             return None
-    matrix: Floats = np.bincount(inverse * columns + places, values, len(keys) * columns)
+    matrix = np.bincount(inverse * columns + places, values, len(keys) * columns)
     return matrix.astype(np.float64, copy=False).reshape(len(keys), columns)
 
 
@@ -185,51 +186,45 @@ def counted(counts: Keys) -> Keys:
 Form = dict[int, int]  # the key of a monomial -> its coefficient
 
 
-def normal_forms(keys: Keys, program: Program) -> list[Form] | None:
-    """The monomials modulo the equations, all times one positive number; None where that takes too
-    many steps.
+def normal_forms(keys: Keys, program: Program) -> list[Form]:
+    """The monomials modulo the equations, all times one positive number.
+
+    Raises RecursionError where too many equations are used one after another.
     """
     rules = []
     for leading, own, values in program.rewritings:
         exponents = program.exponents(own)
-        tail = zip((own - own[0]).tolist(), (exponents - exponents[0]).tolist(), values.tolist())
         sign = 1 if values[0] > 0 else -1
-        rules.append(
-            (
-                leading.tolist(),
-                sign * int(values[0]),
-                [(key, moves, -sign * int(c)) for key, moves, c in list(tail)[1:]],
-            )
+        tail = zip(
+            (own - own[0]).tolist()[1:],
+            (exponents - exponents[0]).tolist()[1:],
+            [-sign * int(c) for c in values[1:]],
         )
-    done: dict[int, tuple[int, Form] | None] = {}
+        rules.append((leading.tolist(), sign * int(values[0]), list(tail)))
+    done: dict[int, tuple[int, Form]] = {}
 
-    def normal(key: int, exponents: list[int], depth: int) -> tuple[int, Form] | None:
+    def normal(key: int, exponents: list[int], depth: int) -> tuple[int, Form]:
         """A positive number, and the monomial times it."""
-        if key in done:
-            return done[key]
-        done[key] = 1, {key: 1}
-        for leading, lead, tail in rules:
-            if all(map(ge, exponents, leading)):
-                parts = (
-                    [
-                        normal(key + move, list(map(add, exponents, moves)), depth + 1)
-                        for move, moves, _ in tail
+        if depth > DEEPEST:
+            raise RecursionError
+        if key not in done:
+            done[key] = 1, {key: 1}
+            for leading, lead, tail in rules:
+                if all(map(ge, exponents, leading)):
+                    parts = [
+                        (*normal(key + move, list(map(add, exponents, moves)), depth + 1), c)
+                        for move, moves, c in tail
                     ]
-                    if depth < DEEPEST
-                    else [None]
-                )
-                scale = lcm(1, *(part[0] for part in parts if part))
-                total: Form = {}
-                for part, (_, _, c) in zip(parts, tail):
-                    for k, value in part[1].items() if part else ():
-                        total[k] = total.get(k, 0) + scale // part[0] * c * value
-                done[key] = None if None in parts else (lead * scale, total)
-                break
+                    scale = lcm(*(own for own, _, _ in parts))
+                    total: Form = {}
+                    for own, form, c in parts:
+                        for k, value in form.items():
+                            total[k] = total.get(k, 0) + scale // own * c * value
+                    done[key] = lead * scale, total
+                    break
         return done[key]
 
     found = [normal(*one, 0) for one in zip(keys.tolist(), program.exponents(keys).tolist())]
-    if None in found:
-        return None
     common = lcm(*(scale for scale, _ in found))
     return [{k: common // scale * c for k, c in form.items()} for scale, form in found]
 
