@@ -73,6 +73,7 @@ class Ring:
         self.differences: dict[int, tuple[fmpz_mpoly, frozenset[Monomial]]] = {}
         self.lowered: dict[tuple[int, tuple[int, ...]], tuple[fmpz_mpoly, fmpz_mpoly]] = {}
         self.scalings: dict[tuple[frozenset[Monomial], tuple[int, ...]], Gradings] = {}
+        self.factored: dict[str, list[tuple[fmpz_mpoly, int]]] = {}
         self.one = self.ctx.constant(1)
         self.zero = self.ctx.constant(0)
 
@@ -85,6 +86,15 @@ class Ring:
         # holding the polynomial keeps its id from being used again
         self.seen[id(poly)] = poly, result
         return result
+
+    def factors(self, poly: fmpz_mpoly) -> list[tuple[fmpz_mpoly, int]]:
+        """The irreducible factors with their exponents; none of a constant."""
+        if not poly or poly.is_constant():
+            return []
+        key = str(poly)  # the same polynomial comes back in most states of a search
+        if key not in self.factored:
+            self.factored[key] = [(factor, int(e)) for factor, e in poly.factor()[1]]
+        return self.factored[key]
 
 
 class Packing:

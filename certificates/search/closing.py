@@ -251,11 +251,12 @@ class Closing:
         """The sign of a polynomial where two of the three cases close quickly, and the state with
         it.
         """
-        cases = state.by_sign(text)
-        nodes = [self.attempt(case, stages) for case in cases]
-        open_cases = [k for k, node in enumerate(nodes) if node is None]
-        if len(open_cases) > 1:
-            return None, state
+        cases, nodes, open_cases = state.by_sign(text), list[Node | None](), list[int]()
+        for k, case in enumerate(cases):
+            nodes.append(self.attempt(case, stages))
+            open_cases += [k] if nodes[k] is None else []
+            if len(open_cases) > 1:
+                return None, state
         place = open_cases[0] if open_cases else 2
         rounded, inside = self.rounded(cases[place])
         return Lemma(text, nodes, place, rounded, nodes[place]), inside
@@ -268,6 +269,7 @@ class Closing:
             for text in (problem.homogeneous_text(fact.poly), problem.homogeneous_text(-fact.poly))
         ]
         tried: list[tuple[int, str, list[Node | None]]] = []
+        most = BRANCHES - depth
         for kind in ("factors", "variables", "resultants"):
             for text in candidates(state, problem, kind):
                 if text in known:
@@ -278,8 +280,10 @@ class Closing:
                 if node is not None:
                     return node
                 tried += [(count, text, nodes)] if count else []
+            if sum(count == 2 for count, _, _ in tried) >= most:
+                break
         tried.sort(key=lambda one: -one[0])
-        for _, text, nodes in tried[: BRANCHES - depth]:
+        for _, text, nodes in tried[:most]:
             cases = state.by_sign(text)
             for k in (1, 0, 2):
                 nodes[k] = nodes[k] or self.leaf(cases[k], depth + 1)

@@ -146,12 +146,12 @@ def _known_sign(
 
 def _contradict(facts: Sequence[Atom]) -> bool:
     """Whether p > 0 stands beside -p > 0 or -p >= 0, or p = 0 beside p > 0 or -p > 0."""
-    strict = {fact for fact in facts if fact.relation == ">"}
+    strict = [fact.poly for fact in facts if fact.relation == ">"]
     for fact in facts:
         minus = -fact.poly
         if fact.relation == ">" and any(Atom(minus, r) in facts for r in (">", ">=")):
             return True
-        if fact.relation == "=" and (Atom(fact.poly, ">") in strict or Atom(minus, ">") in strict):
+        if fact.relation == "=" and (fact.poly in strict or minus in strict):
             return True
     return False
 

@@ -34,6 +34,10 @@ class Atom:
     relation: str
 
     def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
         return hash((self.relation, str(self.poly)))  # FLINT's polynomials have no hash
 
     @cached_property

@@ -539,11 +539,6 @@ class Pool:
             self.polys.append(poly)
 
 
-def factors(poly: fmpz_mpoly) -> list[tuple[fmpz_mpoly, int]]:
-    """The irreducible factors with their exponents; none of a constant."""
-    return [] if not poly or poly.is_constant() else [(p, int(e)) for p, e in poly.factor()[1]]
-
-
 def squares(
     ring: Ring, facts: Sequence[fmpz_mpoly], parameter: int, most: int = MOST
 ) -> list[fmpz_mpoly]:
@@ -554,13 +549,13 @@ def squares(
     used = [v for v in range(ring.size) if v != parameter and any(p.degrees()[v] for p in facts)]
     for poly in facts:
         if total_degree(poly) > 1:
-            for factor, exponent in factors(poly):
+            for factor, exponent in ring.factors(poly):
                 if exponent > 1:
                     pool.add(factor)
     for poly in reversed(facts):
         for v in used:
             if poly.degrees()[v] == 2:
-                for factor, _ in factors(poly.derivative(v)):
+                for factor, _ in ring.factors(poly.derivative(v)):
                     if factor.degrees()[v]:
                         pool.add(factor)
     for v in used:
@@ -584,7 +579,7 @@ def resultants(
         having = [p for p in facts if p.degrees()[v]]
         for p, q in combinations(having, 2):
             if min(p.degrees()[v], q.degrees()[v]) == 1:
-                for factor, _ in factors(p.resultant(q, v)):
+                for factor, _ in ring.factors(p.resultant(q, v)):
                     pool.add(factor)
     found = [
         p for p in pool.polys if any(p.degrees()[v] for v in range(ring.size) if v != parameter)

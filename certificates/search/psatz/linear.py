@@ -18,6 +18,7 @@ from flint import fmpz_mpoly
 
 from juggleproof.certificates.algebra.polynomials import (
     Keys,
+    Monomial,
     Packing,
     Row,
     collect,
@@ -34,13 +35,26 @@ from juggleproof.certificates.search.psatz.lifting import (
     lift,
     powers_of,
 )
-from juggleproof.certificates.search.psatz.linear_program import Floats, Mask, Program, solve
+from juggleproof.certificates.search.psatz.linear_program import (
+    Floats,
+    Mask,
+    Program,
+    counted,
+    solve,
+)
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.work import Budget
 
 # -------------------------------------------------------------------------------------------------
 # The columns of a linear program made from a problem's facts, and the certificate read off its
 # solution.
+
+
+# the products of facts used, each with the number of the root that it is times the square of (-1:
+# none), and the monomials times equations, with their coefficients
+Solution = tuple[
+    list[tuple[tuple[Factors, int], Fraction]], list[tuple[MonomialCofactor, Fraction]]
+]
 
 
 class Combination:
@@ -70,7 +84,7 @@ class Combination:
         self.packing = Packing(problem.ring, [*problem.polys(), *roots])
         squares = [collect(multiply(row, row)) for row in map(self.packing.row, roots)]
         heights = [2 * self._height(root) for root in roots]
-        own_heights = [self._height(fact.poly) for fact in facts]
+        own_heights = [self._height(fact.poly) for fact in facts] if roots else []
         highest = max([2, *own_heights])
         products = Products(problem, others, self.packing)
         in_bounded, in_others = (
@@ -168,15 +182,15 @@ class Combination:
                 np.tile(values, len(monomials)),
             )
 
-    def node(self, budget: Budget) -> Node | None:
-        """Solves the program, and gives the node of its solution."""
+    def solution(self, budget: Budget) -> Solution | None:
+        """Solves the program."""
         budget.spend(3 * self.program.count + 3 * len(self.cofactors))
         found = solve(self.program, budget)
         if found is None:
             return None
         used = [(self._column(k), c) for k, c in found[0].items()]
         cofactors = [(self.cofactors[k], c) for k, c in found[1].items()]
-        return lift(self.problem, used, cofactors, self.roots)
+        return used, cofactors
 
 
 @dataclass
@@ -282,15 +296,6 @@ class Products:
         )
 
 
-def counted(counts: Keys) -> Keys:
-    """0, 1, .., c - 1 for every count c in turn.
-
-    >>> counted(np.array([2, 0, 3])).tolist()
-    [0, 1, 0, 1, 2]
-    """
-    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-
-
 class Level:
     """The Bernstein polynomials low^i * high^(degree - i): which has which power of the bounded
     variable, and how often.
@@ -335,10 +340,10 @@ class Level:
 # vanishes identically.
 
 MOST_FOR_TRIPLES = 10
-MOST_FAILED = 5000
-_failed: dict[
-    tuple[Hashable, int, int, str], int
-] = {}  # (facts, stage) -> the work that it takes to find nothing
+MOST_SOLVED = 5000
+# (facts, stage) -> the solution, and the work that it takes: the same facts come back, in other
+# cases and at greater effort
+_solved: dict[tuple[Hashable, int, int, str], tuple[Solution | None, int]] = {}
 # (products of facts, extra Bernstein degree, kind of squares; or "goal": no squares, and only facts
 # in the goal's variables)
 Stage = tuple[int, int, str]
@@ -384,6 +389,26 @@ def close_by_equations(problem: Problem) -> Node | None:
     return None
 
 
+def contrary_bounds(problem: Problem) -> Solution | None:
+    """Two facts of which a positive combination is a number less than it has to be."""
+    before: dict[tuple[Monomial, bool], list[int]] = {}  # by the leading monomial and its sign
+    for k, fact in enumerate(problem.facts):
+        leading, lead = fact.poly.monomial(0), int(fact.poly.leading_coefficient())
+        for other in before.get((leading, lead < 0), ()):
+            first = problem.facts[other]
+            a, b = abs(lead), abs(int(first.poly.leading_coefficient()))
+            value = constant_of(first.poly * a + fact.poly * b)
+            if value is not None and (value < 0 or value == 0 and (first.strict or fact.strict)):
+                terms: list[tuple[Factors, int]] = [
+                    ((), -value),
+                    (((other, 1),), a),
+                    (((k, 1),), b),
+                ]
+                return [((factors, -1), Fraction(c)) for factors, c in terms if c], []
+        before.setdefault((leading, lead > 0), []).append(k)
+    return None
+
+
 def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | None:
     """The first node that one of the stages finds; None where none does.
 
@@ -391,35 +416,38 @@ def search(problem: Problem, stages: Sequence[Stage], budget: Budget) -> Node | 
     """
     if not problem.facts and not problem.reduction.left:
         return None
+    solution = contrary_bounds(problem)
+    if solution is not None:
+        return lift(problem, *solution, [])
     key = problem.content()
-    roots: dict[str, list[fmpz_mpoly]] = {"": []}
+    roots: dict[str, list[fmpz_mpoly]] = {"": [], "goal": []}
     for degree, bernstein, kind in stages:
         stage = (key, degree, bernstein, kind)
-        if (
-            stage in _failed
-            # the same facts come back, in other cases and at greater effort: the work counts, but
-            # is not done again
-        ):
-            budget.spend(_failed[stage])
+        solution, work = _solved.get(stage, (None, 0))
+        budget.spend(work)
+        if solution is None and work:
             continue
-        left = budget.left
-        goal_facts = problem.goal_facts() if kind == "goal" else None
         if kind not in roots:
-            roots[kind] = problem.candidates(kind) if kind != "goal" else []
-        same = (
-            bernstein == 2
-            and degree == 2
-            and problem.bounded is None
-            and not problem.reduction.left
-        )
-        if goal_facts is None if kind == "goal" else not roots[kind] if kind else same:
-            continue  # nothing that a smaller stage did not have
-        if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
-            continue
-        node = Combination(problem, degree, bernstein, roots[kind], goal_facts).node(budget)
+            roots[kind] = problem.candidates(kind)
+        if solution is None:
+            goal_facts = problem.goal_facts() if kind == "goal" else None
+            same = (
+                bernstein == 2
+                and degree == 2
+                and problem.bounded is None
+                and not problem.reduction.left
+            )
+            if goal_facts is None if kind == "goal" else not roots[kind] if kind else same:
+                continue  # nothing that a smaller stage did not have
+            if degree > 2 and len(problem.facts) > MOST_FOR_TRIPLES:
+                continue
+            left = budget.left
+            program = Combination(problem, degree, bernstein, roots[kind], goal_facts)
+            solution = program.solution(budget)
+            if len(_solved) >= MOST_SOLVED:
+                _solved.clear()
+            _solved[stage] = solution, left - budget.left
+        node = None if solution is None else lift(problem, *solution, roots[kind])
         if node is not None:
             return node
-        if len(_failed) >= MOST_FAILED:
-            _failed.clear()
-        _failed[stage] = left - budget.left
     return None

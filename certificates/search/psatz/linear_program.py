@@ -6,6 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import lcm
+from operator import add, ge
+from threading import local
 
 import highspy
 import numpy as np
@@ -18,6 +21,7 @@ from juggleproof.certificates.work import Budget
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 EXACT = float(1 << 53)
+MOST_ENTRIES = 6_000_000
 TINY = 1e-9
 
 
@@ -136,50 +140,93 @@ def solve(program: Program, budget: Budget) -> Solution | None:
 
 
 JITTER = (0.0, 0.7)
-SWEEPS = 60
+DEEPEST = 60  # equations used one after another on one monomial
 NOISE = np.random.default_rng(7).random(20000)
 
 
 def assemble(program: Program, budget: Budget) -> Floats | None:
-    """The coefficients as a matrix, one row for each monomial; None if it is too large."""
+    """The coefficients as a matrix, one row for each monomial that the equations leave; None if it
+    is too large.
+    """
     columns, values = program.columns, np.concatenate(program.values)
     keys, inverse = np.unique(np.concatenate(program.keys), return_inverse=True)
-    rows = len(keys)
-    budget.spend(20 + len(values) // 4 + rows * columns // 50)
-    if rows * columns > 6_000_000 or columns > len(NOISE):
+    budget.spend(20 + len(values) // 4 + len(keys) * columns // 50)
+    if len(keys) * columns > MOST_ENTRIES or columns > len(NOISE):
         return None
-    where = inverse * columns + np.concatenate(program.places)
-    matrix: Floats = (
-        np.bincount(where, values, rows * columns)
-        .astype(np.float64, copy=False)
-        .reshape(rows, columns)
-    )
-    return rewritten(matrix, keys, program, budget) if program.rewritings else matrix
+    places = np.concatenate(program.places)
+    if program.rewritings:
+        try:
+            forms = normal_forms(keys, program)
+        except RecursionError:
+            return None
+        lengths = np.array([len(form) for form in forms])
+        starts, whole = np.cumsum(lengths) - lengths, lengths[inverse]
+        budget.spend(20 + int(whole.sum()) // 4)
+        entry = np.repeat(np.arange(len(values)), whole)
+        part = starts[inverse[entry]] + counted(whole)
+        keys, inverse = np.unique([key for form in forms for key in form], return_inverse=True)
+        coefficients = np.array([c for form in forms for c in form.values()], dtype=np.float64)
+        values, places = values[entry] * coefficients[part], places[entry]
+        inverse = inverse[part]
+        if len(keys) * columns > MOST_ENTRIES:
+            return None
+    matrix = np.bincount(inverse * columns + places, values, len(keys) * columns)
+    return matrix.astype(np.float64, copy=False).reshape(len(keys), columns)
 
 
-def rewritten(matrix: Floats, keys: Keys, program: Program, budget: Budget) -> Floats | None:
-    """The columns reduced by the equations: a row of a multiple of a leading monomial is moved to
-    the other monomials.
+def counted(counts: Keys) -> Keys:
+    """0, 1, .., c - 1 for every count c in turn.
+
+    >>> counted(np.array([2, 0, 3])).tolist()
+    [0, 1, 0, 1, 2]
     """
-    for _ in range(SWEEPS):
-        exponents = program.exponents(keys)
-        hits = [(exponents >= leading).all(axis=1) for leading, _, _ in program.rewritings]
-        place = next((k for k, hit in enumerate(hits) if hit.any()), None)
-        if place is None:
-            return matrix
-        hit, (_, own, values) = hits[place], program.rewritings[place]
-        # the whole matrix is multiplied by the leading coefficient, which changes no relation
-        # between its columns
-        moved = ((keys[hit] - own[0])[:, None] + own[1:]).ravel()
-        parts = (matrix[hit][:, None, :] * -values[1:, None]).reshape(len(moved), matrix.shape[1])
-        keys, inverse = np.unique(np.concatenate([keys[~hit], moved]), return_inverse=True)
-        order = np.argsort(inverse, kind="stable")
-        starts = np.searchsorted(inverse[order], np.arange(len(keys)))
-        matrix = np.add.reduceat(
-            np.vstack([matrix[~hit] * values[0], parts])[order], starts, axis=0
+    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
+Form = dict[int, int]  # the key of a monomial -> its coefficient
+
+
+def normal_forms(keys: Keys, program: Program) -> list[Form]:
+    """The monomials modulo the equations, all times one positive number.
+
+    Raises RecursionError where too many equations are used one after another.
+    """
+    rules = []
+    for leading, own, values in program.rewritings:
+        exponents = program.exponents(own)
+        sign = 1 if values[0] > 0 else -1
+        tail = zip(
+            (own - own[0]).tolist()[1:],
+            (exponents - exponents[0]).tolist()[1:],
+            [-sign * int(c) for c in values[1:]],
         )
-        budget.spend(20 + matrix.size // 20)
-    return None
+        rules.append((leading.tolist(), sign * int(values[0]), list(tail)))
+    done: dict[int, tuple[int, Form]] = {}
+
+    def normal(key: int, exponents: list[int], depth: int) -> tuple[int, Form]:
+        """A positive number, and the monomial times it."""
+        if depth > DEEPEST:
+            raise RecursionError
+        if key not in done:
+            done[key] = 1, {key: 1}
+            for leading, lead, tail in rules:
+                if all(map(ge, exponents, leading)):
+                    parts = [
+                        (*normal(key + move, list(map(add, exponents, moves)), depth + 1), c)
+                        for move, moves, c in tail
+                    ]
+                    scale = lcm(*(own for own, _, _ in parts))
+                    total: Form = {}
+                    for own, form, c in parts:
+                        for k, value in form.items():
+                            total[k] = total.get(k, 0) + scale // own * c * value
+                    done[key] = lead * scale, total
+                    break
+        return done[key]
+
+    found = [normal(*one, 0) for one in zip(keys.tolist(), program.exponents(keys).tolist())]
+    common = lcm(*(scale for scale, _ in found))
+    return [{k: common // scale * c for k, c in form.items()} for scale, form in found]
 
 
 def presolve(matrix: Floats, count: int, strict: Mask) -> NDArray[np.intp] | None:
@@ -189,21 +236,18 @@ def presolve(matrix: Floats, count: int, strict: Mask) -> NDArray[np.intp] | Non
     Shapes, for n columns of which the first `count` are not free: `matrix` (rows, n), `strict`
     (count,).
     """
-    positive: Mask = matrix > 0
-    negative: Mask = matrix < 0
-    fixed: Mask = np.asarray(positive[:, count:].any(axis=1) | negative[:, count:].any(axis=1))
-    alive = np.ones(matrix.shape[1], dtype=bool)
+    signs = np.sign(matrix)
+    used = np.abs(signs)
+    fixed = used[:, count:].any(axis=1)
+    alive = np.ones(matrix.shape[1])
     while True:
-        up, down = positive[:, alive].any(axis=1), negative[:, alive].any(axis=1)
-        rows = (up != down) & ~fixed
+        reached = used @ alive
+        rows = (reached > 0) & (np.abs(signs @ alive) == reached) & ~fixed
         if not rows.any():
             return np.flatnonzero(alive)
-        alive[:count] &= ~(positive[rows, :count] | negative[rows, :count]).any(axis=0)
-        if not (alive[:count] & strict).any():
+        alive[:count][(rows @ used)[:count] > 0] = 0.0
+        if not alive[:count][strict].any():
             return None
-        # a row that only dead columns reach is a constraint no more
-        left = np.flatnonzero(~rows)
-        positive, negative, fixed = positive[left], negative[left], fixed[left]
 
 
 def optimum(
@@ -224,14 +268,13 @@ def optimum(
     right = np.zeros(rows + 1)
     right[rows] = 1.0
     model.row_lower_ = model.row_upper_ = right
-    at_column, at_row = np.nonzero(whole.T)
+    turned = whole.T
+    at_column, at_row = np.nonzero(turned)
     model.a_matrix_.format_ = highspy.MatrixFormat.kColwise
     model.a_matrix_.start_ = np.searchsorted(at_column, np.arange(columns + 1)).astype(np.int32)
     model.a_matrix_.index_ = at_row.astype(np.int32)
-    model.a_matrix_.value_ = whole[at_row, at_column]
-    solver = highspy.Highs()
-    for option, value in OPTIONS:
-        solver.setOptionValue(option, value)
+    model.a_matrix_.value_ = turned[at_column, at_row]
+    solver = SOLVER.highs
     solver.passModel(model)
     solver.run()
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
@@ -251,6 +294,18 @@ OPTIONS = (
     ("simplex_iteration_limit", 5000),
     ("primal_feasibility_tolerance", 1e-10),
 )
+
+
+class Solver(local):
+    """One HiGHS for each thread, which is dear to make; a new model clears it of the last one."""
+
+    def __init__(self) -> None:
+        self.highs = highspy.Highs()
+        for option, value in OPTIONS:
+            self.highs.setOptionValue(option, value)
+
+
+SOLVER = Solver()
 
 
 def exact(

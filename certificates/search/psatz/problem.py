@@ -31,7 +31,6 @@ from juggleproof.certificates.search.psatz.facts import (
     Signed,
     Signs,
     Sum,
-    factors,
     resultants,
     squares,
     times,
@@ -193,7 +192,7 @@ class Problem:
             if self.reduction.steps
             else ()
         )
-        return facts, equations, self.bounded, before
+        return self.ring.names, facts, equations, self.bounded, before
 
     def row(self, poly: fmpz_mpoly, packing: Packing) -> Row:
         """A polynomial as arrays; its exponents are read once."""
@@ -291,13 +290,13 @@ class Problem:
         """
         signs, pool = self.signs(), Pool()
         for equation in self.reduction.left:
-            found = factors(equation.poly)
+            found = self.ring.factors(equation.poly)
             for factor, _ in found if len(found) > 1 else ():
                 pool.add(factor)
         count = len(pool.polys)
         for fact in self.facts:
             if total_degree(fact.poly) > 1:
-                for factor, _ in factors(fact.poly):
+                for factor, _ in self.ring.factors(fact.poly):
                     if factor != fact.poly and factor != -fact.poly and not signs.of(factor)[0]:
                         pool.add(factor)
         return sorted(pool.polys[:count], key=size) + sorted(pool.polys[count:], key=size)
@@ -328,7 +327,7 @@ class Problem:
                 continue
             multiplier: Sum = [(Fraction(1), ())]
             rest, positive = fact.poly, 1
-            for factor, exponent in factors(fact.poly):
+            for factor, exponent in self.ring.factors(fact.poly):
                 sign, found = signs.of(factor)
                 for _ in range(exponent if found else 0):
                     rest, positive, multiplier = (
