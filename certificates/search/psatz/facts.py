@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import comb, prod
+from operator import mul
 
 from flint import fmpz_mat, fmpz_mpoly
 
@@ -287,6 +288,7 @@ class Scaling:
             self._find(differences, positive)
             ring.scalings[key] = self.scales, self.weights, self.values, self.gradings
         self.scales, self.weights, self.values, self.gradings = ring.scalings[key]
+        self.of_scale = list(zip(*self.weights))  # the weights of all variables, for every scale
 
     def _differences(self, poly: fmpz_mpoly) -> frozenset[tuple[int, ...]]:
         """The first monomial less each of the others."""
@@ -355,10 +357,7 @@ class Scaling:
 
     def of_monomial(self, monomial: Sequence[int]) -> Weight:
         """The weight of one monomial."""
-        return tuple(
-            sum(int(e) * self.weights[k][i] for k, e in enumerate(monomial) if e)
-            for i in range(len(self.scales))
-        )
+        return tuple(int(sum(map(mul, monomial, weights))) for weights in self.of_scale)
 
     def largest(self, poly: fmpz_mpoly) -> Weight:
         """The least weight to which a lowered polynomial can be lifted."""
