@@ -25,6 +25,8 @@ from functools import lru_cache
 
 from .algebra import Kind, Rational, Rejected, Work, require
 
+MAX_TEXT = 1 << 18  # letters of a term or formula
+
 # --------------------------------- text: Python's expression syntax, with ^ and = as in mathematics
 
 WORDS = {"and", "or", "not", "implies", "iff"}  # never names: `names_in` does not count them
@@ -33,7 +35,7 @@ RESERVED = WORDS | {"sqrt", "root"}
 
 def parse(text: object) -> ast.expr:
     """The syntax tree of a term or formula."""
-    if not isinstance(text, str) or len(text) > 1 << 18:
+    if not isinstance(text, str) or len(text) > MAX_TEXT:
         raise Rejected(Kind.TEXT, text)
     return tree(text) if len(text) < 200 else tree.__wrapped__(text)  # what is kept is small
 
@@ -46,7 +48,7 @@ def tree(text: str) -> ast.expr:
     try:
         python = re.sub(r"(?<![<>!])=", "==", text.replace("^", "**")).strip()
         return ast.parse(python, mode="eval").body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    except Exception:  # SyntaxError, and what a deep text raises, by the version of Python
         raise Rejected(Kind.TEXT, text) from None
 
 
@@ -123,7 +125,7 @@ class Definitions:
         self.known[name] = parameters, set(over), out
 
     def occur_in(self, text: str) -> bool:
-        return bool(self.known) and not self.known.keys().isdisjoint(names_in(text))
+        return not self.known.keys().isdisjoint(names_in(text))
 
     def read(self, text: str, declared: set[str]) -> ast.expr:
         """The tree of a term or formula, with definitions written out; declared: the names that a
