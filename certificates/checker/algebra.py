@@ -131,9 +131,8 @@ class Rejected(Exception):
         self.kind = kind
         self.offender = str(offender() if callable(offender) else offender)
         self.place = place
-        shown = f": {self.offender}"[:300] if self.offender else ""
-        if not shown.isprintable():  # a certificate's text cannot write a line of its own
-            shown = ascii(shown)[1:-1]
+        # ascii: a certificate's text cannot write a line of its own
+        shown = ascii(f": {self.offender}"[:300])[1:-1] if self.offender else ""
         super().__init__((f"{place}: " if place else "") + kind.value + shown)
 
     def within(self, place: str) -> Rejected:
@@ -332,8 +331,9 @@ def sign_at(p: Coefficients, at: Fraction, work: Work) -> int:
     value, scale = 0, 1
     length = sum(map(int.bit_length, at.as_integer_ratio()))
     for c in reversed(p):
-        bits = value.bit_length() + scale.bit_length(), length + c.bit_length()
-        work.spend(1 + (prod(bits) >> 16))
+        work.spend(
+            1 + ((value.bit_length() + scale.bit_length()) * (length + c.bit_length()) >> 16)
+        )
         value = value * at.numerator + c * scale
         scale = scale * at.denominator
     return (value > 0) - (value < 0)

@@ -341,9 +341,7 @@ def premises_of(
     return premises
 
 
-def check_orbit_rule(
-    statement: Statement, certificate: Hint, known: Known, work: Work
-) -> None:
+def check_orbit_rule(statement: Statement, certificate: Hint, known: Known, work: Work) -> None:
     """{premise: prove}: each of the premises that the rule asks for is proved, and there is no
     other.
     """
@@ -573,7 +571,7 @@ def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, 
             limit = min(MAX_WORK, left)
             work = Work(limit)
             outcome, reason = check(statement, certificates.pop(name), known, earlier, work)
-            left -= limit - max(work.left, 0)
+            left -= limit - work.left
         results.append((name, outcome, str(reason) if reason else ""))
         earlier[name] = statement
         if outcome == "certified":

@@ -133,6 +133,7 @@ def edited(text: str, kind: str, old: str, new: str) -> str:
     blocks[index] = blocks[index].replace(old, new)
     return "\n\n".join(blocks) + "\n"
 
+
 # What nothing here proves, with a line of every kind and more of each than one: roots of parameters
 # and of the state, two stages, two steps.
 ASKED = """

@@ -24,17 +24,18 @@ EXCHANGED: dict[type[ast.AST], type[ast.AST]] = {
 }
 NAMES = {"any": "all", "all": "any", "min": "max", "max": "min"}
 OPERATORS = (ast.operator, ast.cmpop, ast.boolop)
+ALIASES = ("Rational", "Formula", "Check")  # types
 REMOVED = (ast.Expr, ast.Raise, ast.Delete, ast.AugAssign, ast.Continue, ast.Break)
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change: `new` takes the place of what stands in a field of `parent`, a list or a node."""
+    """One change: `new` takes the place of what stands in a field of `parent`."""
 
     key: str  # file.function: old -> new, numbered where several read the same
     file: str
-    function: str
-    line: int
+    function: str  # "" outside of all
+    names: set[str]  # outside of all: what the changed line defines
     parent: ast.AST
     field: str
     new: object
@@ -49,23 +50,30 @@ def mutants(trees: dict[str, ast.Module]) -> list[Mutant]:
     found = []
     counts: Counter[str] = Counter()
     for file, tree in trees.items():
-        for function, parent, field, old, new in changes(tree, ""):
-            around = f"{shown(parent)}: " if isinstance(old, OPERATORS) else ""
-            key = f"{file}.{function}: {around}{shown(old)} -> {shown(new)}"
-            counts[key] += 1
-            if counts[key] > 1:
-                key += f" #{counts[key]}"
-            line = getattr(old, "lineno", getattr(parent, "lineno", 0))
-            value = getattr(parent, field)
-            whole = [new if one is old else one for one in value] if is_list(value) else new
-            if is_list(value) and new is None:
-                whole = [one for one in value if one is not old]
-            found.append(Mutant(key, file, function, line, parent, field, whole))
+        for line in tree.body:
+            names = assigned(line)
+            for function, parent, field, old, new in changes(line, ""):
+                around = f"{shown(parent)}: " if isinstance(old, OPERATORS) else ""
+                key = f"{file}.{function}: {around}{shown(old)} -> {shown(new)}"
+                counts[key] += 1
+                key += f" #{counts[key]}" if counts[key] > 1 else ""
+                value = getattr(parent, field)
+                if isinstance(value, list):
+                    put = [] if new is None else [new]
+                    new = [one for part in value for one in (put if part is old else [part])]
+                found.append(Mutant(key, file, function, names, parent, field, new))
     return found
 
 
-def is_list(value: object) -> bool:
-    return isinstance(value, list)
+def assigned(line: ast.stmt) -> set[str]:
+    """The names that a line of a file defines, functions and classes apart."""
+    return {
+        node.id
+        for node in ast.walk(line)
+        if isinstance(line, (ast.Assign, ast.AnnAssign))
+        and isinstance(node, ast.Name)
+        and isinstance(node.ctx, ast.Store)
+    }
 
 
 def shown(node: ast.AST | None) -> str:
@@ -85,6 +93,8 @@ def changes(node: ast.AST, function: str) -> Iterator[Change]:
         if node.name == "Kind":
             return
         function = f"{function}.{node.name}" if function else node.name
+    if silent(None, node):
+        return
     for field, value in ast.iter_fields(node):
         if field in ("annotation", "returns", "decorator_list", "targets", "target"):
             continue
@@ -96,7 +106,7 @@ def changes(node: ast.AST, function: str) -> Iterator[Change]:
             yield from changes(one, function)
 
 
-def silent(parent: ast.AST, node: ast.AST) -> bool:
+def silent(parent: ast.AST | None, node: ast.AST) -> bool:
     """Whether nothing is changed here: a docstring, a message, an amount of work, a limit."""
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         return True
@@ -104,7 +114,7 @@ def silent(parent: ast.AST, node: ast.AST) -> bool:
         return True
     if isinstance(node, ast.Assign):
         names = ast.unparse(node.targets[0])
-        return names.startswith(("MAX_", "PER_")) or names == "__slots__"
+        return names.startswith(("MAX_", "PER_", "__slots__")) or names in ALIASES
     if isinstance(parent, ast.Call) and node is not parent.func:
         called = ast.unparse(parent.func)
         place = parent.args.index(node) if node in parent.args else 0  # type: ignore[arg-type]

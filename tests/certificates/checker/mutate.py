@@ -1,5 +1,5 @@
-"""A mutation test of the checker: every mutant has to change what becomes of a case of the tests
-beside this file, or of a stored certificate; those that cannot are in `equivalent.txt`.
+"""A mutation test of the checker: every mutant changes what becomes of a case of the tests beside
+this file, or of a stored certificate; those that cannot are in `equivalent.txt`, by reason.
 
     python -m tests.certificates.checker.mutate [PART OF A KEY ..]
 """
@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -28,7 +28,6 @@ from typing import Any
 import pytest
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.store import DEFAULT
 from tests.certificates.checker import (
     test_definitions,
     test_files,
@@ -39,30 +38,70 @@ from tests.certificates.checker import (
 )
 from tests.certificates.checker.mutants import FILES, Mutant, mutants, parsed
 
-PACKAGE = checker.__name__
-MODULES = {name: import_module(f"{PACKAGE}.{name}") for name in FILES}
-TABLES = (test_rules, test_files, test_map_rules, test_definitions, test_work, test_limits)
-SECONDS = 3  # of CPU for one case
-MEMORY = 3 << 30
-LIMIT = checker.MAX_WORK // 20  # of work, for a case
-LONG = 300_000  # calls, after which a case is not followed further
+MODULES = {name: import_module(f"{checker.__name__}.{name}") for name in FILES}
+TABLES = (test_rules, test_files, test_work, test_definitions, test_map_rules, test_limits)
 ELSEWHERE = ("compiled_code", "module_beside")  # what Python loads: no text of the checker
+LIMIT = checker.MAX_WORK // 20  # of work, for a case
+SECONDS = 4  # of CPU for a case, and five times as many for the store
+MEMORY = 3 << 30
+FOLLOWED = 300_000  # calls, after which a case is not followed further
+EQUIVALENT = Path(__file__).with_name("equivalent.txt")
+TREES = parsed()
+MUTANTS = mutants(TREES)
+Functions = set[tuple[str, str]]  # of the checker: (file, name)
 
 
-class InProcess(dict[str, str]):
-    """The outcomes of hostile sizes, each when it is asked for."""
+def equivalent() -> dict[str, str]:
+    """{key: reason} of the mutants that say the same as the checker."""
+    reasons: dict[str, str] = {}
+    reason = ""
+    for row in EQUIVALENT.read_text().splitlines():
+        if row.startswith("# "):
+            reason = row[2:]
+        elif row:
+            reasons[row] = reason
+    return reasons
+
+
+# ------------------------------------------------------------ the cases
+
+
+@dataclass(frozen=True)
+class Case:
+    """A test function with arguments, as pytest would call it."""
+
+    function: Callable[..., object]
+    arguments: dict[str, Any]
+
+    def holds(self) -> bool:
+        code = self.function.__code__
+        checker.Work.__init__.__defaults__ = (LIMIT,)
+        with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+            patch.setattr(test_files, "run", run)
+            fixtures = {"tmp_path": Path(folder), "monkeypatch": patch, "outcomes": Outcomes()}
+            names = code.co_varnames[: code.co_argcount]
+            wanted = {name: fixtures[name] for name in fixtures if name in names}
+            try:
+                self.function(**self.arguments, **wanted)
+            except (Exception, pytest.fail.Exception):
+                return False
+            finally:
+                checker.Work.__init__.__defaults__ = (checker.MAX_WORK,)
+        return True
+
+
+class Outcomes(dict[str, str]):
+    """What becomes of hostile sizes, each when it is asked for."""
 
     def __missing__(self, name: str) -> str:
         text, certificate = test_limits.CASES[name]
         *known, (_, statement) = checker.read_statements(text).items()
         work = checker.Work(LIMIT)
-        return " ".join(
-            map(str, checker.check_one(statement, certificate, dict(known), {}, work))
-        )
+        return " ".join(map(str, checker.check_one(statement, certificate, dict(known), {}, work)))
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    """The checker's command in this process."""
+    """The checker's command, in this process."""
     with (
         contextlib.redirect_stdout(io.StringIO()) as out,
         contextlib.redirect_stderr(io.StringIO()) as err,
@@ -71,77 +110,55 @@ def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.CompletedProcess([], code, out.getvalue(), err.getvalue())
 
 
-@dataclass(frozen=True)
-class Test:
-    """One case: a test function of a table with arguments."""
-
-    name: str
-    function: Callable[..., object]
-    arguments: dict[str, Any]
-
-    def holds(self) -> bool:
-        checker.Work.__init__.__defaults__ = (LIMIT,)
-        names = self.function.__code__.co_varnames[: self.function.__code__.co_argcount]
-        arguments = dict(self.arguments)
-        with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
-            fixtures = {"tmp_path": Path(folder), "monkeypatch": patch, "outcomes": InProcess()}
-            arguments |= {name: value for name, value in fixtures.items() if name in names}
-            try:
-                self.function(**arguments)
-            except (Exception, pytest.fail.Exception):
-                return False
-            finally:
-                checker.Work.__init__.__defaults__ = (checker.MAX_WORK,)
-        return True
-
-
-def tests() -> Iterator[Test]:
-    """The cases of all tables; those with random values are no tables."""
-    test_files.run = run
+def cases() -> Iterator[Case]:
+    """The cases of all tables; tests of random values are none."""
     for module in TABLES:
         for name, function in vars(module).items():
-            random = hasattr(function, "hypothesis")
-            if name.startswith("test_") and not random and not any(x in name for x in ELSEWHERE):
-                marks = [m for m in getattr(function, "pytestmark", ()) if m.name == "parametrize"]
-                rows: list[dict[str, Any]] = [{}]
-                for mark in marks:
-                    keys, values = mark.args[:2]
-                    keys = [key.strip() for key in keys.split(",")] if isinstance(keys, str) else keys
-                    values = [getattr(one, "values", (one,)) if hasattr(one, "marks") or len(keys) == 1 else one for one in values]
-                    rows = [row | dict(zip(keys, one)) for row in rows for one in values]
-                for k, row in enumerate(rows):
-                    yield Test(f"{module.__name__.rsplit('.')[-1]}.{name}[{k}]", function, row)
+            apart = hasattr(function, "hypothesis") or any(word in name for word in ELSEWHERE)
+            if name.startswith("test_") and not apart:
+                marks = getattr(function, "pytestmark", ())
+                (rows,) = [rows_of(one) for one in marks if one.name == "parametrize"] or [[{}]]
+                yield from (Case(function, row) for row in rows)
 
 
-FAST = "FAST" in os.environ
-SLOW = ("test_limits", "too_large", "one_meter", "missing_or_left", "at_once", "an_entry_that", "[311]", "[312]", "[313]", "[314]")
+def rows_of(mark: pytest.Mark) -> list[dict[str, Any]]:
+    """The arguments of each row of a parametrized test."""
+    names, rows = mark.args[:2]
+    names = [name.strip() for name in names.split(",")] if isinstance(names, str) else names
+    found = []
+    for row in rows:
+        if hasattr(row, "marks"):  # pytest.param
+            row = row.values
+        elif len(names) == 1:
+            row = (row,)
+        found.append(dict(zip(names, row, strict=True)))
+    return found
 
 
-class Long(BaseException):
+class FollowedLongEnough(BaseException):
     pass
 
 
-def reached(test: Test) -> tuple[int, set[tuple[str, str]]]:
-    """(number of calls, functions of the checker that are called)."""
+def reached(case: Case) -> tuple[int, Functions]:
+    """(number of calls, functions of the checker that a case calls)."""
     calls = 0
-    found: set[tuple[str, str]] = set()
+    found: Functions = set()
 
     def follow(frame: types.FrameType, event: str, _: object) -> None:
         nonlocal calls
         if event == "call":
             calls += 1
-            code = frame.f_code
-            if "/checker/" in code.co_filename and "/tests/" not in code.co_filename:
-                name = code.co_qualname.split(".<")[0]
-                found.add((Path(code.co_filename).stem, name))
-            if calls > LONG:
-                raise Long
+            path = Path(frame.f_code.co_filename)
+            if path.stem in MODULES and path.parts[-3:-1] == ("certificates", "checker"):
+                found.add((path.stem, frame.f_code.co_qualname.split(".<")[0]))
+            if calls > FOLLOWED:
+                raise FollowedLongEnough
 
     MODULES["text"].tree.cache_clear()
     sys.setprofile(follow)
     try:
-        test.holds()
-    except Long:
+        case.holds()
+    except FollowedLongEnough:
         pass
     finally:
         sys.setprofile(None)
@@ -149,144 +166,124 @@ def reached(test: Test) -> tuple[int, set[tuple[str, str]]]:
 
 
 @cache
-def plan() -> list[tuple[Test, set[tuple[str, str]]]]:
-    """The cases, the short ones first, with what they reach."""
+def followed() -> list[tuple[Case, Functions]]:
+    """The cases with what they reach, the short ones first."""
     rows = []
-    for test in tests():
-        if not test.holds():  # also: what the search has found is kept from here on
-            raise ValueError(f"{test.name} fails without a mutant")
-        rows.append((*reached(test), test))
-    if "-v" in sys.argv:
-        for row in sorted(rows, key=lambda row: row[0])[-40:]:
-            print(row[0], row[2].name)
-    rows.sort(key=lambda row: row[0])
-    return [(test, found) for _, found, test in rows]
+    for case in cases():
+        if not case.holds():  # what the search has found for it is kept from here on
+            raise ValueError(f"{case} fails without a mutant")
+        rows.append((case, *reached(case)))
+    rows.sort(key=lambda row: row[1])
+    return [(case, found) for case, _, found in rows]
 
 
 @cache
-def outcomes() -> dict[str, str]:
-    return {name: outcome for name, outcome, _ in checker.check_folder(str(DEFAULT))}
+def outcomes_of_store() -> str:
+    """What the checker prints of the store."""
+    return run().stdout
 
 
-class Changed(BaseException):
-    pass
-
-
-def store_changes() -> bool:
-    """Whether a stored certificate has another fate."""
-
-    def check(statement: checker.Statement, *rest: Any) -> Any:
-        found = checker.check_one(statement, *rest)
-        if found[0] != outcomes()[statement.name]:
-            raise Changed
-        return found
-
-    try:
-        return {name: one for name, one, _ in checker.check_folder(str(DEFAULT), check)} != outcomes()
-    except (Changed, Exception):
-        return True
-
-
-TREES = parsed()
-ALL = mutants(TREES)
+# ------------------------------------------------------------ a mutant in place of the checker
 
 
 def install(mutant: Mutant) -> None:
-    """Puts the mutant's functions and tables in place of the checker's, in this process."""
+    """Puts the mutant's functions and constants in place of the checker's, in this process."""
     setattr(mutant.parent, mutant.field, mutant.new)
     tree = ast.fix_missing_locations(TREES[mutant.file])
     module = MODULES[mutant.file]
-    scratch = types.ModuleType(module.__name__)
-    scratch.__package__ = PACKAGE
-    scratch.__file__ = module.__file__
-    sys.modules[module.__name__] = scratch
-    exec(compile(tree, str(module.__file__), "exec"), scratch.__dict__)
+    other = types.ModuleType(module.__name__)
+    other.__package__ = module.__package__
+    sys.modules[module.__name__] = other
+    exec(compile(tree, str(module.__file__), "exec"), vars(other))
     sys.modules[module.__name__] = module
-    for name, new in list(vars(scratch).items()):
-        old = vars(module).get(name)
+    for name, new in vars(other).items():
         if getattr(new, "__module__", "") == module.__name__:
-            transplant(old, new)
-        elif not name.startswith("__") and not mutant.function:
-            for one in MODULES.values():
-                if name in vars(one) and name in assigned(mutant):
-                    setattr(one, name, new)
+            transplant(vars(module)[name], new)
+        elif not mutant.function and name in mutant.names:
+            for user in MODULES.values():
+                if name in vars(user):
+                    setattr(user, name, new)
     MODULES["text"].tree.cache_clear()
 
 
-def assigned(mutant: Mutant) -> set[str]:
-    """The names of the line of a module that the mutant changes."""
-    return {
-        name.id
-        for line in TREES[mutant.file].body
-        if isinstance(line, (ast.Assign, ast.AnnAssign))
-        and line.lineno <= mutant.line <= (line.end_lineno or 0)
-        for name in ast.walk(line)
-        if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)
-    }
-
-
 def transplant(old: Any, new: Any) -> None:
+    """Gives a function, or the methods of a class, the code of another."""
     old, new = (getattr(one, "__wrapped__", one) for one in (old, new))
     if isinstance(new, types.FunctionType):
         old.__code__ = new.__code__
         old.__defaults__ = new.__defaults__
-        old.__kwdefaults__ = new.__kwdefaults__
     elif isinstance(new, type) and new.__name__ != "Kind":
         for name, value in vars(new).items():
             if isinstance(value, types.FunctionType):
                 transplant(vars(old)[name], value)
 
 
-def noticed(mutant: Mutant) -> str:
-    """By which case, or "the store"; "" where nothing changes."""
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    signal.alarm(300)
-    try:
-        install(mutant)
-    except Exception as error:
-        return f"loading: {error!r}"
-    for test, found in plan():
-        if FAST and any(x in test.name for x in SLOW):
-            continue
-        if not mutant.function or (mutant.file, mutant.function) in found:
+def noticed(mutant: Mutant, rows: Iterable[tuple[Case, Functions | None]]) -> str:
+    """What notices the mutant that is installed: "tables", "store" or ""."""
+    for case, found in rows:
+        if found is None or not mutant.function or (mutant.file, mutant.function) in found:
             signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
-            if not test.holds():
-                return test.name
-    if FAST:
-        return ""
-    signal.setitimer(signal.ITIMER_VIRTUAL, 3 * SECONDS)
-    return "the store" if store_changes() else ""
+            if not case.holds():
+                return "tables"
+    before = outcomes_of_store()
+    outcomes_of_store.cache_clear()
+    signal.setitimer(signal.ITIMER_VIRTUAL, 5 * SECONDS)
+    try:
+        return "store" if outcomes_of_store() != before else ""
+    except Exception:
+        return "store"
 
 
-def judged(index: int) -> str:
-    """The same, in a process of its own, which may not end."""
+def judged(index: int, follow: bool) -> str:
+    """The same, in a process of its own; one that does not end, or too late, is noticed."""
     end, begin = os.pipe()
     child = os.fork()
     if child == 0:
         try:
-            os.close(end)
-            with open(os.devnull, "w") as nothing, contextlib.redirect_stdout(nothing):
-                found = noticed(ALL[index])
-            os.write(begin, (found or "-").encode())
+            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+            signal.alarm(120)  # for one that waits
+            rows = followed() if follow else [(case, None) for case in cases()]
+            try:
+                install(MUTANTS[index])
+                found = noticed(MUTANTS[index], rows)
+            except Exception:  # a table of the checker that cannot be built
+                found = "tables"
+            os.write(begin, found.encode() or b"-")
         finally:
             os._exit(0)
     os.close(begin)
     with open(end, "rb") as pipe:
         answer = pipe.read().decode()
     os.waitpid(child, 0)
-    return answer.removeprefix("-") if answer else "no end"
+    return answer.removeprefix("-") if answer else "tables"
+
+
+def judge_all(indices: Sequence[int], follow: bool) -> Iterator[tuple[str, str]]:
+    """(key, what notices it) of these mutants."""
+    outcomes_of_store()
+    if follow:
+        followed()
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
+        found = pool.map(judged, indices, [follow] * len(indices))
+        yield from ((MUTANTS[index].key, one) for index, one in zip(indices, found))
+
+
+def score(found: dict[str, str]) -> str:
+    """The line of the score, a row of a table in Markdown."""
+    counts = [len(found), *(list(found.values()).count(one) for one in ("tables", "store", ""))]
+    return f"| {' | '.join(f'{count:,}' for count in counts)} |"
 
 
 def main(parts: list[str]) -> None:
-    chosen = [k for k, one in enumerate(ALL) if not parts or any(p in one.key for p in parts)]
-    if "-v" in parts:
-        for test, found in plan():
-            print(test.name, len(found))
-        return
-    plan(), outcomes()
-    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
-        for k, found in zip(chosen, pool.map(judged, chosen, chunksize=1)):
-            print(f"{ALL[k].line}\t{ALL[k].key}\t{found}", flush=True)
+    chosen = [
+        k for k, one in enumerate(MUTANTS) if not parts or any(part in one.key for part in parts)
+    ]
+    found = dict(judge_all(chosen, follow=True))
+    known = equivalent()
+    for key, one in found.items():
+        if (one == "") != (key in known):
+            print("nothing notices" if one == "" else "listed, but noticed:", key)
+    print(score(found))
 
 
 if __name__ == "__main__":

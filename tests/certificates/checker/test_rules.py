@@ -48,6 +48,8 @@ def test_rejects_coefficients_of_a_quotient() -> None:
     with pytest.raises(checker.Rejected) as info:
         checker.univariate(context, x.over({(x, True): 2}), "x")
     assert refused(info.value, (Kind.ONE_VARIABLE, "x: x"))
+    one = context.number(1)
+    assert (one.constant(), one.over({(x, True): 1}).constant()) == (1, None)
 
 
 def test_parts_of_a_certificate_are_judged_alone() -> None:
@@ -67,7 +69,11 @@ def test_parts_of_a_certificate_are_judged_alone() -> None:
     assert not checker.closes(context, [x, below_1], ["integral", 0, last], {})
     assert not checker.closes(context, [n], ["integral", 0, last], {})
     sums = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
-    both = ["cases", 0, [["integral", 0, ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"]], []]], sums]]
+    both = [
+        "cases",
+        0,
+        [["integral", 0, ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"]], []]], sums],
+    ]
     assert checker.closes(context, [n, x, either], both, {})
     assert not checker.closes(context, [n, x], both, {})
     assert checker.closes(context, [False], CLOSE, {})

@@ -114,7 +114,7 @@ COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] =
     "a negative": (long, lambda p: -p, 100),
     "a product with a number": (long, lambda p: p * checker.number(2, p.work), 100),
     "a primitive part": (long, lambda p: p.primitive(), 100),
-    "a sum of quotients": (quotient, lambda p: p.plus(p), 100),
+    "a sum of quotients": (quotient, lambda p: p.plus(p), 300),
     "a product of quotients": (quotient, lambda p: p * p, 100),
     "a sign": (lambda work: work, lambda work: sign_at([1] * 100, Fraction(1, 2), work), 100),
     "a remainder": (lambda work: work, lambda work: remainder([1] * 100, [1, 1], work), 2000),

@@ -4,7 +4,6 @@ from juggleproof.certificates.checker import Kind
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, lines, proof
 
 
-
 def power_sum(name: str, count: int) -> str:
     return "(" + " + ".join(f"{name}^{k}" for k in range(count)) + ")"
 
@@ -47,7 +46,9 @@ ACCEPTED = [
     ),
     Case(
         "as many terms as may be",
-        lines("forall x y", "show {0}*{1} = {1}*{0}".format(power_sum("x", 250), power_sum("y", 400))),
+        lines(
+            "forall x y", "show {0}*{1} = {1}*{0}".format(power_sum("x", 250), power_sum("y", 400))
+        ),
         proof(CLOSE, at={"x": "0", "y": "0"}),
     ),
 ]
@@ -86,7 +87,9 @@ REJECTED = [
     ),
     Case("a power of a number without end", lines("show 2^4001 > 1"), proof(CLOSE), Kind.EXPONENT),
     Case("a false constant", lines("show 2 < 1"), proof(CLOSE), Kind.NOTHING_FALSE),
-    Case("a formula with a minus", lines("show -(2 < 1)"), proof(CLOSE), (Kind.FORMULA, "-(2 < 1)")),
+    Case(
+        "a formula with a minus", lines("show -(2 < 1)"), proof(CLOSE), (Kind.FORMULA, "-(2 < 1)")
+    ),
     Case(
         "a call of a call",
         lines("show implies(1 < 2, 1 < 2)(1, 2)"),

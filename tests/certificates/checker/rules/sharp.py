@@ -94,8 +94,6 @@ def counted(
     )
 
 
-
-
 def from_1(defect: str, expected: str | Kind, *rows: str) -> Case:
     """a >= 1, for a > 0, is so exactly where a >= 1: everywhere, if a is an integer."""
     text = lines("forall a", *rows, "show a >= 1", name="rule/squares") + "\n"
@@ -180,7 +178,9 @@ REJECTED = [
         ),
         Kind.SHARP,
         EARLIER
-        | {"rule/map": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}},
+        | {
+            "rule/map": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}
+        },
     ),
     from_1("a real parameter that is taken for an integer outside", Kind.INTEGRAL),
     case(
