@@ -176,6 +176,7 @@ statement asked/escapes
 map asked/map
 domain a > 3
 root m = sqrt(a)
+root c = sqrt(a)
 point m, 0
 start b - m, a
 word 2 1

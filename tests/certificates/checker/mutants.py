@@ -1,4 +1,4 @@
-"""Mutants of the checker: its text with one operator, constant, condition, argument or line changed.
+"""Mutants of the checker: its text with one operator, constant, condition or line changed.
 
 Left as they are: what a message says, how much work a step counts (a call of `spend` is only
 removed), and the limits (`MAX_..`), which are choices.

@@ -150,7 +150,8 @@ def reached(case: Case) -> tuple[int, Functions]:
             calls += 1
             path = Path(frame.f_code.co_filename)
             if path.stem in MODULES and path.parts[-3:-1] == ("certificates", "checker"):
-                found.add((path.stem, frame.f_code.co_qualname.split(".<")[0]))
+                name = frame.f_code.co_qualname.replace(".<locals>", "")
+                found.add((path.stem, name.split(".<")[0]))
             if calls > FOLLOWED:
                 raise FollowedLongEnough
 

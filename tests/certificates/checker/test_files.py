@@ -365,6 +365,16 @@ def test_a_reason_is_one_printable_line() -> None:
         assert str(info.value).isprintable() and len(str(info.value)) < 400
 
 
+def test_rejects_a_lemma_that_is_not_certified(tmp_path: Path) -> None:
+    lemma = "statement a/a\nforall x\nshow x > 0\n\n"
+    use = PROOF.replace(
+        '["psatz", [[1, [[0, 1]], "1"], [1, [], "x"], [1, [], "1"]], []]',
+        '["use", "a/a", {"x": "x"}, {}, []]',
+    )
+    done = check(tmp_path, lemma + TRUE, line("a/a", UNKNOWN) + line("a/b", use))
+    assert done.stdout.startswith(f"rejected  a/b: {Kind.LEMMA.value}: a/a\n")
+
+
 def test_a_reason_is_cut_after_300_characters() -> None:
     shown = [str(checker.Rejected(Kind.RATIONAL, "x" * count, "here")) for count in (298, 299)]
     assert shown == [f"here: {Kind.RATIONAL.value}: " + "x" * 298] * 2

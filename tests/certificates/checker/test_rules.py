@@ -8,7 +8,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
-from tests.certificates.checker.harness import CLOSE, Case, lines, judge, refused
+from tests.certificates.checker.harness import CLOSE, Case, judge, lines, refused
 from tests.certificates.checker.rules import TABLES
 
 
@@ -59,14 +59,16 @@ def test_parts_of_a_certificate_are_judged_alone() -> None:
     context.declare("n", True)
     context.declare("x")
     n, x = (checker.fold(context.values[name], ">") for name in ("n", "x"))
-    below_1, below_0 = (
-        checker.fold(context.polynomial(text), ">") for text in ("1 - n", "0 - x - n")
+    below_1, below_0, real = (
+        checker.fold(context.polynomial(text), ">") for text in ("1 - n", "0 - x - n", "1 - x")
     )
     either = checker.join("or", [below_1, below_0])
-    spent.left = 0
     last = ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
     assert checker.closes(context, [n, below_1], ["integral", 0, last], {})
-    assert not checker.closes(context, [x, below_1], ["integral", 0, last], {})
+    together = checker.join("and", [n, below_1])
+    spent.left = 0
+    assert checker.closes(context, [together], ["integral", 0, last], {})
+    assert not checker.closes(context, [x, real], ["integral", 0, last], {})
     assert not checker.closes(context, [n], ["integral", 0, last], {})
     sums = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
     both = [

@@ -13,7 +13,11 @@ SHIFT = lines(
 )
 SOME = lines("forall a", "integer n", "exists n", "show n = 2", name="rule/some")
 TWO_INTEGERS = lines("forall m n", "integer m n", "show 0 = 0", name="rule/two")
+BESIDE = lines("forall n", "integer n", "exists b", "show b < n", name="rule/beside")
 EARLIER = {
+    "rule/beside": witness(
+        ["rule/beside", [], {"b": "n - 1"}, CLOSE], at={"n": "0"}, name="rule/beside"
+    ),
     "rule/two": proof(CLOSE, at={"m": "0", "n": "0"}, name="rule/two"),
     "rule/inverse": proof(
         ["psatz", [[1, [], "1"]], [[0, "1"], [1, "-b"]]],
@@ -201,6 +205,15 @@ REJECTED = [
             x="0",
         )
         for half in "mn"
+    ),
+    case(
+        "a fresh real taken for an integer, beside one",
+        BESIDE,
+        "rule/beside",
+        lines("forall x", "show 0 < 1"),
+        use("rule/beside", {"n": "0"}, {"b": "z"}, ["integral", 0, OPEN]),
+        Kind.INTEGRAL,
+        x="0",
     ),
     case(
         "a fresh real taken for an integer",
