@@ -131,9 +131,8 @@ class Rejected(Exception):
         self.kind = kind
         self.offender = str(offender() if callable(offender) else offender)
         self.place = place
-        shown = f": {self.offender}"[:300] if self.offender else ""
-        if not shown.isprintable():  # a certificate's text cannot write a line of its own
-            shown = ascii(shown)[1:-1]
+        # ascii: a certificate's text cannot write a line of its own
+        shown = ascii(f": {self.offender}"[:300])[1:-1] if self.offender else ""
         super().__init__((f"{place}: " if place else "") + kind.value + shown)
 
     def within(self, place: str) -> Rejected:
@@ -332,8 +331,9 @@ def sign_at(p: Coefficients, at: Fraction, work: Work) -> int:
     value, scale = 0, 1
     length = sum(map(int.bit_length, at.as_integer_ratio()))
     for c in reversed(p):
-        grown = value.bit_length() + scale.bit_length()
-        work.spend(1 + (grown * (length + c.bit_length()) >> 16))
+        work.spend(
+            1 + ((value.bit_length() + scale.bit_length()) * (length + c.bit_length()) >> 16)
+        )
         value = value * at.numerator + c * scale
         scale = scale * at.denominator
     return (value > 0) - (value < 0)
@@ -364,7 +364,6 @@ def count_roots(p: list[int], low: Fraction, high: Fraction, work: Work) -> int:
     chain = [p, [k * c for k, c in enumerate(p)][1:]]
     while chain[-1]:
         chain.append([-c for c in remainder(chain[-2], chain[-1], work)])
-    chain.pop()
     below = [sign_at(q, low, work) for q in chain]
     above = [sign_at(q, high, work) for q in chain]
     # Sturm's theorem says nothing of a root that is an end

@@ -166,9 +166,6 @@ class Context:
         """
         value = self.value(node)
         require(value.terms, Kind.ZERO_DIVISION, lambda: ast.unparse(node))
-        constant = value.constant()
-        if constant:
-            return self.number(1 / constant)
         content, poly = value.primitive()
         licence = self.licensed.get(frozenset(poly.terms.items()))
         if licence or poly.constant():
@@ -198,8 +195,7 @@ class Context:
                 return left ** exponent(node)
             if op is ast.Div:
                 return left * self.reciprocal(right)
-            if op in ARITHMETIC:
-                return ARITHMETIC[op](left, self.value(right))
+            return ARITHMETIC[op](left, self.value(right))  # the text has no other operator
         raise Rejected(Kind.TERM, ast.unparse(node))
 
     def polynomial(self, text: str) -> Poly:
@@ -297,7 +293,7 @@ def call(text: str, read: Reader, shape: str) -> tuple[str, list[ast.expr]]:
     arguments.
     """
     name, node = equation(text, read)
-    word, _, arguments = shape[:-1].partition("(")
+    word, _, arguments = shape.partition("(")
     if not isinstance(node, ast.Call) or ast.unparse(node.func) != word or node.keywords:
         raise Rejected(Kind.CALL, f"{shape}: {text}")
     require(len(node.args) == len(arguments.split(", ")), Kind.CALL, f"{shape}: {text}")
@@ -415,9 +411,9 @@ def written_line(keyword: str, said: Said) -> str:
     return f"{name} = " + (written(value) if keyword == "let" else f"sqrt({written(value[0])})")
 
 
-def read_statements(text: str, work: Work | None = None) -> dict[str, Statement]:
+def read_statements(text: str) -> dict[str, Statement]:
     """The statements of a file in order, by name, with definitions written out."""
-    definitions = Definitions(work or Work())
+    definitions = Definitions(Work())
     statements: dict[str, Statement] = {}
     current = None
     for count, line in enumerate(text.split("\n"), 1):
@@ -438,7 +434,7 @@ def read_statements(text: str, work: Work | None = None) -> dict[str, Statement]
                 current = None  # where a reader sees a block end, no line can be added to it
         except Rejected as reason:
             raise reason.within(f"statements, line {count}") from None
-        except (ValueError, TypeError, RecursionError, MemoryError) as error:
+        except Exception as error:
             said = type(error).__name__
             raise Rejected(Kind.LINE_SHAPE, said, f"statements, line {count}") from None
     for name, statement in statements.items():

@@ -15,7 +15,6 @@ from typing import Any, TypeVar
 
 from .algebra import (
     BITS,
-    MAX_DEGREE,
     Kind,
     Poly,
     Rejected,
@@ -144,7 +143,7 @@ def close_by_positivstellensatz(
         for index, exponent in factors:
             poly, relation = at(state.facts, index)
             # an even power of an equation, or an odd one of what may be negative, has no sign
-            signed = type(exponent) is int and 0 < exponent <= MAX_DEGREE
+            signed = type(exponent) is int and exponent > 0
             signed = signed and relation != "=" and (relation != "!=" or exponent % 2 == 0)
             if not signed:
                 fact = f"({context.show(poly)} {relation} 0)^{exponent}"
@@ -206,10 +205,9 @@ def close_by_interval(state: State, known: Known, index: Hint, low: Hint, high: 
     p = univariate(state.context, poly, name)
     first = bound(state, low, name, 1)
     last = bound(state, high, name, -1)
-    fails = first > last or sign_at(p, first, work) < 0
-    if fails and first < last:
-        fails = count_roots(p, first, last, work) == 0
-    fails = fails and relation in (">", ">=")  # p != 0 does not fail where p < 0
+    fails = relation in (">", ">=") and (  # p != 0 does not fail where p < 0
+        first > last or sign_at(p, first, work) < 0 and count_roots(p, first, last, work) == 0
+    )
     require(fails, Kind.INTERVAL, lambda: state.context.show(poly))
 
 
@@ -465,7 +463,7 @@ def check_sharp(
     certificate: Hint,
     known: Known,
     statements: Known,
-    work: Work | None = None,
+    work: Work,
 ) -> None:
     """For all parameters in the domain: (all the named statements hold) <=> (the condition holds).
     [{name: prove}, found, {name: found}].
@@ -476,7 +474,6 @@ def check_sharp(
     ends, where it changes its sign.  Last, a point for each statement: in the domain, it meets what
     the statement is given.
     """
-    work = work or Work()
     (names,) = statement.get("sharp")
     (over,) = statement.get("over")
     (domain,) = statement.get("domain")
@@ -497,7 +494,7 @@ def check_sharp(
         poly = state.context.value(tree)
         low, high = (rational_value(state.context, end) for end in ends)
         p = univariate(state.context, poly, *variables_of(state.context, poly))
-        once = low < high and count_roots(p, low, high, work) == 1
+        once = count_roots(p, low, high, work) == 1
         once = once and sign_at(p, low, work) != sign_at(p, high, work)
         require(once, Kind.ONE_ROOT, name)
     for name in names:

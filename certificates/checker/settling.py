@@ -325,7 +325,7 @@ ORBIT_RULES = {
 
 def orbit_rules() -> dict[str, str]:
     """{kind of statement: what its rule says}, for the rules for orbits of maps."""
-    return {kind: rule.__doc__ or "" for kind, rule in ORBIT_RULES.items()}
+    return {kind: str(rule.__doc__) for kind, rule in ORBIT_RULES.items()}
 
 
 def premises_of(
@@ -341,9 +341,7 @@ def premises_of(
     return premises
 
 
-def check_orbit_rule(
-    statement: Statement, certificate: Hint, known: Known, work: Work | None = None
-) -> None:
+def check_orbit_rule(statement: Statement, certificate: Hint, known: Known, work: Work) -> None:
     """{premise: prove}: each of the premises that the rule asks for is proved, and there is no
     other.
     """
@@ -367,7 +365,7 @@ def settle(
     certificate: Hint,
     known: Known,
     statements: Known,
-    work: Work | None = None,
+    work: Work,
 ) -> str:
     """The outcome: {"unknown": why}, {"refuted": found}, {"certified": proof} or, for all but sharp
     and the orbit rules, {.., "point": found}.
@@ -375,7 +373,6 @@ def settle(
     A certified statement carries a point that meets its premises, so that it says something.  A
     refuted one has a counterexample.
     """
-    work = work or Work()
     keys = sorted(certificate) if isinstance(certificate, dict) else []
     if keys == ["unknown"]:
         return "unknown"
@@ -412,7 +409,7 @@ def check_one(
     known: the certified statements before it, by name; earlier: all statements before it; work: the
     meter that it spends from.
     """
-    return verdict(settle, statement, certificate, known, earlier, work)
+    return verdict(settle, statement, certificate, known, earlier, work or Work())
 
 
 def verdict(
@@ -574,7 +571,7 @@ def check_folder(folder: str, check: Check = check_one) -> list[tuple[str, str, 
             limit = min(MAX_WORK, left)
             work = Work(limit)
             outcome, reason = check(statement, certificates.pop(name), known, earlier, work)
-            left -= limit - max(work.left, 0)
+            left -= limit - work.left
         results.append((name, outcome, str(reason) if reason else ""))
         earlier[name] = statement
         if outcome == "certified":

@@ -48,7 +48,7 @@ def tree(text: str) -> ast.expr:
     try:
         python = re.sub(r"(?<![<>!])=", "==", text.replace("^", "**")).strip()
         return ast.parse(python, mode="eval").body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    except Exception:  # SyntaxError, and what a deep text raises, by the version of Python
         raise Rejected(Kind.TEXT, text) from None
 
 
@@ -125,7 +125,7 @@ class Definitions:
         self.known[name] = parameters, set(over), out
 
     def occur_in(self, text: str) -> bool:
-        return bool(self.known) and not self.known.keys().isdisjoint(names_in(text))
+        return not self.known.keys().isdisjoint(names_in(text))
 
     def read(self, text: str, declared: set[str]) -> ast.expr:
         """The tree of a term or formula, with definitions written out; declared: the names that a

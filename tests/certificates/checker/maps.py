@@ -132,3 +132,63 @@ def edited(text: str, kind: str, old: str, new: str) -> str:
         raise ValueError(f"{old!r} does not stand in {kind}")
     blocks[index] = blocks[index].replace(old, new)
     return "\n\n".join(blocks) + "\n"
+
+
+# What nothing here proves, with a line of every kind and more of each than one: roots of parameters
+# and of the state, two stages, two steps.
+ASKED = """
+statement asked/map
+over a b
+domain a > 0
+state x y
+space x >= 0
+piece x >= 1 -> x - 1, y
+piece x < 1 -> a*y, b
+
+statement asked/descends
+map asked/map
+domain a > 1
+root c = sqrt(a)
+root d = sqrt(c*x)
+root e = sqrt(d)
+rank d + e
+stage x < 1
+stage x < c
+
+statement asked/contracts
+map asked/map
+domain a > 2
+root c = sqrt(a)
+root k = sqrt(a + 1)
+root h = sqrt(y^2)
+on h < 1
+point c, b
+weights 1, k
+rate a
+radius b
+size c
+
+statement asked/attracts
+descent asked/descends
+contraction asked/contracts
+
+statement asked/escapes
+map asked/map
+domain a > 3
+root m = sqrt(a)
+root c = sqrt(a)
+point m, 0
+start b - m, a
+word 2 1
+
+statement asked/exactly
+attraction asked/attracts
+escape asked/escapes
+
+statement asked/powers
+forall x y w n
+integer n
+let z = w + 1
+iterates (x, y) -> (x + z, y)
+after n -> (x + n*z, y)
+"""

@@ -365,6 +365,36 @@ def test_a_reason_is_one_printable_line() -> None:
         assert str(info.value).isprintable() and len(str(info.value)) < 400
 
 
+def test_rejects_a_lemma_that_is_not_certified(tmp_path: Path) -> None:
+    lemma = "statement a/a\nforall x\nshow x > 0\n\n"
+    use = PROOF.replace(
+        '["psatz", [[1, [[0, 1]], "1"], [1, [], "x"], [1, [], "1"]], []]',
+        '["use", "a/a", {"x": "x"}, {}, []]',
+    )
+    done = check(tmp_path, lemma + TRUE, line("a/a", UNKNOWN) + line("a/b", use))
+    assert done.stdout.startswith(f"rejected  a/b: {Kind.LEMMA.value}: a/a\n")
+
+
+def test_a_reason_is_cut_after_300_characters() -> None:
+    shown = [str(checker.Rejected(Kind.RATIONAL, "x" * count, "here")) for count in (298, 299)]
+    assert shown == [f"here: {Kind.RATIONAL.value}: " + "x" * 298] * 2
+    assert str(checker.Rejected(Kind.RATIONAL)) == Kind.RATIONAL.value
+
+
+def test_rejects_two_folders(tmp_path: Path) -> None:
+    check(tmp_path, TRUE, GOOD)
+    done = run(tmp_path, tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"checker: {Kind.FILE.value}: name one folder\n"
+
+
+def test_after_1001_lines_refused_no_more_are_read() -> None:
+    certificates, refused_lines = checker.read_certificates("[]\n" * 1001 + GOOD)
+    assert (certificates, len(refused_lines)) == ({}, 1001)
+    certificates, refused_lines = checker.read_certificates("[]\n" * 1000 + GOOD)
+    assert (list(certificates), len(refused_lines)) == (["a/b"], 1000)
+
+
 def test_a_name_cannot_fake_a_line(tmp_path: Path) -> None:
     done = check(tmp_path, TRUE, GOOD + line("x\\n1 statements: 1 certified", UNKNOWN))
     assert (done.returncode, done.stderr) == (1, "")

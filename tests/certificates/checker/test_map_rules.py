@@ -5,6 +5,7 @@ premise fails, and nothing can be left out.
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,7 +16,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
 from juggleproof.certificates.checker.rules import prove
 from tests.certificates.checker.harness import Expected, refused
-from tests.certificates.checker.maps import SUBTRACT, TURN, checked, edited, read, searched
+from tests.certificates.checker.maps import ASKED, SUBTRACT, TURN, checked, edited, read, searched
 
 Json = Any
 
@@ -97,6 +98,17 @@ def test_joined_statements_fail_without_what_joins_them(
     )[f"demo/{joined}"]
     assert outcome == "rejected" and reason is not None
     assert reason.place == f"premise {premise} of demo/{joined}"
+
+
+def test_the_premises_of_every_rule_are_these() -> None:
+    """Word for word: what a rule writes is what its conclusion rests on."""
+    statements = read(ASKED)
+    premises = [
+        premise.text() + "\n"
+        for statement in statements.values()
+        for premise in checker.premises_of(statement, statements).values()
+    ]
+    assert "\n".join(premises) == Path(__file__).with_name("premises.txt").read_text()
 
 
 def test_rejects_a_contraction_of_another_map_of_the_same_text() -> None:
@@ -220,6 +232,12 @@ MALFORMED = [
         "map",
         "x < 1",
         "x < 1 and z > 0",
+        Kind.PIECE,
+    ),
+    (
+        "map",
+        "x < 1",
+        "(x < 1, x < 2)",
         Kind.PIECE,
     ),
     (

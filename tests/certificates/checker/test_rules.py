@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import pytest
 
-from tests.certificates.checker.harness import Case, judge, refused
+from juggleproof.certificates import checker
+from juggleproof.certificates.checker import Kind
+from tests.certificates.checker.harness import CLOSE, Case, judge, lines, refused
 from tests.certificates.checker.rules import TABLES
 
 
@@ -28,6 +30,68 @@ def test_rejects(case: Case) -> None:
     outcome, reason = judge(case)
     assert outcome in ("rejected", "unreadable")
     assert refused(reason, case.expected), reason
+
+
+@pytest.mark.parametrize("text", ["0", "x", "-1/2*y + x^2", "-3*x*y^2 + 7/3", "-y + 11*x"])
+def test_a_polynomial_is_shown_as_text_that_reads_back(text: str) -> None:
+    context = checker.Context()
+    for name in ("x", "y"):
+        context.declare(name)
+    assert context.show(context.polynomial(text)) == text
+
+
+def test_rejects_coefficients_of_a_quotient() -> None:
+    context = checker.Context()
+    context.declare("x")
+    x = context.values["x"]
+    assert checker.univariate(context, x * x, "x") == [0, 0, 1]
+    with pytest.raises(checker.Rejected) as info:
+        checker.univariate(context, x.over({(x, True): 2}), "x")
+    assert refused(info.value, (Kind.ONE_VARIABLE, "x: x"))
+    one = context.number(1)
+    assert (one.constant(), one.over({(x, True): 1}).constant()) == (1, None)
+
+
+def test_parts_of_a_certificate_are_judged_alone() -> None:
+    """What a search asks: on a meter of its own, whatever the formulas have spent of theirs."""
+    spent = checker.Work(1000)
+    context = checker.Context(work=spent)
+    context.declare("n", True)
+    context.declare("x")
+    n, x = (checker.fold(context.values[name], ">") for name in ("n", "x"))
+    below_1, below_0, real = (
+        checker.fold(context.polynomial(text), ">") for text in ("1 - n", "0 - x - n", "1 - x")
+    )
+    either = checker.join("or", [below_1, below_0])
+    last = ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
+    assert checker.closes(context, [n, below_1], ["integral", 0, last], {})
+    together = checker.join("and", [n, below_1])
+    spent.left = 0
+    assert checker.closes(context, [together], ["integral", 0, last], {})
+    assert not checker.closes(context, [x, real], ["integral", 0, last], {})
+    assert not checker.closes(context, [n], ["integral", 0, last], {})
+    sums = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
+    both = [
+        "cases",
+        0,
+        [["integral", 0, ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"]], []]], sums],
+    ]
+    assert checker.closes(context, [n, x, either], both, {})
+    assert not checker.closes(context, [n, x], both, {})
+    assert checker.closes(context, [False], CLOSE, {})
+    assert not checker.closes(context, [True, n], CLOSE, {})
+    (statement,) = checker.read_statements(lines("forall x", "given x > 0", "show x > -1")).values()
+    shown = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"], [1, [], "1"]], []]
+    assert checker.proves(statement, ["proof", [], shown], {})
+    assert not checker.proves(statement, ["proof", [], CLOSE], {})
+    met = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"]], []]
+    for found, assumed, base, holds in (
+        (["rule/case", [], {"x": "1"}, CLOSE], [], [], True),
+        (["rule/case", [], {"x": "0"}, CLOSE], [], [], False),
+        (["rule/case", [], {}, met], [x], ["x"], True),
+        (["rule/case", [], {}, met], [], ["x"], False),
+    ):
+        assert checker.finds(context, assumed, found, {}, "point", statement, base) is holds
 
 
 def test_every_case_has_a_name_of_its_own() -> None:

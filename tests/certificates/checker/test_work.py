@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Rejected, Work, settling
-from juggleproof.certificates.checker.rules import State, prove
+from juggleproof.certificates.checker.algebra import remainder, sign_at
+from juggleproof.certificates.checker.rules import State, parts_of_box, prove
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused
+from tests.certificates.checker.maps import ASKED, read
 
 POWER = lines("forall x", "show (x + 1)^60 - (x + 1)^60 = 0", "")
 (STATEMENT,) = checker.read_statements(POWER.rstrip() + "\n").values()
@@ -73,6 +78,94 @@ def test_what_is_made_in_a_check_holds_its_meter() -> None:
     assert refused(info.value, Kind.WORK)
 
 
+def long(work: Work) -> checker.Poly:
+    """A polynomial of 100 terms."""
+    return checker.Poly(dict.fromkeys(range(100), 1), 1, 99, work)
+
+
+def quotient(work: Work) -> checker.Poly:
+    """1 over 50 polynomials."""
+    under = {(checker.variable(k, work), True): 1 for k in range(50)}
+    return checker.Poly({0: 1}, 1, 0, work, under)
+
+
+def context_of_40(work: Work) -> checker.Context:
+    context = checker.Context(work=work)
+    for k in range(40):
+        context.declare(f"x{k}")
+    return context
+
+
+def state_of_40(work: Work) -> State:
+    """A state with 40 facts."""
+    context = checker.Context(work=work)
+    context.declare("x")
+    state = State(context)
+    for _ in range(40):
+        state.facts.append((context.values["x"], ">"))
+    return state
+
+
+# (what it takes, what is done with it, what is spent at least): with nothing counted for one of
+# these, a list of them would cost nothing
+COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] = {
+    "a long summand first": (long, lambda p: p.plus(checker.variable(0, p.work)), 100),
+    "a long summand last": (long, lambda p: checker.variable(0, p.work).plus(p), 100),
+    "a negative": (long, lambda p: -p, 100),
+    "a product with a number": (long, lambda p: p * checker.number(2, p.work), 100),
+    "a primitive part": (long, lambda p: p.primitive(), 100),
+    "a sum of quotients": (quotient, lambda p: p.plus(p), 300),
+    "a product of quotients": (quotient, lambda p: p * p, 100),
+    "a sign": (lambda work: work, lambda work: sign_at([1] * 100, Fraction(1, 2), work), 100),
+    "a remainder": (lambda work: work, lambda work: remainder([1] * 100, [1, 1], work), 2000),
+    "Bernstein coefficients": (
+        long,
+        lambda p: checker.bernstein(p, [(0, Fraction(0), Fraction(1))]),
+        8 * 100**3,
+    ),
+    "halves": (lambda work: work, lambda work: parts_of_box([100], [1] * 100, "a", work), 10**4),
+    "a formula": (
+        long,
+        lambda p: checker.join("and", [("atom", p, ">")] * 40),
+        800,
+    ),
+    "a copy of a context": (context_of_40, lambda context: checker.Context(context), 40),
+    "a branch": (state_of_40, lambda state: state.branch(), 40),
+}
+
+
+@pytest.mark.parametrize("name", COUNTED)
+def test_every_operation_is_counted(name: str) -> None:
+    prepare, operate, least = COUNTED[name]
+    work = Work(10**8)
+    operand = prepare(work)
+    before = work.left
+    operate(operand)
+    assert before - work.left >= least
+
+
+def test_bernstein_coefficients_have_a_length_and_a_number_at_most() -> None:
+    """Of degree 2 on [0, 1/2^10000], a coefficient of c bits may grow to c + 2 (3 + 10001)."""
+
+    def kind(terms: dict[int, int], *axes: tuple[int, Fraction, Fraction]) -> Kind | None:
+        try:
+            checker.bernstein(checker.Poly(terms, 1, 2, Work(10**12)), axes)
+        except Rejected as reason:
+            return reason.kind
+        return None
+
+    short = (0, Fraction(0), Fraction(1, 1 << 10000))
+    assert kind({2: 1 << 19991, 0: 1}, short) is None
+    assert kind({2: 1 << 19992, 0: 1}, short) is Kind.SIZE
+    # the last axis comes first: of degree 1, it doubles the number of coefficients; then the work
+    # on degree 49999 is too much
+    unit = [(0, Fraction(0), Fraction(1)), (checker.BITS, Fraction(0), Fraction(1))]
+    many = dict.fromkeys(range(50_000), 1)
+    assert kind({**many, 1 << checker.BITS: 1, 0: 0}, *unit) is Kind.SIZE
+    del many[0]
+    assert kind({**many, 1 << checker.BITS: 1}, *unit) is Kind.WORK
+
+
 def test_an_orbit_rule_has_one_meter_for_all_premises() -> None:
     shift = ("forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K")
     (statement,) = checker.read_statements(lines(*shift)).values()
@@ -84,10 +177,29 @@ def test_an_orbit_rule_has_one_meter_for_all_premises() -> None:
     ]
     parts = []
     for premise in checker.premises_of(statement, {}).values():
-        work = Work()
+        work = Work(checker.MAX_WORK)
         prove(premise, ["proof", [], CLOSE], {}, work=work)
         parts.append(checker.MAX_WORK - work.left)
     assert limits[0] == sum(parts) > max(parts)
+
+
+def test_a_check_without_a_meter_has_one_for_all_its_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    needed = least()
+    for limit, expected in ((needed, "certified"), (needed - 1, "rejected")):
+        monkeypatch.setattr(Work.__init__, "__defaults__", (limit,))
+        assert checker.check_one(STATEMENT, CERTIFICATE, {}, {})[0] == expected
+
+
+def test_the_text_of_premises_is_counted() -> None:
+    """By its letters, 20 for each."""
+    statements = read(ASKED)
+    for name, letters in (("asked/map", 244), ("asked/escapes", 332)):
+        work = Work()
+        checker.premises_of(statements[name], statements, work)
+        assert checker.Work().left - work.left >= 20 * letters
+        with pytest.raises(Rejected) as info:
+            checker.premises_of(statements[name], statements, Work(100))
+        assert refused(info.value, Kind.WORK)
 
 
 def test_all_statements_of_a_folder_have_one_meter(

@@ -74,10 +74,48 @@ ACCEPTED = [
         lines(*BOX, "show y^2 <= 1"),
         plane("a..", 4, ((2, 3),)),
     ),
+    Case("a square that is 0 at a quarter", lines(*UNIT, "show (4*x - 1)^2 >= 0"), tree("aa...")),
+    Case("a coefficient like the one before", lines(*UNIT, "show x^2 <= 1"), tree("A.")),
+    Case(
+        "the face at the lower end alone is monotone",
+        lines(
+            "forall x y",
+            *UNIT[1:],
+            "given y >= 0",
+            "given y <= 1",
+            "show y - x*(2 + 8*y*(1 - y)) <= 1",
+        ),
+        plane("AA."),
+    ),
+    Case("a face at the lower end", lines(*UNIT, "show 1 - x <= 1"), tree("A.")),
     Case("a fact that is weak", lines(*UNIT, "show x^2 - x < 1/100"), tree(".")),
 ]
 
 REJECTED = [
+    Case(
+        "the face at the other end",
+        lines(*UNIT, "show 1 - 2*x <= 0"),
+        tree("A."),
+        (Kind.BOX_SIGN, "1"),
+    ),
+    Case(
+        "a fall, then a small rise",
+        lines(*UNIT, "show 1 - 3*x + 2*x^2 <= 0"),
+        tree("A."),
+        (Kind.MONOTONE, "A"),
+    ),
+    Case(
+        "a face at the lower end that is not monotone",
+        lines(*BOX, "show y^2 - x <= 2"),
+        plane("AA."),
+        (Kind.MONOTONE, "A"),
+    ),
+    Case(
+        "a half with a coefficient that is positive and small",
+        lines(*UNIT, "show 1 - 2*x <= 0"),
+        tree("a.."),
+        (Kind.BOX_SIGN, "2"),
+    ),
     Case(
         "a coefficient that is positive",
         PARABOLA,

@@ -3,6 +3,11 @@
 from juggleproof.certificates.checker import Kind
 from tests.certificates.checker.harness import CLOSE, OPEN, Case, lines, proof
 
+
+def power_sum(name: str, count: int) -> str:
+    return "(" + " + ".join(f"{name}^{k}" for k in range(count)) + ")"
+
+
 ACCEPTED = [
     Case("a true constant", lines("show 1 < 2"), proof(CLOSE)),
     Case(
@@ -22,9 +27,29 @@ ACCEPTED = [
         proof(CLOSE),
     ),
     Case(
+        "connectives of what differs",
+        lines("show implies(1 = 2, 1 = 1) and not implies(1 = 1, 1 = 2) and not iff(1 = 2, 1 = 1)"),
+        proof(CLOSE),
+    ),
+    Case("an equivalence the other way", lines("show not iff(1 = 1, 1 = 2)"), proof(CLOSE)),
+    Case(
         "an abbreviation",
         lines("forall x", "let a = x + 1", "show a^2 - 1 = x*(a + 1)"),
         proof(CLOSE, at={"x": "0"}),
+    ),
+    Case("the longest number", lines("show (2^4000)^9*2^3999 > 1"), proof(CLOSE)),
+    Case("the longest denominator", lines("show (1/2^4000)^9/2^3999 > 0"), proof(CLOSE)),
+    Case(
+        "the highest degree",
+        lines("forall x", "show 2*(x^3999*x) = 2*x^4000"),
+        proof(CLOSE, at={"x": "0"}),
+    ),
+    Case(
+        "as many terms as may be",
+        lines(
+            "forall x y", "show {0}*{1} = {1}*{0}".format(power_sum("x", 250), power_sum("y", 400))
+        ),
+        proof(CLOSE, at={"x": "0", "y": "0"}),
     ),
 ]
 
@@ -35,7 +60,42 @@ REJECTED = [
         proof(CLOSE, at={"x": "0", "y": "0"}),
         (Kind.SIZE, "degree 8000"),
     ),
+    Case(
+        "the same of sums",
+        lines("forall x y", "show " + "*".join(["(x^4000 + 1 - 1)"] * 16) + "*x^1536 = y"),
+        proof(CLOSE, at={"x": "0", "y": "0"}),
+        (Kind.SIZE, "degree 8000"),
+    ),
+    Case("a number too long", lines("show (2^4000)^10 > 1"), proof(CLOSE), (Kind.SIZE, "1 terms")),
+    Case(
+        "a number too long beside a short one",
+        lines("forall x", "show ((2^4000)^9*x + 1)*2^4000 > 0"),
+        proof(CLOSE, at={"x": "0"}),
+        (Kind.SIZE, "2 terms"),
+    ),
+    Case(
+        "a denominator too long",
+        lines("show (1/2^4000)^10 > 0"),
+        proof(CLOSE),
+        (Kind.SIZE, "degree 0"),
+    ),
+    Case(
+        "more terms than may be",
+        lines("forall x y", "show {}*{} > 0".format(power_sum("x", 250), power_sum("y", 401))),
+        proof(CLOSE, at={"x": "0", "y": "0"}),
+        (Kind.SIZE, "100250 terms"),
+    ),
+    Case("a power of a number without end", lines("show 2^4001 > 1"), proof(CLOSE), Kind.EXPONENT),
     Case("a false constant", lines("show 2 < 1"), proof(CLOSE), Kind.NOTHING_FALSE),
+    Case(
+        "a formula with a minus", lines("show -(2 < 1)"), proof(CLOSE), (Kind.FORMULA, "-(2 < 1)")
+    ),
+    Case(
+        "a call of a call",
+        lines("show implies(1 < 2, 1 < 2)(1, 2)"),
+        proof(CLOSE),
+        (Kind.FORMULA, "implies(1 < 2, 1 < 2)(1, 2)"),
+    ),
     Case("a false end of a chain", lines("show 0 < 1 < 1"), proof(CLOSE), Kind.NOTHING_FALSE),
     Case(
         "an equation with a wrong coefficient",
@@ -57,6 +117,7 @@ REJECTED = [
     ),
     Case("an unknown rule", lines("show 1 < 2"), proof(["trust me"]), (Kind.RULE, "['trust me']")),
     Case("a rule that is no text", lines("show 1 < 2"), proof([["close"]]), Kind.RULE),
+    Case("a node that is an object", lines("show 1 < 2"), proof({"close": 1}), Kind.RULE),
     Case("a node that is no list", lines("show 1 < 2"), proof("close"), (Kind.RULE, "close")),
     Case("an empty node", lines("show 1 < 2"), proof([]), (Kind.RULE, "[]")),
     Case(

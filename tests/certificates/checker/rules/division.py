@@ -26,6 +26,14 @@ LICENSED = [
         lines("forall x", "given x != 0", "given x > 0", "show 1/x > 0"),
         ONE,
     ),
+    (
+        "a sign told before",
+        lines("forall x", "given x > 0", "given x != 0", "show 1/x > 0"),
+        ONE,
+    ),
+    ("a negative sign", lines("forall x", "given x < 0", "show 1/x < 0"), {"x": "-1"}),
+    ("an even power", lines("forall x", "given x != 0", "show 1/x^2 > 0"), ONE),
+    ("what is not 0", lines("forall x", "given x != 0", "show 1/x != 0"), ONE),
     ("a conjunct", same("given x > 0 and x < 2"), ONE),
     ("a chain", same("given 0 < x < 2"), ONE),
     ("a range", same("range x > 0"), ONE),
@@ -39,6 +47,7 @@ LICENSED = [
         {"x": "1/3"},
     ),
     ("a number", lines("forall x", "show x/3 = x*(1/3)"), ZERO),
+    ("a quotient", lines("forall x", "given x > 0", "show 1/(1/x) = x"), ONE),
     ("a power zero", lines("forall x", "show 1/x^0 = 1"), ZERO),
 ]
 ACCEPTED = [Case(defect, text, proof(CLOSE, at=point)) for defect, text, point in LICENSED]
@@ -73,6 +82,24 @@ REJECTED = [
         lines("forall x", "show 1/(x - x) = 1"),
         proof(CLOSE, at=ONE),
         Kind.ZERO_DIVISION,
+    ),
+    Case(
+        "a quotient taken for its numerator",
+        lines("forall x", "given x > 0", "show 1/(1/x) = 1"),
+        proof(CLOSE, at=ONE),
+        Kind.NOTHING_FALSE,
+    ),
+    Case(
+        "a sign turned",
+        lines("forall x", "given x < 0", "show 1/x > 0"),
+        proof(CLOSE, at={"x": "-1"}),
+        Kind.NOTHING_FALSE,
+    ),
+    Case(
+        "a cube whose sign is unknown",
+        lines("forall x", "given x != 0", "show 1/x^3 > 0"),
+        proof(CLOSE, at=ONE),
+        (Kind.NOTHING_FALSE, "x != 0; -x >= 0"),
     ),
     Case(
         "a negative exponent",

@@ -53,6 +53,12 @@ REJECTED = [
         proof(["integral", 0, BOTH], at={"m": "0", "n": "0"}),
         Kind.INTEGRAL,
     ),
+    Case(
+        "an integer beside a half",
+        lines("forall m n", "integer m n", "show m + n/2 <= 0 or m + n/2 >= 1"),
+        proof(["integral", 0, BOTH], at={"m": "0", "n": "0"}),
+        Kind.INTEGRAL,
+    ),
     Case("halves", THIRDS, integral(1, BOTH), Kind.INTEGRAL),
     Case(
         "a weak fact",

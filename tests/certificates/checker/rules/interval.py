@@ -82,6 +82,12 @@ REJECTED = [
         Kind.END_ROOT,
     ),
     Case(
+        "a root on either side of 0",
+        lines("forall x", "given x >= -1", "given x <= 1", "show 1 - 4*x^2 < 0"),
+        on(0, 1),
+        Kind.INTERVAL,
+    ),
+    Case(
         "two roots inside",
         lines(*BOUNDED, "show (4*x - 1)*(4*x - 3) > 0"),
         on(0, 1),

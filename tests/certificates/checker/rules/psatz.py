@@ -155,7 +155,7 @@ REJECTED = [
         "an exponent beyond the limit",
         AMGM,
         with_units([[1, [[0, 10**30]], "1"]]),
-        Kind.FACTOR,
+        Kind.EXPONENT,
     ),
     Case(
         "a fact that is not there",

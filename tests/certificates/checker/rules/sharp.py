@@ -94,7 +94,20 @@ def counted(
     )
 
 
+def from_1(defect: str, expected: str | Kind, *rows: str) -> Case:
+    """a >= 1, for a > 0, is so exactly where a >= 1: everywhere, if a is an integer."""
+    text = lines("forall a", *rows, "show a >= 1", name="rule/squares") + "\n"
+    text += lines("sharp rule/squares", "over a", "domain a > 0", "holds a >= 1")
+    inside = ["proof", [], ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]]
+    below = ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
+    certificate = sharp(
+        {"rule/squares": inside}, ["empty", ["integral", 0, below]], point({"a": "1"})
+    )
+    return Case(defect, text, certificate, expected, EARLIER)
+
+
 ACCEPTED = [
+    from_1("an integer parameter outside", "certified", "integer a"),
     case("inside and outside", VALID),
     counted("an integer parameter"),
     case("a number", VALID, text=over(*SQRT)),
@@ -155,6 +168,21 @@ REJECTED = [
         Kind.SHARP,
         {"rule/map": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}},
     ),
+    Case(
+        "a statement of another kind beside one of the right kind",
+        SQUARES + "\n" + MAP + "\n" + lines("sharp rule/squares rule/map", *SHARP[1:]),
+        sharp(
+            {"rule/squares": INSIDE, "rule/map": ["proof", [], CLOSE]},
+            found(),
+            HALF | point({"x": "1"}, name="rule/map"),
+        ),
+        Kind.SHARP,
+        EARLIER
+        | {
+            "rule/map": {"certified": {"start": ["proof", [], CLOSE], "step": ["proof", [], CLOSE]}}
+        },
+    ),
+    from_1("a real parameter that is taken for an integer outside", Kind.INTEGRAL),
     case(
         "a statement that does not exist, with a proof",
         sharp({"rule/none": INSIDE}, found(), point({}, name="rule/none")),
@@ -293,7 +321,7 @@ REJECTED = [
     ),
     case(
         "no statement",
-        sharp({}, found()),
+        sharp({}, found(), {}),
         Kind.SHARP,
         over("sharp", *SHARP[1:]),
     ),
@@ -367,6 +395,12 @@ REJECTED = [
         VALID,
         Kind.END_ROOT,
         over(*SHARP[:3], "number c = root(a - 1, 1, 2)", SHARP[3]),
+    ),
+    case(
+        "a number with the name of a definition",
+        VALID,
+        (Kind.SHADOWS, "c", "statements, line 12"),
+        "define c := 1\n" + over(*SQRT),
     ),
     case(
         "a number in two variables",

@@ -40,6 +40,8 @@ ACCEPTED = [
         "not not 1 = 1",
         "1 <= 1 >= 1",
     )
+] + [
+    Case("a comment inside", lines("forall x", "# of x", TRUE), proof(CLOSE, at=AT)),
 ]
 
 NOT_TERMS = [

@@ -12,7 +12,13 @@ SHIFT = lines(
     "forall x K", "integer K", "iterates x -> x + 1", "after K -> x + K", name="rule/shift"
 )
 SOME = lines("forall a", "integer n", "exists n", "show n = 2", name="rule/some")
+TWO_INTEGERS = lines("forall m n", "integer m n", "show 0 = 0", name="rule/two")
+BESIDE = lines("forall n", "integer n", "exists b", "show b < n", name="rule/beside")
 EARLIER = {
+    "rule/beside": witness(
+        ["rule/beside", [], {"b": "n - 1"}, CLOSE], at={"n": "0"}, name="rule/beside"
+    ),
+    "rule/two": proof(CLOSE, at={"m": "0", "n": "0"}, name="rule/two"),
     "rule/inverse": proof(
         ["psatz", [[1, [], "1"]], [[0, "1"], [1, "-b"]]],
         at={"a": "1", "b": "1"},
@@ -188,6 +194,36 @@ REJECTED = [
         use("rule/gap", {"n": "1\n"}, {}, BETWEEN),
         Kind.TEXT,
     ),
+    *(
+        case(
+            f"a half for the integer {half}, with another",
+            TWO_INTEGERS,
+            "rule/two",
+            lines("forall x", "show 0 < 1"),
+            use("rule/two", {"m": "1", "n": "1", half: "1/2"}, {}, CLOSE),
+            Kind.VALUES,
+            x="0",
+        )
+        for half in "mn"
+    ),
+    case(
+        "a fresh real taken for an integer, beside one",
+        BESIDE,
+        "rule/beside",
+        lines("forall x", "show 0 < 1"),
+        use("rule/beside", {"n": "0"}, {"b": "z"}, ["integral", 0, OPEN]),
+        Kind.INTEGRAL,
+        x="0",
+    ),
+    case(
+        "a fresh real taken for an integer",
+        BELOW,
+        "rule/below",
+        lines("forall x", "show 0 < 1"),
+        use("rule/below", {"a": "0"}, {"b": "z"}, ["integral", 0, OPEN]),
+        Kind.INTEGRAL,
+        x="0",
+    ),
     case(
         "a statement of another kind",
         SHIFT,
@@ -213,6 +249,15 @@ REJECTED = [
         NOTHING_BELOW,
         use("rule/below", {"a": "x"}, {"b": "1"}, CLOSE),
         Kind.NAME,
+        x="0",
+    ),
+    case(
+        "a fresh name in another script",
+        BELOW,
+        "rule/below",
+        NOTHING_BELOW,
+        use("rule/below", {"a": "x"}, {"b": "z\u00e9"}, CLOSE),
+        (Kind.NAME, "z\u00e9"),
         x="0",
     ),
     case(

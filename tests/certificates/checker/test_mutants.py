@@ -1,0 +1,54 @@
+"""The tests beside this file, and the stored certificates, notice every mutant of the checker but
+those that say the same.
+
+`make test` tries a fixed share; with JUGGLEPROOF_MUTANTS=all (as CI sets it) every mutant is tried,
+and those that nothing notices are exactly the ones listed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import Path
+
+from tests.certificates.checker.mutate import MUTANTS, equivalent, judge_all, score
+
+ALL = os.environ.get("JUGGLEPROOF_MUTANTS") == "all"
+SHARE = 350  # one mutant in so many
+DOCS = Path(__file__).resolve().parents[3] / "docs" / "adding-a-rule.md"
+KEYS = [one.key for one in MUTANTS]
+
+
+def digest(text: str) -> int:
+    return int(hashlib.sha256(text.encode()).hexdigest()[:8], 16)
+
+
+def test_every_mutant_has_a_key_of_its_own_holds() -> None:
+    assert len(set(KEYS)) == len(KEYS) > 1500
+
+
+def test_every_equivalent_mutant_is_a_mutant_with_a_reason_holds() -> None:
+    known = equivalent()
+    assert set(known) <= set(KEYS)
+    assert all(known.values())
+
+
+def test_every_mutant_is_noticed_unless_it_is_equivalent_holds() -> None:
+    known = equivalent()
+    chosen = [
+        k for k, key in enumerate(KEYS) if ALL or key not in known and digest(key) % SHARE == 0
+    ]
+    found = dict(judge_all(chosen, follow=ALL))
+    assert {key for key, one in found.items() if not one} == (set(known) if ALL else set())
+    assert len(found) > 2
+    if ALL:
+        assert score(found) in DOCS.read_text()
+
+
+def test_the_score_counts_the_mutants_holds() -> None:
+    (row,) = [line for line in DOCS.read_text().splitlines() if line.startswith("| 1,")]
+    mutants, tables, store, same = (
+        int(cell.replace(",", "")) for cell in row.strip("| ").split(" | ")
+    )
+    assert mutants == len(KEYS) == tables + store + same
+    assert same == len(equivalent())
