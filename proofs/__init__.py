@@ -9,7 +9,8 @@ In reading order, each importing those before it only:
 - `correcting`, `rules`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
 - `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
   range.
-- `register`, `run`: the verdicts that stand; many claims over processes, and what is stored.
+- `register`: the verdicts that stand.
+- `checked`, `run`: the checker's outcomes of what is stored; many claims over processes.
 - `bounds`, `kept`: certified enclosures of minima; figures kept between runs.
 - `paper`, `theorem`, `part`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
 - `reports`, `api`: what a run came to, in words, pages and data; the same from Python.

@@ -15,10 +15,11 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import CERTIFICATES, DEFAULT, Store, certificate_lines
+from juggleproof.proofs.checked import Reading, shares
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.run import Options, Reading, claims_of_file, run, shares
+from juggleproof.proofs.run import Options, claims_of_file, run
 
 # Readings, misprints corrected in each way, a recurrence, a gap, what follows from a theorem.
 CHOSEN = ("s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "sA.3.2-sup3", "sB.1-so-that", "eq-26")
