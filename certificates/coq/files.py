@@ -11,6 +11,7 @@ from typing import NamedTuple
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq.lemmas import lemmas
 from juggleproof.certificates.coq.text import PRELUDE, NotWritten
+from juggleproof.certificates.language import lemmas_of
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store, write_file
 
@@ -55,7 +56,7 @@ def export(store: Store, names: Iterable[str] | None = None) -> Export:
     """The lemmas of the statements named, or of all, and of those that their certificates use."""
     statements = checker.read_statements("\n\n".join(store.texts.values()))
     certificates = {name: store.certificate(name, text) for name, text in store.texts.items()}
-    needs = {name: _used(certificate) for name, certificate in certificates.items()}
+    needs = {name: lemmas_of(certificate) for name, certificate in certificates.items()}
     wanted = set(statements if names is None else names)
     while more := {use for name in wanted for use in needs[name]} - wanted:
         wanted |= more
@@ -115,13 +116,3 @@ def _class(statement: checker.Statement, certificate: Certificate) -> str:
     if statement.kind == "universal":
         return "exists" if statement.get("exists") else "universal"
     return "sharp" if statement.kind == "sharp" else "orbit"
-
-
-def _used(part: object) -> set[str]:
-    """The statements that the nodes of a certificate use."""
-    if isinstance(part, Mapping):
-        return set().union(*map(_used, part.values()))
-    if not isinstance(part, Sequence) or isinstance(part, str):
-        return set()
-    own = {str(part[1])} if len(part) == 5 and part[0] == "use" else set()
-    return own.union(*map(_used, part))
