@@ -17,8 +17,13 @@ from tests.certificates.checker.claims import contradiction
 from tests.certificates.checker.harness import Case, Json, verdict
 from tests.certificates.checker.rules import TABLES
 
+AT_LIMITS = {"as many terms as may be", "the highest degree"}  # each check takes long
 CASES = {
-    rule: [case for case in module.ACCEPTED if case.expected != "unknown"]
+    rule: [
+        case
+        for case in module.ACCEPTED
+        if case.expected != "unknown" and case.defect not in AT_LIMITS
+    ]
     for rule, module in TABLES.items()
     if rule != "definitions"  # the second reading has none: see test_definitions
 }
