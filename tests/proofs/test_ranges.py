@@ -15,7 +15,7 @@ from juggleproof.proofs.claims import Assertion, Claim
 from juggleproof.proofs.forms import read, speaks_of_range
 from juggleproof.proofs.judgement import Resources, Sharp
 from juggleproof.proofs.judging import judge
-from juggleproof.proofs.ranges import line_text, search_sharp_range
+from juggleproof.proofs.ranges import line_text, search_sharp_range, text_of_range
 
 alpha, K, n, k, x = reals("alpha K n k x")
 WHOLE = (("range", alpha > 0), ("range", alpha < 1))
@@ -35,9 +35,9 @@ def sought(*statements, over=("alpha",)):
     """(the display, the sharp statement, its certificate, the statements by name)."""
     found = search_sharp_range("round/sharp", statements, over, {}, BUDGET, ROLES)
     assert found is not None
-    sharp, certificate, shown = found
+    sharp, certificate = found
     return (
-        shown,
+        text_of_range(sharp.text(), statements, over, ROLES, BUDGET),
         read(sharp.text(), sharp.name),
         certificate,
         {one.name: read(one.text(), one.name) for one in statements},
@@ -51,9 +51,7 @@ def test_rounding_up_holds_where_nothing_is_rounded():
 
 
 def test_rounding_up_fails_without_the_condition():
-    sharp, certificate, _ = search_sharp_range(
-        "round/sharp", [CEILING], ("alpha",), {}, BUDGET, ROLES
-    )
+    sharp, certificate = search_sharp_range("round/sharp", [CEILING], ("alpha",), {}, BUDGET, ROLES)
     everywhere = replace(sharp, condition=alpha > 0)
     outcome, _ = checker.check_one(
         read(everywhere.text(), "round/sharp"),

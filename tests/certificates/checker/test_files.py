@@ -55,14 +55,19 @@ def check(
     return run(folder)
 
 
-def test_exit_0_where_nothing_is_rejected(tmp_path: Path) -> None:
-    done = check(
-        tmp_path,
-        "# a title\n\n" + TRUE + "\n" + TRUE.replace("a/b", "a/c"),
-        GOOD + line("a/c", UNKNOWN),
-    )
+def test_exit_0_where_every_statement_is_settled(tmp_path: Path) -> None:
+    done = check(tmp_path, "# a title\n\n" + TRUE, GOOD)
     assert (done.returncode, done.stdout, done.stderr) == (
         0,
+        "1 statements: 1 certified, 0 refuted, 0 unknown, 0 rejected\n",
+        "",
+    )
+
+
+def test_exit_1_where_a_statement_is_open(tmp_path: Path) -> None:
+    done = check(tmp_path, TRUE + "\n" + TRUE.replace("a/b", "a/c"), GOOD + line("a/c", UNKNOWN))
+    assert (done.returncode, done.stdout, done.stderr) == (
+        1,
         "2 statements: 1 certified, 0 refuted, 1 unknown, 0 rejected\n",
         "",
     )
