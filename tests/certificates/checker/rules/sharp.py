@@ -230,6 +230,13 @@ REJECTED = [
         + lines("sharp rule/squares", "over a", "domain 0 = 0", "holds 0 = 0"),
     ),
     case(
+        "a definition over what only the statement ranged over declares",
+        VALID,
+        (Kind.OVER, "low: x"),
+        "define low over x := x - 1\n\n"
+        + over(SHARP[0], SHARP[1], "domain a > 0 and low > 0", SHARP[3]),
+    ),
+    case(
         "a range over a root",
         sharp({"rule/squares": ["proof", [CLOSE], CLOSE]}, EMPTY, point({})),
         Kind.SHARP_OVER,
