@@ -200,6 +200,15 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
     return steps + ([("conclusion.", body.conclusion)] if body.conclusion else [])
 
 
+def stated_texts(claim: Claim) -> dict[str, str]:
+    """The texts of the statements that a claim makes, by name."""
+    return {
+        part.name: part.text()
+        for prefix, assertion in assertions(claim.body())
+        for part in named_statements(claim.id, prefix, assertion)
+    }
+
+
 def named_statements(claim_id: str, prefix: str, assertion: Assertion) -> list[AnyStatement]:
     """The statements of an assertion under their full names ID/label; two of one label are
     numbered.

@@ -19,6 +19,7 @@ from juggleproof.certificates.language import (
     SharpRange,
     Statement,
     disjunction,
+    rests_on,
 )
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
@@ -39,6 +40,7 @@ from juggleproof.proofs.claims import (
     assertions,
     named_statements,
     outcome_of,
+    stated_texts,
     verdict_of,
 )
 from juggleproof.proofs.correcting import Candidate, candidates
@@ -73,13 +75,30 @@ def judge(claim: Claim, resources: Resources) -> Judgement:
 
 
 def settle_by_rules(
-    judgements: Sequence[Judgement], outcomes: Mapping[str, str], texts: Mapping[str, str]
+    judgements: Sequence[Judgement],
+    outcomes: Mapping[str, str],
+    texts: Mapping[str, str],
+    claims: Sequence[Claim],
 ) -> None:
     """Gives each judgement that rests on map rules its verdict and range, now that the outcomes of
-    all statements are known.
+    all statements are known, with their texts; the claims state what these should be.
     """
+    by_id, stated = {claim.id: claim for claim in claims}, dict[str, str]()
+
+    def holds(name: str) -> bool:
+        """Whether the rule is certified, and it and all that it rests on are as stated."""
+        names = [name] if outcomes.get(name) == "certified" else []
+        for one in names:
+            claim = by_id.get(one.split("/")[0])
+            if one not in stated and claim is not None:
+                stated.update(stated_texts(claim))
+            if one not in stated or texts.get(one) != stated[one]:
+                return False
+            names += [each for each in rests_on(read(stated[one], one)) if each not in names]
+        return bool(names)
+
     for one in judgements:
-        if one.rests_on and all(outcomes.get(name) == "certified" for name in one.rests_on):
+        if one.rests_on and all(map(holds, one.rests_on)):
             one.verdict = one.by_rules
         if one.follows:
             held = one.verdict.word == "holds"

@@ -20,7 +20,7 @@ from typing import TypeVar
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.definitions import Definition
-from juggleproof.certificates.language import ClaimError, SharpRange
+from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import (
     Store,
@@ -33,11 +33,10 @@ from juggleproof.proofs.checked import Checked, Reading, outcomes_of
 from juggleproof.proofs.claims import (
     Claim,
     FixedBody,
-    assertions,
     claim_named,
     claims_in,
     claims_of,
-    named_statements,
+    stated_texts,
 )
 from juggleproof.proofs.judgement import (
     DEFAULT_BUDGET,
@@ -145,7 +144,7 @@ def run(
     if changed or not checked:
         checked = checker.check_folder(str(options.store))
     settled = replace(done, checked=checked, restated=restated)
-    settle_by_rules(done.judgements, settled.outcomes, Store(options.store).texts)
+    settle_by_rules(done.judgements, settled.outcomes, Store(options.store).texts, claims)
     return settled
 
 
@@ -190,7 +189,7 @@ def judge_some(chosen: Sequence[Claim], claims: Sequence[Claim], folder: Path) -
     )
     judgements = [judge(claim, resources) for claim in chosen]
     rules = [name for one in judgements for name in one.rests_on]
-    settle_by_rules(judgements, outcomes_of(folder, rules), store.texts)
+    settle_by_rules(judgements, outcomes_of(folder, rules), store.texts, claims)
     return judgements
 
 
@@ -484,8 +483,5 @@ def lemmas(everything: Sequence[Claim], claims: Sequence[Claim]) -> dict[str, st
     texts: dict[str, str] = {}
     for claim in everything:
         if any(name.split("/")[0] == claim.id for name in used):
-            for prefix, assertion in assertions(claim.body()):
-                for part in named_statements(claim.id, prefix, assertion):
-                    if not isinstance(part, SharpRange):
-                        texts[part.name] = part.text()
+            texts.update(stated_texts(claim))
     return {name: texts[name] for name in used if name in texts}

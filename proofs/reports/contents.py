@@ -123,7 +123,7 @@ def gather(register: Path = PATH) -> Contents:
     before, store = load_register(register), Store(DEFAULT)
     done = judge_stored(paper_claims(), Options(DEFAULT))
     judgements, checked = done.judgements, done.outcomes
-    settle_by_rules(judgements, checked, store.texts)
+    settle_by_rules(judgements, checked, store.texts, done.claims)
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(done.claims, judgements)}
     derived, entries = dict[str, Derivation](), list[Entry]()

@@ -23,6 +23,7 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.ranges import search_sharp_range
 from juggleproof.proofs.reports.results import summary
 from juggleproof.proofs.run import FINDINGS, Options, Run, run
+from tests.certificates.checker.maps import SUBTRACT, searched
 
 BOUND, RANGED = "eq-37/bound", "eq-21"
 FALSE_PROOF = {"certified": ["proof", [], ["close"]], "point": [BOUND, [], {}, ["close"]]}
@@ -185,3 +186,24 @@ def test_explain_asks_the_checker(
     bound = shown[shown.index(f"statement {BOUND}") :]
     assert bound[bound.index("-> ") :].startswith("-> certified by [")
     assert not bound[bound.index("-> ") :].startswith('-> certified by ["proof",[],["close"]]')
+
+
+def test_a_conclusion_does_not_follow_from_another_theorem_of_that_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Certified as it is, but under another map."""
+    folder = Path(shutil.copytree(DEFAULT, tmp_path / "store"))
+    monkeypatch.setattr(explain, "DEFAULT", folder)
+    assert explain.explain("s4.3.1-plain-english") == 0
+    assert "\nverdict     holds; by theorem-in-units/exactly" in capsys.readouterr().out
+    path = folder / STATEMENTS
+    blocks = path.read_text().split("\n\n")
+    another = SUBTRACT.replace("demo/", "theorem-in-units/").strip().split("\n\n")
+    kept = [one for one in blocks if not one.startswith("statement theorem-in-units/")]
+    path.write_text("\n\n".join([*(one.strip() for one in kept), *another]) + "\n")
+    certificates = {
+        name.replace("demo/", "theorem-in-units/"): one for name, one in searched(SUBTRACT).items()
+    }
+    change(folder / CERTIFICATES, lambda data: data.update(certificates))
+    assert explain.explain("s4.3.1-plain-english") == 0
+    assert "\nverdict     unknown" in capsys.readouterr().out

@@ -10,7 +10,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES, DEFAULT, STATEMENTS, certificate_lines
-from juggleproof.proofs.claims import assertions, named_statements
+from juggleproof.proofs.claims import stated_texts
 from juggleproof.proofs.command.check import check
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reports.tree import digest_of, with_all_below
@@ -35,11 +35,7 @@ def test_the_stored_theorem_is_proved_holds(capsys: pytest.CaptureFixture[str]) 
 def test_the_digest_is_of_what_the_sources_state_holds() -> None:
     """Where the theorem is stated anew on purpose, the digest changes with it."""
     (claim,) = (one for one in paper_claims() if one.id == THEOREM.split("/")[0])
-    texts = {
-        part.name: part.text()
-        for prefix, assertion in assertions(claim.body())
-        for part in named_statements(claim.id, prefix, assertion)
-    }
+    texts = stated_texts(claim)
     rules = checker.read_statements("\n\n".join(texts.values()))
     names = with_all_below(THEOREM, rules)
     assert len(names) == 6 and digest_of(texts[name] for name in names) == DIGEST
