@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import gcd, lcm
 from typing import Any, NamedTuple
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
@@ -38,6 +39,12 @@ def univariate(p: Poly, variable: int) -> fmpq_poly:
     return fmpq_poly(coefficients)
 
 
+def primitive(p: Poly) -> Poly:
+    """The positive multiple with integer coefficients that have no common divisor."""
+    under = lcm(*(int(c.q) for c in p.coeffs()))
+    return p * fmpq(under, gcd(*(int(c.p) * under // int(c.q) for c in p.coeffs())))
+
+
 class Licences:
     """Polynomials that are known to be nonzero, and which of them are known to be positive.
 
@@ -54,24 +61,23 @@ class Licences:
     def add(self, relation: str, p: Poly) -> None:
         if relation not in (">", "!="):
             return
-        monic = p / p.leading_coefficient()
-        if monic not in self.polynomials:
-            self.polynomials.append(monic)
-        number = self.polynomials.index(monic)
-        sign = 1 if p.leading_coefficient() > 0 else -1
+        p = primitive(p)
+        found = self.find(p)
+        if found is None:
+            if p not in self.polynomials:
+                self.polynomials.append(p)
+            found = self.polynomials.index(p), fmpq(1)
+        number, c = found
         if relation == ">":
-            self.signs[number] = sign
+            self.signs[number] = 1 if c > 0 else -1
         else:
             self.signs.setdefault(number, 0)
 
     def find(self, p: Poly) -> tuple[int, fmpq] | None:
         """The licence and the factor c with p = c * licence."""
-        if not p:
-            return None
-        c = p.leading_coefficient()
-        monic = p / c
         for number in self.signs:
-            if self.polynomials[number] == monic:
+            other = self.polynomials[number]
+            if p and other * (c := p.leading_coefficient() / other.leading_coefficient()) == p:
                 return number, c
         return None
 

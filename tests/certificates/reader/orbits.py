@@ -54,14 +54,11 @@ class Setting:
     def premise(self, name: str, lines: list[Line]) -> tuple[str, Statement]:
         return name, Statement(f"{self.name}.{name}", "universal", tuple(lines))
 
-    def params(self, *more: str, state: bool = False, fixed: list[Line] | None = None) -> list[Line]:
-        names = (*self.parameters, *(self.state if state else ()), *more)
-        fixed = self.fixed if fixed is None else fixed
-        return [Line("forall", names), Line("range", self.domain), *fixed]
+    def params(self, *more: str) -> list[Line]:
+        return [Line("forall", (*self.parameters, *more)), Line("range", self.domain), *self.fixed]
 
-    def at_state(self, *more: str, fixed: list[Line] | None = None) -> list[Line]:
-        lines = self.params(*more, state=True, fixed=fixed)
-        return [*lines, Line("given", self.space), *self.moving]
+    def at_state(self, *more: str) -> list[Line]:
+        return [*self.params(*self.state, *more), Line("given", self.space), *self.moving]
 
     def step(self, k: int, *given: Tree, more: tuple[str, ...] = (), stays: bool = True) -> list[Line]:
         guard, terms = self.pieces[k]
@@ -86,7 +83,7 @@ class Setting:
         return dict([self.premise("possible", lines)])
 
     def inside(self) -> Premises:
-        lines = [*self.params(fixed=[]), Line("show", self.map.one("domain"))]
+        lines = [*self.params(), Line("show", self.map.one("domain"))]
         return dict([self.premise("inside", lines)])
 
 
@@ -200,7 +197,7 @@ def of_attraction(statement: Statement, statements: Mapping[str, Statement]) -> 
     contraction = statements[statement.one("contraction")]
     first, second = Setting(descent, statements), Setting(contraction, statements)
     require(first.map.name == second.map.name, "another map")
-    lines = [*first.params(fixed=[]), Line("show", second.domain)]
+    lines = [*first.params(), Line("show", second.domain)]
     premises = [(("inside"), Statement(f"{statement.name}.inside", "universal", tuple(lines)))]
     lines = [*first.at_state(), *(line for some in other_roots(first, second) for line in some)]
     lines += [Line("given", descent.all("stage")[-1]), Line("show", contraction.one("on"))]

@@ -256,7 +256,7 @@ def _use(
     require(isinstance(name, str) and name in certified, f"{name!r} was not certified before")
     statement = certified[name]
     later = state.copy()
-    values = terms_for(statement, state, terms, polynomials=True)
+    values = terms_for(statement, state, terms)
     own = statement.names("exists")
     require(isinstance(fresh, dict) and set(fresh) == set(own), "names for what exists")
     news = list(fresh.values())
@@ -291,7 +291,7 @@ def variables_of(statement: Statement) -> tuple[str, ...]:
 
 
 def terms_for(
-    statement: Statement, state: State, terms: Any, polynomials: bool = False, exists: bool = False
+    statement: Statement, state: State, terms: Any, exists: bool = False
 ) -> dict[str, Value]:
     """Values for the variables of a statement; those of integers are integers."""
     require(isinstance(terms, dict), "terms stand under names")
@@ -300,7 +300,6 @@ def terms_for(
     reader = state.reader()
     values = {name: reader.value(parsed(text)) for name, text in terms.items()}
     for name, value in values.items():
-        require(not polynomials or not value.under, "a term of a node divides")
         if name in statement.names("integer"):
             require(not value.under and state.are_integers(value.top), f"{name} is an integer")
     return values

@@ -101,8 +101,8 @@ def adjoin(state: State, adjoined: Any, certified: Certified) -> None:
     reader.names[name] = reader.value(high)
     close(state.having(reader.formula(("<", tree, zero))), second, certified)
     reader.names[name] = state.declare(name)
-    state.assume(reader.formula(("=", tree, zero)))
     state.assume(reader.formula(("<=", low, new)), reader.formula(("<=", new, high)))
+    state.assume(reader.formula(("=", tree, zero)))
 
 
 def show_point(
@@ -178,8 +178,9 @@ def settle_sharp(
         prove(statement, inside[name], certified, [domain, condition])
         settle_values(State(), points[name], certified, show_point(statement, certified, [domain]))
     state = State()
+    integers = {name for statement in named.values() for name in statement.names("integer")}
     for name in parameters:
-        state.declare(name)
+        state.declare(name, name in integers)
     reader = state.reader()
     domain_holds = reader.formula(domain)
     reader.license(domain_holds)
