@@ -46,37 +46,37 @@ def primitive(p: Poly) -> Poly:
 
 
 class Licences:
-    """Polynomials that are known to be nonzero, and which of them are known to be positive.
+    """Polynomials that are known to be nonzero, and whether they are known to be positive.
 
-    They are kept up to a factor, in a list that copies share: a value names them by their numbers.
+    All of a check stand in one list, and a value names them by their numbers there; `numbers` are
+    those that hold here.
     """
 
-    def __init__(self, polynomials: list[Poly], signs: dict[int, int]) -> None:
-        self.polynomials = polynomials
-        self.signs = signs  # 1: positive, -1: negative, 0: not zero
+    def __init__(self, all: list[tuple[Poly, bool]], numbers: list[int]) -> None:
+        self.all = all
+        self.numbers = numbers
 
     def copy(self) -> Licences:
-        return Licences(self.polynomials, dict(self.signs))
+        return Licences(self.all, list(self.numbers))
 
     def add(self, relation: str, p: Poly) -> None:
         if relation not in (">", "!="):
             return
-        p = primitive(p)
+        licence = primitive(p), relation == ">"
         found = self.find(p)
-        if found is None:
-            if p not in self.polynomials:
-                self.polynomials.append(p)
-            found = self.polynomials.index(p), fmpq(1)
-        number, c = found
-        if relation == ">":
-            self.signs[number] = 1 if c > 0 else -1
-        else:
-            self.signs.setdefault(number, 0)
+        if found is not None:
+            number, _ = found
+            if self.all[number][1] or not licence[1]:
+                return
+            self.numbers.remove(number)
+        if licence not in self.all:
+            self.all.append(licence)
+        self.numbers.append(self.all.index(licence))
 
     def find(self, p: Poly) -> tuple[int, fmpq] | None:
         """The licence and the factor c with p = c * licence."""
-        for number in self.signs:
-            other = self.polynomials[number]
+        for number in self.numbers:
+            other, _ = self.all[number]
             if p and other * (c := p.leading_coefficient() / other.leading_coefficient()) == p:
                 return number, c
         return None
@@ -127,14 +127,14 @@ class Reader:
         top = value.top
         for k, e in under.items():
             if more := e - value.under.get(k, 0):
-                top *= self.licences.polynomials[k] ** more
+                top *= self.licences.all[k][0] ** more
         return top
 
     def divide(self, value: Value, tree: Tree) -> Value:
         divisor = self.value(tree)
         top = value.top
         for k, e in divisor.under.items():
-            top *= self.licences.polynomials[k] ** e
+            top *= self.licences.all[k][0] ** e
         number = rational(divisor.top)
         if number is not None and number != 0:
             return Value(top / number, value.under)
@@ -161,9 +161,8 @@ class Reader:
         top, under = self.value(("-", left, right))
         if relation in (">", ">="):
             for k, e in under.items():
-                if e % 2 == 0 or self.licences.signs[k] == 1:
-                    continue
-                top *= -1 if self.licences.signs[k] == -1 else self.licences.polynomials[k]
+                licence, positive = self.licences.all[k]
+                top *= licence if e % 2 and not positive else 1
         return atom(relation, top)
 
     def formula(self, tree: Tree, holds: bool = True) -> Normal:

@@ -106,17 +106,20 @@ def of_map(statement: Statement, statements: Mapping[str, Statement]) -> Premise
 def of_iterates(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     state, terms = statement.one("iterates")
     count, after = statement.one("after")
-    require(len(after) == len(state), "as many terms as variables")
-    require(count in statement.one("integer"), "the number of steps is an integer")
-    require(set(state) <= set(statement.one("forall")) - {count}, "the state is of variables")
+    variables, lets = statement.one("forall"), statement.all("let")
+    require(len(after) == len(terms) == len(state), "as many terms as variables")
+    require(variables[: len(state)] == state, "the variables begin with the state")
+    require(statement.one("integer") == (count,) and count not in state, "the number of steps")
+    require(not any(names_in(term) & {count, *state} for _, term in lets), "a name that moves")
+    require(not any(count in names_in(term) for term in terms), "the map names the number of steps")
     head = [line for line in statement.lines if line.word in ("forall", "integer", "let")]
     at_start = [substitute(term, {count: ZERO}) for term in after]
     following = [substitute(term, {count: ("+", ("name", count), ONE)}) for term in after]
     next_names = {name: f"{name}_next" for name in state}
-    lets = [Line("let", (next_names[name], term)) for name, term in zip(state, after)]
+    reached = [Line("let", (next_names[name], term)) for name, term in zip(state, after)]
     stepped = [renamed(term, next_names) for term in terms]
     start = [*head, Line("show", equal(at_start, [("name", name) for name in state]))]
-    step = [*head, *lets, Line("show", equal(stepped, following))]
+    step = [*head, *reached, Line("show", equal(stepped, following))]
     return {
         name: Statement(f"{statement.name}.{name}", "universal", tuple(lines))
         for name, lines in (("start", start), ("step", step))

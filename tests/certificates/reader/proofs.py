@@ -30,7 +30,7 @@ from tests.certificates.reader.roots import Patch, count_roots
 from tests.certificates.reader.statements import Statement
 from tests.certificates.reader.syntax import Parser, Rejected, Tree, is_name, require
 
-Certified = Mapping[str, Statement]  # universal statements that were certified before
+Certified = Mapping[str, Statement]  # statements that were certified before
 RATIONAL = re.compile(r"-?[0-9]+(/[0-9]+)?")
 
 
@@ -71,7 +71,7 @@ class State:
         self.closed = False
         self.names: dict[str, Value] = {}  # what a certificate calls the variables
         self.integers: set[int] = set()
-        self.licences = Licences([], {})
+        self.licences = Licences([], [])
 
     def copy(self) -> State:
         other = State()
@@ -255,6 +255,7 @@ def _use(
 ) -> None:
     require(isinstance(name, str) and name in certified, f"{name!r} was not certified before")
     statement = certified[name]
+    require(statement.kind == "universal", f"{name} is not universal")
     later = state.copy()
     values = terms_for(statement, state, terms)
     own = statement.names("exists")

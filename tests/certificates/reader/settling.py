@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from tests.certificates.reader.meaning import (
@@ -29,7 +30,7 @@ from tests.certificates.reader.proofs import (
     variables_of,
 )
 from tests.certificates.reader.roots import count_roots
-from tests.certificates.reader.statements import Statement, read_statements
+from tests.certificates.reader.statements import OTHERS, Statement, read_statements
 from tests.certificates.reader.syntax import Rejected, Tree, is_name, names_in, require
 
 Show = Callable[[State, str, dict[str, Any], list[Any]], None]
@@ -39,6 +40,17 @@ def declare_variables(state: State, statement: Statement) -> None:
     integers = statement.names("integer")
     for name in variables_of(statement):
         state.declare(name, name in integers)
+
+
+def require_meaning(statement: Statement, ranges: list[Tree] | None = None) -> None:
+    """No line divides by what may vanish, whatever the variables are."""
+    state = State()
+    declare_variables(state, statement)
+    reader = state.reader()
+    unfold(statement, reader, ranges)
+    for unknown in statement.names("exists"):
+        reader.names[unknown] = state.declare(unknown)
+    goals_of(statement, reader)
 
 
 def prove(
@@ -51,8 +63,8 @@ def prove(
     reader = state.reader()
     premises, needs = unfold(statement, reader, ranges)
     for (before, need), node in zip(needs, list_of(steps, len(needs))):
-        close(state.having(*premises[:before], negation(need)), node, certified)
-    state.assume(*premises)
+        close(state.having(join("and", premises[:before]), negation(need)), node, certified)
+    state.assume(join("and", premises))
     if how == "proof":
         require(not statement.names("exists"), "what exists needs a witness")
         close(state.having(negation(join("and", goals_of(statement, reader)))), last, certified)
@@ -138,7 +150,7 @@ def show_counterexample(
         state = state.copy()
         for unknown in statement.names("exists"):
             reader.names[unknown] = state.declare(unknown, unknown in statement.names("integer"))
-        state.assume(*goals_of(statement, reader))
+        state.assume(join("and", goals_of(statement, reader)))
         close(state, nodes[1], certified)
 
     return show
@@ -150,6 +162,7 @@ def settle_universal(statement: Statement, entry: dict[str, Any], certified: Cer
         settle_values(State(), entry["point"], certified, show_point(statement, certified))
         return "certified"
     require(set(entry) == {"refuted"}, "parts of the entry")
+    require_meaning(statement)
     show = show_counterexample({statement.name: statement}, certified)
     settle_values(State(), entry["refuted"], certified, show)
     return "refuted"
@@ -168,19 +181,14 @@ def settle_sharp(
     require(isinstance(points, dict) and set(points) == set(named), "a point of each statement")
     for name, statement in named.items():
         require(set(parameters) <= set(statement.names("forall")), "parameters are variables")
-        state = State()
-        declare_variables(state, statement)
-        reader = state.reader()
-        unfold(statement, reader, [domain])
-        for unknown in statement.names("exists"):
-            reader.names[unknown] = state.declare(unknown)
-        goals_of(statement, reader)
+        require_meaning(statement, [domain])
         prove(statement, inside[name], certified, [domain, condition])
         settle_values(State(), points[name], certified, show_point(statement, certified, [domain]))
     state = State()
-    integers = {name for statement in named.values() for name in statement.names("integer")}
+    whole, *others = (set(parameters) & set(one.names("integer")) for one in named.values())
+    require(all(other == whole for other in others), "a parameter is an integer in one of them")
     for name in parameters:
-        state.declare(name, name in integers)
+        state.declare(name, name in whole)
     reader = state.reader()
     domain_holds = reader.formula(domain)
     reader.license(domain_holds)
@@ -206,6 +214,8 @@ def check_number(number: tuple[str, Tree, Tree, Tree], parameters: tuple[str, ..
 def settle_orbit(
     statement: Statement, certificate: Any, statements: dict[str, Statement], certified: Certified
 ) -> None:
+    for word in OTHERS:
+        require(set(statement.all(word)) <= set(certified), f"the {word} is not certified")
     premises = PREMISES[statement.kind](statement, statements)
     require(isinstance(certificate, dict) and set(certificate) == set(premises), "the premises")
     for name, premise in premises.items():
@@ -248,18 +258,17 @@ def load_json(text: str) -> Any:
 
 def read_certificates(text: str) -> dict[str, Any]:
     entries: dict[str, Any] = {}
+    last = ""
     for line in text.splitlines():
         name, entry = list_of(load_json(line), 2)
-        require(isinstance(name, str), "a line begins with a name")
-        require(not entries or max(entries) < name, f"{name} is out of order")
+        require(isinstance(name, str) and last < name, f"{name} is out of order")
         entries[name] = entry
+        last = name
     return entries
 
 
-def outcomes(statements_text: str, certificates_text: str) -> dict[str, str]:
-    """The outcome of each statement, or `rejected: why`."""
-    statements = read_statements(statements_text)
-    entries = read_certificates(certificates_text)
+def outcomes(statements: dict[str, Statement], entries: dict[str, Any]) -> dict[str, str]:
+    """The outcome of each statement in order, or `rejected: why`."""
     require(set(entries) == set(statements), "a line for each statement, and no other")
     certified: dict[str, Statement] = {}
     found: dict[str, str] = {}
@@ -269,6 +278,12 @@ def outcomes(statements_text: str, certificates_text: str) -> dict[str, str]:
             found[name] = settle(statement, entries[name], earlier, certified)
         except (Rejected, ArithmeticError, RecursionError) as error:
             found[name] = f"rejected: {error}"
-        if found[name] == "certified" and statement.kind == "universal":
+        if found[name] == "certified":
             certified[name] = statement
     return found
+
+
+def read_folder(folder: Path) -> dict[str, str]:
+    """The outcomes of `statements.txt` by `certificates.jsonl`."""
+    statements = read_statements((folder / "statements.txt").read_text(encoding="ascii"))
+    return outcomes(statements, read_certificates((folder / "certificates.jsonl").read_text()))

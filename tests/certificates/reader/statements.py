@@ -99,7 +99,10 @@ def read_statement(
     require(len(kinds) == 1, f"{name}: no kind of statement has these lines")
     scope = Scope(known, earlier)
     lines = tuple(scope.line(word, text) for word, _, text in pairs)
-    return Statement(name, kinds[0], lines)
+    statement = Statement(name, kinds[0], lines)
+    variables = {*statement.names("forall"), *statement.names("exists")}
+    require(set(statement.names("integer")) <= variables, f"{name}: an integer is no variable")
+    return statement
 
 
 class Scope:
@@ -119,9 +122,7 @@ class Scope:
 
     def _says(self, word: str, text: str) -> Any:
         if word == "integer":
-            names = self._listed(text)
-            require(set(names) <= self.names, "an integer is declared before")
-            return names
+            return self._listed(text)
         if word in NAMES:
             names = self._listed(text)
             for name in names:
@@ -158,12 +159,11 @@ class Scope:
             before, after = self._arrow(text)
             state = [tree[1] for tree in self._parts(before) if tree[0] == "name"]
             terms = self._parts(after)
-            require(len(state) == len(terms) == len(set(state)), "a map of a state of this size")
             return tuple(state), terms
         if word == "after":
             before, after = self._arrow(text)
-            (count,) = self._parts(before)
-            require(count[0] == "name", "the number of steps is a variable")
+            count, *more = self._parts(before)
+            require(count[0] == "name" and not more, "the number of steps is a variable")
             return count[1], self._parts(after)
         if word == "piece":
             before, after = self._arrow(text)
@@ -230,7 +230,6 @@ class Scope:
 
     def _sharp(self, text: str) -> tuple[str, ...]:
         names = tuple(text.split(" "))
-        require(len(set(names)) == len(names), "a statement stands twice")
         for name in names:
             require(
                 name in self.earlier and self.earlier[name].kind == "universal",

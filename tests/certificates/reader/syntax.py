@@ -14,10 +14,11 @@ from typing import Any, NamedTuple
 Tree = tuple[Any, ...]  # each tag has its own length and types, as above
 
 RELATIONS = ("<", "<=", ">", ">=", "=", "!=")
-WORDS = ("and", "or", "not", "implies", "iff")
+WORDS = ("and", "or", "not", "implies", "iff", "sqrt", "root")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-TOKEN = re.compile(r" *(?:([0-9]+)(?![A-Za-z_])|([A-Za-z][A-Za-z0-9_]*)|(<=|>=|!=|[-+*/^()<>=,]))")
+TOKEN = re.compile(r" *(?:(0+|[1-9][0-9]*)(?![A-Za-z_0-9])|([A-Za-z][A-Za-z0-9_]*)|(<=|>=|!=|[-+*/^()<>=,]))")
 MAX_DEGREE = 4000  # no greater exponent
+MAX_SIZE = 262144  # no term of more parts
 
 
 class Rejected(Exception):
@@ -61,10 +62,14 @@ def require_formula(tree: Tree) -> Tree:
 class Parser:
     """One method for each rank of operators, from the loosest; `known` are the definitions."""
 
-    def __init__(self, text: str, known: Mapping[str, Definition]) -> None:
+    def __init__(
+        self, text: str, known: Mapping[str, Definition], exponents: Iterable[str] = ()
+    ) -> None:
         self.tokens = tokens_of(text)
+        self.exponents = tuple(exponents)  # parameters of the definition that is read
         self.at = 0
         self.known = known
+        self.size = 0  # of definitions that are written out
         self.used: set[str] = set()  # what definitions take from the statement
 
     def next(self) -> str:
@@ -134,10 +139,11 @@ class Parser:
         base = self.atom()
         if self.accept("^"):
             exponent = self.take()
-            require(exponent.isdigit(), "an exponent is an integer")
             require(self.next() != "^", "a power of a power has no parentheses")
-            require(len(exponent) < 9 and int(exponent) <= MAX_DEGREE, "too great an exponent")
-            return ("^", require_term(base), int(exponent))
+            if exponent in self.exponents:
+                return ("^", require_term(base), ("name", exponent))
+            require(exponent.isdigit() and len(exponent) < 9, "an exponent is an integer")
+            return power(require_term(base), ("number", int(exponent)))
         return base
 
     def atom(self) -> Tree:
@@ -179,7 +185,11 @@ class Parser:
         arguments = flat(arguments)
         require(len(arguments) == len(definition.parameters), f"the arguments of {token}")
         self.used |= set(definition.over)
-        return substitute(definition.body, dict(zip(definition.parameters, arguments)))
+        terms = dict(zip(definition.parameters, arguments))
+        sizes = {name: size(term, {}) for name, term in terms.items()}
+        self.size += size(definition.body, sizes)
+        require(self.size <= MAX_SIZE, "definitions grow without end")
+        return substitute(definition.body, terms)
 
 
 class Definition(NamedTuple):
@@ -204,11 +214,26 @@ def names_in(tree: Tree) -> set[str]:
     return set().union(*(names_in(part) for part in tree[1:] if isinstance(part, tuple)))
 
 
+def size(tree: Tree, sizes: Mapping[str, int]) -> int:
+    """The number of parts, with terms of some sizes in place of names."""
+    if tree[0] == "name":
+        return sizes.get(tree[1], 1)
+    return 1 + sum(size(part, sizes) for part in tree[1:] if isinstance(part, tuple))
+
+
+def power(base: Tree, exponent: Tree) -> Tree:
+    require(exponent[0] == "number" and exponent[1] <= MAX_DEGREE, "no exponent, or too great a one")
+    return ("^", base, exponent[1])
+
+
 def substitute(tree: Tree, terms: Mapping[str, Tree]) -> Tree:
     if tree[0] == "name":
         return terms.get(tree[1], tree)
     if not terms:
         return tree
+    if tree[0] == "^" and isinstance(tree[2], tuple):
+        base, exponent = substitute(tree[1], terms), substitute(tree[2], terms)
+        return ("^", base, exponent) if exponent[0] == "name" else power(base, exponent)
     return tuple(substitute(part, terms) if isinstance(part, tuple) else part for part in tree)
 
 
@@ -233,8 +258,9 @@ def parse_definition(line: str, known: Mapping[str, Definition]) -> tuple[str, D
     own = {*parameters, *over}
     require(len(own) == len(parameters) + len(over), f"{name}: a name stands twice")
     require(all(map(is_name, (name, *own))), f"{name}: a word is no name")
-    require(name not in own and not own & set(known), f"{name}: a name is taken")
-    parser = Parser(body, known)
+    taken = {other for one in known.values() for other in (*one.parameters, *one.over)}
+    require(name not in own | taken and not own & set(known), f"{name}: a name is taken")
+    parser = Parser(body, known, parameters)
     tree = parser.disjunction()
     parser.end()
     require(names_in(tree) | parser.used == own, f"{name}: the body names other things")
