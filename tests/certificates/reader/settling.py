@@ -91,6 +91,7 @@ def settle_values(state: State, found: Any, certified: Certified, show: Show) ->
         for case, one in zip(by_sign(state, text), cases):
             settle_values(case, one, certified, show)
         return
+    require(len(found) > 3, "values are a name, numbers, terms and nodes")
     name, adjoined, terms, *nodes = found
     require(isinstance(name, str), "values are those of a statement")
     state = state.copy()

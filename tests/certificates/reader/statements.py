@@ -37,7 +37,7 @@ FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space"
 TERMS = ("rank", "rate", "radius", "size")
 TUPLES = ("point", "weights", "start")
 OTHERS = ("map", "descent", "contraction", "attraction", "escape")
-STATEMENT_NAME = re.compile(r"[A-Za-z0-9][^\s/]*/[^\s/]+")
+STATEMENT_NAME = re.compile(r"[A-Za-z0-9_.-]+/[A-Za-z0-9_.-]+")
 
 
 class Line(NamedTuple):

@@ -8,13 +8,14 @@ A node of the tree is a tuple: `("number", n)`, `("name", x)`, `("-", a)`, `("^"
 from __future__ import annotations
 
 import re
+from keyword import iskeyword
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 Tree = tuple[Any, ...]  # each tag has its own length and types, as above
 
 RELATIONS = ("<", "<=", ">", ">=", "=", "!=")
-WORDS = ("and", "or", "not", "implies", "iff", "sqrt", "root")
+WORDS = ("and", "or", "not", "implies", "iff")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 TOKEN = re.compile(r" *(?:(0+|[1-9][0-9]*)(?![A-Za-z_0-9])|([A-Za-z][A-Za-z0-9_]*)|(<=|>=|!=|[-+*/^()<>=,]))")
 MAX_DEGREE = 4000  # no greater exponent
@@ -42,7 +43,7 @@ def tokens_of(text: str) -> list[str]:
 
 
 def is_name(text: str) -> bool:
-    return NAME.fullmatch(text) is not None and text not in WORDS
+    return NAME.fullmatch(text) is not None and text not in WORDS and not iskeyword(text)
 
 
 def is_formula(tree: Tree) -> bool:
@@ -258,6 +259,7 @@ def parse_definition(line: str, known: Mapping[str, Definition]) -> tuple[str, D
     own = {*parameters, *over}
     require(len(own) == len(parameters) + len(over), f"{name}: a name stands twice")
     require(all(map(is_name, (name, *own))), f"{name}: a word is no name")
+    require(not {name, *own} & {"sqrt", "root"}, f"{name}: sqrt and root have a meaning")
     taken = {other for one in known.values() for other in (*one.parameters, *one.over)}
     require(name not in own | taken and not own & set(known), f"{name}: a name is taken")
     parser = Parser(body, known, parameters)
