@@ -118,8 +118,7 @@ class Reader:
         if tag == "-":
             right = Value(-right.top, right.under)
         under = {
-            k: max(left.under.get(k, 0), right.under.get(k, 0))
-            for k in (*left.under, *right.under)
+            k: max(left.under.get(k, 0), right.under.get(k, 0)) for k in (*left.under, *right.under)
         }
         return Value(self._over(left, under) + self._over(right, under), under)
 

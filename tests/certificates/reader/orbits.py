@@ -60,7 +60,9 @@ class Setting:
     def at_state(self, *more: str) -> list[Line]:
         return [*self.params(*self.state, *more), Line("given", self.space), *self.moving]
 
-    def step(self, k: int, *given: Tree, more: tuple[str, ...] = (), stays: bool = True) -> list[Line]:
+    def step(
+        self, k: int, *given: Tree, more: tuple[str, ...] = (), stays: bool = True
+    ) -> list[Line]:
         guard, terms = self.pieces[k]
         lines = [*self.at_state(*more), *(Line("given", tree) for tree in given)]
         lines.append(Line("given", guard))
@@ -91,7 +93,9 @@ def of_map(statement: Statement, statements: Mapping[str, Statement]) -> Premise
     setting = Setting(statement, statements)
     guards = [guard for guard, _ in setting.pieces]
     premises = setting.own_domain()
-    premises |= [setting.premise("covers", [*setting.at_state(), Line("show", disjunction(guards))])]
+    premises |= [
+        setting.premise("covers", [*setting.at_state(), Line("show", disjunction(guards))])
+    ]
     for i in range(len(guards)):
         for k in range(i):
             lines = [*setting.at_state(), Line("given", guards[i]), Line("given", guards[k])]
@@ -133,9 +137,9 @@ def of_descent(statement: Statement, statements: Mapping[str, Statement]) -> Pre
     lines = [*setting.at_state(), Line("show", (">=", rank, ZERO))]
     premises |= [setting.premise("bounded", lines)]
     for k in range(len(setting.pieces)):
-        outside = [("not", stage) for stage in stages]
+        outside = ("not", disjunction(stages))
         falls = ("<=", setting.moved(rank), ("-", rank, ONE))
-        lines = [*setting.step(k, *outside), Line("show", falls)]
+        lines = [*setting.step(k, outside), Line("show", falls)]
         premises |= [setting.premise(f"falls-{k + 1}", lines)]
     for i, stage in enumerate(stages):
         following = stages[min(i + 1, len(stages) - 1)]
@@ -158,8 +162,9 @@ def of_contraction(statement: Statement, statements: Mapping[str, Statement]) ->
     def within(distance: Tree, names: Iterable[Tree] = setting.here) -> Tree:
         links: list[Tree] = []
         for name, e, weight in zip(names, point, weights):
-            bound, gap = ("*", distance, weight), ("-", name, e)
-            links += [("<=", ("-", bound), gap), ("<=", gap, bound)]
+            gap = ("-", name, e)
+            links.append(("<=", ("*", ("-", distance), weight), gap))
+            links.append(("<=", gap, ("*", distance, weight)))
         return conjunction(links)
 
     premises = {**setting.own_domain(), **setting.inside()}
@@ -248,7 +253,7 @@ def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Pre
     require(descent.map.name == escape.map.name, "another map")
     whole = Setting(escape.map, statements)
     lines = [*whole.params(), Line("show", ("or", descent.domain, escape.domain))]
-    points = equal(escape_statement.one("point"), contraction_statement.one("point"))
+    points = equal(contraction_statement.one("point"), escape_statement.one("point"))
     same = [*escape.params(), *other_roots(escape, contraction)[0], Line("show", points)]
     return {
         name: Statement(f"{statement.name}.{name}", "universal", tuple(some))

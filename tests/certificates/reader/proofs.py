@@ -250,9 +250,7 @@ def _integral(state: State, certified: Certified, i: Any, node: Any) -> None:
     close(state.having(atom(">=", p - ONE)), node, certified)
 
 
-def _use(
-    state: State, certified: Certified, name: Any, terms: Any, fresh: Any, node: Any
-) -> None:
+def _use(state: State, certified: Certified, name: Any, terms: Any, fresh: Any, node: Any) -> None:
     require(isinstance(name, str) and name in certified, f"{name!r} was not certified before")
     statement = certified[name]
     require(statement.kind == "universal", f"{name} is not universal")

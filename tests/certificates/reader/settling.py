@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from tests.certificates.reader.meaning import (
-    Normal,
-    atom,
     join,
     negation,
     rational,

@@ -108,9 +108,7 @@ def read_statement(
 class Scope:
     """The names that the lines of one statement have declared."""
 
-    def __init__(
-        self, known: Mapping[str, Definition], earlier: Mapping[str, Statement]
-    ) -> None:
+    def __init__(self, known: Mapping[str, Definition], earlier: Mapping[str, Statement]) -> None:
         self.known = known
         self.earlier = earlier
         self.names: set[str] = set()

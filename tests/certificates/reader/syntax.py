@@ -8,8 +8,8 @@ A node of the tree is a tuple: `("number", n)`, `("name", x)`, `("-", a)`, `("^"
 from __future__ import annotations
 
 import re
-from keyword import iskeyword
 from collections.abc import Iterable, Mapping
+from keyword import iskeyword
 from typing import Any, NamedTuple
 
 Tree = tuple[Any, ...]  # each tag has its own length and types, as above
@@ -17,7 +17,9 @@ Tree = tuple[Any, ...]  # each tag has its own length and types, as above
 RELATIONS = ("<", "<=", ">", ">=", "=", "!=")
 WORDS = ("and", "or", "not", "implies", "iff")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-TOKEN = re.compile(r" *(?:(0+|[1-9][0-9]*)(?![A-Za-z_0-9])|([A-Za-z][A-Za-z0-9_]*)|(<=|>=|!=|[-+*/^()<>=,]))")
+TOKEN = re.compile(
+    r" *(?:(0+|[1-9][0-9]*)(?![A-Za-z_0-9])|([A-Za-z][A-Za-z0-9_]*)|(<=|>=|!=|[-+*/^()<>=,]))"
+)
 MAX_DEGREE = 4000  # no greater exponent
 MAX_SIZE = 262144  # no term of more parts
 
@@ -223,7 +225,9 @@ def size(tree: Tree, sizes: Mapping[str, int]) -> int:
 
 
 def power(base: Tree, exponent: Tree) -> Tree:
-    require(exponent[0] == "number" and exponent[1] <= MAX_DEGREE, "no exponent, or too great a one")
+    require(
+        exponent[0] == "number" and exponent[1] <= MAX_DEGREE, "no exponent, or too great a one"
+    )
     return ("^", base, exponent[1])
 
 
