@@ -8,6 +8,7 @@ from typing import Any
 
 from flint import fmpq
 
+from tests.certificates.reader.bernstein import Patch
 from tests.certificates.reader.meaning import (
     GENERATORS,
     MAX_VARIABLES,
@@ -26,7 +27,6 @@ from tests.certificates.reader.meaning import (
     univariate,
     variables,
 )
-from tests.certificates.reader.roots import Patch, count_roots
 from tests.certificates.reader.statements import Statement
 from tests.certificates.reader.syntax import Parser, Rejected, Tree, is_name, require
 
@@ -188,18 +188,6 @@ def _sign(state: State, certified: Certified, text: Any, *nodes: Any) -> None:
         close(case, node, certified)
 
 
-def _interval(state: State, certified: Certified, i: Any, j: Any, k: Any) -> None:
-    relation, p = state.fact(i)
-    require(relation in (">", ">=") and len(variables(p)) == 1, "no inequality in one variable")
-    (x,) = variables(p)
-    low, high = _bound(state, j, x, 1), _bound(state, k, x, -1)
-    if low > high:
-        return
-    on_line = univariate(p, x)
-    require(on_line(low) < 0 and on_line(high) != 0, "not negative at the ends")
-    require(count_roots(on_line, low, high) == 0, "a root lies between the ends")
-
-
 def _bound(state: State, number: Any, x: int, sign: int) -> fmpq:
     """The bound that fact a x + b >= 0 is for x, from below where a > 0."""
     relation, p = state.fact(number)
@@ -277,7 +265,6 @@ RULES: dict[str, tuple[int, Callable[..., None]]] = {
     "psatz": (2, _psatz),
     "cases": (2, _cases),
     "sign": (4, _sign),
-    "interval": (3, _interval),
     "boxes": (3, _boxes),
     "integral": (2, _integral),
     "use": (4, _use),

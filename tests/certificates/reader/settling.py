@@ -7,11 +7,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from tests.certificates.reader.bernstein import Patch
 from tests.certificates.reader.meaning import (
     join,
     negation,
     rational,
-    univariate,
     variables,
 )
 from tests.certificates.reader.orbits import PREMISES
@@ -27,7 +27,6 @@ from tests.certificates.reader.proofs import (
     unfold,
     variables_of,
 )
-from tests.certificates.reader.roots import count_roots
 from tests.certificates.reader.statements import OTHERS, Statement, read_statements
 from tests.certificates.reader.syntax import Rejected, Tree, is_name, names_in, require
 
@@ -197,7 +196,7 @@ def settle_sharp(
 
 
 def check_number(number: tuple[str, Tree, Tree, Tree], parameters: tuple[str, ...]) -> None:
-    """One root between LOW < HIGH, and other signs there."""
+    """One change of sign in the Bernstein coefficients on LOW < HIGH, and no 0 at the ends."""
     _, tree, low, high = number
     state = State()
     for name in parameters:
@@ -205,9 +204,12 @@ def check_number(number: tuple[str, Tree, Tree, Tree], parameters: tuple[str, ..
     reader = state.reader()
     p, a, b = reader.polynomial(tree), *map(rational, map(reader.polynomial, (low, high)))
     require(len(variables(p)) == 1 and a is not None and b is not None, "no root in a parameter")
-    line = univariate(p, variables(p)[0])
-    require(a < b and line(a) * line(b) < 0, "no change of sign")
-    require(count_roots(line, a, b) == 1, "not one root")
+    x, degree = variables(p)[0], p.total_degree()
+    monomials = {(monomial[x],): c for monomial, c in p.terms()}
+    row = Patch.on_box(monomials, (degree,), [(a, b)]).lines(0)[()]
+    signs = [c > 0 for c in row if c != 0]
+    once = sum(left != right for left, right in zip(signs, signs[1:])) == 1
+    require(a < b and row[0] != 0 != row[-1] and once, "not one change of sign")
 
 
 def settle_orbit(

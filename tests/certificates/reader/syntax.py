@@ -21,7 +21,7 @@ TOKEN = re.compile(
     r" *(?:(0+|[1-9][0-9]*)(?![A-Za-z_0-9])|([A-Za-z][A-Za-z0-9_]*)|(<=|>=|!=|[-+*/^()<>=,]))"
 )
 MAX_DEGREE = 4000  # no greater exponent
-MAX_SIZE = 262144  # no term of more parts
+MAX_SIZE = 65536  # no term of more parts
 
 
 class Rejected(Exception):

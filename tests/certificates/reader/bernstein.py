@@ -1,49 +1,10 @@
-"""Polynomials in one variable: how many roots lie between two rationals, by Descartes' rule of
-signs and halving (Vincent, Collins and Akritas); and Bernstein coefficients on a box.
-"""
+"""Bernstein coefficients of polynomials on a box."""
 
 from __future__ import annotations
 
 from math import comb
 
 from flint import fmpq, fmpq_poly
-
-MAX_HALVINGS = 2000
-
-
-def count_roots(p: fmpq_poly, low: fmpq, high: fmpq) -> int:
-    """The number of different roots of p != 0 with low < root < high."""
-    if low >= high:
-        return 0
-    p = p // p.gcd(p.derivative()) if p.degree() > 0 else p
-    todo, count = [(low, high)], 0
-    for _ in range(MAX_HALVINGS):
-        if not todo:
-            return count
-        a, b = todo.pop()
-        changes = _changes_of_sign(p, a, b)
-        if changes == 1:
-            count += 1
-        elif changes > 1:
-            middle = (a + b) / 2
-            count += p(middle) == 0
-            todo += [(a, middle), (middle, b)]
-    raise ArithmeticError("the roots lie too near to one another")
-
-
-def _changes_of_sign(p: fmpq_poly, a: fmpq, b: fmpq) -> int:
-    """Changes of sign in the coefficients of (1 + t)^n p((a + b t)/(1 + t)): with one root at most
-    between a and b for 0 and 1 changes, and as many as there are roots up to an even number.
-    """
-    shifted = p(fmpq_poly([a, b - a]))  # p on [a, b] as a polynomial on [0, 1]
-    reversed_ = fmpq_poly(_padded(shifted, p.degree())[::-1])
-    signs = [c > 0 for c in reversed_(fmpq_poly([1, 1])).coeffs() if c != 0]
-    return sum(left != right for left, right in zip(signs, signs[1:]))
-
-
-def _padded(p: fmpq_poly, degree: int) -> list[fmpq]:
-    return [p[k] for k in range(degree + 1)]
-
 
 Tensor = dict[tuple[int, ...], fmpq]  # Bernstein coefficients by their places
 
