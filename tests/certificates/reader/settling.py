@@ -55,6 +55,7 @@ def prove(
 ) -> None:
     """A universal statement, with other formulas in place of its `range` lines if there are any."""
     how, steps, last = list_of(proof, 3)
+    require_meaning(statement, ranges)
     state = State()
     declare_variables(state, statement)
     reader = state.reader()
