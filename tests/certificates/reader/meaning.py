@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from math import gcd, lcm
 from typing import Any, NamedTuple
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
+from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpq_poly
+from flint import fmpq_mpoly as Poly
 
 from tests.certificates.reader.syntax import Rejected, Tree, require
 
 MAX_VARIABLES = 60
 RING = fmpq_mpoly_ctx.get([f"x{i}" for i in range(MAX_VARIABLES)], Ordering.lex)
 GENERATORS = RING.gens()
-Poly = fmpq_mpoly
 ZERO, ONE = RING.constant(0), RING.constant(1)
 
 # True, False, (">" ">=" "=" "!=", p), or ("and" "or", [parts])

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from flint import fmpq
+from flint import fmpq_mpoly as Poly
 
 from tests.certificates.reader.bernstein import Patch
 from tests.certificates.reader.meaning import (
@@ -16,7 +17,6 @@ from tests.certificates.reader.meaning import (
     ZERO,
     Licences,
     Normal,
-    Poly,
     Reader,
     Value,
     atom,
@@ -249,9 +249,8 @@ def _use(state: State, certified: Certified, name: Any, terms: Any, fresh: Any, 
     news = list(fresh.values())
     require(all(isinstance(new, str) and is_name(new) for new in news), "a name")
     require(len({*news, *state.names}) == len(news) + len(state.names), "a name is taken")
-    integers = {name for says in statement.all("integer") for name in says}
     for old in own:
-        later.declare(fresh[old], old in integers)
+        later.declare(fresh[old], old in statement.names("integer"))
     reader = later.reader(values)
     premises, _ = unfold(statement, reader)
     reader.names |= {old: later.names[fresh[old]] for old in own}

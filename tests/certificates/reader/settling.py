@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from tests.certificates.reader.bernstein import Patch
+from tests.certificates.reader.bernstein import Patch, Tensor
 from tests.certificates.reader.meaning import (
     join,
     negation,
@@ -203,14 +203,16 @@ def check_number(number: tuple[str, Tree, Tree, Tree], parameters: tuple[str, ..
     for name in parameters:
         state.declare(name)
     reader = state.reader()
-    p, a, b = reader.polynomial(tree), *map(rational, map(reader.polynomial, (low, high)))
-    require(len(variables(p)) == 1 and a is not None and b is not None, "no root in a parameter")
-    x, degree = variables(p)[0], p.total_degree()
-    monomials = {(monomial[x],): c for monomial, c in p.terms()}
-    row = Patch.on_box(monomials, (degree,), [(a, b)]).lines(0)[()]
+    p, a, b = map(reader.polynomial, (tree, low, high))
+    require(len(variables(p)) == 1, "no polynomial in one parameter")
+    x, ends = variables(p)[0], (rational(a), rational(b))
+    require(None not in ends, "an end is no number")
+    require(ends[0] < ends[1], "the ends are not in order")
+    monomials: Tensor = {(monomial[x],): c for monomial, c in p.terms()}
+    row = Patch.on_box(monomials, (p.total_degree(),), [ends]).lines(0)[()]
     signs = [c > 0 for c in row if c != 0]
     once = sum(left != right for left, right in zip(signs, signs[1:])) == 1
-    require(a < b and row[0] != 0 != row[-1] and once, "not one change of sign")
+    require(row[0] != 0 != row[-1] and once, "not one change of sign")
 
 
 def settle_orbit(

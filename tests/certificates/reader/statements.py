@@ -48,6 +48,8 @@ class Line(NamedTuple):
 
 
 class Statement(NamedTuple):
+    """A statement: its name, its kind, and its lines in order."""
+
     name: str
     kind: str
     lines: tuple[Line, ...]
@@ -113,7 +115,6 @@ class Scope:
         self.earlier = earlier
         self.names: set[str] = set()
         self.hidden: set[str] = set()  # of these no definition is over
-        self.fixed: set[str] = set()  # names that a map does not move
 
     def line(self, word: str, text: str) -> Line:
         return Line(word, self._says(word, text))
@@ -125,8 +126,6 @@ class Scope:
             names = self._listed(text)
             for name in names:
                 self._declare(name, hidden=word == "exists")
-            if word == "over":
-                self.fixed |= set(names)
             return names
         if word in FORMULAS:
             return require_formula(self._tree(text))
@@ -144,8 +143,6 @@ class Scope:
             require(value.startswith("sqrt(") and value.endswith(")"), "a root is sqrt(TERM)")
             tree = require_term(self._tree(value[len("sqrt(") : -1]))
             self._declare(name)
-            if not names_in(tree) - self.fixed:
-                self.fixed.add(name)
             return name, tree
         if word == "number":
             return self._number(text)
@@ -166,8 +163,10 @@ class Scope:
         if word == "piece":
             before, after = self._arrow(text)
             return require_formula(self._tree(before)), self._parts(after)
-        assert word == "word"
-        require(re.fullmatch(r"[1-9]\d{0,8}( [1-9]\d{0,8})*", text) is not None, "pieces")
+        require(
+            word == "word" and re.fullmatch(r"[1-9]\d{0,8}( [1-9]\d{0,8})*", text) is not None,
+            "pieces",
+        )
         return tuple(map(int, text.split()))
 
     def _listed(self, text: str) -> tuple[str, ...]:
@@ -214,7 +213,7 @@ class Scope:
         return name, parts[0], parts[1], parts[2]
 
     def _other(self, word: str, name: str) -> str:
-        """An earlier statement; its names are declared as if its lines stood here."""
+        """An earlier statement; parameters and state of a map are declared by naming it."""
         kind = {"descent": "descends", "contraction": "contracts", "attraction": "attracts"}
         kind = {**kind, "escape": "escapes", "map": "map"}
         if name not in self.earlier or self.earlier[name].kind != kind[word]:
@@ -223,7 +222,6 @@ class Scope:
             other = self.earlier[name]
             for own in (*other.names("over"), *other.names("state")):
                 self._declare(own)
-            self.fixed |= set(other.names("over"))
         return name
 
     def _sharp(self, text: str) -> tuple[str, ...]:
