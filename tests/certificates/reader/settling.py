@@ -205,11 +205,11 @@ def check_number(number: tuple[str, Tree, Tree, Tree], parameters: tuple[str, ..
     reader = state.reader()
     p, a, b = map(reader.polynomial, (tree, low, high))
     require(len(variables(p)) == 1, "no polynomial in one parameter")
-    x, ends = variables(p)[0], (rational(a), rational(b))
-    require(None not in ends, "an end is no number")
-    require(ends[0] < ends[1], "the ends are not in order")
+    x, first, last = variables(p)[0], rational(a), rational(b)
+    if first is None or last is None or first >= last:
+        raise Rejected("no numbers LOW < HIGH")
     monomials: Tensor = {(monomial[x],): c for monomial, c in p.terms()}
-    row = Patch.on_box(monomials, (p.total_degree(),), [ends]).lines(0)[()]
+    row = Patch.on_box(monomials, (p.total_degree(),), [(first, last)]).lines(0)[()]
     signs = [c > 0 for c in row if c != 0]
     once = sum(left != right for left, right in zip(signs, signs[1:])) == 1
     require(row[0] != 0 != row[-1] and once, "not one change of sign")
