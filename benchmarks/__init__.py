@@ -2,7 +2,7 @@
 it but `juggleproof bench`.
 
     bench      the paper's bounds and orbits by every method: `juggleproof bench`
-    peers      the stored statements by our search and by Z3, cvc5, QEPCAD B and Coq's nra
+    peers      every stored statement by our search, by our check and by every peer
     processes  programs in processes of their own, ended in time
     problems   our set of SMT-LIB problems, twelve scripts
     bounds     minima of the literature, enclosed and checked
