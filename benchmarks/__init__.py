@@ -4,11 +4,12 @@ it but `juggleproof bench`.
     bench      the paper's bounds and orbits by every method: `juggleproof bench`
     peers      every stored statement by our search, by our check and by every peer
     processes  programs in processes of their own, ended in time
+    figures    plots as SVG
     problems   our set of SMT-LIB problems, twelve scripts
     bounds     minima of the literature, enclosed and checked
     orbits     the juggler's four arithmetics
     part       the part on the vibrating table
     speed      whole commands: seconds and memory
 
-Each but `bench` and `processes` is run as `python -m juggleproof.benchmarks.NAME`.
+Each but `bench`, `processes` and `figures` is run as `python -m juggleproof.benchmarks.NAME`.
 """

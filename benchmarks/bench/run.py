@@ -28,6 +28,7 @@ from juggleproof.benchmarks.bench.methods import (
 )
 from juggleproof.benchmarks.bench.orbits import STARTS, STATE_STEPS
 from juggleproof.benchmarks.bench.questions import ALPHAS, VARIABLE_WIDTH, balls, questions
+from juggleproof.benchmarks.figures import ABSENT, can_plot
 from juggleproof.benchmarks.processes import STALLED, end_with_children
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
@@ -192,8 +193,8 @@ class Run:
                 "\n== the aim, over all questions and widths of this run\n"
                 + "\n".join(one.line() for one in table.together(self.judged))
             )
-        if not table.can_plot():
-            print(table.ABSENT)
+        if not can_plot():
+            print(ABSENT)
         return 1 if self.wrong else 0
 
     def energy(self, name: str) -> None:
@@ -300,7 +301,7 @@ class Run:
         wrong = table.wrong(present, results, truth)
         self.wrong += len(wrong)
         print("\n".join(wrong) or "every enclosure holds the truth")
-        if table.can_plot():
+        if can_plot():
             path = self.folder / f"{name}.svg"
             write_file(path, table.plot(title, present, results, truth))
             print(f"plot: {path}")

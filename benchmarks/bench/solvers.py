@@ -163,14 +163,10 @@ def by_cvc5_with_proof(problem: Problem, bound: Fraction) -> bool:
 
 def by_qepcad(problem: Problem, bound: Fraction) -> bool:
     """QEPCAD B, a program each time, which is how it is used."""
-    from juggleproof.benchmarks.peers.notation import prenex
-    from juggleproof.benchmarks.peers.routes import qepcad
-    from juggleproof.certificates.votes.questions import questions, read_statement
+    from juggleproof.benchmarks.peers.routes import by_qepcad_alone
 
-    asked = questions(read_statement(problem.of_set(bound)))
-    answers = [qepcad(prenex(question) or "") for question in asked]
-    exceeds = any(answer == "TRUE" and one.refutes for answer, one in zip(answers, asked))
-    return _decided("sat" if exceeds else "unsat" if set(answers) == {"FALSE"} else "")
+    word = by_qepcad_alone(problem.of_set(bound))
+    return _decided({"holds": "unsat", "fails": "sat"}.get(word, ""))
 
 
 def by_coq_interval(problem: Problem, bound: Fraction) -> bool:

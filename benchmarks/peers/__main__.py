@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from juggleproof.benchmarks.bench.table import ABSENT, can_plot
+from juggleproof.benchmarks.figures import ABSENT, can_plot
 from juggleproof.benchmarks.peers.routes import (
     Problem,
     Route,

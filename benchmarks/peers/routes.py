@@ -14,6 +14,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from z3 import Context, SolverFor, Z3Exception
+
 from juggleproof.benchmarks.peers.notation import HEAD, goal, prenex
 from juggleproof.benchmarks.processes import (
     UNCOUNTED,
@@ -186,7 +188,6 @@ def answer_of(ask: Callable[[Check], tuple[str, str]], asked: Sequence[Check]) -
 
 def z3() -> Callable[[Check], tuple[str, str]]:
     """Z3, each check in a context of its own."""
-    from z3 import Context, SolverFor, Z3Exception
 
     def ask(check: Check) -> tuple[str, str]:
         solver = SolverFor(check.logic, ctx=Context())
@@ -277,15 +278,24 @@ def by_qepcad() -> Callable[[Problem], Run]:
         if none is not None:
             return lambda: none
         texts = [prenex(question) or "" for question in asked]
-        return partial(run, texts, [question.refutes for question in asked])
-
-    def run(texts: Sequence[str], refutes: Sequence[bool]) -> Answer:
-        answers = [qepcad(text) for text in texts]
-        if ("TRUE", True) in zip(answers, refutes):
-            return FAILS
-        return HOLDS if set(answers) == {"FALSE"} else GAVE_UP
+        return partial(answer_of_qepcad, texts, [question.refutes for question in asked])
 
     return prepare
+
+
+def answer_of_qepcad(texts: Sequence[str], refutes: Sequence[bool]) -> Answer:
+    """What QEPCAD's answers come to."""
+    answers = [qepcad(text) for text in texts]
+    if ("TRUE", True) in zip(answers, refutes):
+        return FAILS
+    return HOLDS if set(answers) == {"FALSE"} else GAVE_UP
+
+
+def by_qepcad_alone(text: str) -> Word:
+    """What QEPCAD says of one statement that is none of the store."""
+    asked = questions(checker.read_statements(text).popitem()[1])
+    texts = [prenex(question) or "" for question in asked]
+    return answer_of_qepcad(texts, [question.refutes for question in asked]).word
 
 
 def qepcad(text: str) -> str:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import statistics
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from io import BytesIO
 from typing import NamedTuple
 
+from juggleproof.benchmarks.figures import as_svg, new_figure
 from juggleproof.benchmarks.peers.routes import Problem, Result, Route
 from juggleproof.proofs.reports.tables import plain
 
@@ -112,31 +112,25 @@ def plot(measured: Sequence[Measured]) -> bytes:
     """The cactus plot as SVG: how many statements each route decides within so many CPU seconds
     each.
     """
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    with rc_context({"svg.hashsalt": "peers", "svg.fonttype": "path"}):
-        figure = Figure(figsize=(7.2, 5.2), layout="constrained")
-        axes = figure.add_subplot()
-        for one in measured:
-            seconds = sorted(one.decided().values())
-            ours = one.route.ours
-            axes.step(
-                [max(each, 1e-4) for each in seconds],
-                range(1, len(seconds) + 1),
-                where="post",
-                linestyle="-" if ours else "--",
-                linewidth=1.8 if ours else 1.1,
-                label=f"{one.route.title} ({len(seconds)})",
-            )
-        axes.set_xscale("log")
-        axes.set(
-            xlabel="CPU seconds for one statement (below 0.0001 drawn there)",
-            ylabel="statements decided within them",
+    figure = new_figure()
+    axes = figure.add_subplot()
+    for one in measured:
+        seconds = sorted(one.decided().values())
+        ours = one.route.ours
+        axes.step(
+            [max(each, 1e-4) for each in seconds],
+            range(1, len(seconds) + 1),
+            where="post",
+            linestyle="-" if ours else "--",
+            linewidth=1.8 if ours else 1.1,
+            label=f"{one.route.title} ({len(seconds)})",
         )
-        axes.set_ylim(bottom=0)
-        axes.grid(True, which="major", linewidth=0.3)
-        figure.legend(loc="outside lower center", ncols=3, fontsize=7, frameon=False)
-        written = BytesIO()
-        figure.savefig(written, format="svg", metadata={"Date": None})
-        return written.getvalue()
+    axes.set_xscale("log")
+    axes.set(
+        xlabel="CPU seconds for one statement (below 0.0001 drawn there)",
+        ylabel="statements decided within them",
+    )
+    axes.set_ylim(bottom=0)
+    axes.grid(True, which="major", linewidth=0.3)
+    figure.legend(loc="outside lower center", ncols=3, fontsize=7, frameon=False)
+    return as_svg(figure)
