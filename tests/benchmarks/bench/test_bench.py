@@ -336,7 +336,7 @@ def test_a_quick_run_ends_with_table_plot_and_verdict_holds(
         and "faster than every certified peer" not in output
     )
     assert "1e-1" in output and "1e-6" in output and "slope" in output
-    from juggleproof.benchmarks.bench.table import ABSENT, can_plot
+    from juggleproof.benchmarks.figures import ABSENT, can_plot
 
     assert (
         (tmp_path / "bench" / "p-outside-R.svg").read_bytes().startswith(b"<?xml")
