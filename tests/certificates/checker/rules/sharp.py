@@ -416,6 +416,24 @@ REJECTED = [
         over(*SHARP[:3], "number c = root(a - 1, 1, 1)", SHARP[3]),
     ),
     case(
+        "a number with the name of a parameter",
+        VALID,
+        (Kind.NAME, "a"),
+        over(*SHARP[:3], "number a = root(a^2 - 2, 0, 2)", SHARP[3]),
+    ),
+    case(
+        "two numbers of one name",
+        VALID,
+        (Kind.NAME, "c"),
+        over(*SHARP[:3], *["number c = root(a^2 - 2, 0, 2)"] * 2, SHARP[3]),
+    ),
+    case(
+        "a formula for the name of a number",
+        VALID,
+        (Kind.NAME, "x<1"),
+        over(*SHARP[:3], "number x<1 = root(a^2 - 2, 0, 2)", SHARP[3]),
+    ),
+    case(
         "a number with three roots",
         VALID,
         Kind.ONE_ROOT,
