@@ -5,7 +5,7 @@
              closes_sound        a state that a node closes, given valid statements, has no point. *)
 
 From Coq Require Import QArith Qreals Reals Lra Lia List Bool FunctionalExtensionality.
-From Juggleproof Require Import Polynomials Formulas Bernstein States.
+From Juggleproof Require Import Polynomials Formulas Bernstein States Boxes.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -191,15 +191,18 @@ Inductive node :=
   | Psatz (products : list (Q * list (nat * nat) * poly)) (equations : list (nat * poly))
   | Cases (k : nat) (nodes : list node)
   | Sign (p : poly) (less equal more : node)
+  | Boxed (i : nat) (bounds : list (nat * nat)) (tree : list letter)
   | Integral (i : nat) (rest : node)
   | Use (k : nat) (terms : list (nat * term)) (fresh : nat) (rest : node).
 
 Lemma node_induction (P : node -> Prop) : P Close -> (forall products equations, P (Psatz products equations)) ->
   (forall k nodes, Forall P nodes -> P (Cases k nodes)) -> (forall p less equal more, P less -> P equal -> P more -> P (Sign p less equal more)) ->
-  (forall i rest, P rest -> P (Integral i rest)) -> (forall k terms fresh rest, P rest -> P (Use k terms fresh rest)) -> forall n, P n.
+  (forall i bounds tree, P (Boxed i bounds tree)) -> (forall i rest, P rest -> P (Integral i rest)) -> (forall k terms fresh rest, P rest -> P (Use k terms fresh rest)) ->
+  forall n, P n.
 Proof.
-  intros close_ psatz_ cases_ sign_ integral_ use_. fix all 1. intros [|products equations|k nodes|p less equal more|i rest|k terms fresh rest];
-    [exact close_|apply psatz_|apply cases_|now apply sign_|now apply integral_|now apply use_].
+  intros close_ psatz_ cases_ sign_ boxes_ integral_ use_. fix all 1.
+  intros [|products equations|k nodes|p less equal more|i bounds tree|i rest|k terms fresh rest];
+    [exact close_|apply psatz_|apply cases_|now apply sign_|apply boxes_|now apply integral_|now apply use_].
   exact ((fix each (l : list node) : Forall P l := match l with [] => Forall_nil P | n :: l => Forall_cons n (all n) (each l) end) nodes).
 Qed.
 
@@ -226,6 +229,7 @@ Fixpoint close (known : list statement) (n : node) (st : state) : bool :=
   | Sign p less equal more =>
     close known less (assume (atom (opposite p) Positive) st) && close known equal (assume (atom p Zero) st)
     && close known more (assume (atom p Positive) st)
+  | Boxed i bounds tree => boxes (facts st) i bounds tree
   | Integral i rest =>
     match nth_error (facts st) i with
     | Some (p, Positive) => integral (integers st) p && close known rest (assume (atom (minus p (number 1)) Nonnegative) st)
@@ -245,7 +249,8 @@ Proof. intros [z ->] positive. apply lt_IZR in positive. assert (1 <= z)%Z as le
 
 Theorem closes_sound known n : Forall valid known -> forall st, close known n st = true -> forall a, ~ point st a.
 Proof.
-  intro truths. induction n as [|products equations|k nodes IH|p less equal more IHl IHe IHm|i rest IH|k terms fresh rest IH] using node_induction;
+  intro truths.
+  induction n as [|products equations|k nodes IH|p less equal more IHl IHe IHm|i bounds tree|i rest IH|k terms fresh rest IH] using node_induction;
     cbn [close]; intros st good a here.
   - destruct here as [open _]. congruence.
   - exact (psatz_sound a _ _ _ good (proj1 (proj2 here))).
@@ -264,6 +269,7 @@ Proof.
     + apply (IHl _ first a), assume_point; [exact here|]. apply atom_holds. cbn. rewrite eval_opposite. lra.
     + apply (IHe _ second a), assume_point; [exact here|]. now apply atom_holds.
     + apply (IHm _ third a), assume_point; [exact here|]. now apply atom_holds.
+  - exact (boxes_sound a _ _ _ _ good (proj1 (proj2 here))).
   - destruct (nth_error (facts st) i) as [[p []]|] eqn:found; try discriminate. apply andb_prop in good. destruct good as [integral_ good].
     apply (IH _ good a), assume_point; [exact here|]. destruct here as (_ & meet & _ & integer). apply atom_holds. cbn [meets].
     rewrite eval_minus, eval_number, Q2R_1. apply whole_above_0; [now apply (integral_value (integers st))|].
