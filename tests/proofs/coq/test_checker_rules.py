@@ -1,16 +1,21 @@
-"""The rules of the checker in Coq: a rule that checks less is not proved, a theorem that supposes
-less is not either, and all rest on the axioms of the reals only.
+"""The rules of the checker in Coq: they accept and reject the certificates of its tables as the
+checker does, a rule that checks less is not proved, and all rest on the axioms of the reals only.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from pathlib import Path
 
 import pytest
 
+from juggleproof.certificates import checker
+from tests.certificates.checker.harness import Case, judge
+from tests.certificates.checker.rules import TABLES
 from tests.proofs.coq.development import SOURCES, compiled
+from tests.proofs.coq.model import HEAD, NotWritten, accepted
 from tests.proofs.coq.test_development import REALS
 
 # One change in so many; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
@@ -297,3 +302,43 @@ def test_rejects_a_weaker_rule(name: str, development: Path) -> None:
     assert text.count(old) >= 1
     result = compiled(development, "Mutant.v", text.replace(old, new))
     assert result.returncode != 0 and "Error" in result.stderr
+
+
+# What a certificate that has no shape, or names what is not there, ends in before Coq is asked.
+SHAPELESS = (NotWritten, checker.Rejected, ValueError, TypeError, LookupError)
+# Rules and kinds of statements that are not among Coq's functions.
+ELSEWHERE = {"interval", "iterates"}
+
+
+def written(case: Case) -> str:
+    """What Coq is asked of the last statement of a case."""
+    known, earlier = {}, {}
+    *before, last = checker.read_statements(case.text).values()
+    for statement in before:
+        outcome, _ = checker.check_one(statement, case.earlier[statement.name], known, earlier)
+        earlier[statement.name] = statement
+        if outcome == "certified":
+            known[statement.name] = statement
+    return accepted(last, json.loads(json.dumps(case.certificate)), known, earlier)
+
+
+def test_coq_accepts_what_the_checker_accepts_and_nothing_else_holds(development: Path) -> None:
+    asked, expected = [], []
+    for rule, module in TABLES.items():
+        for case in [*module.ACCEPTED, *module.REJECTED]:
+            outcome = judge(case)[0]
+            fine = outcome in ("certified", "refuted")
+            try:
+                asked.append(written(case))
+            except SHAPELESS:
+                assert not fine or rule in ELSEWHERE, (rule, case.defect)
+                continue
+            expected.append((rule, case.defect, "true" if fine else "false"))
+    text = HEAD + "".join(f"Eval vm_compute in ({question}).\n" for question in asked)
+    result = compiled(development, "Tables.v", text)
+    assert result.returncode == 0, result.stderr
+    said = re.findall(r"= (true|false)\s+: bool", result.stdout)
+    assert len(said) == len(expected)
+    differ = [one for one, value in zip(expected, said) if one[2] != value]
+    assert differ == []
+    assert said.count("true") > 130 and said.count("false") > 130
