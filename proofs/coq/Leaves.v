@@ -38,13 +38,13 @@ Inductive node :=
   | Psatz (products : list (Q * list (nat * nat) * poly)) (equations : list (nat * poly))
   | Cases (k : nat) (nodes : list node)
   | Sign (p : poly) (less equal more : node)
-  | Boxed (i : nat) (bounds : list (nat * nat)) (tree : list letter)
+  | Boxes (i : nat) (bounds : list (nat * nat)) (tree : list letter)
   | Integral (i : nat) (rest : node)
   | Use (k : nat) (terms : list (nat * term)) (fresh : nat) (rest : node).
 
 Lemma node_induction (P : node -> Prop) : P Close -> (forall products equations, P (Psatz products equations)) ->
   (forall k nodes, Forall P nodes -> P (Cases k nodes)) -> (forall p less equal more, P less -> P equal -> P more -> P (Sign p less equal more)) ->
-  (forall i bounds tree, P (Boxed i bounds tree)) -> (forall i rest, P rest -> P (Integral i rest)) -> (forall k terms fresh rest, P rest -> P (Use k terms fresh rest)) ->
+  (forall i bounds tree, P (Boxes i bounds tree)) -> (forall i rest, P rest -> P (Integral i rest)) -> (forall k terms fresh rest, P rest -> P (Use k terms fresh rest)) ->
   forall n, P n.
 Proof.
   intros close_ psatz_ cases_ sign_ boxes_ integral_ use_. fix all 1.
@@ -76,7 +76,7 @@ Fixpoint close (known : list statement) (n : node) (st : state) : bool :=
   | Sign p less equal more =>
     close known less (assume (atom (opposite p) Positive) st) && close known equal (assume (atom p Zero) st)
     && close known more (assume (atom p Positive) st)
-  | Boxed i bounds tree => boxes (facts st) i bounds tree
+  | Boxes i bounds tree => boxes (facts st) i bounds tree
   | Integral i rest =>
     match nth_error (facts st) i with
     | Some (p, Positive) => integral (integers st) p && close known rest (assume (atom (minus p (number 1)) Nonnegative) st)

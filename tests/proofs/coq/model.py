@@ -153,7 +153,7 @@ class Scope:
             if not isinstance(tree, str):
                 raise NotWritten(tree)
             pairs = listed([f"({number(low)}, {number(high)})" for low, high in bounds])
-            return f"Boxed {number(index)} {pairs} {listed([letter(mark) for mark in tree])}"
+            return f"Boxes {number(index)} {pairs} {listed([letter(mark) for mark in tree])}"
         if rule == "integral":
             index, rest = parts
             return f"Integral {number(index)} ({self.node(rest)})"

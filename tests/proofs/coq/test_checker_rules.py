@@ -12,12 +12,15 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates import checker
+from juggleproof.certificates.checker.rules import RULES
 from tests.certificates.checker.harness import Case, judge
 from tests.certificates.checker.rules import TABLES
 from tests.proofs.coq.development import SOURCES, compiled
 from tests.proofs.coq.model import HEAD, NotWritten, accepted
 from tests.proofs.coq.test_development import REALS
 
+# Rules and kinds of statements that are not among Coq's functions.
+ELSEWHERE = {"interval", "iterates"}
 # One change in so many; with JUGGLEPROOF_MUTANTS=all (as CI sets it) each.
 SHARE = 1 if os.environ.get("JUGGLEPROOF_MUTANTS") == "all" else 6
 FILES = (
@@ -43,6 +46,13 @@ def test_the_rules_rest_on_the_axioms_of_the_reals_alone_holds(development: Path
     assert result.returncode == 0 and result.stdout.startswith("Axioms:\n"), result.stderr
     named = re.findall(r"^([\w.]+)\s*:", result.stdout.partition("\n")[2], flags=re.MULTILINE)
     assert set(named) == REALS
+
+
+def test_every_proof_rule_is_one_of_coqs_holds() -> None:
+    text = (SOURCES / "Leaves.v").read_text()
+    (cases,) = re.findall(r"^Inductive node :=\n(.*?)\.\n", text, re.DOTALL | re.MULTILINE)
+    rules = {name.lower() for name in re.findall(r"\| (\w+)", cases)}
+    assert rules == set(RULES) - ELSEWHERE
 
 
 # (file, what is weakened, what stands in its place)
@@ -306,8 +316,6 @@ def test_rejects_a_weaker_rule(name: str, development: Path) -> None:
 
 # What a certificate that has no shape, or names what is not there, ends in before Coq is asked.
 SHAPELESS = (NotWritten, checker.Rejected, ValueError, TypeError, LookupError)
-# Rules and kinds of statements that are not among Coq's functions.
-ELSEWHERE = {"interval", "iterates"}
 
 
 def written(case: Case) -> str:
