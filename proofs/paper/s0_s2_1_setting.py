@@ -11,6 +11,7 @@ from juggleproof.certificates.language import (
     different,
     equal,
     iff,
+    real,
     reals,
 )
 from juggleproof.proofs import forms
@@ -34,7 +35,6 @@ def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
 om, acc, x, y = reals("om acc x y")
 half_short, half_long, c, s, c_2, s_2 = reals("a b c s c_2 s_2")  # c, s: of the block's angle
 UNIT, UNIT_2 = equal(c**2 + s**2, 1), equal(c_2**2 + s_2**2, 1)
-TILTED = [half_short > 0, half_long > 0, UNIT, c >= 0, s >= 0]
 PAST = half_long * s - half_short * c  # 0 where the centre is above the corner, theta = atan(a/b)
 
 
@@ -71,30 +71,31 @@ def a_block_let_go_never_passes_the_angle_at_which_its_centre_is_highest() -> li
         forms.always(
             (height_of_centre(c, s) ** 2 <= highest)
             & iff(equal(height_of_centre(c, s) ** 2, highest), equal(PAST, 0)),
-            given=TILTED,
+            given=[UNIT],
             label="highest",
         ),
         forms.always(
             different(half_long * s_2 - half_short * c_2, 0),
             given=[
-                *TILTED,
+                UNIT,
                 different(PAST, 0),
+                y <= height_of_centre(c, s),
+                half_short > 0,
+                half_long > 0,
                 UNIT_2,
                 c_2 >= 0,
-                s_2 >= 0,
-                y <= height_of_centre(c, s),
                 y >= height_of_centre(c_2, s_2),
             ],
             label="never-passed",
         ),
         forms.always(
             height_of_centre(c, s) > half_long,
-            given=[*TILTED, s > 0, PAST < 0],
+            given=[half_long > 0, UNIT, c > 0, s > 0, PAST < 0],
             label="upright",
         ),
         forms.always(
             height_of_centre(c, s) > half_short,
-            given=[*TILTED, c > 0, PAST > 0],
+            given=[half_short > 0, UNIT, c > 0, s > 0, PAST > 0],
             label="lying",
         ),
     ]
@@ -102,36 +103,29 @@ def a_block_let_go_never_passes_the_angle_at_which_its_centre_is_highest() -> li
 
 @claim("s2.1-fall-angles", "2.1", "line 70", parameters=())
 def the_angle_that_parts_the_blocks_lies_between_26_and_27_degrees() -> list[Statement]:
-    """tan 26 degrees < 1/2 < tan 27 degrees; of 26 degrees it is shown of 26.25, a quarter of 105.
+    """tan 26 degrees < 1/2 < tan 27 degrees; of 26 degrees it is shown of 26.25.
 
-    Twice 27 is 90 - 36, and cos 36 degrees is the positive root of 4 c^2 - 2 c - 1; tan 105 degrees
-    is -(2 + sqrt(3)).
+    The tangent of five times 27 degrees is -1; that of four times 26.25 degrees, 105, is -2 -
+    sqrt(3), and 26.25 degrees is an angle below 30, of which the tangent is below 3/5.
     """
-    tangent, of_twice, root = reals("tangent of_twice root_3")
-    acute = [tangent > 0, tangent < 1]
+    tangent = real("tangent")
+    of_twice, over = 2 * tangent, 1 - tangent**2  # the tangent of twice the angle is a quotient
+    of_four_times, over_that = 2 * of_twice * over, over**2 - of_twice**2
     return [
         forms.always(
             2 * tangent > 1,
             given=[
-                UNIT,
-                s > 0,
-                c > 0,
-                equal(4 * c**2 - 2 * c - 1, 0),
-                *acute,
-                equal(2 * tangent * s, c * (1 - tangent**2)),
+                tangent > 0,
+                equal(
+                    tangent**5 - 10 * tangent**3 + 5 * tangent,
+                    -(1 - 10 * tangent**2 + 5 * tangent**4),
+                ),
             ],
             label="above",
         ),
         forms.always(
-            2 * tangent < 1,
-            given=[
-                root > 0,
-                equal(root**2, 3),
-                of_twice > 1,
-                equal(2 * of_twice, (2 + root) * (of_twice**2 - 1)),
-                *acute,
-                equal(2 * tangent, of_twice * (1 - tangent**2)),
-            ],
+            (2 * tangent < 1) | (5 * tangent > 3),
+            given=[equal((of_four_times + 2 * over_that) ** 2, 3 * over_that**2)],
             label="below",
         ),
     ]
@@ -171,7 +165,7 @@ def true_of_impact_speeds() -> list[Statement]:
         ),
         always(
             equal(once * (1 + alpha) * f, g),
-            given=strikes_once_a_period(A, f, phase),
+            given=[f > 0, strikes_once_a_period(A, f, phase)[-1]],
             label="once-a-period",
         ),
     ]
