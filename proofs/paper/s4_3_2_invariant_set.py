@@ -392,3 +392,15 @@ def fixed_point_attracts_the_band() -> Following:
 def fixed_point_is_a_global_attractor() -> Following:
     """Every orbit on H tends to e_1."""
     return Following(STABILITY)
+
+
+# -------------------------------------------------------------------------------------------------
+# Section 5: what the conclusion says was found.
+
+
+@claim("s5-range", "5", "line 583")
+def a_range_of_restitution_makes_the_orbit_globally_stable() -> Following:
+    """For a range of the restitution the periodic orbit of one impact a period is globally
+    asymptotically stable.
+    """
+    return Following(STABILITY)
