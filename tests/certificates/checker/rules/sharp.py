@@ -112,6 +112,16 @@ ACCEPTED = [
     counted("an integer parameter"),
     case("a number", VALID, text=over(*SQRT)),
     case(
+        "a number with coefficients -1 and 1",
+        VALID,
+        text=over(*SHARP[:3], "number c = root(2*a - 1, 0, 1)", SHARP[3]),
+    ),
+    case(
+        "a number with coefficients 1, 0, 1 and -1",
+        VALID,
+        text=over(*SHARP[:3], "number c = root(1 - 3*a + 6*a^2 - 5*a^3, 0, 1)", SHARP[3]),
+    ),
+    case(
         "outside by cases of a sign",
         sharp(
             {"rule/squares": INSIDE},
