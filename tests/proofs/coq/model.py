@@ -371,7 +371,9 @@ def sharp(
         f"sharp {before} {places} {integers} ({parts[0]}) ({parts[1]}) {listed(entries)}"
         f" {len(over)} ({fails})"
     ]
-    for _, (tree, *ends) in statement.get("number"):
+    taken = checker.Context(context)
+    for name, (tree, *ends) in statement.get("number"):
+        taken.declare(name)  # a name that is taken is refused
         poly = context.value(tree)
         (place,) = poly.places()
         low, high = (constant(context.value(end)) for end in ends)
