@@ -42,7 +42,7 @@ from juggleproof.certificates.search.candidates import FAVOURITE_PARAMETERS, sep
 from juggleproof.certificates.search.models import RESOURCES, ask
 from juggleproof.certificates.search.scales import with_scales
 from juggleproof.certificates.search.terms import ring_names
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, unfolded
 
 # -------------------------------------------------------------------------------------------------
 # Whole numbers that the hypotheses tie to a parameter, as floor and ceiling do: the pairs of both
@@ -374,9 +374,11 @@ class Violation:
     verdicts: dict[fmpq, bool] = field(default_factory=dict)  # at rationals, as far as known
 
     @staticmethod
-    def of(statement: checker.Statement, domain: ast.expr, roles: Roles = NO_ROLES) -> Violation:
-        """The violations of a statement in a domain, scales being 1."""
-        unfolding = checker.Unfolding(statement, checker.Context(), [domain])
+    def of(
+        statement: checker.Statement, domain: ast.expr | None = None, roles: Roles = NO_ROLES
+    ) -> Violation:
+        """The violations of a statement, in a domain of a parameter if given, scales being 1."""
+        unfolding = unfolded(statement, None if domain is None else [domain])
         premises = list(unfolding.premises)
         ones = _ones(unfolding, roles)
         ring = ring_of(unfolding.context)
@@ -416,12 +418,21 @@ class Violation:
         else:
             condition = condition.substituted({parameter: at})
             goal = goal.substituted({parameter: at}) if goal is not None else None
-        unreachable = (goal, self.bound) if goal is not None else None
-        verdict = ask(condition, budget, self.integers, resources, unreachable=unreachable).verdict
-        absent = {"sat": False, "unsat": True}.get(verdict)
+        absent = self._absent(condition, goal, budget, resources)
         if absent is not None and isinstance(at, fmpq):
             self.verdicts[at] = absent
         return absent
+
+    def absent_everywhere(self, budget: Budget) -> bool | None:
+        """Z3's verdict within little work, whatever the parameters are."""
+        return self._absent(self.condition, self.goal, budget, QUICK)
+
+    def _absent(
+        self, condition: Condition, goal: Condition | None, budget: Budget, resources: int
+    ) -> bool | None:
+        unreachable = (goal, self.bound) if goal is not None else None
+        verdict = ask(condition, budget, self.integers, resources, unreachable=unreachable).verdict
+        return {"sat": False, "unsat": True}.get(verdict)
 
 
 # -------------------------------------------------------------------------------------------------
