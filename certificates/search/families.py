@@ -23,6 +23,8 @@ from juggleproof.certificates.language import End, SharpRange, bounds_of
 from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.lines import LineCover
+from juggleproof.certificates.search.models import model_assignments
+from juggleproof.certificates.search.samples import state_condition
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import TemplateSearch
 from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Sample
@@ -39,6 +41,9 @@ from juggleproof.certificates.work import Budget, Exhausted
 # -------------------------------------------------------------------------------------------------
 # Terms on all of a state: one choice of terms where it serves, and the state split by a sign where
 # it does not.
+
+
+ROUNDS = 3  # of choices, each with the points at which those before do not serve
 
 
 def cover(
@@ -62,30 +67,37 @@ def cover(
     normal = Normal(state, condition)
     condition = normal.condition(condition)
     base = normal.base([n for n in condition.ring.names() if n not in unknowns and n not in SPARE])
-    given = [normal.sample(sample) for sample in samples]
-    tried: list[Choice] = list(former)
-    if samples:
-        margins = margins_of(state, condition, normal)
-        search = TemplateSearch(
-            base,
-            given,
-            task.budget,
-            integers,
-            task.nodes,
-            None,
-            task.hints,
-            margins,
-            roles=task.roles,
-        )
-        tried += islice(search.search(condition, unknowns), task.tries)
-    else:
+    margins = margins_of(state, condition, normal)
+    if not samples:
         node = search_closing(state, task.known, task.budget, 1)
         if node is not None:
             return "empty", node
-    for choice in _shortest(tried):
-        values = confirmed(task, normal, state, choice, keys, samples)
-        if values is not None:
-            return values
+    for _ in range(ROUNDS):
+        given = [normal.sample(sample) for sample in samples]
+        tried: list[Choice] = list(former)
+        if samples:
+            search = TemplateSearch(
+                base,
+                given,
+                task.budget,
+                integers,
+                task.nodes,
+                None,
+                task.hints,
+                margins,
+                roles=task.roles,
+            )
+            tried += islice(search.search(condition, unknowns), task.tries)
+        beyond: list[Sample] = []
+        for choice in _shortest(tried):
+            point = _beyond(task, normal, state, condition, choice) if task.effort > 1 else None
+            values = confirmed(task, normal, state, choice, keys, samples) if not point else None
+            if values is not None:
+                return values
+            beyond += [point] if point and point not in [*samples, *beyond] else []
+        if not beyond:
+            break
+        samples = [*samples, *beyond]
     if depth <= 0 or len(samples) < 2:
         return None
     partial = TemplateSearch(
@@ -99,6 +111,26 @@ def cover(
             values = _split(task, state, normal.lift(poly), samples, depth, choices[:4])
             if values is not None:
                 return values
+    return None
+
+
+def _beyond(
+    task: Task, normal: Normal, state: State, condition: Condition, choice: Choice
+) -> Sample | None:
+    """A point of the state at which a choice of terms does not serve, where Z3 sees one."""
+    if choice.roots:
+        return None
+    for name, value in choice.values.items():
+        condition = condition.replaced(name, value.top, value.bottom)
+    inside = state_condition(state)
+    polys = [poly.project_to_context(condition.ring) for poly in inside.polys]
+    there = Condition(condition.ring, polys, inside.tree).conjoined(condition.negated())
+    there, names = there.substituted(normal.scales), list(state.context.index)
+    integers = frozenset(state.context.integers)
+    for found in model_assignments(there, names, integers, task.budget, 1, task.roles):
+        point = {name: found.rational(name) for name in names}
+        if all(value is not None for value in point.values()):
+            return {name: value for name, value in point.items() if value is not None}
     return None
 
 
