@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from itertools import islice
 from math import lcm
 
-from flint import fmpq_mpoly
+from flint import fmpq, fmpq_mpoly
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import (
@@ -23,7 +23,7 @@ from juggleproof.certificates.language import End, SharpRange, bounds_of
 from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.lines import LineCover
-from juggleproof.certificates.search.models import model_assignments
+from juggleproof.certificates.search.models import ask
 from juggleproof.certificates.search.samples import state_condition
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import TemplateSearch
@@ -43,6 +43,7 @@ from juggleproof.certificates.work import Budget, Exhausted
 # it does not.
 
 
+QUICK = 100_000  # Z3's work
 ROUNDS = 3  # of choices, each with the points at which those before do not serve
 
 
@@ -125,13 +126,11 @@ def _beyond(
     inside = state_condition(state)
     polys = [poly.project_to_context(condition.ring) for poly in inside.polys]
     there = Condition(condition.ring, polys, inside.tree).conjoined(condition.negated())
-    there, names = there.substituted(normal.scales), list(state.context.index)
-    integers = frozenset(state.context.integers)
-    for found in model_assignments(there, names, integers, task.budget, 1, task.roles):
-        point = {name: found.rational(name) for name in names}
-        if all(value is not None for value in point.values()):
-            return {name: value for name, value in point.items() if value is not None}
-    return None
+    there, integers = there.substituted(normal.scales), state.context.integers
+    model = ask(there, task.budget, integers, QUICK, model=True).model
+    point = {name: model.get(name, fmpq(1)) for name in state.context.index}
+    exact = {name: value for name, value in point.items() if isinstance(value, fmpq)}
+    return exact if model and len(exact) == len(point) else None
 
 
 def _split(
