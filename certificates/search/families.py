@@ -24,6 +24,7 @@ from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.lines import LineCover
 from juggleproof.certificates.search.models import ask
+from juggleproof.certificates.search.ranges import QUICK
 from juggleproof.certificates.search.samples import state_condition
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import TemplateSearch
@@ -43,7 +44,6 @@ from juggleproof.certificates.work import Budget, Exhausted
 # it does not.
 
 
-QUICK = 100_000  # Z3's work
 ROUNDS = 3  # of choices, each with the points at which those before do not serve
 
 
@@ -89,16 +89,18 @@ def cover(
                 roles=task.roles,
             )
             tried += islice(search.search(condition, unknowns), task.tries)
-        beyond: list[Sample] = []
+        failing: list[Sample] = []
         for choice in _shortest(tried):
-            point = _beyond(task, normal, state, condition, choice) if task.effort > 1 else None
+            point = (
+                _failing_point(task, normal, state, condition, choice) if task.effort > 1 else None
+            )
             values = confirmed(task, normal, state, choice, keys, samples) if not point else None
             if values is not None:
                 return values
-            beyond += [point] if point and point not in [*samples, *beyond] else []
-        if not beyond:
+            failing += [point] if point and point not in [*samples, *failing] else []
+        if not failing:
             break
-        samples = [*samples, *beyond]
+        samples = [*samples, *failing]
     if depth <= 0 or len(samples) < 2:
         return None
     partial = TemplateSearch(
@@ -115,7 +117,7 @@ def cover(
     return None
 
 
-def _beyond(
+def _failing_point(
     task: Task, normal: Normal, state: State, condition: Condition, choice: Choice
 ) -> Sample | None:
     """A point of the state at which a choice of terms does not serve, where Z3 sees one."""

@@ -23,7 +23,7 @@ from juggleproof.certificates.algebra.intervals import (
     widest,
 )
 from juggleproof.certificates.algebra.polynomials import value_at
-from juggleproof.certificates.votes.branches import Region, regions
+from juggleproof.certificates.votes.branches import regions
 from juggleproof.certificates.votes.questions import Atom, Formula, Question, atom, join
 from juggleproof.certificates.votes.vote import Enclosure
 

@@ -54,7 +54,7 @@ class CertifyOptions(argparse.Namespace):
 
 def command(parsed: argparse.Namespace) -> int:
     """Judges claims, or answers scripts of SMT-LIB; returns the exit code."""
-    gc.set_threshold(50_000)  # hardly a cycle is made: looking for them as often is a tenth of the time
+    gc.set_threshold(50_000)  # hardly a cycle is made: looking for them takes a tenth of the time
     options = CertifyOptions(**vars(parsed))
     return certify_problems(options) if are_scripts(options.files) else certify(options)
 
