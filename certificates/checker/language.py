@@ -238,7 +238,7 @@ class Context:
                 upper *= c
                 lower *= value.den
                 # a long product of constants would grow unseen
-                size = upper.bit_length() + lower.bit_length()
+                size = max(upper.bit_length(), lower.bit_length())
                 require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
         return prod(others, start=first)
