@@ -21,7 +21,7 @@ from juggleproof.certificates.language import (
     disjunction,
     rests_on,
 )
-from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.nodes import Certificate, Counterexample
 from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_values
@@ -53,6 +53,7 @@ from juggleproof.proofs.forms import (
 from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
 from juggleproof.proofs.ranges import search_sharp_range, text_of_range
 from juggleproof.proofs.rules import range_of_rule, whole_text
+from juggleproof.proofs.simplest import at_simple_values, is_simple
 
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
@@ -342,12 +343,37 @@ class Judge:
             )
         except Exhausted:
             certificate = {"unknown": f"the budget of {budget} units ran out"}
+        if isinstance(statement, Statement) and not self.is_trial:
+            certificate = self.in_simple_values(statement, certificate)
         if "certified" not in certificate and isinstance(statement, Statement):
             if not self.is_trial:
                 outcome = "refuted" if "refuted" in certificate else "unknown"
                 refuse_vacuous(
                     statement, outcome, self.known, budget // TRIAL, self.judgement.roles
                 )
+        return certificate
+
+    def in_simple_values(self, statement: Statement, certificate: Certificate) -> Certificate:
+        """The counterexample of a refutation in simple rationals, where a search with the parameter
+        at a simple value finds one that the checker accepts; else the refutation as it is.
+        """
+        found, parameter = certificate.get("refuted"), self.judgement.roles.parameter
+        if not isinstance(found, Counterexample) or is_simple(found):
+            return certificate
+        if parameter not in found.terms:
+            return certificate
+        for one in at_simple_values(statement, parameter, self.claim.vocabulary.roots.values()):
+            budget = Budget(self.resources.budget // TRIAL)
+            try:
+                there = search_certificate(
+                    read(one.text(), one.name), self.known, budget, roles=self.judgement.roles
+                ).get("refuted")
+            except Exhausted:
+                continue
+            if isinstance(there, Counterexample) and is_simple(there):
+                simple: Certificate = {"refuted": there._replace(node=("close",))}
+                if self.check(read(statement.text(), statement.name), simple) == "refuted":
+                    return simple
         return certificate
 
     def check(self, statement: checker.Statement, certificate: Certificate) -> str:

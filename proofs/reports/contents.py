@@ -47,7 +47,7 @@ TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy")
 @dataclass(frozen=True)
 class Shown:
     """A statement as reports show it: the text that the checker reads, outcome, certificate as
-    stored, counterexample, answers of the routes.
+    stored, counterexample and its numbers, answers of the routes.
     """
 
     name: str
@@ -55,6 +55,7 @@ class Shown:
     outcome: str
     certificate: object
     at: str
+    numbers: str
     votes: Mapping[str, str]
 
 
@@ -81,7 +82,8 @@ class Entry:
     @property
     def fails(self) -> list[str]:
         """The counterexamples, each once."""
-        return list(dict.fromkeys(one.at for one in self.statements if one.at))
+        shown = (errata.with_numbers(one.at, one.numbers) for one in self.statements if one.at)
+        return list(dict.fromkeys(shown))
 
     @property
     def remark(self) -> str:
@@ -248,6 +250,7 @@ def _shown(name: str, text: str, outcome: str, certificate: object, votes: Seque
         outcome,
         certificate,
         errata.counterexample(refuted) if refuted else "",
+        errata.numbers_of(text, refuted),
         {vote.route: vote.answer for vote in votes},
     )
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
 
@@ -15,6 +16,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Argument, Claim, Readings, Remark, stated_texts
+from juggleproof.proofs.evaluating import numbers_at, value_at
 from juggleproof.proofs.judgement import Correction, Finding
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
@@ -301,7 +303,7 @@ def three_lines_of(
 ) -> list[Line]:
     """The three lines of a claim on the first page."""
     wrong = what_is_wrong(register[claim.id], finding.get("sharp", {}), passages_of(claim))
-    fails = [text.partition("\n")[0] for text in _counterexamples(settled)]
+    fails = [_at_a_glance(text) for text in _counterexamples(settled)]
     return in_three_lines(claim, wrong, fails, finding.get("correction"))
 
 
@@ -321,6 +323,17 @@ def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Clai
     return [claim for claim in claims if group[claim.id] == "proof"] + [
         claim for claim in wrong if claim.section[:1] in ("4", "A")
     ]
+
+
+def _at_a_glance(counterexample: str) -> str:
+    """The values of a counterexample, and the numbers that disagree."""
+    values, _, numbers = counterexample.partition("\nin numbers: ")
+    return with_numbers(values.partition("\n")[0], numbers)
+
+
+def with_numbers(values: str, numbers: str) -> str:
+    """The values of a counterexample with the numbers that disagree there."""
+    return f"{values}: {numbers}" if numbers else values
 
 
 class Line(NamedTuple):
@@ -420,15 +433,42 @@ def _counterexamples(settled: Sequence[Settled]) -> list[str]:
     """The exact values of every refuted statement, with the part of the claim that fails there, and
     what it says where that is short.
     """
-    goals = dict[str, str]()
+    goals = dict[str, tuple[str, str]]()
     for name, text, certificate in settled:
         if certificate is not None and "refuted" in certificate:
             label = name.split("/")[1].removesuffix(".main")
             values = counterexample(certificate["refuted"]) + (
                 "" if label == "main" else f"   [{label}]"
             )
-            goals.setdefault(values, goal_of(text))
-    return [values + (f"\nfalse there: {goal}" if goal else "") for values, goal in goals.items()]
+            goals.setdefault(values, (goal_of(text), numbers_of(text, certificate["refuted"])))
+    return [
+        values
+        + (f"\nfalse there: {goal}" if goal else "")
+        + (f"\nin numbers: {numbers}" if numbers else "")
+        for values, (goal, numbers) in goals.items()
+    ]
+
+
+def numbers_of(text: str, refutation: object) -> str:
+    """What the statement shows, with the numbers of a rational counterexample in place; nothing
+    where there is a choice or a root, or where that is long.
+    """
+    match refutation:
+        case [_, [] | (), {**terms}, *_]:
+            point = {str(name): Fraction(value) for name, value in terms.items()}
+        case _:
+            return ""
+    lines = [line.partition(" ") for line in text.splitlines()]
+    for keyword, _, rest in lines:
+        name, _, value = rest.partition(" = ")
+        known = value_at(value, point) if keyword == "let" else None
+        if known is not None:
+            point[name] = known
+    if any(keyword == "exists" for keyword, _, _ in lines):
+        return ""
+    shown = [formula for keyword, _, formula in lines if keyword == "show"]
+    failing = [numbers for numbers in (numbers_at(one, point) for one in shown) if numbers]
+    return failing[0] if failing and len(failing[0]) <= LONGEST_GOAL else ""
 
 
 def goal_of(text: str) -> str:

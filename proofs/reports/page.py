@@ -59,6 +59,7 @@ class Statement:
     rows: Sequence[markup.Row]
     text: str
     at: str
+    numbers: str
     false_there: str
     votes: str
     certificate: str
@@ -90,6 +91,7 @@ def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) ->
         markup.rows_of([line for line in lines if line[1]]),
         shown.text,
         markup.values(shown.at) if refuted and shown.at else "",
+        shown.numbers,
         _false_there(shown.text) if refuted else "",
         votes,
         text if whole or len(text) <= LONGEST else "",
@@ -326,7 +328,7 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
             rule.name.partition("/")[2],
             rule.kind,
             inspect.cleandoc(checker.orbit_rules()[rule.kind]),
-            statement(Shown(rule.name, rule.text, rule.outcome, None, "", {}), whole=True),
+            statement(Shown(rule.name, rule.text, rule.outcome, None, "", "", {}), whole=True),
             [statement(premise, whole=True) for premise in rule.premises],
             rule.rests_on,
             rule.uses,

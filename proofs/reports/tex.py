@@ -149,7 +149,12 @@ def _render(made: Environment, name: str, contents: Contents, values: Mapping[st
 
 def _counterexamples(entry: Entry) -> list[str]:
     """The counterexamples as they are set, each once."""
-    return list(dict.fromkeys(tex_words.values(one.at) for one in entry.statements if one.at))
+    shown = (
+        tex_words.values(one.at) + (f": {tex_words.prose(one.numbers)}" if one.numbers else "")
+        for one in entry.statements
+        if one.at
+    )
+    return list(dict.fromkeys(shown))
 
 
 def _appendix(contents: Contents, letter: str, title: str) -> dict[str, object]:

@@ -208,3 +208,31 @@ def test_rejects_that_the_theorem_survives_where_it_is_not_registered() -> None:
 def test_places_are_as_a_reader_finds_them_holds(name: str, place: str) -> None:
     (claim,) = [one for one in paper_claims() if one.id == name]
     assert place_of(claim) == place
+
+
+@pytest.mark.parametrize(
+    "name, numbers",
+    [
+        ("s4.3.1-B2-approach", "49/50 < 9/50"),
+        ("s4.3.2-K-attracts", "49/50 < 9/50"),
+        ("s4.3.1-LaSalle", "0 < 0"),
+        ("sA.1-in-step", "10/3 = 2"),
+        ("s4.2-less-energy-shorter", "2 <= 5/3"),
+    ],
+)
+def test_counterexamples_show_the_numbers_that_disagree_holds(
+    listing: dict[str, dict[str, str]], name: str, numbers: str
+) -> None:
+    (text,) = [group[name] for group in listing.values() if name in group]
+    assert f"in numbers: {numbers}" in map(str.strip, text.splitlines())
+
+
+def test_counterexamples_are_in_simple_rationals_holds() -> None:
+    store = Store(DEFAULT)
+    for name, text in store.texts.items():
+        refuted = (store.certificate(name, text) or {}).get("refuted")
+        if refuted and refuted[0] != "sign":
+            _, adjoined, terms, *_ = refuted
+            assert not adjoined, name
+            numbers = [int(n) for value in terms.values() for n in re.findall(r"\d+", value)]
+            assert max(numbers) <= 16, name
