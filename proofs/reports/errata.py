@@ -455,7 +455,7 @@ def numbers_of(text: str, refutation: object) -> str:
     """
     match refutation:
         case [_, [] | (), {**terms}, *_]:
-            point = {str(name): Fraction(value) for name, value in terms.items()}
+            point = {str(name): Fraction(str(value)) for name, value in terms.items()}
         case _:
             return ""
     lines = [line.partition(" ") for line in text.splitlines()]
