@@ -143,6 +143,10 @@ def three_regions_of_b1(printed: Printed) -> list[Statement]:
     "4.1",
     "lines 443 to 445",
     printed=r"E_{max} = \frac{1}{2} \left(\frac{1+\alpha}{1-\alpha} \dot{\rho}_0 \right)^2",
+    remark=Remark(
+        "(34) is cited for this maximum, and does not show it: A.1 finds an equilibrium.",
+        by=("sA.1-in-step",),
+    ),
 )
 def greatest_energy_that_is_kept(printed: Printed) -> list[Statement]:
     """E_max is the greatest energy of a state of B1 whose impact does not lose energy."""
@@ -277,6 +281,9 @@ def energy_that_is_left_written_out(printed: Printed) -> Statement:
     "(24)",
     printed=r"\mathcal{R} := \{ \overline{b} \in \mathcal{H} \mid R(\overline{b}) \ge 0 \}",
     as_it_stands=r"R := \left\{ \overline{b} \in \mathcal{A} \mid R(\overline{b}) \ge 0 \right\}",
+    remark=Remark(
+        "R is the region here, and the function of (23) on the right; R_alpha of (3) is a matrix."
+    ),
 )
 def region_below_the_level(printed: Printed) -> list[Statement]:
     """R holds the states of H whose energy is at most the sum of E_max and Delta E_max."""

@@ -201,7 +201,7 @@ def rows_of(
         holds = register.get(claim.repeats, {}).get("verdict") == "holds"
         which = (
             ""
-            if not holds
+            if not holds or entry["verdict"] == "holds"
             else ", which holds"
             if entry["verdict"] == "ambiguous"
             else ", which prints it right"

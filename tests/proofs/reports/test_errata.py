@@ -236,3 +236,20 @@ def test_counterexamples_are_in_simple_rationals_holds() -> None:
             assert not adjoined, name
             numbers = [int(n) for value in terms.values() for n in re.findall(r"\d+", value)]
             assert max(numbers) <= 16, name
+
+
+@pytest.mark.parametrize(
+    "name, why",
+    [
+        ("eq-29", "a sum of a vector and a scalar"),
+        ("sB.2-line", "= between a scalar and a vector states no formula"),
+        ("sA.4-on-edge", "= between a vector and a scalar states no formula"),
+        ("s4.3.1-DK1", "z_{z} has no meaning here"),
+    ],
+)
+def test_what_was_restored_stands_beside_what_was_transcribed_holds(
+    listing: dict[str, dict[str, str]], name: str, why: str
+) -> None:
+    text = listing[errata.GROUPS["restored"]][name]
+    (claim,) = [one for one in paper_claims() if one.id == name]
+    assert claim.as_it_stands in text and claim.printed in text and why in text
