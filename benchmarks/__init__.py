@@ -2,13 +2,14 @@
 it but `juggleproof bench`.
 
     bench      the paper's bounds and orbits by every method: `juggleproof bench`
-    peers      the stored statements by our search and by Z3, cvc5, QEPCAD B and Coq's nra
+    peers      every stored statement by our search, by our check and by every peer
     processes  programs in processes of their own, ended in time
+    figures    plots as SVG
     problems   our set of SMT-LIB problems, twelve scripts
     bounds     minima of the literature, enclosed and checked
     orbits     the juggler's four arithmetics
     part       the part on the vibrating table
     speed      whole commands: seconds and memory
 
-Each but `bench` and `processes` is run as `python -m juggleproof.benchmarks.NAME`.
+Each but `bench`, `processes` and `figures` is run as `python -m juggleproof.benchmarks.NAME`.
 """

@@ -1,4 +1,4 @@
-"""Minima of the literature, enclosed and checked: seconds, boxes, bytes.
+"""Minima of the literature, enclosed and checked: CPU seconds, boxes, bytes.
 
     OPENBLAS_NUM_THREADS=1 python -m juggleproof.benchmarks.bounds [--width 1e-9]
 
@@ -16,7 +16,6 @@ import argparse
 import statistics
 import subprocess
 import sys
-import time
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -24,6 +23,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from juggleproof.benchmarks.processes import cpu_seconds
 from juggleproof.certificates import checker
 from juggleproof.proofs.bounds import Enclosure, enclose_minimum
 from juggleproof.proofs.command.bound import box, number
@@ -100,23 +100,23 @@ PROBLEMS: dict[str, tuple[str, str, str]] = {
 
 
 def seconds_of_checking(enclosure: Enclosure) -> float:
-    """Seconds of both checks, the statements being read; raises ArithmeticError where the checker
-    does not certify both.
+    """CPU seconds of both checks, the statements being read; raises ArithmeticError where the
+    checker does not certify both.
     """
     statements = checker.read_statements(enclosure.statements)
-    began = time.perf_counter()
+    began = cpu_seconds()
     outcomes = [
         checker.check_one(statements[name], certificate, {}, {})
         for name, certificate in enclosure.certificates.items()
     ]
     if any(outcome != "certified" for outcome, _ in outcomes):
         raise ArithmeticError(f"not certified: {outcomes}")
-    return time.perf_counter() - began
+    return cpu_seconds() - began
 
 
 def cold(polynomial: str, side: str, width: str) -> float:
-    """The time of the whole command in a process of its own."""
-    began = time.perf_counter()
+    """CPU seconds of the whole command in a process of its own."""
+    began = cpu_seconds()
     subprocess.run(
         [
             sys.executable,
@@ -133,7 +133,7 @@ def cold(polynomial: str, side: str, width: str) -> float:
         stdout=subprocess.DEVNULL,
         check=False,
     )
-    return time.perf_counter() - began
+    return cpu_seconds() - began
 
 
 def row(name: str, width: str, runs: int) -> Sequence[str]:
@@ -143,9 +143,9 @@ def row(name: str, width: str, runs: int) -> Sequence[str]:
     polynomial, side, published = PROBLEMS[name]
     warm = []
     for _ in range(runs + 1):
-        began = time.perf_counter()
+        began = cpu_seconds()
         enclosure = enclose_minimum(polynomial, box(side), number(width, "--width"))
-        warm.append(time.perf_counter() - began)
+        warm.append(cpu_seconds() - began)
     whole = statistics.median(cold(polynomial, side, width) for _ in range(runs))
     checking = statistics.median(seconds_of_checking(enclosure) for _ in range(runs))
     if published and not enclosure.low - Fraction(1, 10**4) <= Fraction(

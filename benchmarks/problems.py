@@ -3,7 +3,7 @@ by Z3 and cvc5, and counted in docs/your-own.md.
 
     python -m juggleproof.benchmarks.problems               # answers all of them afresh
     python -m juggleproof.benchmarks.problems --accept      # writes the counts into the page
-    python -m juggleproof.benchmarks.problems --votes 10    # also asks Z3 and cvc5, 10 seconds each
+    python -m juggleproof.benchmarks.problems --votes 10    # also asks Z3 and cvc5, 10 CPU s each
 
 Exit 1 where a problem is open or not as stated, the page differs, or a solver contradicts an
 answer.
@@ -14,13 +14,15 @@ from __future__ import annotations
 import argparse
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 
 from rich.console import Console
 
-from juggleproof.benchmarks.peers import CVC5, has_cvc5, z3_command
-from juggleproof.benchmarks.processes import Clock
+from juggleproof.benchmarks.peers.routes import Check, cvc5, z3
+from juggleproof.benchmarks.processes import each
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.reports.problems import draw, summary
@@ -92,17 +94,24 @@ def write_page(text_of_counts: str) -> bool:
     )
 
 
-def vote(peer: str, problem: Problem, seconds: float) -> str:
-    """The answer of Z3 or cvc5 to a script of that problem alone: sat, unsat or unknown."""
-    command = [str(z3_command()), "-in"] if peer == "z3" else [sys.executable, "-c", CVC5]
-    output = Clock(seconds).output_of(command, f"(reset)\n{problem.script}\n") or ""
-    words = [line for line in output.split() if line in ("sat", "unsat", "unknown")]
-    return words[0] if len(words) == 1 else "unknown"
+SOLVERS = {"z3": z3, "cvc5": cvc5}
+
+
+def votes(peer: str, problems: Sequence[Problem], seconds: float) -> list[str]:
+    """The answers of Z3 or cvc5 to scripts of each problem alone: sat, unsat or unknown."""
+
+    def start() -> Callable[[Problem], Callable[[], tuple[str, str]]]:
+        ask = SOLVERS[peer]()
+        return lambda problem: partial(
+            ask, Check("QF_NRA", "".join(f"{one}\n" for one in problem.commands), True)
+        )
+
+    return [one.answer[0] if one.answer else "unknown" for one in each(start, problems, seconds)]
 
 
 def peers() -> list[str]:
     """The solvers that are installed."""
-    return [*(["z3"] if z3_command() else []), *(["cvc5"] if has_cvc5() else [])]
+    return [peer for peer in SOLVERS if find_spec(peer)]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -122,15 +131,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{PAGE.name} says {stated_in_page()!r}, but: {counted}")
         wrong += 1
     for peer in peers() if options.votes else []:
-        votes = [vote(peer, one.problem, options.votes) for one in done]
+        words = votes(peer, [one.problem for one in done], options.votes)
         against = [
             one.name
-            for one, word in zip(done, votes)
+            for one, word in zip(done, words)
             if word != "unknown" and word != one.problem.status
         ]
         print(
-            f"{peer}: {sum(word != 'unknown' for word in votes)} of {len(done)} decided in"
-            f" {options.votes:g} s each"
+            f"{peer}: {sum(word != 'unknown' for word in words)} of {len(done)} decided in"
+            f" {options.votes:g} CPU s each"
             + (f"; CONTRADICTS {', '.join(against)}" if against else "")
         )
         wrong += len(against)

@@ -1,4 +1,4 @@
-"""Whole commands, each in a process of its own: seconds and peak memory against the aims.
+"""Whole commands, each in a process of its own: CPU seconds and peak memory against the aims.
 
 python -m juggleproof.benchmarks.speed [--runs 3]
 """
@@ -12,7 +12,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,14 +21,13 @@ THEOREM = ["--only", "theorem-roots", "--only", "theorem"]
 
 
 def measure(arguments: list[str]) -> tuple[float, float]:
-    """Seconds and peak megabytes (largest single process) of one command."""
-    began = time.perf_counter()
+    """CPU seconds and peak megabytes (largest single process) of one command."""
     process = subprocess.Popen(
         arguments, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
     _, _, usage = os.wait4(process.pid, 0)
     process.returncode = 0
-    return time.perf_counter() - began, usage.ru_maxrss / 1024
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
 def main() -> None:

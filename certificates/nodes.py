@@ -21,12 +21,11 @@ Close = tuple[Literal["close"]]
 Psatz = tuple[Literal["psatz"], Sequence[Product], Sequence[Cofactor]]
 Cases = tuple[Literal["cases"], int, Sequence["Node"]]
 Sign = tuple[Literal["sign"], str, "Node", "Node", "Node"]  # below, at and above 0
-Interval = tuple[Literal["interval"], int, int, int]
 Boxes = tuple[Literal["boxes"], int, Sequence[tuple[int, int]], str]
 Integral = tuple[Literal["integral"], int, "Node"]
 # name of the lemma, terms for its variables, fresh names for what exists
 Use = tuple[Literal["use"], str, Mapping[str, str], Mapping[str, str], "Node"]
-Node = Union[Close, Psatz, Cases, Sign, Interval, Boxes, Integral, Use]
+Node = Union[Close, Psatz, Cases, Sign, Boxes, Integral, Use]
 
 # new name, polynomial in it, its ends, nodes that show a change of sign
 Adjoined = tuple[str, str, str, str, Node, Node]

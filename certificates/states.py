@@ -8,6 +8,8 @@ from collections.abc import Collection, Mapping, Sequence
 from juggleproof.certificates import checker
 from juggleproof.certificates.nodes import Node, Values
 
+Known = Mapping[str, checker.Statement]
+
 
 class State:
     """What is assumed on one branch of a search: facts (polynomial, relation) that all hold, and
@@ -91,7 +93,7 @@ class State:
 
     def is_closed_by(self, node: Node, known: Mapping[str, checker.Statement]) -> bool:
         """Whether the checker accepts the node for what is assumed here."""
-        return bool(checker.closes(self.context, self.formulas, node, known))
+        return closes(self.context, self.formulas, node, known)
 
     def is_served_by(
         self,
@@ -107,9 +109,72 @@ class State:
         they have here.
         """
         assumed = self.context, self.formulas
-        return bool(checker.finds(*assumed, values, known, purpose, statement, base, sharp))
+        return finds(*assumed, values, known, purpose, statement, base, sharp)
 
 
 def state_of(unfolding: checker.Unfolding, count: int | None = None) -> State:
     """The state that assumes the premises of an unfolding, or the first `count` of them."""
     return State(unfolding.context).assume(checker.join("and", unfolding.premises[:count]))
+
+
+# -------------------------------------------------------------------------------------------------
+# Whether the checker accepts a part of a certificate, on a meter of its own.
+
+
+def closes(
+    context: checker.Context, formulas: Sequence[checker.Formula], node: object, known: Known
+) -> bool:
+    """Whether the node closes the state that assumes the formulas over the variables of a
+    context.
+    """
+    return not checker.verdict(checker.close, _assuming(context, formulas), node, known)[1]
+
+
+def finds(
+    context: checker.Context,
+    formulas: Sequence[checker.Formula],
+    values: object,
+    known: Known,
+    purpose: str,
+    statement: checker.Statement,
+    base: Collection[str] = (),
+    sharp: Sequence[ast.expr] | None = None,
+) -> bool:
+    """Whether values serve their purpose in the state that assumes the formulas over the variables
+    of a context; base: the variables of the statement that are also the state's.
+    """
+    state = _assuming(context, formulas)
+    own = {name: state.context.values[name] for name in base}
+    named = {statement.name: statement}
+    return not checker.verdict(checker.find, state, values, known, purpose, named, own, sharp)[1]
+
+
+def proves(
+    statement: checker.Statement,
+    proof: object,
+    known: Known,
+    sharp: Sequence[ast.expr] | None = None,
+) -> bool:
+    """Whether the proof, of a whole statement or inside a sharp range, is one."""
+    return not checker.verdict(checker.prove, statement, proof, known, sharp)[1]
+
+
+def _assuming(context: checker.Context, formulas: Sequence[checker.Formula]) -> checker.State:
+    work = checker.Work()
+    variables = checker.Context(work=work)
+    for key in context.index:
+        variables.declare(key, key in context.integers)
+    state = checker.State(variables)
+    for formula in formulas:
+        state.assume(formula if isinstance(formula, bool) else _on_meter(formula, work))
+    return state
+
+
+def _on_meter(
+    formula: checker.Atom | checker.Join, work: checker.Work
+) -> checker.Atom | checker.Join:
+    """The same formula, whose polynomials spend from this meter."""
+    if formula[0] == "atom":
+        _, poly, relation = formula
+        return ("atom", checker.Poly(poly.terms, poly.den, poly.deg, poly.bits, work), relation)
+    return (formula[0], [_on_meter(part, work) for part in formula[1]])

@@ -1,20 +1,21 @@
 """One method on one piece of work, in a process of its own:
 `python -m juggleproof.benchmarks.bench.child METHOD SIZE SECONDS`, the work pickled on stdin.
 
-Writes what was measured, pickled.  `cold` is the first answer, with everything that the method has
-to load; `warm` the least of what follows, if time is left.
+Writes what was measured, pickled, in CPU seconds.  `cold` is the first answer, with everything that
+the method has to load; `warm` the least of what follows, if time is left.
 """
 
 from __future__ import annotations
 
 import pickle
+import resource
 import signal
 import sys
-import time
 from fractions import Fraction
 
 from juggleproof.benchmarks.bench.answers import GaveUp, Measured
 from juggleproof.benchmarks.bench.methods import ENSEMBLE, METHODS, ORBITS
+from juggleproof.benchmarks.processes import GRACE, allow, cpu_seconds
 
 # more than so many repeats only while they take less than so many seconds: answers of a millisecond
 # vary most
@@ -36,25 +37,27 @@ def measured() -> Measured:
     name, size, seconds = sys.argv[1], Fraction(sys.argv[2]), float(sys.argv[3])
     work, method = pickle.load(sys.stdin.buffer), (METHODS | ORBITS | ENSEMBLE)[name]
     signal.signal(signal.SIGTERM, _over)
-    signal.signal(signal.SIGALRM, _over)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    began = time.perf_counter()
+    signal.signal(signal.SIGXCPU, _over)
+    most = int(cpu_seconds() + 2 * seconds + GRACE) + 1  # then it is killed, whatever it does
+    resource.setrlimit(resource.RLIMIT_CPU, (most, most))
+    allow(seconds)
+    began = cpu_seconds()
     took: list[float] = []
     try:
         while (
             not took
             or (len(took) <= REPEATS or sum(took[1:]) < LONG)
-            and time.perf_counter() - began + min(took) < seconds
+            and cpu_seconds() - began + min(took) < seconds
         ):
-            start = time.perf_counter()
+            start = cpu_seconds()
             answer = method.solve(work, size)
-            took.append(time.perf_counter() - start)
+            took.append(cpu_seconds() - start)
     except GaveUp as reason:
         return Measured(name, size, reason=f"gave up: {reason}")
     except Over:
         if not took:
             return Measured(name, size, reason=f"gave up: {seconds:g} s")
-    signal.setitimer(signal.ITIMER_REAL, seconds)  # as much to compare an orbit with the exact one
+    allow(seconds)  # as much to compare an orbit with the exact one
     try:
         answer = answer() if callable(answer) else answer
     except (Over, GaveUp):

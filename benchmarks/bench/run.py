@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 import pickle
 import re
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -27,7 +28,8 @@ from juggleproof.benchmarks.bench.methods import (
 )
 from juggleproof.benchmarks.bench.orbits import STARTS, STATE_STEPS
 from juggleproof.benchmarks.bench.questions import ALPHAS, VARIABLE_WIDTH, balls, questions
-from juggleproof.benchmarks.processes import end_with_children
+from juggleproof.benchmarks.figures import ABSENT, can_plot
+from juggleproof.benchmarks.processes import STALLED, end_with_children
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 
@@ -35,13 +37,13 @@ from juggleproof.certificates.store import write_file
 # One answer, in a process of its own, which is ended with its children when its seconds are over.
 
 ROOT = Path(__file__).resolve().parents[2]
-START = 5.0  # seconds that a process may take to start and to end, on a busy machine
+START = 5.0  # CPU seconds that a process may take to start and to end
 Report = Callable[[str], None]
 
 
 def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measured:
-    """Cold and warm seconds and the answer of one method; `seconds` limits the cold answer, and all
-    answers together.
+    """Cold and warm CPU seconds and the answer of one method; `seconds` limits the cold answer, and
+    all answers together.
     """
     environment = {
         **os.environ,
@@ -64,11 +66,15 @@ def measure(method: Method, work: Work, size: Fraction, seconds: float) -> Measu
         start_new_session=True,
     )
     try:
-        output, errors = process.communicate(pickle.dumps(work), timeout=2 * seconds + START)
+        output, errors = process.communicate(
+            pickle.dumps(work), timeout=STALLED * (seconds + START)
+        )
     except subprocess.TimeoutExpired:
         return Measured(method.name, size, reason="gave up")
     finally:
         end_with_children(process)
+    if process.returncode in (-signal.SIGKILL, -signal.SIGXCPU):
+        return Measured(method.name, size, reason="gave up")
     if process.returncode:
         lines = errors.decode(errors="replace").strip().splitlines()
         return Measured(
@@ -187,8 +193,8 @@ class Run:
                 "\n== the aim, over all questions and widths of this run\n"
                 + "\n".join(one.line() for one in table.together(self.judged))
             )
-        if not table.can_plot():
-            print(table.ABSENT)
+        if not can_plot():
+            print(ABSENT)
         return 1 if self.wrong else 0
 
     def energy(self, name: str) -> None:
@@ -295,7 +301,7 @@ class Run:
         wrong = table.wrong(present, results, truth)
         self.wrong += len(wrong)
         print("\n".join(wrong) or "every enclosure holds the truth")
-        if table.can_plot():
+        if can_plot():
             path = self.folder / f"{name}.svg"
             write_file(path, table.plot(title, present, results, truth))
             print(f"plot: {path}")

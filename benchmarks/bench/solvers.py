@@ -21,7 +21,7 @@ from juggleproof.benchmarks.bench.answers import (
     best_point,
     horner,
 )
-from juggleproof.benchmarks.processes import Clock
+from juggleproof.benchmarks.processes import output_of
 
 # -------------------------------------------------------------------------------------------------
 # The excess of a problem as a goal for Coq's tactic interval (Debian package libcoq-interval).
@@ -78,7 +78,7 @@ def proves(text: str, seconds: float) -> bool:
         path = Path(folder) / "goal.v"
         path.write_text(text, encoding="utf-8")
         return (
-            Clock(seconds).output_of(["coqc", "-q", str(path)], "") is not None
+            output_of(["coqc", "-q", str(path)], "", seconds) is not None
             and path.with_suffix(".vo").exists()
         )
 
@@ -90,7 +90,7 @@ def proves(text: str, seconds: float) -> bool:
 # behind that is checked here.
 
 START = Fraction(4)  # every supremum asked for lies between -4 and 4, which is asked too
-ENOUGH = 3600.0  # seconds: the process that asks is ended long before
+ENOUGH = 3600.0  # CPU seconds: fewer are left to the process that asks
 Exceeds = Callable[[Problem, Fraction], bool]
 
 
@@ -163,14 +163,10 @@ def by_cvc5_with_proof(problem: Problem, bound: Fraction) -> bool:
 
 def by_qepcad(problem: Problem, bound: Fraction) -> bool:
     """QEPCAD B, a program each time, which is how it is used."""
-    from juggleproof.benchmarks.peers import qepcad
-    from juggleproof.certificates.votes.questions import read_statement
+    from juggleproof.benchmarks.peers.routes import by_qepcad_alone
 
-    return _decided(
-        {"holds": "unsat", "fails": "sat"}.get(
-            qepcad(read_statement(problem.of_set(bound)), ENOUGH), ""
-        )
-    )
+    word = by_qepcad_alone(problem.of_set(bound))
+    return _decided({"holds": "unsat", "fails": "sat"}.get(word, ""))
 
 
 def by_coq_interval(problem: Problem, bound: Fraction) -> bool:

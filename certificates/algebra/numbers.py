@@ -11,8 +11,6 @@ from math import comb, floor, lcm, prod
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mpoly, fmpz_poly
 
-from juggleproof.certificates import checker
-
 # -------------------------------------------------------------------------------------------------
 # Real algebraic numbers: an irreducible polynomial with an isolating interval, compared and
 # rounded exactly.
@@ -366,7 +364,7 @@ def _enclosed(terms: Mapping[tuple[int, ...], int], roots: Sequence[AlgebraicNum
 
 
 # -------------------------------------------------------------------------------------------------
-# Polynomials in one variable on an interval: Bernstein's coefficients, and Sturm's theorem.
+# Polynomials in one variable on an interval: Bernstein's coefficients.
 
 
 def univariate(poly: fmpz_mpoly, variable: int) -> fmpq_poly:
@@ -399,23 +397,47 @@ def bernstein(poly: fmpq_poly, low: Fraction, high: Fraction, degree: int) -> li
     ]
 
 
+def tree_below_zero(poly: fmpq_poly, low: Fraction, high: Fraction, deep: int = 60) -> str | None:
+    """The box tree of one axis that shows that the polynomial is negative from low to high; None
+    where it is not, or where that takes more halvings, one inside another, than `deep`.
+
+    >>> tree_below_zero(fmpq_poly([-1, 4, -5]), Fraction(0), Fraction(1))
+    'aa...'
+    """
+    coefficients = bernstein(poly, low, high, max(poly.degree(), 0))
+    if low > high or coefficients[0] >= 0 or coefficients[-1] >= 0 or not deep:
+        return None
+    if max(coefficients) < 0:
+        return "."
+    middle = (low + high) / 2
+    lower = tree_below_zero(poly, low, middle, deep - 1)
+    upper = lower and tree_below_zero(poly, middle, high, deep - 1)
+    return upper and f"a{lower}{upper}"
+
+
+def with_one_change(poly: fmpq_poly, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+    """Ends around the only root of a polynomial between two numbers at which its signs differ, so
+    close that its Bernstein coefficients change their sign once.
+
+    >>> with_one_change(fmpq_poly([-2, 0, 1]) * fmpq_poly([8, -5, 1]), Fraction(0), Fraction(3))
+    (Fraction(0, 1), Fraction(3, 2))
+    """
+    while True:
+        signs = [b > 0 for b in bernstein(poly, low, high, poly.degree()) if b]
+        if sum(one != other for one, other in zip(signs, signs[1:])) == 1:
+            return low, high
+        middle = (low + high) / 2
+        if (poly(fmpq(middle.numerator, middle.denominator)) > 0) == signs[0]:
+            low = middle
+        else:
+            high = middle
+
+
 def positive_between(poly: fmpq_poly, low: Fraction, high: Fraction) -> bool:
-    """Whether the polynomial is positive on the whole closed interval: by Bernstein's coefficients,
-    else by Sturm's theorem.
+    """Whether the polynomial is positive on the whole closed interval.
 
     >>> poly = fmpq_poly([-2, 0, 1])
     >>> [positive_between(poly, Fraction(low, 10), Fraction(2)) for low in (14, 15)]
     [False, True]
     """
-    if low > high:
-        return False
-    coefficients = bernstein(poly, low, high, max(poly.degree(), 0))
-    if coefficients[0] <= 0 or coefficients[-1] <= 0:
-        return False
-    if all(b >= 0 for b in coefficients):
-        return True
-    return (
-        low < high
-        and checker.count_roots([int(c) for c in poly.numer().coeffs()], low, high, checker.Work())
-        == 0
-    )
+    return tree_below_zero(-poly, low, high) is not None

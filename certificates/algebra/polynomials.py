@@ -41,7 +41,7 @@ def monomials(poly: checker.Poly, size: int) -> dict[Monomial, int]:
     """The numerator of a polynomial of the checker as {exponents of its first `size` variables:
     coefficient}; it has no others, or OverflowError is raised.
 
-    >>> x = checker.Poly({1: 1}, 2, 1, checker.Work())
+    >>> x = checker.Poly({1: 1}, 2, 1, 0, checker.Work())
     >>> monomials(x, 2)
     {(1, 0): 1}
     """

@@ -10,7 +10,7 @@ statement: ["ID/part", {"certified": ..}], sorted by name.  Exit 0: every statem
 refuted; 1: one is unknown, or a certificate rejected or missing; 2: unusable input.  The files, in
 reading order, each resting on those before it:
 
-    algebra.py   polynomials, Sturm's theorem, Bernstein coefficients; knows of no proof
+    algebra.py   polynomials, Bernstein coefficients; knows of no proof
     text.py      terms and formulas as syntax trees; definitions, written out where they are used
     language.py  what a file of statements means: formulas, statements, unfolding
     rules.py     states, the rules that close them, proofs, witnesses and counterexamples
@@ -24,7 +24,7 @@ imports its own files relatively, and only these.  `__all__` is all that others 
 # fmt: off
 # isort: off
 from .algebra import (
-    BITS, MAX_VARIABLES, MAX_WORK, Kind, Poly, Rejected, Work, bernstein, count_roots, number,
+    BITS, MAX_VARIABLES, MAX_WORK, Kind, Poly, Rejected, Work, bernstein, number,
     variable,
 )
 from .text import Definitions, names_in, parse, rational
@@ -32,19 +32,20 @@ from .language import (
     Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
     read_statements, univariate, variables_of,
 )
+from .rules import State, close, find, prove
 from .settling import (
-    CERTIFICATES, MAX_FOLDER_WORK, MAX_STATEMENTS, STATEMENTS, check_folder, check_one, closes,
-    finds, load, main, orbit_rules, premises_of, proves, read_certificates, report,
+    CERTIFICATES, MAX_FOLDER_WORK, MAX_STATEMENTS, STATEMENTS, check_folder, check_one, load, main,
+    orbit_rules, premises_of, read_certificates, report, verdict,
 )
 
 __all__ = [
     # the check: a folder, one statement, a part of a certificate; and why something is rejected
     "CERTIFICATES", "Kind", "MAX_FOLDER_WORK", "MAX_STATEMENTS", "Rejected", "STATEMENTS",
-    "check_folder", "check_one", "closes", "finds", "load", "main", "orbit_rules", "premises_of",
-    "proves", "read_certificates", "report",
+    "State", "check_folder", "check_one", "close", "find", "load", "main", "orbit_rules",
+    "premises_of", "prove", "read_certificates", "report", "verdict",
     # the language: text, statements and polynomials, for who writes statements or searches
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
-    "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "count_roots", "fold",
+    "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "fold",
     "join", "names_in", "negate", "number", "parse", "rational", "read_statements",
     "univariate", "variable", "variables_of",
 ]

@@ -1,4 +1,4 @@
-"""Exact arithmetic: polynomials, Sturm's theorem, Bernstein coefficients, and the limits on them.
+"""Exact arithmetic: polynomials, Bernstein coefficients, and the limits on them.
 
 This file knows of no statement and no proof.  Numbers are integers and fractions of integers; there
 is no float.  It begins with what all files share: why something is rejected (`Kind`, `Rejected`,
@@ -25,7 +25,6 @@ MASK = (1 << BITS) - 1
 Rational = Union[int, Fraction]
 Terms = dict[int, int]  # {packed exponents: integer other than 0}
 Under = dict[tuple["Poly", bool], int]  # {licence: exponent}
-Coefficients = Sequence[int]  # of a polynomial in one variable, from the constant up
 
 
 # ------------------------------------------------------------ what is rejected, and why
@@ -38,7 +37,6 @@ class Kind(Enum):
     WORK = "too much work"
     SIZE = "a polynomial is too large"
     EXPONENT = "an exponent is too large"
-    END_ROOT = "a polynomial vanishes at an end of the interval"
     MONOTONE = "not monotone along an axis"
     # text
     TEXT = "unreadable text"
@@ -79,7 +77,6 @@ class Kind(Enum):
     STRICT = "no term of the certificate is strictly positive"
     CASES = "a disjunction needs one node for each alternative"
     BOUND = "not a bound of the right sense"
-    INTERVAL = "the fact does not fail on the whole interval"
     BOX_FACT = "a box tree is a text about a fact p > 0 or p >= 0"
     BOX_SIGN = "a Bernstein coefficient of a leaf has the wrong sign"
     BOX_LONG = "a box tree is too long"
@@ -177,51 +174,46 @@ class Poly:
     """terms / den / product of `under`: a polynomial with rational coefficients, over polynomials
     that are known to be nonzero.
 
-    terms: {packed exponents: integer other than 0}; deg: a bound on their degree; work: the meter
-    of the check; under: {licence: exponent}, where a licence is (polynomial other than 0, whether
-    it is > 0).  Only a term that divides has an `under`: facts and cofactors are polynomials.
+    terms: {packed exponents: integer other than 0}; deg, bits: bounds, their degree is at most deg,
+    and the sum of their absolute coefficients at most 2^bits; work: the meter of the check; under:
+    {licence: exponent}, where a licence is (polynomial other than 0, whether it is > 0).  Only a
+    term that divides has an `under`: facts and cofactors are polynomials.
     """
 
-    __slots__ = ("terms", "den", "deg", "work", "under")
+    __slots__ = ("terms", "den", "deg", "bits", "work", "under")
 
     def __init__(
-        self, terms: Terms, den: int, deg: int, work: Work, under: Under | None = None
+        self, terms: Terms, den: int, deg: int, bits: int, work: Work, under: Under | None = None
     ) -> None:
-        # a degree beyond the limit would carry into the exponent of the next variable
-        if deg > MAX_DEGREE or den.bit_length() > MAX_BITS:
-            raise Rejected(Kind.SIZE, f"degree {deg}")
+        # a degree beyond the limit would carry into the exponent of the next variable; work alone
+        # does not bound memory, so neither the terms nor their coefficients grow without limit
+        if deg > MAX_DEGREE or bits > MAX_BITS or den.bit_length() > MAX_BITS:
+            raise Rejected(Kind.SIZE, f"degree {deg}, {max(bits, den.bit_length())} bits")
         self.terms = terms
         self.den = den
         self.deg = deg
+        self.bits = bits
         self.work = work
         self.under = under or {}
 
     def over(self, under: Under) -> Poly:
         """The same terms, over other polynomials."""
-        return Poly(self.terms, self.den, self.deg, self.work, under)
+        return Poly(self.terms, self.den, self.deg, self.bits, self.work, under)
 
     def numerator(self, under: Under) -> Poly:
         """The numerator over a denominator that is a multiple of the present one."""
-        missing = (
-            poly ** (e - self.under.get((poly, sign), 0)) for (poly, sign), e in under.items()
-        )
-        return prod(missing, start=self.over({}))
+        missing = {key[0]: e - self.under.get(key, 0) for key, e in under.items()}
+        return prod((poly**e for poly, e in missing.items() if e), start=self.over({}))
 
     def plus(self, other: Poly, factor: Rational = 1) -> Poly:
-        """self + factor * other, for a rational factor other than 0."""
-        if self.under or other.under:
-            self.work.spend(len(self.under) + len(other.under))
-            under = merged(max, self.under, other.under)
-            return self.numerator(under).plus(other.numerator(under), factor).over(under)
-        second = other.den * factor.denominator
-        den = lcm(self.den, second)
-        self.work.spend(len(self.terms))
-        if den == self.den:
-            terms = dict(self.terms)
-        else:
-            terms = add_multiple({}, den // self.den, self.terms, self.work)
-        add_multiple(terms, den // second * factor.numerator, other.terms, self.work)
-        return Poly(terms, den, max(self.deg, other.deg), self.work)
+        """self + factor * other."""
+        if not (other.terms or other.under):
+            return self
+        if not (self.under or other.under):
+            return sum_of_products([(1, self, ONE), (factor, other, ONE)], self.work)
+        self.work.spend(len(self.under) + len(other.under))
+        under = merged(max, self.under, other.under)
+        return self.numerator(under).plus(other.numerator(under), factor).over(under)
 
     __add__ = plus
 
@@ -231,20 +223,18 @@ class Poly:
     def __neg__(self) -> Poly:
         self.work.spend(len(self.terms))
         negative = {m: -c for m, c in self.terms.items()}
-        return Poly(negative, self.den, self.deg, self.work, self.under)
+        return Poly(negative, self.den, self.deg, self.bits, self.work, self.under)
 
     def __mul__(self, other: Poly) -> Poly:
-        few, many = self.terms, other.terms
-        if len(many) < len(few):
-            few, many = many, few
-        terms: Terms = {}
-        for m, c in few.items():
-            add_multiple(terms, c, many, self.work, m)
+        product = sum_of_products([(1, self, other)], self.work)
+        if not (self.under or other.under):
+            return product
         self.work.spend(len(self.under) + len(other.under))
-        under = merged(sum, self.under, other.under) if self.under or other.under else None
-        return Poly(terms, self.den * other.den, self.deg + other.deg, self.work, under)
+        return product.over(merged(sum, self.under, other.under))
 
     def __pow__(self, exponent: int) -> Poly:
+        if exponent == 1:
+            return self
         # asked for before the first product: x^(10^9) must not begin
         require(exponent * max(self.deg, 1) <= MAX_DEGREE, Kind.EXPONENT, exponent)
         if exponent == 0:
@@ -252,7 +242,7 @@ class Poly:
         if len(self.terms) == 1 and not self.under:
             ((m, c),) = self.terms.items()
             if c == self.den == 1:  # a product of variables: so nearly every power
-                return Poly({m * exponent: 1}, 1, self.deg * exponent, self.work)
+                return Poly({m * exponent: 1}, 1, self.deg * exponent, 0, self.work)
         return prod([self] * (exponent - 1), start=self)
 
     def constant(self) -> Fraction | None:
@@ -270,7 +260,7 @@ class Poly:
         if self.terms[max(self.terms)] < 0:
             content = -content
         terms = {m: c // content for m, c in self.terms.items()}
-        return content, Poly(terms, 1, self.deg, self.work)
+        return content, Poly(terms, 1, self.deg, self.bits, self.work)
 
     def places(self) -> set[int]:
         """The numbers of the variables that occur."""
@@ -280,32 +270,45 @@ class Poly:
         return {i for i in range(MAX_VARIABLES) if together >> (BITS * i) & MASK}
 
 
-def add_multiple(terms: Terms, factor: int, others: Terms, work: Work, shift: int = 0) -> Terms:
-    """terms += factor * x^shift * others, for an integer factor other than 0; the work on
-    polynomials is counted and limited here.
-
-    No factor * c is longer than `bits`, so that coefficients are looked at only where one may be
-    too long.
+def sum_of_products(products: Sequence[tuple[Rational, Poly, Poly]], work: Work) -> Poly:
+    """sum of factor * p * q, for numerators p and q: all arithmetic of polynomials is such a sum,
+    and is counted and limited here.
     """
-    bits = 0
-    if not -2 < factor < 2:
-        bits = factor.bit_length() + max(map(int.bit_length, others.values()), default=0)
-    work.spend(1 + len(others) * (1 + (factor.bit_length() * bits >> 16)))
-    if terms:
-        for m, c in others.items():
-            total = terms.get(m + shift, 0) + factor * c
-            if total:
-                terms[m + shift] = total
+    den = 1
+    for factor, p, q in products:
+        below = factor.denominator * p.den * q.den
+        if below != 1:
+            work.spend(den.bit_length() * below.bit_length() >> 16)
+            den = lcm(den, below)
+            require(den.bit_length() <= MAX_BITS, Kind.SIZE, "a denominator")
+    terms: Terms = {}
+    deg = bits = 0
+    for factor, p, q in products:
+        scale = den // (factor.denominator * p.den * q.den) * factor.numerator
+        few, many = p.terms, q.terms
+        if len(many) < len(few):
+            few, many = many, few
+        size = bits_of(scale) + p.bits + q.bits
+        work.spend(1 + len(few) * len(many) * (1 + (size * size >> 16)))
+        require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
+        deg = max(deg, p.deg + q.deg)
+        bits = max(bits, size)
+        for m, c in few.items():
+            c *= scale
+            if terms:
+                for n, d in many.items():
+                    terms[m + n] = terms.get(m + n, 0) + c * d
             else:
-                del terms[m + shift]
-    else:
-        terms.update({m + shift: factor * c for m, c in others.items()})
-    # work alone does not bound memory: so neither the terms nor a coefficient grow without limit
-    if len(terms) > MAX_TERMS:
-        raise Rejected(Kind.SIZE, f"{len(terms)} terms")
-    if bits > MAX_BITS and any(c.bit_length() > MAX_BITS for c in terms.values()):
-        raise Rejected(Kind.SIZE, f"{len(terms)} terms")
-    return terms
+                terms = {m + n: c * d for n, d in many.items()}
+            require(len(terms) <= MAX_TERMS, Kind.SIZE, "too many terms")
+    if 0 in terms.values():
+        terms = {m: c for m, c in terms.items() if c}
+    return Poly(terms, den, deg, bits + bits_of(len(products)), work)
+
+
+def bits_of(value: int) -> int:
+    """The least k with |value| <= 2^k, at least 0."""
+    return (abs(value) - 1).bit_length() if value else 0
 
 
 def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> Under:
@@ -315,69 +318,25 @@ def merged(rule: Callable[[tuple[int, int]], int], one: Under, other: Under) -> 
 
 def number(value: Rational, work: Work) -> Poly:
     """A rational number as a polynomial."""
-    return Poly({0: value.numerator} if value else {}, value.denominator, 0, work)
+    upper = value.numerator
+    return Poly({0: upper} if upper else {}, value.denominator, 0, bits_of(upper), work)
 
 
 def variable(place: int, work: Work) -> Poly:
     """The variable of this number as a polynomial."""
-    return Poly({1 << (BITS * place): 1}, 1, 1, work)
+    return Poly({1 << (BITS * place): 1}, 1, 1, 0, work)
 
 
-# ------------------------------ polynomials in one variable: lists of integers from the constant up
-
-
-def sign_at(p: Coefficients, at: Fraction, work: Work) -> int:
-    """The sign of p at a rational number."""
-    value, scale = 0, 1
-    length = sum(map(int.bit_length, at.as_integer_ratio()))
-    for c in reversed(p):
-        work.spend(
-            1 + ((value.bit_length() + scale.bit_length()) * (length + c.bit_length()) >> 16)
-        )
-        value = value * at.numerator + c * scale
-        scale = scale * at.denominator
-    return (value > 0) - (value < 0)
-
-
-def remainder(p: Coefficients, q: Coefficients, work: Work) -> list[int]:
-    """A positive multiple of the remainder of p by q, without common factors."""
-    rest = list(p)
-    size = abs(q[-1])  # never q[-1] itself: a negative multiple would turn the signs of the chain
-    while len(rest) >= len(q):
-        factor = rest[-1] if q[-1] > 0 else -rest[-1]
-        shift = len(rest) - len(q)
-        work.spend(len(rest) * (1 + (factor.bit_length() * size.bit_length() >> 16)))
-        rest = [c * size for c in rest]
-        for k, c in enumerate(q):
-            rest[shift + k] -= factor * c
-        while rest and rest[-1] == 0:
-            rest.pop()
-        content = gcd(*rest)
-        rest = [c // content for c in rest]
-    return rest
-
-
-def count_roots(p: list[int], low: Fraction, high: Fraction, work: Work) -> int:
-    """The number of distinct real roots between two numbers where p is not 0, by Sturm's
-    theorem.
-    """
-    chain = [p, [k * c for k, c in enumerate(p)][1:]]
-    while chain[-1]:
-        chain.append([-c for c in remainder(chain[-2], chain[-1], work)])
-    below = [sign_at(q, low, work) for q in chain]
-    above = [sign_at(q, high, work) for q in chain]
-    # Sturm's theorem says nothing of a root that is an end
-    require(below[0] and above[0], Kind.END_ROOT)
-    return sign_changes(below) - sign_changes(above)
-
-
-def sign_changes(signs: list[int]) -> int:
-    """How often the sign changes in a sequence, zeros left out."""
-    signs = [sign for sign in signs if sign]
-    return sum(a != b for a, b in zip(signs, signs[1:]))
+ONE = number(1, Work(0))  # a factor of sums of products, which spend from a meter of their own
 
 
 # ------------------------------------------------------------ Bernstein coefficients on a box
+
+
+def sign_changes(values: Sequence[int]) -> int:
+    """How often the sign changes in a sequence, zeros left out."""
+    signs = [value > 0 for value in values if value]
+    return sum(one != other for one, other in zip(signs, signs[1:]))
 
 
 def times(p: list[int], factor: tuple[int, int]) -> list[int]:

@@ -18,14 +18,18 @@ from typing import Any, Literal, Union
 from .algebra import (
     BITS,
     MASK,
+    MAX_BITS,
     MAX_VARIABLES,
+    ONE,
     Kind,
     Poly,
     Rational,
     Rejected,
     Work,
+    bits_of,
     number,
     require,
+    sum_of_products,
     variable,
 )
 from .text import WORDS, Definitions, parse, written
@@ -42,11 +46,6 @@ Said = Any  # what a line says: as `LINES` reads its keyword
 
 OPPOSITE = {">": ">=", ">=": ">", "=": "!=", "!=": "="}  # not p > 0 is -p >= 0
 OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "!="}
-ARITHMETIC: Mapping[type[ast.operator], Callable[[Poly, Poly], Poly]] = {
-    ast.Add: Poly.__add__,
-    ast.Sub: Poly.__sub__,
-    ast.Mult: Poly.__mul__,
-}
 
 
 # ------------------------------------------------------------ formulas over polynomials
@@ -181,6 +180,12 @@ class Context:
 
     def value(self, node: ast.expr) -> Poly:
         """The value of a term."""
+        if isinstance(node, ast.BinOp):  # the text has no operator but + - * / ^
+            if isinstance(node.op, (ast.Add, ast.Sub)):
+                return self.sum(node)
+            if isinstance(node.op, ast.Pow):
+                return self.value(node.left) ** exponent(node)
+            return self.product(node)
         if isinstance(node, ast.Name):
             if node.id in self.values:
                 return self.values[node.id]
@@ -189,14 +194,54 @@ class Context:
             return self.number(node.value)
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             return -self.value(node.operand)
-        if isinstance(node, ast.BinOp):
-            left, op, right = self.value(node.left), type(node.op), node.right
-            if op is ast.Pow:
-                return left ** exponent(node)
-            if op is ast.Div:
-                return left * self.reciprocal(right)
-            return ARITHMETIC[op](left, self.value(right))  # the text has no other operator
         raise Rejected(Kind.TERM, ast.unparse(node))
+
+    def sum(self, node: ast.expr) -> Poly:
+        """The value of a chain of + and -, which is added up at once."""
+        summands: list[tuple[int, ast.expr]] = []
+        while isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
+            summands.append((1 if isinstance(node.op, ast.Add) else -1, node.right))
+            node = node.left
+        total = self.value(node)
+        values = [(sign, self.value(summand), ONE) for sign, summand in reversed(summands)]
+        if not (total.under or any(value.under for _, value, _ in values)):
+            return sum_of_products([(1, total, ONE), *values], self.work)
+        for sign, value, _ in values:
+            total = total.plus(value, sign)
+        return total
+
+    def product(self, node: ast.expr) -> Poly:
+        """The value of a chain of * and /: of its numbers and variables at once, then of the
+        rest.
+        """
+        upper = lower = 1
+        monomial = degree = 0
+        others: list[Poly] = []
+        factors = [node]
+        while factors:
+            node = factors.pop()
+            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+                factors += [node.right, node.left]
+                continue
+            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+                factors.append(node.left)
+                value = self.reciprocal(node.right)
+            else:
+                value = self.value(node)
+            if value.under or len(value.terms) != 1:
+                others.append(value)
+                continue
+            ((m, c),) = value.terms.items()
+            monomial += m
+            degree += value.deg
+            if not c == value.den == 1:
+                upper *= c
+                lower *= value.den
+                # a long product of constants would grow unseen
+                require((upper * lower).bit_length() <= MAX_BITS, Kind.SIZE)
+        self.work.spend(1)
+        first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
+        return prod(others, start=first) if others else first
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""

@@ -11,20 +11,23 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
+from math import prod
 from typing import Any, TypeVar
 
 from .algebra import (
     BITS,
+    ONE,
     Kind,
     Poly,
+    Rational,
     Rejected,
     Work,
     axis_first,
     bernstein,
-    count_roots,
     halved,
     require,
-    sign_at,
+    sign_changes,
+    sum_of_products,
     variable,
 )
 from .language import (
@@ -131,15 +134,17 @@ def close_by_positivstellensatz(
     Identities, cofactors of equations, Handelman and Bernstein forms are special cases.
     """
     context = state.context
-    total = context.number(0)
-    one = context.number(1)
     strict = False
+    total: list[tuple[Rational, Poly, Poly]] = []
     for coefficient, factors, root in products:
         weight = rational(coefficient)  # a negative weight would turn an inequality
         require(weight > 0, Kind.COEFFICIENT, coefficient)
-        square = one if root == "1" else context.polynomial(root)
-        positive = bool(square.constant())  # a root that may vanish makes nothing strict
-        product = square if root == "1" else square * square
+        parts = []
+        positive = True
+        if root != "1":
+            square = context.polynomial(root)
+            positive = bool(square.constant())  # a root that may vanish makes nothing strict
+            parts = [square, square]
         for index, exponent in factors:
             poly, relation = at(state.facts, index)
             # an even power of an equation, or an odd one of what may be negative, has no sign
@@ -148,16 +153,18 @@ def close_by_positivstellensatz(
             if not signed:
                 fact = f"({context.show(poly)} {relation} 0)^{exponent}"
                 raise Rejected(Kind.FACTOR, fact)
-            product = product * poly**exponent
+            parts.append(poly**exponent)
             positive = positive and relation != ">="
-        total = total.plus(product, weight)
+        last = parts.pop() if parts else ONE
+        total.append((weight, prod(parts[1:], start=parts[0]) if parts else ONE, last))
         strict = strict or positive
     for index, cofactor in equations:
         poly, relation = at(state.facts, index)
         require(relation == "=", Kind.EQUATION, lambda poly=poly: context.show(poly))
         # a cofactor is a polynomial: 1/0 times an equation would be anything
-        total = total + poly * context.polynomial(cofactor)
-    require(not total.terms, Kind.SUM, lambda: context.show(total))
+        total.append((1, poly, context.polynomial(cofactor)))
+    rest = sum_of_products(total, context.work)
+    require(not rest.terms, Kind.SUM, lambda: context.show(rest))
     require(strict, Kind.STRICT)
 
 
@@ -186,29 +193,10 @@ def bound(state: State, index: Hint, name: str, side: int) -> Fraction:
     """
     line, sense = at(state.facts, index)
     constant, slope, *more = univariate(state.context, line, name)
-    # an upper bound taken for a lower one would turn the interval inside out
+    # an upper bound taken for a lower one would turn the box inside out
     linear = not more and sense in (">", ">=")
     require(linear and slope * side > 0, Kind.BOUND, lambda: state.context.show(line))
     return Fraction(-constant, slope)
-
-
-def close_by_interval(state: State, known: Known, index: Hint, low: Hint, high: Hint) -> None:
-    """["interval", i, j, k]: fact i is p > 0 or p >= 0 in one variable; facts j and k say low <= it
-    and it <= high (or strictly).
-
-    p is not 0 at low and high, has no root between them (Sturm), and is negative at low: so fact i
-    fails on all of [low, high].
-    """
-    poly, relation = at(state.facts, index)
-    work = state.context.work
-    (name,) = variables_of(state.context, poly)
-    p = univariate(state.context, poly, name)
-    first = bound(state, low, name, 1)
-    last = bound(state, high, name, -1)
-    fails = relation in (">", ">=") and (  # p != 0 does not fail where p < 0
-        first > last or sign_at(p, first, work) < 0 and count_roots(p, first, last, work) == 0
-    )
-    require(fails, Kind.INTERVAL, lambda: state.context.show(poly))
 
 
 def parts_of_box(
@@ -328,7 +316,6 @@ RULES: Mapping[str, Callable[..., None]] = {
     "psatz": close_by_positivstellensatz,
     "cases": close_by_cases,
     "sign": close_by_sign,
-    "interval": close_by_interval,
     "boxes": close_by_boxes,
     "integral": close_by_integrality,
     "use": close_by_use,
@@ -470,9 +457,10 @@ def check_sharp(
 
     A statement's own range lines give way to the domain and the condition; a parameter is an
     integer where the statements say so. Inside, each statement is proved; outside, counterexamples
-    to one of them are found.  Each `number` line: its polynomial has exactly one root between its
-    ends, where it changes its sign.  Last, a point for each statement: in the domain, it meets what
-    the statement is given.
+    to one of them are found.  Each `number` line: between its ends, where its polynomial is not 0,
+    the polynomial has exactly one root, as its Bernstein coefficients change their sign once
+    (Descartes' rule of signs, for x = (low + high T) / (1 + T) and T > 0).  Last, a point for each
+    statement: in the domain, it meets what the statement is given.
     """
     (names,) = statement.get("sharp")
     (over,) = statement.get("over")
@@ -493,9 +481,10 @@ def check_sharp(
     for name, (tree, *ends) in statement.get("number"):
         poly = state.context.value(tree)
         low, high = (rational_value(state.context, end) for end in ends)
-        p = univariate(state.context, poly, *variables_of(state.context, poly))
-        once = count_roots(p, low, high, work) == 1
-        once = once and sign_at(p, low, work) != sign_at(p, high, work)
+        (parameter,) = variables_of(state.context, poly)
+        _, c = bernstein(poly, [(BITS * state.context.index[parameter], low, high)])
+        # the first and the last one have the signs at low and at high
+        once = low < high and c[0] and c[-1] and sign_changes(c) == 1
         require(once, Kind.ONE_ROOT, name)
     for name in names:
         # a witness is no parameter: the statement says nothing of each of its values

@@ -11,22 +11,18 @@ import os
 import re
 import stat
 import sys
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Literal, NoReturn, TypeVar
 
-from .algebra import MAX_WORK, Kind, Poly, Rejected, Work, require
+from .algebra import MAX_WORK, Kind, Rejected, Work, require
 from .language import (
-    Atom,
     Context,
-    Formula,
-    Join,
     Known,
-    Range,
     Statement,
     Unfolding,
     read_statements,
 )
-from .rules import Hint, State, at, check_sharp, close, find, prove
+from .rules import Hint, State, at, check_sharp, find, prove
 from .text import names_in, put
 
 MAX_FILE = 16 << 20
@@ -424,60 +420,6 @@ def verdict(
         return "rejected", reason
     except Exception as error:
         return "rejected", Rejected(Kind.MALFORMED, type(error).__name__)
-
-
-# ------------------------------ parts of a certificate, for who searches: no outcome rests on these
-
-
-def closes(context: Context, formulas: Sequence[Formula], node: Hint, known: Known) -> bool:
-    """Whether the node closes the state that assumes the formulas over the variables of a
-    context.
-    """
-    return not verdict(close, state_from(context, formulas), node, known)[1]
-
-
-def finds(
-    context: Context,
-    formulas: Sequence[Formula],
-    found: Hint,
-    known: Known,
-    purpose: str,
-    statement: Statement,
-    base: Collection[str] = (),
-    sharp: Range | None = None,
-) -> bool:
-    """Whether values found serve their purpose in the state that assumes the formulas over the
-    variables of a context; base: the variables of the statement that are also the state's.
-    """
-    state = state_from(context, formulas)
-    own = {name: state.context.values[name] for name in base}
-    named = {statement.name: statement}
-    return not verdict(find, state, found, known, purpose, named, own, sharp)[1]
-
-
-def proves(statement: Statement, proof: Hint, known: Known, sharp: Range | None = None) -> bool:
-    """Whether the proof, of a whole statement or inside a sharp range, is one."""
-    return not verdict(prove, statement, proof, known, sharp)[1]
-
-
-def state_from(context: Context, formulas: Sequence[Formula]) -> State:
-    """A state that assumes formulas of others, on a meter of its own."""
-    work = Work()
-    variables = Context(work=work)
-    for key in context.index:
-        variables.declare(key, key in context.integers)
-    state = State(variables)
-    for formula in formulas:
-        state.assume(formula if isinstance(formula, bool) else on_meter(formula, work))
-    return state
-
-
-def on_meter(formula: Atom | Join, work: Work) -> Atom | Join:
-    """The same formula, whose polynomials spend from this meter."""
-    if formula[0] == "atom":
-        _, poly, relation = formula
-        return ("atom", Poly(poly.terms, poly.den, poly.deg, work), relation)
-    return (formula[0], [on_meter(part, work) for part in formula[1]])
 
 
 # ------------------------------------------------------------ files

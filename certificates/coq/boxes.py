@@ -87,21 +87,6 @@ def boxes(branch: Branch, index: int, bounds: Sequence[tuple[int, int]], tree: s
     return _closed(branch, Box(poly, relation, branch.facts[index], axes), iter(tree))
 
 
-def interval(branch: Branch, index: int, low: int, high: int) -> list[str]:
-    """The rule `interval`, by a box tree instead of Sturm's theorem."""
-    poly, relation = branch.state.facts[index]
-    (place,) = poly.places()
-    axis = axis_of(branch, place, low, high)
-    if axis.low > axis.high:
-        sides: list[Weighed] = [
-            (1 / share, [(name, False)], False) for name, share in (axis.below, axis.above)
-        ]
-        return contradiction([*sides, (axis.low - axis.high, [], True)])
-    if axis.low == axis.high:
-        raise NotWritten("an interval of one number")
-    return excluded(branch, [Box(poly, relation, branch.facts[index], [axis])])
-
-
 def axis_of(branch: Branch, place: int, low: int, high: int) -> Axis:
     """The variable of this number between what two facts say."""
     ends: list[Fraction] = []
@@ -188,7 +173,7 @@ def _face(branch: Branch, box: Box, place: int, tree: Iterator[str]) -> list[str
     face = checker.number(0, box.poly.work)
     for m, c in box.poly.terms.items():
         e = m >> shift & mask
-        rest = checker.Poly({m - (e << shift): c}, 1, box.poly.deg, box.poly.work)
+        rest = checker.Poly({m - (e << shift): c}, 1, box.poly.deg, box.poly.bits, box.poly.work)
         face = face + rest * end**e
     gains = [by_index[(*i[:place], last, *i[place + 1 :])] - by_index[i] for i in indices]
     weighed = [

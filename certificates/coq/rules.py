@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq.boxes import boxes, interval
+from juggleproof.certificates.coq.boxes import boxes
 from juggleproof.certificates.coq.branch import (
     Branch,
     Equation,
@@ -199,7 +199,6 @@ RULES: dict[str, Callable[..., list[str]]] = {
     "cases": _cases,
     "sign": _sign,
     "integral": _integral,
-    "interval": interval,
     "boxes": boxes,
     "use": _use,
 }

@@ -18,7 +18,7 @@ from juggleproof.certificates.nodes import (
 )
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
 from juggleproof.certificates.search.points import search_values
-from juggleproof.certificates.states import State, state_of
+from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
 # -------------------------------------------------------------------------------------------------
@@ -277,7 +277,7 @@ def search_proof(
         )
         if node is not None:
             proof = "proof", steps, node
-    if proof is None or not confirm or checker.proves(statement, proof, known, sharp):
+    if proof is None or not confirm or proves(statement, proof, known, sharp):
         return proof
     return None
 

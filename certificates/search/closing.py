@@ -12,9 +12,9 @@ from flint import fmpq_poly, fmpz_poly
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import (
     AlgebraicNumber,
-    exact,
     fraction,
     polynomial_text,
+    tree_below_zero,
 )
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
@@ -489,20 +489,8 @@ def _contradiction(state: State, index: int, adjoined: AdjoinedNumber) -> Node |
             (equation, dense_text(-v / gcd[0], adjoined.name)),
         ]
         return "psatz", [("1", [], "1")], cofactors
-    if dense(exact(adjoined.low)) < 0 and _no_root(dense, adjoined):
-        return "interval", index, low, high
-    return None
-
-
-def _no_root(dense: fmpq_poly, adjoined: AdjoinedNumber) -> bool:
-    ends = dense(exact(adjoined.low)), dense(exact(adjoined.high))
-    return (
-        all(ends)
-        and checker.count_roots(
-            [int(c) for c in dense.numer().coeffs()], adjoined.low, adjoined.high, checker.Work()
-        )
-        == 0
-    )
+    tree = tree_below_zero(dense, adjoined.low, adjoined.high)
+    return None if tree is None else ("boxes", index, [(low, high)], tree)
 
 
 def _dense(context: checker.Context, poly: checker.Poly, name: str) -> fmpq_poly:

@@ -237,7 +237,7 @@ def values_of_tower(
     budget: Budget,
     digits: int,
 ) -> Values | None:
-    """The point as `checker.finds` takes it, with roots between neighbouring decimals; None where a
+    """The point as `states.finds` takes it, with roots between neighbouring decimals; None where a
     node is missing.
     """
     own = state.branch()
@@ -293,7 +293,7 @@ def search_values(
     effort: int = 1,
     roles: Roles = NO_ROLES,
 ) -> Values | None:
-    """Values as `checker.finds` takes them for the purpose "point", "counterexample" or "witness";
+    """Values as `states.finds` takes them for the purpose "point", "counterexample" or "witness";
     None where none were found.
 
     `base` has the values of variables that are given, in which a witness is sought as terms.

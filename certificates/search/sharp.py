@@ -16,6 +16,7 @@ from juggleproof.certificates.algebra.numbers import (
     exact,
     real_roots,
     simplest_between,
+    with_one_change,
 )
 from juggleproof.certificates.language import (
     NO_ROLES,
@@ -405,14 +406,15 @@ def probes_of(low: Fraction | None, high: Fraction | None) -> list[fmpq]:
 def stated_range(
     name: str, statements: Sequence[checker.Statement], parameter: str, domain: Formula, line: Line
 ) -> SharpRange:
-    """The range as a statement; its `number` lines account for every root in the domain of the
+    """The range as a statement; it has a `number` line for every root in the domain of the
     polynomials in its condition.
     """
     simple = line.simplified()
     numbers: list[tuple[str, Term, Fraction, Fraction]] = []
     for poly in dict.fromkeys(tuple(n.coefficients) for n in simple.numbers if not n.is_rational):
         for low, high in isolated(poly, domain, parameter):
-            numbers.append((f"c{len(numbers) + 1}", polynomial_term(poly, parameter), low, high))
+            ends = with_one_change(fmpq_poly(list(poly)), low, high)
+            numbers.append((f"c{len(numbers) + 1}", polynomial_term(poly, parameter), *ends))
     return SharpRange(
         name,
         tuple(s.name for s in statements),

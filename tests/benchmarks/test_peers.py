@@ -1,5 +1,5 @@
-"""The peers are asked what is meant: each translator gives the right answer on true and false
-statements, where its program is there.
+"""Each route says what is true of true and false statements, where its program is there; what is
+wrong ends the run with 1, and work ends when its CPU seconds are used up.
 """
 
 from __future__ import annotations
@@ -7,62 +7,78 @@ from __future__ import annotations
 import doctest
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
-from juggleproof.benchmarks import peers
-from juggleproof.benchmarks.processes import Clock
-from juggleproof.certificates import checker
-from juggleproof.certificates.votes.questions import read_statement
-from tests.certificates.votes.corpus import STATEMENTS
+from juggleproof.benchmarks import processes
+from juggleproof.benchmarks.peers import __main__ as peers
+from juggleproof.benchmarks.peers import notation, routes, table
+from juggleproof.benchmarks.peers.routes import Answer, Problem, Result, Route
+from juggleproof.benchmarks.processes import children_seconds, each, output_of
+from juggleproof.certificates.votes.questions import questions, read_statement
+from tests.certificates.votes.corpus import FALSE, TRUE
 
-SECONDS = 60.0  # far more than any of them takes, also on a busy machine
-Settle = Callable[[checker.Statement, float], peers.Answer]
-TRUE = ("square", "f1-in-H", "e1-in-B1", "collision-time", "B1-plus-not-empty", "sup-negative")
-FALSE = ("strict-square", "B2-by-time", "circle-half", "p-outside-R-whole", "some-state-gains-more")
+SECONDS = 60.0  # of CPU, far more than any of them takes
+HOLD = ("square", "f1-in-H", "e1-in-B1", "collision-time", "B1-plus-not-empty", "sup-negative")
+FAIL = ("strict-square", "B2-by-time", "circle-half", "p-outside-R-whole", "some-state-gains-more")
 LINEAR = ("f1-in-H", "collision-time", "gain-identity")
+ROUTES = {route.title: route for route in routes.routes()}
+
+
+def problem(name: str) -> Problem:
+    text = TRUE.get(name) or FALSE[name]
+    statement = read_statement(text)
+    return Problem(statement.name, text, statement, {}, "", "holds" if name in TRUE else "fails")
+
+
+def words(title: str, names: Sequence[str]) -> list[Answer]:
+    """The answers of a route to statements of the corpus, in order."""
+    if not ROUTES[title].present:
+        pytest.skip(f"{ROUTES[title].package} is absent")
+    asked = [problem(name) for name in names]
+    results = {one.name: one.answer for one in ROUTES[title].run(asked, SECONDS)}
+    return [results[one.name] for one in asked]
 
 
 @pytest.mark.parametrize(
-    "settle, present",
+    "title",
     [
-        (peers.z3, peers.z3_command()),
-        (peers.cvc5, peers.has_cvc5()),
-        (peers.qepcad, peers.has_qepcad()),
-        (peers.ours, True),
+        "ours, search and check",
+        "Z3, unchecked",
+        "cvc5, unchecked",
+        "cvc5 with its proof",
+        "QEPCAD B",
     ],
 )
-@pytest.mark.parametrize("name", [*TRUE, *FALSE])
-def test_a_peer_gives_the_right_answer_holds(name: str, settle: Settle, present: object) -> None:
-    if not present:
-        pytest.skip(f"{settle.__name__} is not installed")
-    statement, expected = STATEMENTS[name]
-    assert settle(statement, SECONDS) == ("holds" if expected else "fails")
+def test_a_route_gives_the_right_answers_holds(title: str) -> None:
+    answers = [answer.word for answer in words(title, [*HOLD, *FAIL])]
+    assert answers == ["holds"] * len(HOLD) + ["fails"] * len(FAIL)
+
+
+def test_nra_proves_what_is_true_and_nothing_false_holds() -> None:
+    names = [LINEAR[0], "strict-square", LINEAR[1], "circle-half", LINEAR[2]]
+    answers = [answer.word for answer in words("Coq's nra, or psatz", names)]
+    assert answers == ["holds", "gave up", "holds", "gave up", "holds"]
 
 
 @pytest.mark.parametrize(
-    "name, answer",
+    "title, name, why",
     [
-        *((name, "holds") for name in LINEAR),
-        ("strict-square", "unsettled"),
-        ("circle-half", "unsettled"),
+        ("QEPCAD B", "flight-count", "integers"),
+        ("Coq's nra, or psatz", "flight-count", "integers"),
+        ("Coq's nra, or psatz", "B1-plus-not-empty", "quantifiers"),
     ],
 )
-def test_nra_proves_what_is_true_and_nothing_false_holds(name: str, answer: str) -> None:
-    if not peers.has_coq():
-        pytest.skip("coqc is not installed")
-    assert peers.coq_nra(STATEMENTS[name][0], SECONDS) == answer
+def test_what_a_route_has_no_words_for_is_not_taken_holds(title: str, name: str, why: str) -> None:
+    assert words(title, [name]) == [("not taken", why)]
 
 
-def test_what_a_peer_has_no_words_for_is_not_expressible_holds() -> None:
-    integer, exists = STATEMENTS["flight-count"][0], STATEMENTS["B1-plus-not-empty"][0]
-    assert peers.qepcad(integer, SECONDS) == "not expressible"
-    assert peers.coq_nra(integer, SECONDS) == peers.coq_nra(exists, SECONDS) == "not expressible"
-
-
-def test_the_formats_are_those_of_the_examples_holds() -> None:
-    result = doctest.testmod(peers)
+@pytest.mark.parametrize("module", [notation, routes])
+def test_the_formats_are_those_of_the_examples_holds(module: object) -> None:
+    result = doctest.testmod(module)  # type: ignore[arg-type]
     assert result.attempted and not result.failed
 
 
@@ -70,7 +86,7 @@ def test_disjunctions_and_fractions_are_written_for_nra_holds() -> None:
     statement = read_statement(
         "statement t/t\nforall x y\ngiven x/3 > 1 or y < -1/2\ngiven x*y != 0\nshow x^2 + y^2 > 1/4"
     )
-    (text,) = [peers.goal(question) for question in peers.questions(statement)]
+    (text,) = [notation.goal(question) for question in questions(statement)]
     assert (
         text is not None
         and text.splitlines()[0]
@@ -79,32 +95,111 @@ def test_disjunctions_and_fractions_are_written_for_nra_holds() -> None:
     )
 
 
-def test_a_program_that_takes_too_long_is_ended_with_its_children() -> None:
+# -------------------------------------------------------------------------------------------------
+# The whole run, on few statements.
+
+
+def test_a_share_of_the_store_is_decided_by_every_route_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    file = tmp_path / "peers.svg"
+    assert peers.main(["--share", "400", "--plot", str(file)]) == 0
+    output = capsys.readouterr().out
+    drawn = file.read_text(encoding="utf-8")
+    for route in ROUTES.values():
+        assert not route.present or f"\n{route.title}: {route.how}" in output
+        assert route.present or route.package in output.split("absent: ")[1]
+    ours, check = (
+        row for row in output.splitlines() if row.startswith("ours, ") and "lines" in row
+    )
+    taken, decided = check.split()[3:5]
+    assert int(taken) == int(decided) > 0 and ours.split()[6] == "0"
+    assert "times ours, search and check" in output and "times ours, check alone" in output
+    assert "every answer is what the checker says" in output and drawn.startswith("<?xml")
+
+
+def saying(word: routes.Word, title: str = "a liar", present: bool = True) -> Route:
+    """A route that says the same of every statement."""
+
+    def run(asked: Sequence[Problem], seconds: float) -> Iterator[Result]:
+        return (Result(one.name, Answer(word), 0.5) for one in asked)
+
+    return Route(title, "nobody", "at once", run, present, f"{title}'s package")
+
+
+def test_rejects_a_route_that_is_wrong(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    arguments = ["--plot", str(tmp_path / "peers.svg")]
+    monkeypatch.setattr(peers, "problems", lambda store: [problem(name) for name in LINEAR])
+    monkeypatch.setattr(peers, "routes", lambda: [saying("fails"), saying("holds", "c", False)])
+    assert peers.main(arguments) == 1
+    output = capsys.readouterr().out
+    assert "WRONG: a liar says of " in output and "fails; the checker: holds" in output
+    assert "absent: c's package" in output
+    monkeypatch.setattr(peers, "routes", lambda: [saying("gave up")])
+    assert peers.main(arguments) == 0
+
+
+def test_rejects_a_route_that_leaves_a_statement_out() -> None:
+    asked = [problem(name) for name in LINEAR]
+    silent = replace(saying("holds"), run=lambda asked, seconds: iter(()))
+    with pytest.raises(ChildProcessError, match="has not answered on every statement"):
+        peers.measured(silent, asked, 1.0)
+
+
+def test_ratios_are_over_what_both_decide_holds() -> None:
+    def measured(title: str, seconds: dict[str, float]) -> table.Measured:
+        results = {
+            name: Result(name, Answer("holds" if took else "gave up"), took)
+            for name, took in seconds.items()
+        }
+        return table.Measured(saying("holds", title), results, 0.0)
+
+    ours = measured("ours", {"a": 1.0, "b": 2.0, "c": 3.0})
+    peer = measured("peer", {"a": 2.0, "b": 2.0, "c": 0.0})
+    assert table.ratios([ours, peer], ours).splitlines()[1].split() == ["peer", "2", "1.33", "1.5"]
+
+
+# -------------------------------------------------------------------------------------------------
+# CPU seconds.
+
+
+def squares() -> Callable[[int], Callable[[], int]]:
+    def square(number: int) -> int:
+        while number == 2:
+            pass
+        return number**2
+
+    return lambda number: lambda: square(number)
+
+
+def test_work_that_uses_up_its_cpu_seconds_is_given_up_and_the_next_is_done_holds() -> None:
+    before = children_seconds()
+    done = list(each(squares, [1, 2, 3, 2, 5], 0.1))
+    assert [one.answer for one in done] == [1, None, 9, None, 25]
+    spent = sum(one.seconds for one in done)
+    assert 0.2 < spent <= children_seconds() - before < 10
+
+
+def test_rejects_work_that_fails() -> None:
+    with pytest.raises(ChildProcessError):
+        list(each(lambda: lambda number: lambda: 1 // number, [1, 0], 1.0))
+
+
+def test_a_program_that_uses_up_its_cpu_seconds_is_ended() -> None:
+    before = children_seconds()
+    assert output_of([sys.executable, "-c", "while True: pass"], "", 0.1) is None
+    assert 0.1 < children_seconds() - before < 10
+    assert output_of([sys.executable, "-c", "print(input())"], "text", 5.0) == "text\n"
+
+
+def test_a_program_that_stands_still_is_ended_with_its_children(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(processes, "STALLED", 0.3)
     began = time.monotonic()
-    assert (
-        Clock(0.3).output_of(
-            [sys.executable, "-c", "import subprocess, sys; subprocess.run(['sleep', '30'])"], ""
-        )
-        is None
-    )
+    program = "import subprocess, sys; subprocess.run(['sleep', '30'])"
+    assert output_of([sys.executable, "-c", program], "", 0.3) is None
     assert time.monotonic() - began < 10
-
-
-def test_an_answer_that_comes_too_late_does_not_count() -> None:
-    method = peers.Method("slow", lambda statement, seconds: "holds")
-    method.run("t/t", None, -1.0)
-    assert method.answers["t/t"][0] == "unsettled"
-
-
-def test_rejects_answers_that_contradict_each_other() -> None:
-    first, second = (
-        peers.Method(title, peers.ours, answers={"t/t": (answer, 0.1)})
-        for title, answer in (("a", "holds"), ("b", "fails"))
-    )
-    silent = peers.Method("c", peers.ours, answers={"t/t": ("unsettled", 0.1)})
-    assert peers.contradictions("t/t", None, [first, second]) == [
-        "CONTRADICTION about t/t: a: holds; b: fails"
-    ]
-    assert peers.contradictions(
-        "t/t", {"refuted": []}, [first, silent]
-    ) and not peers.contradictions("t/t", {"certified": []}, [first, silent])

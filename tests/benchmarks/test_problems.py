@@ -61,7 +61,9 @@ def test_a_problem_alone_is_the_problem_in_its_script_holds() -> None:
 def test_no_solver_contradicts_a_status_of_the_sample_holds(peer: str) -> None:
     if peer not in problems.peers():
         pytest.skip(f"{peer} is not installed")
-    votes = {problem.name: problems.vote(peer, problem, 20.0) for problem in SAMPLE}
+    votes = dict(
+        zip([problem.name for problem in SAMPLE], problems.votes(peer, SAMPLE, 20.0), strict=True)
+    )
     stated = {problem.name: problem.status for problem in SAMPLE}
     assert len(SAMPLE) > 10
     assert not {name: word for name, word in votes.items() if word not in ("unknown", stated[name])}

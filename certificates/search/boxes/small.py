@@ -103,7 +103,7 @@ def search_tree(terms: Terms, box: Box, most: int) -> str | None:
     try:
         boxes = [
             checker.bernstein(
-                checker.Poly(packed, 1, 0, checker.Work()),
+                checker.Poly(packed, 1, 0, 0, checker.Work()),
                 [(checker.BITS * k, *box[k]) for k in used],
             )
         ]

@@ -118,10 +118,12 @@ def test_the_closed_form_is_the_bound_of_set_and_box_holds(name: str, more: Frac
         (problem.of_box(truth(name) - 1, truth(name) + more), True),
         (problem.of_box(truth(name) - 1, truth(name) - Fraction(1, 10**6)), False),
     ):
-        from juggleproof.benchmarks.peers import z3
+        from juggleproof.benchmarks.peers.routes import answer_of, checks, z3
         from juggleproof.certificates.votes.questions import read_statement
+        from juggleproof.certificates.votes.smtlib import script
 
-        assert z3(read_statement(text), 60.0) == ("holds" if holds else "fails")
+        answer = answer_of(z3(), checks(script(read_statement(text))))
+        assert answer.word == ("holds" if holds else "fails")
 
 
 def test_ours_rests_on_the_checker_holds(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -334,7 +336,7 @@ def test_a_quick_run_ends_with_table_plot_and_verdict_holds(
         and "faster than every certified peer" not in output
     )
     assert "1e-1" in output and "1e-6" in output and "slope" in output
-    from juggleproof.benchmarks.bench.table import ABSENT, can_plot
+    from juggleproof.benchmarks.figures import ABSENT, can_plot
 
     assert (
         (tmp_path / "bench" / "p-outside-R.svg").read_bytes().startswith(b"<?xml")

@@ -170,7 +170,7 @@ def test_coefficients_are_as_short_as_the_limit_assumes(
     c: list[int], end: tuple[Fraction, Fraction]
 ) -> None:
     low, high, n = end[0], sum(end), len(c) - 1
-    poly = checker.Poly({k: value for k, value in enumerate(c) if value}, 1, n, checker.Work())
+    poly = checker.Poly({k: value for k, value in enumerate(c) if value}, 1, n, 50, checker.Work())
     d = lcm(low.denominator, high.denominator)
     more = n * (3 + max(x.bit_length() for x in (d, int(low * d), int(high * d))))
     found = checker.bernstein(poly, [(0, low, high)])[1]

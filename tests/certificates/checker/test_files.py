@@ -4,12 +4,14 @@ wrong, whatever the files hold.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import py_compile
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from importlib.util import cache_from_source
 from pathlib import Path
 
@@ -36,13 +38,24 @@ def line(name: str, certificate: str) -> str:
 GOOD = line("a/b", PROOF)
 
 
-def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-I", "-S", str(CHECKER), *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=60,
+def run(
+    *arguments: str | Path,
+    folder: Path = CHECKER,
+    flags: Sequence[str] = ("-I", "-S"),
+    environment: dict[str, str] | None = None,
+) -> subprocess.CompletedProcess[str]:
+    """The bare checker; the digests of its files, which it prints first, are compared and left
+    out.
+    """
+    program = [sys.executable, *flags, str(folder), *map(str, arguments)]
+    done = subprocess.run(program, capture_output=True, text=True, env=environment, timeout=60)
+    digests = "".join(
+        f"{path.name:12} sha256 {hashlib.sha256(path.read_bytes()).hexdigest()}\n"
+        for path in sorted(folder.glob("*.py"))
     )
+    assert done.stdout.startswith(digests)
+    done.stdout = done.stdout.removeprefix(digests)
+    return done
 
 
 def check(
@@ -108,15 +121,15 @@ def test_compiled_code_beside_the_text_is_not_run(tmp_path: Path) -> None:
     py_compile.compile(
         str(forged), str(place), invalidation_mode=py_compile.PycInvalidationMode.UNCHECKED_HASH
     )
-    program = [sys.executable, "-I", "-S", str(copy), str(tmp_path / "all")]
-    done = subprocess.run(program, capture_output=True, text=True, timeout=60)
+    done = run(tmp_path / "all", folder=copy)
     assert done.stdout == "1 statements: 1 certified, 0 refuted, 0 unknown, 0 rejected\n"
     # of __main__ alone, Python itself keeps and runs compiled code
     assert {path.name.split(".")[0] for path in place.parent.iterdir()} <= {"rules", "__main__"}
 
 
 def test_a_module_beside_the_folder_is_not_run(tmp_path: Path) -> None:
-    shutil.copytree(CHECKER, tmp_path / "checker")
+    copy = tmp_path / "checker"
+    shutil.copytree(CHECKER, copy)
     for name in ("json", "re", "fractions", "sys", "heapq"):
         (tmp_path / f"{name}.py").write_text("print('forged')\n")
     (tmp_path / "all").mkdir()
@@ -124,9 +137,8 @@ def test_a_module_beside_the_folder_is_not_run(tmp_path: Path) -> None:
     (tmp_path / "other" / "checker").mkdir(parents=True)
     (tmp_path / "other" / "checker" / "__init__.py").write_text("print('forged')\n")
     for flags in (["-I", "-S"], []):
-        program = [sys.executable, *flags, str(tmp_path / "checker"), str(tmp_path / "all")]
-        environment = {"PYTHONPATH": str(tmp_path / "other")}
-        done = subprocess.run(program, capture_output=True, text=True, env=environment, timeout=60)
+        other = {"PYTHONPATH": str(tmp_path / "other")}
+        done = run(tmp_path / "all", folder=copy, flags=flags, environment=other)
         assert done.stdout == "1 statements: 1 certified, 0 refuted, 0 unknown, 0 rejected\n"
 
 

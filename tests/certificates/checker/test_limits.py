@@ -51,6 +51,10 @@ def negated(p: str, node: Json) -> Json:
     return ["sign", f"-({p})", node, OPEN, OPEN]
 
 
+def on_unit(tree: str) -> Json:
+    return ["boxes", 3, [[0, 1]], tree]
+
+
 NODES: dict[str, Json] = {
     "a power of a power": summand("((x + y + z)^40)^40"),
     "a tower of powers": summand("(((x^60)^60)^60)^60"),
@@ -66,15 +70,15 @@ NODES: dict[str, Json] = {
         [[1, [], "(x + y + z + 1)^12"], *[[1, [], "1"]] * 200_000],
         [],
     ],
-    "a root count of degree 150": negated(f"{sampled(60, 150)} - 2^61", ["interval", 3, 0, 1]),
-    "a root count of degree 40, long coefficients": negated(
-        f"{sampled(4000, 40)} - 2^3999*4", ["interval", 3, 0, 1]
+    "a box tree of degree 150": negated(f"{sampled(60, 150)} - 2^61", on_unit("a" * 500)),
+    "a box tree of degree 40, long coefficients": negated(
+        f"{sampled(4000, 40)} - 2^3999*4", on_unit("a" * 5000)
     ),
     "a long numerator at the end of an interval": negated(
-        f"{BIG}*x + {BIG[:-1]}7", negated("x^3000 - 3", ["interval", 4, 3, 1])
+        f"{BIG}*x + {BIG[:-1]}7", negated("x^3000 - 3", ["boxes", 4, [[3, 1]], "a."])
     ),
     "a long denominator at the end of an interval": negated(
-        f"{BIG}*x - 1", negated("x^3000 - 3", ["interval", 4, 3, 1])
+        f"{BIG}*x - 1", negated("x^3000 - 3", ["boxes", 4, [[3, 1]], "a."])
     ),
     "denominators without bound": [
         "psatz",

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.certificates.checker.evaluator import formula_at, holds_at, term_at
-from tests.certificates.checker.harness import CLOSE, lines, proof, refuted, verdict
+from tests.certificates.checker.harness import CLOSE, Case, judge, lines, proof, refuted, verdict
+from tests.certificates.checker.rules.sharp import EARLIER, SHARP, VALID, over
 
 NAMES = ("x", "y", "z")
 FEW = settings(max_examples=25, deadline=None, derandomize=True)
@@ -186,17 +187,14 @@ def test_a_sum_of_products_of_what_is_not_negative_is_not_negative(
     small,
     st.sampled_from(["", "-"]),
 )
-def test_the_interval_rule_decides_by_the_roots(
+def test_a_number_is_the_only_root_between_its_ends(
     roots: list[tuple[Fraction, int]], low: Fraction, high: Fraction, sign: str
 ) -> None:
-    assume(low < high)
-    p = f"{sign}(x^2 + 1)*" + "*".join(f"(x - {numeral(root)})^{k}" for root, k in roots)
-    text = lines(
-        "forall x", f"given x >= {low}", f"given x <= {high}", f"show {p} < 0"
-    )  # the negation, p >= 0, is fact 2
-    negative = all(formula_at(f"{p} < 0", {"x": at}) for at in (low, high)) and not any(
-        low <= root <= high for root, _ in roots
-    )
-    assert outcome(text, proof(["interval", 2, 0, 1], at={"x": str(low)})) == (
-        "certified" if negative else "rejected"
-    )
+    p = f"{sign}2*" + "*".join(f"(a - {numeral(root)})^{k}" for root, k in roots)
+    number = f"number c = root({p}, {low}, {high})"
+    text = over(*SHARP[:3], number, SHARP[3])
+    # Descartes' rule counts the roots of a polynomial whose roots are all real
+    orders = sum(k for root, k in roots if low < root < high)
+    once = orders == 1 and not any(root in (low, high) for root, _ in roots)
+    outcome, _ = judge(Case("", text, VALID, earlier=EARLIER))
+    assert outcome == ("certified" if once else "rejected")

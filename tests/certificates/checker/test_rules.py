@@ -8,6 +8,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
+from juggleproof.certificates.states import closes, finds, proves
 from tests.certificates.checker.harness import CLOSE, Case, judge, lines, refused
 from tests.certificates.checker.rules import TABLES
 
@@ -64,26 +65,26 @@ def test_parts_of_a_certificate_are_judged_alone() -> None:
     )
     either = checker.join("or", [below_1, below_0])
     last = ["psatz", [[1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
-    assert checker.closes(context, [n, below_1], ["integral", 0, last], {})
+    assert closes(context, [n, below_1], ["integral", 0, last], {})
     together = checker.join("and", [n, below_1])
     spent.left = 0
-    assert checker.closes(context, [together], ["integral", 0, last], {})
-    assert not checker.closes(context, [x, real], ["integral", 0, last], {})
-    assert not checker.closes(context, [n], ["integral", 0, last], {})
+    assert closes(context, [together], ["integral", 0, last], {})
+    assert not closes(context, [x, real], ["integral", 0, last], {})
+    assert not closes(context, [n], ["integral", 0, last], {})
     sums = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"], [1, [[2, 1]], "1"]], []]
     both = [
         "cases",
         0,
         [["integral", 0, ["psatz", [[1, [[2, 1]], "1"], [1, [[3, 1]], "1"]], []]], sums],
     ]
-    assert checker.closes(context, [n, x, either], both, {})
-    assert not checker.closes(context, [n, x], both, {})
-    assert checker.closes(context, [False], CLOSE, {})
-    assert not checker.closes(context, [True, n], CLOSE, {})
+    assert closes(context, [n, x, either], both, {})
+    assert not closes(context, [n, x], both, {})
+    assert closes(context, [False], CLOSE, {})
+    assert not closes(context, [True, n], CLOSE, {})
     (statement,) = checker.read_statements(lines("forall x", "given x > 0", "show x > -1")).values()
     shown = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"], [1, [], "1"]], []]
-    assert checker.proves(statement, ["proof", [], shown], {})
-    assert not checker.proves(statement, ["proof", [], CLOSE], {})
+    assert proves(statement, ["proof", [], shown], {})
+    assert not proves(statement, ["proof", [], CLOSE], {})
     met = ["psatz", [[1, [[0, 1]], "1"], [1, [[1, 1]], "1"]], []]
     for found, assumed, base, holds in (
         (["rule/case", [], {"x": "1"}, CLOSE], [], [], True),
@@ -91,7 +92,7 @@ def test_parts_of_a_certificate_are_judged_alone() -> None:
         (["rule/case", [], {}, met], [x], ["x"], True),
         (["rule/case", [], {}, met], [], ["x"], False),
     ):
-        assert checker.finds(context, assumed, found, {}, "point", statement, base) is holds
+        assert finds(context, assumed, found, {}, "point", statement, base) is holds
 
 
 def test_every_case_has_a_name_of_its_own() -> None:

@@ -82,6 +82,7 @@ def test_only_the_standard_library_and_earlier_files_are_imported() -> None:
         "enum",
         "fractions",
         "functools",
+        "hashlib",
         "gc",
         "json",
         "math",

@@ -69,7 +69,7 @@ def smallest(kind: str, rule: str = "", line: str = "") -> str:
 
 CASES = [
     *(("universal", rule, "") for rule in ("psatz", "cases", "sign", "close", "integral")),
-    *(("universal", rule, "") for rule in ("interval", "use", "adjoined")),
+    *(("universal", rule, "") for rule in ("boxes", "use", "adjoined")),
     *(("universal", "", line) for line in ("have", "root", "integer")),
     *(("exists", rule, "") for rule in ("", "sign", "empty")),
     ("refuted", "", ""),

@@ -88,6 +88,16 @@ ACCEPTED = [
         plane("AA."),
     ),
     Case("a face at the lower end", lines(*UNIT, "show 1 - x <= 1"), tree("A.")),
+    Case(
+        "an interval that is one point",
+        lines("forall x", "given x >= 1", "given x <= 1", "show x^2 < 2"),
+        tree(".", at={"x": "1"}),
+    ),
+    Case(
+        "a cubic that nearly touches",
+        lines(*UNIT, "show 27*x*(1 - x)^2 - 4 <= 1/1000"),
+        tree("aa.aa.aa....."),
+    ),
     Case("a fact that is weak", lines(*UNIT, "show x^2 - x < 1/100"), tree(".")),
 ]
 
@@ -301,6 +311,12 @@ REJECTED = [
         LINEAR,
         proof(["boxes", 2, [[0, 1]], ".", []], at={"x": "0"}),
         (Kind.MALFORMED, "TypeError"),
+    ),
+    Case(
+        "a root that touches",
+        lines(*UNIT, "show (2*x - 1)^2 > 0"),
+        tree("a.."),
+        (Kind.BOX_SIGN, "0"),
     ),
     Case(
         "one point, where the fact holds",

@@ -398,10 +398,28 @@ REJECTED = [
         over(*SHARP[:3], "number c = root(a - 1, 2, 0)", SHARP[3]),
     ),
     case(
-        "a number with a root at its end",
+        "a number with a root at its lower end",
         VALID,
-        Kind.END_ROOT,
-        over(*SHARP[:3], "number c = root(a - 1, 1, 2)", SHARP[3]),
+        Kind.ONE_ROOT,
+        over(*SHARP[:3], "number c = root((a - 1)*(2*a - 3), 1, 2)", SHARP[3]),
+    ),
+    case(
+        "a number with a root at its upper end",
+        VALID,
+        Kind.ONE_ROOT,
+        over(*SHARP[:3], "number c = root((a - 2)*(2*a - 3), 1, 2)", SHARP[3]),
+    ),
+    case(
+        "a number at its only end",
+        VALID,
+        Kind.ONE_ROOT,
+        over(*SHARP[:3], "number c = root(a - 1, 1, 1)", SHARP[3]),
+    ),
+    case(
+        "a number with three roots",
+        VALID,
+        Kind.ONE_ROOT,
+        over(*SHARP[:3], "number c = root(a^3 - a, -2, 2)", SHARP[3]),
     ),
     case(
         "a number with the name of a definition",

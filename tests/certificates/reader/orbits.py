@@ -1,0 +1,272 @@
+"""The premises of the rules on orbits, written as universal statements."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import reduce
+
+from tests.certificates.reader.statements import Line, Statement
+from tests.certificates.reader.syntax import Tree, names_in, renamed, require, substitute
+
+Premises = dict[str, Statement]
+ZERO, ONE = ("number", 0), ("number", 1)
+
+
+def conjunction(parts: Iterable[Tree]) -> Tree:
+    return reduce(lambda left, right: ("and", left, right), parts)
+
+
+def disjunction(parts: Iterable[Tree]) -> Tree:
+    return reduce(lambda left, right: ("or", left, right), parts)
+
+
+def equal(left: Iterable[Tree], right: Iterable[Tree]) -> Tree:
+    return conjunction(("=", a, b) for a, b in zip(left, right))
+
+
+class Setting:
+    """A statement about a map: its parameters, state, pieces, domain and `root` lines."""
+
+    def __init__(self, statement: Statement, statements: Mapping[str, Statement]) -> None:
+        is_map = statement.kind == "map"
+        self.name = statement.name
+        self.map = statement if is_map else statements[statement.one("map")]
+        self.parameters = self.map.one("over")
+        self.state = self.map.one("state")
+        self.domain: Tree = statement.one("domain")
+        self.space: Tree = self.map.one("space")
+        self.pieces = self.map.all("piece")
+        self.here = tuple(("name", name) for name in self.state)
+        for _, terms in self.pieces:
+            require(len(terms) == len(self.state), "a piece has a term for each variable")
+        self.fixed: list[Line] = []
+        self.moving: list[Line] = []
+        moved = set(self.state)
+        for root in statement.all("root"):
+            if names_in(root[1]) & moved:
+                moved.add(root[0])
+                self.moving.append(Line("root", root))
+            else:
+                self.fixed.append(Line("root", root))
+        self.next = {name: f"{name}_next" for name in moved}
+        self.there = tuple(("name", self.next[name]) for name in self.state)
+
+    def premise(self, name: str, lines: list[Line]) -> tuple[str, Statement]:
+        return name, Statement(f"{self.name}.{name}", "universal", tuple(lines))
+
+    def params(self, *more: str) -> list[Line]:
+        return [Line("forall", (*self.parameters, *more)), Line("range", self.domain), *self.fixed]
+
+    def at_state(self, *more: str) -> list[Line]:
+        return [*self.params(*self.state, *more), Line("given", self.space), *self.moving]
+
+    def step(
+        self, k: int, *given: Tree, more: tuple[str, ...] = (), stays: bool = True
+    ) -> list[Line]:
+        guard, terms = self.pieces[k]
+        lines = [*self.at_state(*more), *(Line("given", tree) for tree in given)]
+        lines.append(Line("given", guard))
+        lines += [Line("let", (self.next[x], term)) for x, term in zip(self.state, terms)]
+        if stays:
+            lines.append(Line("given", self.moved(self.space)))
+            for _, (name, term) in self.moving:
+                lines.append(Line("root", (self.next[name], self.moved(term))))
+        return lines
+
+    def moved(self, tree: Tree) -> Tree:
+        return renamed(tree, self.next)
+
+    def own_domain(self) -> Premises:
+        lines = [
+            Line("exists", (*self.parameters, *self.state)),
+            Line("with", self.domain),
+            Line("show", self.space),
+        ]
+        return dict([self.premise("possible", lines)])
+
+    def inside(self) -> Premises:
+        lines = [*self.params(), Line("show", self.map.one("domain"))]
+        return dict([self.premise("inside", lines)])
+
+
+def of_map(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    guards = [guard for guard, _ in setting.pieces]
+    premises = setting.own_domain()
+    premises |= [
+        setting.premise("covers", [*setting.at_state(), Line("show", disjunction(guards))])
+    ]
+    for i in range(len(guards)):
+        for k in range(i):
+            lines = [*setting.at_state(), Line("given", guards[i]), Line("given", guards[k])]
+            lines.append(Line("show", ("=", ZERO, ONE)))
+            premises |= [setting.premise(f"apart-{i + 1}-{k + 1}", lines)]
+    for k in range(len(guards)):
+        lines = [*setting.step(k, stays=False), Line("show", setting.moved(setting.space))]
+        premises |= [setting.premise(f"stays-{k + 1}", lines)]
+    return premises
+
+
+def of_iterates(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    state, terms = statement.one("iterates")
+    count, after = statement.one("after")
+    variables, lets = statement.one("forall"), statement.all("let")
+    require(len(after) == len(terms) == len(state), "as many terms as variables")
+    require(variables[: len(state)] == state, "the variables begin with the state")
+    require(statement.one("integer") == (count,) and count not in state, "the number of steps")
+    require(not any(names_in(term) & {count, *state} for _, term in lets), "a name that moves")
+    require(not any(count in names_in(term) for term in terms), "the map names the number of steps")
+    head = [line for line in statement.lines if line.word in ("forall", "integer", "let")]
+    at_start = [substitute(term, {count: ZERO}) for term in after]
+    following = [substitute(term, {count: ("+", ("name", count), ONE)}) for term in after]
+    next_names = {name: f"{name}_next" for name in state}
+    reached = [Line("let", (next_names[name], term)) for name, term in zip(state, after)]
+    stepped = [renamed(term, next_names) for term in terms]
+    start = [*head, Line("show", equal(at_start, [("name", name) for name in state]))]
+    step = [*head, *reached, Line("show", equal(stepped, following))]
+    return {
+        name: Statement(f"{statement.name}.{name}", "universal", tuple(lines))
+        for name, lines in (("start", start), ("step", step))
+    }
+
+
+def of_descent(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    rank, stages = statement.one("rank"), statement.all("stage")
+    premises = {**setting.own_domain(), **setting.inside()}
+    lines = [*setting.at_state(), Line("show", (">=", rank, ZERO))]
+    premises |= [setting.premise("bounded", lines)]
+    for k in range(len(setting.pieces)):
+        outside = ("not", disjunction(stages))
+        falls = ("<=", setting.moved(rank), ("-", rank, ONE))
+        lines = [*setting.step(k, outside), Line("show", falls)]
+        premises |= [setting.premise(f"falls-{k + 1}", lines)]
+    for i, stage in enumerate(stages):
+        following = stages[min(i + 1, len(stages) - 1)]
+        for k in range(len(setting.pieces)):
+            lines = [*setting.step(k, stage), Line("show", setting.moved(following))]
+            premises |= [setting.premise(f"stage-{i + 1}-{k + 1}", lines)]
+    return premises
+
+
+def of_contraction(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    inside: Tree = statement.one("on")
+    point, weights = statement.one("point"), statement.one("weights")
+    require(len(point) == len(weights) == len(setting.state), "a term for each variable")
+    fixed = {*setting.parameters, *(name for _, (name, _) in setting.fixed)}
+    rate, radius, size = (statement.one(word) for word in ("rate", "radius", "size"))
+    for tree in (*point, *weights, rate, radius, size):
+        require(names_in(tree) <= fixed, "a term in parameters only")
+
+    def within(distance: Tree, names: Iterable[Tree] = setting.here) -> Tree:
+        links: list[Tree] = []
+        for name, e, weight in zip(names, point, weights):
+            gap = ("-", name, e)
+            links.append(("<=", ("*", ("-", distance), weight), gap))
+            links.append(("<=", gap, ("*", distance, weight)))
+        return conjunction(links)
+
+    premises = {**setting.own_domain(), **setting.inside()}
+    positive = [(">", weight, ZERO) for weight in weights]
+    constants = conjunction(
+        [(">=", rate, ZERO), ("<", rate, ONE), *positive, (">", radius, ZERO), (">", size, ZERO)]
+    )
+    premises |= [setting.premise("constants", [*setting.params(), Line("show", constants)])]
+    lets = [Line("let", (setting.next[x], e)) for x, e in zip(setting.state, point)]
+    lines = [*setting.params(), *lets, Line("show", setting.moved(setting.space))]
+    premises |= [setting.premise("point", lines)]
+    lines = [*setting.at_state(), Line("given", within(radius)), Line("show", inside)]
+    premises |= [setting.premise("surrounds", lines)]
+    lines = [*setting.at_state(), Line("given", inside), Line("show", within(size))]
+    premises |= [setting.premise("size", lines)]
+    distance: Tree = ("name", "distance")
+    require("distance" not in names_in(setting.space) | names_in(inside), "distance is taken")
+    for k in range(len(setting.pieces)):
+        lines = [*setting.step(k, inside), Line("show", setting.moved(inside))]
+        premises |= [setting.premise(f"stays-{k + 1}", lines)]
+        given = (inside, (">=", distance, ZERO), within(distance))
+        nearer = within(("*", rate, distance), setting.there)
+        lines = [*setting.step(k, *given, more=("distance",)), Line("show", nearer)]
+        premises |= [setting.premise(f"closer-{k + 1}", lines)]
+    return premises
+
+
+def other_roots(one: Setting, other: Setting) -> tuple[list[Line], list[Line]]:
+    """The `root` lines of the other setting that the first has not: fixed, and moving."""
+    return (
+        [line for line in other.fixed if line not in one.fixed],
+        [line for line in other.moving if line not in one.moving],
+    )
+
+
+def of_attraction(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    descent = statements[statement.one("descent")]
+    contraction = statements[statement.one("contraction")]
+    first, second = Setting(descent, statements), Setting(contraction, statements)
+    require(first.map.name == second.map.name, "another map")
+    lines = [*first.params(), Line("show", second.domain)]
+    premises = [(("inside"), Statement(f"{statement.name}.inside", "universal", tuple(lines)))]
+    lines = [*first.at_state(), *(line for some in other_roots(first, second) for line in some)]
+    lines += [Line("given", descent.all("stage")[-1]), Line("show", contraction.one("on"))]
+    premises.append(("enters", Statement(f"{statement.name}.enters", "universal", tuple(lines))))
+    return dict(premises)
+
+
+def of_escape(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    point, word = statement.one("point"), statement.one("word")
+    start = statement.one("start")
+    require(len(start) == len(point) == len(setting.state), "a term for each variable")
+    require(max(word) <= len(setting.pieces), "a word of pieces")
+    lines = setting.params()
+    aim = [f"{name}_point" for name in setting.state]
+    lines += [Line("let", (name, e)) for name, e in zip(aim, point)]
+    terms = list(start)
+    shown: list[Tree] = []
+    first: list[Tree] = []
+    for n, k in enumerate(word):
+        here = {name: f"{name}_{n}" for name in setting.state}
+        lines += [Line("let", (here[name], term)) for name, term in zip(setting.state, terms)]
+        guard, pieces = setting.pieces[k - 1]
+        if n == 0:
+            first = [("name", here[name]) for name in setting.state]
+            apart = [("!=", a, ("name", b)) for a, b in zip(first, aim)]
+            shown += [renamed(setting.space, here), renamed(guard, here), disjunction(apart)]
+        else:
+            shown.append(renamed(guard, here))
+        terms = [renamed(term, here) for term in pieces]
+    shown.append(equal(first, terms))
+    lines.append(Line("show", conjunction(shown)))
+    premises = {**setting.own_domain(), **setting.inside()}
+    premises |= [setting.premise("start", lines)]
+    return premises
+
+
+def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    attraction = statements[statement.one("attraction")]
+    descent = Setting(statements[attraction.one("descent")], statements)
+    contraction_statement = statements[attraction.one("contraction")]
+    contraction = Setting(contraction_statement, statements)
+    escape_statement = statements[statement.one("escape")]
+    escape = Setting(escape_statement, statements)
+    require(descent.map.name == escape.map.name, "another map")
+    whole = Setting(escape.map, statements)
+    lines = [*whole.params(), Line("show", ("or", descent.domain, escape.domain))]
+    points = equal(contraction_statement.one("point"), escape_statement.one("point"))
+    same = [*escape.params(), *other_roots(escape, contraction)[0], Line("show", points)]
+    return {
+        name: Statement(f"{statement.name}.{name}", "universal", tuple(some))
+        for name, some in (("covers", lines), ("same-point", same))
+    }
+
+
+PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = {
+    "map": of_map,
+    "iterates": of_iterates,
+    "descends": of_descent,
+    "contracts": of_contraction,
+    "attracts": of_attraction,
+    "escapes": of_escape,
+    "exactly": of_exactly,
+}

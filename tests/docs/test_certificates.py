@@ -1,0 +1,156 @@
+"""Every example of the page on certificates: the checker and the reader that was written from the
+pages accept it, and neither accepts a change of it.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any, NamedTuple
+
+import pytest
+
+from juggleproof.certificates import checker
+from tests.certificates.reader.settling import load_json, outcomes
+from tests.certificates.reader.statements import read_statements
+from tests.certificates.reader.syntax import Rejected
+from tests.docs.pages import ROOT, blocks
+
+PAGE = ROOT / "docs/certificates.md"
+
+
+class Example(NamedTuple):
+    """One statement, those before it on the page, and the text of each one's entry."""
+
+    statements: dict[str, str]
+    entries: dict[str, str]
+
+
+def examples() -> dict[str, Example]:
+    """Each statement of the page by name."""
+    statements: dict[str, str] = {}
+    entries: dict[str, str] = {}
+    found = {}
+    for block in blocks(PAGE):
+        if block.language == "statements":
+            for text in block.text.strip().split("\n\n"):
+                statements[text.split("\n")[0].removeprefix("statement ")] = text
+        elif block.language == "certificate":
+            name = list(statements)[len(entries)]
+            entries[name] = block.text
+            before = list(statements)[: len(entries)]
+            found[name] = Example({one: statements[one] for one in before}, dict(entries))
+    assert len(entries) == len(statements)
+    return found
+
+
+EXAMPLES = examples()
+# what stands in the statement or in its entry, what is put in its place, and why that is wrong
+CHANGES = [
+    ("example/states", '["1", [[0, 1]], "1"], ["1", [[1, 1]]', '["1", [[1, 1]]', "no sum of 0"),
+    ("example/states", '"x": "1", "s": "1"', '"x": "1", "s": "-1"', "the other root"),
+    ("example/states", "have s >= 1", "have s >= 2", "not so for x = 1"),
+    ("example/close", "2*x + 1", "2*x", "no identity"),
+    ("example/psatz", '["1", [], "1"], ', "", "no term is strictly positive"),
+    ("example/psatz", '["2", [[1', '["-2", [[1', "a negative coefficient"),
+    ("example/psatz", "given y >= 0", "given y >= -2", "x = 0 for y = -1"),
+    ("example/cases", "x > 1", "x > 0", "not so for x = 1"),
+    (
+        "example/cases",
+        ',\n  ["psatz", [["1", [[0, 1]], "1"], ["1", [[1, 1]], "1"], ["1", [[1, 2]], "1"]], []]',
+        "",
+        "one alternative is left out",
+    ),
+    ("example/sign", '"sign", "y"', '"sign", "x"', "the signs of another term"),
+    ("example/sign", "given x + y > 0", "given x - y > -9", "not so for x = y = -1"),
+    ("example/boxes", "Ba..", "Ba.", "a half is left out"),
+    ("example/boxes", "Ba..", "B.", "a coefficient is 1/4"),
+    ("example/boxes", "Ba..", "A..", "the coefficients grow and fall"),
+    ("example/boxes", "<= 1/4", "< 1/4", "attained at x = 1/2 and y = 1"),
+    ("example/integral", "integer n\n", "", "not so for n = 1/2"),
+    ("example/integral", '"integral", 0', '"integral", 1', "not the fact that was rounded"),
+    ("example/use", '"b": "y - x"', '"b": "x - y"', "another instance"),
+    ("example/use", '["use", "example/product"', '["use", "example/use"', "it rests on itself"),
+    ("example/refuted", '"x": "-1"', '"x": "1"', "y = 1 exists"),
+    ("example/refuted", '"x": "-1"', '"x": "0"', "the premise fails"),
+    ("example/witness", '{"y": "-x"}', '{"y": "x"}', "negative where x is"),
+    (
+        "example/witness",
+        '["empty", ["psatz", [["1", [[0, 2]], "1"]], [[1, "-x"]]]]',
+        '["empty", ["close"]]',
+        "nothing false is assumed",
+    ),
+    ("example/adjoined", '"0", "a + 1"', '"0", "1"', "1 < 2 for a = 2"),
+    ("example/adjoined", '{"s": "t"}', '{"s": "-t"}', "the other root"),
+    ("example/squares", '"a": "6"', '"a": "4"', "outside of the range"),
+    ("example/sharp", "holds a <= 1", "holds a <= 2", "not so for a = 2"),
+    ("example/sharp", "holds a <= 1", "holds a < 1", "so for a = 1"),
+    ("example/sharp", "root(a^2 - 1, 0, 9)", "root(a^2 - 1, -9, 9)", "two roots"),
+    ("example/sharp", '{"a": "1", "x": "1"}', '{"a": "1", "x": "0"}', "no point of the statement"),
+    ("example/iterates", "x -> x + 2\n", "x -> x + 1\n", "the second iterate of another map"),
+    ("example/iterates", "x + 2*K\n", "x + 2*K + 1\n", "not x for K = 0"),
+    ("example/map", "piece x >= 1", "piece x > 1", "x = 1 has no piece"),
+    ("example/map", "piece x < 1", "piece x <= 1", "x = 1 has two pieces"),
+    ("example/map", "x - 1", "x - 2", "x = 1 leaves the space"),
+    ("example/map", '"apart-2-1"', '"apart-1-2"', "no premise of this name"),
+    ("example/descends", "rank x", "rank x/2", "falls by 1/2"),
+    ("example/descends", "stage x < 1", "stage x < 1/2", "the rank of 3/4 does not fall"),
+    ("example/descends", "map example/map", "map example/none", "no earlier map"),
+    ("example/contracts", "rate a", "rate a/2", "nearer by a only"),
+    ("example/contracts", "radius 1/2", "radius 2", "x = 2 is not in the set"),
+    ("example/contracts", "size 1", "size 1/2", "3/4 is in the set"),
+    ("example/attracts", "descent example/descends", "descent example/map", "no descent"),
+    ("example/escapes", "word 2", "word 1", "another guard holds"),
+    ("example/escapes", "start 1/2", "start 0", "the point itself"),
+    ("example/exactly", '"covers"', '"cover"', "a premise is missing"),
+]
+
+
+def verdicts(example: Example) -> tuple[str, str]:
+    """The outcomes of the last statement: of the checker, and of the other reader."""
+    text = "\n\n".join(example.statements.values()) + "\n"
+    *_, name = example.statements
+    known: dict[str, Any] = {}
+    earlier: dict[str, Any] = {}
+    outcome = "rejected"
+    for one, statement in checker.read_statements(text).items():
+        outcome, _ = checker.check_one(statement, json.loads(example.entries[one]), known, earlier)
+        earlier[one] = statement
+        if outcome == "certified":
+            known[one] = statement
+    try:
+        entries = {one: load_json(entry) for one, entry in example.entries.items()}
+        other = outcomes(read_statements(text), entries)[name]
+    except Rejected:
+        other = "rejected"
+    return outcome, other.split(":")[0]
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_an_example_is_accepted_holds(name: str) -> None:
+    expected = next(iter(json.loads(EXAMPLES[name].entries[name])))
+    assert verdicts(EXAMPLES[name]) == (expected, expected)
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"), [row[:3] for row in CHANGES], ids=[f"{n}: {w}" for n, *_, w in CHANGES]
+)
+def test_rejects_a_changed_example(name: str, old: str, new: str) -> None:
+    statements, entries = EXAMPLES[name]
+    statement, entry = statements[name] + "\n", entries[name]
+    assert (statement + entry).count(old) == 1, "the change is of one place"
+    changed = Example(
+        {**statements, name: statement.replace(old, new).rstrip("\n")},
+        {**entries, name: entry.replace(old, new)},
+    )
+    assert verdicts(changed) == ("rejected", "rejected")
+
+
+def test_every_rule_has_an_example_and_a_change_holds() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    headings = re.findall(r"^### (.+)$", page, re.M)
+    assert len(headings) == len(set(headings)) > 15
+    for heading in headings:
+        text = page.split(f"\n### {heading}\n")[1].split("\n##")[0]
+        assert "```statements\n" in text and "```certificate\n" in text, heading
+    assert {name for name, *_ in CHANGES} >= set(EXAMPLES) - {"example/product"}
