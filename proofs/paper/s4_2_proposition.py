@@ -232,17 +232,18 @@ def longest_time_between_impacts() -> list[Statement]:
 
 def never_enough_of_samples() -> list[Statement]:
     """A ball thrown up from the ground outside R, with so little energy that one impact is counted,
-    is outside R for the m periods that it flies; what is counted is less than m + 1 periods.
+    is outside R for the m periods that it flies.
     """
     loss = -term(derived("delta_E_sup"))
     thrown = [equal(beta0, 0), v0 > 0, LEVEL < energy(b_0), energy(b_0) <= LEVEL + loss]
-    flies = [*thrown, m * T <= worst_wait, worst_wait < (m + 1) * T]
     return [
         always_counting(
             equal(n, 1), given=[*thrown, ceiling_of((energy(b_0) - LEVEL) / loss)], label="counted"
         ),
         always_counting(
-            OUTSIDE(flown(n)), given=[*flies, n >= 0, n <= m], label="outside-in-flight"
+            OUTSIDE(flown(n)),
+            given=[*thrown, m * T <= worst_wait, n >= 0, n <= m],
+            label="outside-in-flight",
         ),
     ]
 
@@ -349,9 +350,9 @@ def worst_time_is_not_met_otherwise(printed: Printed) -> Readings:
     r"\left[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sun}} \right].",
     remark=Remark(
         f"{OF_THE_LOSS.text} Of the states sampled once a period, as section 2.3 takes them, (26)"
-        " is too early for every alpha: a ball that comes down to the ground with little more than"
-        " the energy of R, and flies for m periods before, is given less than m + 1 periods, and"
-        " needs as many.",
+        " is too early for every alpha: a ball that is thrown up from the ground with little more"
+        " than the energy of R, for which one impact is counted, flies for all of the whole periods"
+        " in that time, and is outside R at their end.",
         lambda: never_enough_of_samples(),
         by=OF_THE_LOSS.by,
     ),
