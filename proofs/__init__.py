@@ -35,7 +35,16 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Claim, Following, Readings, claim
+from juggleproof.proofs.claims import (
+    Argument,
+    Assertion,
+    Claim,
+    Following,
+    Reading,
+    Readings,
+    Remark,
+    claim,
+)
 from juggleproof.proofs.forms import always, exists_some
 
 __all__ = [
@@ -47,7 +56,9 @@ __all__ = [
     "Formula",
     "Iterates",
     "MapRule",
+    "Reading",
     "Readings",
+    "Remark",
     "Statement",
     "Term",
     "always",
