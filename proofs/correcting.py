@@ -14,9 +14,8 @@ from juggleproof.proofs.claims import Claim, claims_beside
 from juggleproof.proofs.reading.edits import one_mark_changes
 from juggleproof.proofs.reading.lexer import RELATIONS, PrintError, lex
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.tree import Chain
+from juggleproof.proofs.reading.tree import Chain, Name, spelled
 from juggleproof.proofs.reading.values import Matrix, Value, Vector
-from juggleproof.proofs.reports.latex import glyph
 
 # -------------------------------------------------------------------------------------------------
 # Corrections of a print that is refuted: one mark changed, rational coefficients on the printed
@@ -91,10 +90,15 @@ def _mended(claim: Claim) -> Iterator[Candidate]:
 
 def _derived(claim: Claim) -> Iterator[Candidate]:
     """The printed left side with the derived form for its right, written as the paper would."""
-    right = _printed_right(claim)
-    if claim.derived is None:
+    right, words = _printed_right(claim), claim.vocabulary
+    if claim.derived is None or words.reads is None:
         return
-    truth, roots = claim.derived(), claim.vocabulary.roots
+    truth, roots = claim.derived(), words.roots
+    names = {
+        value.name: spelled(key)
+        for key, value in words.reads().meanings.items()
+        if isinstance(key, Name) and isinstance(value, Term) and value.op == "var"
+    }
     fitted = (
         coefficients_on_printed_terms(right, truth, roots)
         if isinstance(right, Term) and isinstance(truth, Term)
@@ -103,10 +107,11 @@ def _derived(claim: Claim) -> Iterator[Candidate]:
     forms = [("coefficients", "rational coefficients on the printed terms", fitted)]
     for kind, change, form in [*forms, ("derived", "the derived form", truth)]:
         if form is not None:
-            latex = f"{_up_to_the_last_side(claim.printed)} {_as_printed(form, roots)}"
             try:
+                shown = _as_printed(form, names, roots)
+                latex = f"{_up_to_the_last_side(claim.printed)} {shown}"
                 yield Candidate(kind, change, latex, Printed(latex))
-            except PrintError:  # it has names that cannot be printed
+            except (KeyError, PrintError):  # it has names that the paper does not print
                 continue
 
 
@@ -116,35 +121,41 @@ def _up_to_the_last_side(latex: str) -> str:
     return latex[: signs[-1]] if signs else latex
 
 
-def _as_printed(value: Term | Vector | Matrix, roots: Mapping[str, Term]) -> str:
-    """A term, or a column or matrix of such, as LaTeX, roots written out."""
+def _as_printed(
+    value: Term | Vector | Matrix, names: Mapping[str, str], roots: Mapping[str, Term]
+) -> str:
+    """A term, or a column or matrix of such, as LaTeX in these names, roots written out."""
     if isinstance(value, (Vector, Matrix)):
         rows = value.rows if isinstance(value, Matrix) else [(entry,) for entry in value.entries]
-        lines = [" & ".join(_as_printed(term(entry), roots) for entry in row) for row in rows]
+        lines = [
+            " & ".join(_as_printed(term(entry), names, roots) for entry in row) for row in rows
+        ]
         return rf"\begin{{bmatrix}} {LINE.join(lines)} \end{{bmatrix}}"
-    return _latex(term(value), roots)
+    return _latex(term(value), names, roots)
 
 
-def _latex(value: Term, roots: Mapping[str, Term], inside: str = "+") -> str:
+def _latex(
+    value: Term, names: Mapping[str, str], roots: Mapping[str, Term], inside: str = "+"
+) -> str:
     """A term as LaTeX, its parts in their order; `inside` is the operation that it is a part of."""
     if value.op == "var":
         root = roots.get(value.name)
-        return glyph(value.name) if root is None else rf"\sqrt{{{_latex(root, roots)}}}"
+        return names[value.name] if root is None else rf"\sqrt{{{_latex(root, names, roots)}}}"
     if value.op == "num":
         number = abs(value.value)
         size = str(number) if number.denominator == 1 else _fraction(*number.as_integer_ratio())
         return size if value.value >= 0 else f"-{size}"
     if value.op == "^":
-        return f"{_latex(value.operands[0], roots, '^')}^{{{value.exponent}}}"
+        return f"{_latex(value.operands[0], names, roots, '^')}^{{{value.exponent}}}"
     if value.op == "/":
-        return _fraction(*(_latex(one, roots) for one in value.operands))
+        return _fraction(*(_latex(one, names, roots) for one in value.operands))
     if value.op == "*":
-        text = " ".join(_latex(one, roots, "*") for one in value.operands)
+        text = " ".join(_latex(one, names, roots, "*") for one in value.operands)
     elif value.op == "neg":
-        text = f"-{_latex(value.operands[0], roots, '*')}"
+        text = f"-{_latex(value.operands[0], names, roots, '*')}"
     else:
         left, right = value.operands
-        text = f"{_latex(left, roots)} {value.op} {_latex(right, roots, '-')}"
+        text = f"{_latex(left, names, roots)} {value.op} {_latex(right, names, roots, '-')}"
     bare = inside == "+" or (inside, value.op) in (("*", "*"), ("-", "*"))
     return text if bare else f"({text})"
 

@@ -142,7 +142,7 @@ def test_sA_3_2_sup3_is_corrected_in_a_print_that_reads_back_holds() -> None:
     text = REGISTER["sA.3.2-sup3"]["correction"]
     assert text == (
         r"\Delta E_{sup} = (-\frac{1 + \alpha}{1 - \alpha} + \frac{1}{2} + \frac{1}{2} \alpha"
-        r" + \sqrt{2 (1 + \alpha)} \frac{\alpha}{1 - \alpha}) (1 + \alpha) \dot\rho_0^{2}"
+        r" + \sqrt{2 (1 + \alpha)} \frac{\alpha}{1 - \alpha}) (1 + \alpha) \dot{\rho}_{0}^{2}"
     )
     (statement,) = claims()["sA.3.2-sup3"].body(Printed(text)).parts  # type: ignore[union-attr]
     stored = STORE.texts["sA.3.2-sup3/corrected.main"].splitlines()
