@@ -46,10 +46,29 @@ class Assertion:
 
 
 @dataclass(frozen=True)
-class Readings:
-    """What is written can be read in these ways, each with its own verdict."""
+class Reading:
+    """One way to read a sentence, and the passage of the paper that prints it so."""
 
-    of: Mapping[str, Assertion]
+    assertion: Assertion
+    passage: str
+
+
+@dataclass(frozen=True)
+class Readings:
+    """What is written can be read in these ways, each with its own verdict.
+
+    Raises ClaimError for fewer than two readings, and for one without a passage: without a reason
+    from the paper there is one reading, the charitable one.
+    """
+
+    of: Mapping[str, Reading]
+
+    def __post_init__(self) -> None:
+        if len(self.of) < 2:
+            raise ClaimError("one reading alone; return what it asserts")
+        for name, reading in self.of.items():
+            if not reading.passage.strip():
+                raise ClaimError(f"the reading {name} has no passage that prints it so; drop it")
 
 
 @dataclass(frozen=True)
@@ -71,12 +90,14 @@ class Following:
     """A limit or a stability statement that is the conclusion of map rules, named by their
     statements, together with what is asserted beside.
 
-    The last rule named is the one whose conclusion the sentence is: where its domain ends, the
-    sentence's range ends.
+    The last rule named is the one from which the sentence follows where the rule's conclusion
+    holds: there at least.  `is_conclusion` says that the sentence is that conclusion, so that it is
+    refuted where the rule refutes it.
     """
 
     rests_on: tuple[str, ...]
     beside: Assertion | None = None
+    is_conclusion: bool = False
 
 
 @dataclass(frozen=True)
@@ -93,6 +114,7 @@ class NotFormalised:
     why: str
 
 
+REMARK = "remark."  # the prefix of the statements of a remark
 NOT_FORMALISED = "not formalised: "  # begins the detail of such a verdict
 Body = Union[Assertion, Readings, Argument, Following, Simulated, NotFormalised]
 
@@ -108,6 +130,17 @@ class FixedBody:
 
     def __call__(self) -> Body:
         return self.body
+
+
+@dataclass(frozen=True)
+class Remark:
+    """What is worth knowing beside a claim, and what shows it: statements, which have to be
+    certified, and other claims.
+    """
+
+    text: str
+    state: Callable[[], object] | None = None
+    by: tuple[str, ...] = ()
 
 
 class ClaimHints(TypedDict, total=False):
@@ -134,7 +167,9 @@ class Claim:
     repeats: str = ""
     parameters: tuple[str, ...] | None = None
     derived: Callable[[], Term | Vector | Matrix] | None = None
+    mended: str = ""
     true_nearby: tuple[str, Callable[[], object]] | None = None
+    remark: Remark | None = None
     hints: ClaimHints = field(default_factory=lambda: ClaimHints())
     source: str = ""
     vocabulary: Vocabulary = PLAIN
@@ -176,6 +211,12 @@ class Claim:
             return as_body(self.read(), self.id)
         return as_body(self.read(self.read_print() if printed is None else printed), self.id)
 
+    def shown_beside(self) -> Assertion | None:
+        """What its remark states, if it states something."""
+        if self.remark is None or self.remark.state is None:
+            return None
+        return as_assertion(self.remark.state(), self.id)
+
     def read_print(self, latex: str = "") -> meaning.Printed:
         """The print, or another LaTeX text, as the reader reads it."""
         return meaning.read(latex or self.printed)
@@ -204,12 +245,20 @@ def as_body(returned: object, claim_id: str) -> Body:
     )
 
 
+def as_assertion(returned: object, claim_id: str) -> Assertion:
+    """What a function returned that may return one assertion only."""
+    body = as_body(returned, claim_id)
+    if not isinstance(body, Assertion):
+        raise ClaimError(f"{claim_id}: {type(body).__name__} where one assertion is expected")
+    return body
+
+
 def assertions(body: Body) -> list[tuple[str, Assertion]]:
     """The assertions of a body with the prefix of their statements' names."""
     if isinstance(body, Assertion):
         return [("", body)]
     if isinstance(body, Readings):
-        return [(f"{name}.", assertion) for name, assertion in body.of.items()]
+        return [(f"{name}.", reading.assertion) for name, reading in body.of.items()]
     if isinstance(body, Following):
         return [("beside.", body.beside)] if body.beside else []
     if isinstance(body, (Simulated, NotFormalised)):
@@ -218,11 +267,17 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
     return steps + ([("conclusion.", body.conclusion)] if body.conclusion else [])
 
 
+def all_assertions(claim: Claim) -> list[tuple[str, Assertion]]:
+    """The assertions of a claim, and what its remark states, with the prefix of their names."""
+    beside = claim.shown_beside()
+    return assertions(claim.body()) + ([(REMARK, beside)] if beside else [])
+
+
 def stated_texts(claim: Claim) -> dict[str, str]:
     """The texts of the statements that a claim makes, by name."""
     return {
         part.name: part.text()
-        for prefix, assertion in assertions(claim.body())
+        for prefix, assertion in all_assertions(claim)
         for part in named_statements(claim.id, prefix, assertion)
     }
 
@@ -269,19 +324,21 @@ def claim(
     repeats: str = "",
     parameters: Sequence[str] | None = None,
     derived: Callable[[], Term | Vector | Matrix] | None = None,
+    mended: str = "",
     true_nearby: tuple[str, Callable[[], object]] | None = None,
+    remark: Remark | None = None,
     hints: ClaimHints | None = None,
     vocabulary: Vocabulary = PLAIN,
 ) -> Callable[[Read], Read]:
     """Registers a function as a claim; its docstring, in our own words, is what the claim says.
 
     `printed` is the paper's LaTeX, typed once and judged; `as_it_stands` is what the transcription
-    has where it mangles the print. `derived` gives the true right-hand side, and `true_nearby` a
-    true assertion near a false one, with its text: both are tried as corrections where no change of
-    one mark mends the print.  `parameters` are the variables that sharp ranges are sought over,
-    none where it is empty; without it those of the vocabulary, else of `forms.domains_of`.  Raises
-    ClaimError for a duplicate name, an empty docstring, or a name that is not letters, digits, -
-    and dots.
+    has where it mangles the print.  Where no change of one mark mends the print, these are tried as
+    corrections: `mended`, the print with several marks changed; `derived`, the true right-hand
+    side; and `true_nearby`, a true assertion near a false one, with its text.  `parameters` are the
+    variables that sharp ranges are sought over, none where it is empty; without it those of the
+    vocabulary, else of `forms.domains_of`.  Raises ClaimError for a duplicate name, an empty
+    docstring, or a name that is not letters, digits, - and dots.
     """
 
     def register(read: Read) -> Read:
@@ -303,7 +360,9 @@ def claim(
             repeats,
             None if parameters is None else tuple(parameters),
             derived,
+            mended,
             true_nearby,
+            remark,
             hints or {},
             f"{read.__module__}.{read.__qualname__}",
             vocabulary,
@@ -322,6 +381,12 @@ def claims_in(modules: Iterable[str]) -> list[Claim]:
         import_module(name)
         claims += _by_module.get(name, {}).values()
     return claims
+
+
+def claims_beside(claim: Claim) -> list[Claim]:
+    """The claims of the same module about the same section, this one among them."""
+    module = claim.source.rpartition(".")[0]
+    return [one for one in _by_module.get(module, {}).values() if one.section == claim.section]
 
 
 def claims_of(load: Callable[[], object]) -> list[Claim]:
@@ -391,7 +456,7 @@ def verdict_of(
         single = word("", body)
         return Verdict("misprint" if single == "false" and corrected else single)
     if isinstance(body, Readings):
-        words = {name: word(f"{name}.", assertion) for name, assertion in body.of.items()}
+        words = {name: word(f"{name}.", one.assertion) for name, one in body.of.items()}
         detail = "; ".join(f"{name}: {one}" for name, one in words.items())
         if "unknown" in words.values():
             return Verdict("unknown", detail)

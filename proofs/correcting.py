@@ -3,41 +3,34 @@
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from fractions import Fraction
 
-from juggleproof.certificates.language import (
-    ClaimError,
-    Formula,
-    Term,
-    conjunction,
-    equal,
-    names_in,
-    term,
-)
-from juggleproof.proofs.claims import Claim
+from juggleproof.certificates.language import ClaimError, Term, names_in, term
+from juggleproof.proofs.claims import Claim, claims_beside
 from juggleproof.proofs.reading.edits import one_mark_changes
-from juggleproof.proofs.reading.evaluation import Environment
+from juggleproof.proofs.reading.lexer import RELATIONS, PrintError, lex
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Value, Vector
+from juggleproof.proofs.reading.tree import Chain, Name, spelled
+from juggleproof.proofs.reading.values import Matrix, Value, Vector
 
 # -------------------------------------------------------------------------------------------------
 # Corrections of a print that is refuted: one mark changed, rational coefficients on the printed
 # terms, the derived form.
 #
-# Nothing here is believed: a candidate is a print (or a right-hand side) that the same claim
-# function reads and the checker then judges.
+# Nothing here is believed: a candidate is a print that the same claim function reads and the
+# checker then judges.
 
-DERIVED = ("coefficients", "derived")
+LINE = r" \\ "  # between two lines of an array
 LOST_MARKS = ("dot", "bar", "prime", "sign", "exponent", "half")
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """A corrected print: its kind, what was changed, the LaTeX or the text of the corrected right
-    side, and what the claim reads.
-    """
+    """A corrected print: its kind, what was changed, its LaTeX, and what the claim reads."""
 
     kind: str
     change: str
@@ -51,47 +44,37 @@ class Candidate:
         """
         return self.kind in LOST_MARKS
 
+    def unbound(self, claim: Claim) -> list[str]:
+        """The names in the print that have no meaning where the claim stands: neither throughout,
+        nor by a definition printed in its section, nor by the prose.
+        """
+        words = claim.vocabulary
+        if words.reads is None or words.introduces is None:
+            return []
+        keys = Printed("", tuple(words.reads().meanings)).names
+        known = {*keys, *words.introduces(claim.section)}
+        for one in claims_beside(claim):
+            for part in one.read_print().parts if one.printed else ():
+                if isinstance(part.tree, Chain) and part.tree.rest[0][0] == ":=":
+                    known.update(Printed("", (part.tree.first,)).names)
+        return [name for name in self.printed.names if not {name, with_any_index(name)} & known]
 
-class Amended(Printed):
-    """A print whose last side is replaced by a term."""
 
-    __slots__ = ("_right",)
-
-    def __init__(self, printed: Printed, right: Value) -> None:
-        super().__init__(printed.latex)
-        self._right = right
-
-    def relation_chain(self, environment: Environment) -> list[tuple[Value, str, Value]]:
-        """The printed chain with the amended value at its end."""
-        chain = super().relation_chain(environment)
-        left, relation, _ = chain[-1]
-        return [*chain[:-1], (left, relation, self._right)]
-
-    def formula(self, environment: Environment) -> Formula:
-        """The relations of the amended chain."""
-        parts = []
-        for left, relation, right in self.relation_chain(environment):
-            if relation not in ("=", ":="):
-                raise ClaimError("only an equation can be amended on its right")
-            pairs = zip(
-                getattr(left, "entries", (left,)), getattr(right, "entries", (right,)), strict=True
-            )
-            parts += [equal(term(a), term(b)) for a, b in pairs]
-        return conjunction(parts)
+def with_any_index(name: str) -> str:
+    """The name with a place for its index, as A_t is a name for all t."""
+    return re.sub(r"_\{.*\}", r"_{\\cdot}", name)
 
 
 def candidates(claim: Claim, first: tuple[str, str] | None = None) -> Iterator[Candidate]:
-    """Corrections to try, in order: one mark, then the derived form (after coefficients on the
-    printed terms).
+    """Corrections to try, in order: one mark, the print that the claim names as mended, then the
+    derived form (after coefficients on the printed terms).
 
     `first` is the kind and text of one to try before all others.
     """
+    ways = (_one_mark, _mended, _derived)
     if first is not None:
-        ways = (_derived,) if first[0] in DERIVED else (_one_mark,)
         yield from (one for way in ways for one in way(claim) if (one.kind, one.text) == first)
-    yield from (
-        one for way in (_one_mark, _derived) for one in way(claim) if (one.kind, one.text) != first
-    )
+    yield from (one for way in ways for one in way(claim) if (one.kind, one.text) != first)
 
 
 def _one_mark(claim: Claim) -> Iterator[Candidate]:
@@ -99,28 +82,103 @@ def _one_mark(claim: Claim) -> Iterator[Candidate]:
         yield Candidate(change.split(":")[0], change, latex, Printed(latex))
 
 
+def _mended(claim: Claim) -> Iterator[Candidate]:
+    if claim.mended:
+        change = "; ".join(differences(claim.printed, claim.mended))
+        yield Candidate("marks", f"marks: {change}", claim.mended, Printed(claim.mended))
+
+
 def _derived(claim: Claim) -> Iterator[Candidate]:
-    if claim.derived is not None:
-        truth = claim.derived()
-        right = _printed_right(claim)
-        fitted = (
-            coefficients_on_printed_terms(right, truth, claim.vocabulary.roots)
-            if isinstance(right, Term) and isinstance(truth, Term)
-            else None
-        )
-        if fitted is not None:
-            yield Candidate(
-                "coefficients",
-                "rational coefficients on the printed terms",
-                str(fitted),
-                Amended(claim.read_print(), fitted),
+    """The printed left side with the derived form for its right, written as the paper would."""
+    right, words = _printed_right(claim), claim.vocabulary
+    if claim.derived is None or words.reads is None:
+        return
+    truth, roots = claim.derived(), words.roots
+    names = {
+        value.name: spelled(key)
+        for key, value in words.reads().meanings.items()
+        if isinstance(key, Name) and isinstance(value, Term) and value.op == "var"
+    }
+    fitted = (
+        coefficients_on_printed_terms(right, truth, roots)
+        if isinstance(right, Term) and isinstance(truth, Term)
+        else None
+    )
+    forms = [("coefficients", "rational coefficients on the printed terms", fitted)]
+    for kind, change, form in [*forms, ("derived", "the derived form", truth)]:
+        if form is not None:
+            try:
+                shown = _as_printed(form, names, roots)
+                latex = f"{_up_to_the_last_side(claim.printed)} {shown}"
+                yield Candidate(kind, change, latex, Printed(latex))
+            except (KeyError, PrintError):  # it has names that the paper does not print
+                continue
+
+
+def _up_to_the_last_side(latex: str) -> str:
+    """The print up to the sign of its last relation, which is included."""
+    signs = [token.end for token in lex(latex) if token.text in RELATIONS]
+    return latex[: signs[-1]] if signs else latex
+
+
+def _as_printed(
+    value: Term | Vector | Matrix, names: Mapping[str, str], roots: Mapping[str, Term]
+) -> str:
+    """A term, or a column or matrix of such, as LaTeX in these names, roots written out."""
+    if isinstance(value, (Vector, Matrix)):
+        rows = value.rows if isinstance(value, Matrix) else [(entry,) for entry in value.entries]
+        lines = [
+            " & ".join(_as_printed(term(entry), names, roots) for entry in row) for row in rows
+        ]
+        return rf"\begin{{bmatrix}} {LINE.join(lines)} \end{{bmatrix}}"
+    return _latex(term(value), names, roots)
+
+
+def _latex(
+    value: Term, names: Mapping[str, str], roots: Mapping[str, Term], inside: str = "+"
+) -> str:
+    """A term as LaTeX, its parts in their order; `inside` is the operation that it is a part of."""
+    if value.op == "var":
+        root = roots.get(value.name)
+        return names[value.name] if root is None else rf"\sqrt{{{_latex(root, names, roots)}}}"
+    if value.op == "num":
+        number = abs(value.value)
+        size = str(number) if number.denominator == 1 else _fraction(*number.as_integer_ratio())
+        return size if value.value >= 0 else f"-{size}"
+    if value.op == "^":
+        return f"{_latex(value.operands[0], names, roots, '^')}^{{{value.exponent}}}"
+    if value.op == "/":
+        return _fraction(*(_latex(one, names, roots) for one in value.operands))
+    if value.op == "*":
+        text = " ".join(_latex(one, names, roots, "*") for one in value.operands)
+    elif value.op == "neg":
+        text = f"-{_latex(value.operands[0], names, roots, '*')}"
+    else:
+        left, right = value.operands
+        text = f"{_latex(left, names, roots)} {value.op} {_latex(right, names, roots, '-')}"
+    bare = inside == "+" or (inside, value.op) in (("*", "*"), ("-", "*"))
+    return text if bare else f"({text})"
+
+
+def _fraction(above: object, below: object) -> str:
+    return rf"\frac{{{above}}}{{{below}}}"
+
+
+def differences(printed: str, mended: str) -> list[str]:
+    r"""What has to be changed in a print, mark by mark.
+
+    >>> differences(r"f_1 := -A x", r"f_2 := A x^2")
+    ['1 to 2', '- dropped', '^2 added']
+    """
+    before, after = ([token.text for token in lex(text)[:-1]] for text in (printed, mended))
+    found = []
+    for change, i, j, k, n in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
+        old, new = "".join(before[i:j]), "".join(after[k:n])
+        if change != "equal":
+            found.append(
+                f"{old} dropped" if not new else f"{new} added" if not old else f"{old} to {new}"
             )
-        shown = (
-            ", ".join(str(term(e)) for e in truth.entries)
-            if isinstance(truth, Vector)
-            else str(truth)
-        )
-        yield Candidate("derived", "the derived form", shown, Amended(claim.read_print(), truth))
+    return found
 
 
 def _printed_right(claim: Claim) -> Value | None:
@@ -145,7 +203,7 @@ def coefficients_on_printed_terms(
     >>> from juggleproof.certificates.language import reals
     >>> x, y = reals("x y")
     >>> str(coefficients_on_printed_terms((x + y) * 2, x * 2 + y))
-    '(x + y*(1/2))*2'
+    '(x + 1/2*y)*2'
     """
     split = _sum_inside(printed)
     if split is None:
@@ -172,8 +230,20 @@ def coefficients_on_printed_terms(
     solution = _solve(rows, len(terms))
     if solution is None:
         return None
-    fitted: Term = rebuild([one if c == 1 else one * c for one, c in zip(terms, solution) if c])
+    fitted: Term = rebuild([_times(c, one) for one, c in zip(terms, solution) if c])
     return fitted
+
+
+def _times(number: Fraction, addend: Term) -> Term:
+    """A multiple of an addend, its signs drawn together."""
+    negative, bare = number < 0, addend
+    while bare.op == "neg":
+        negative, bare = not negative, bare.operands[0]
+    if bare.op == "num":
+        bare = term(bare.value * abs(number))
+    elif abs(number) != 1:
+        bare = term(abs(number)) * bare
+    return -bare if negative else bare
 
 
 def _sum_inside(expression: Term) -> tuple[list[Term], Callable[[Sequence[Term]], Term]] | None:

@@ -43,8 +43,9 @@ class Vocabulary:
     `domains` has the parameters over which sharp ranges are sought, the first one first, each with
     what is assumed of it alone; `scales` the positive variables that a change of units makes 1,
     which homogeneity decides where it is None; `sample` a point at which signs of denominators are
-    guessed; `reads` gives the environment in which a print is read that is to be corrected, and
-    `defines` the definitions of the statement file.
+    guessed; `reads` gives the environment in which a print is read that is to be corrected,
+    `introduces` the names to which the prose of a section gives a meaning, and `defines` the
+    definitions of the statement file.
     """
 
     order: tuple[str, ...] = ()
@@ -57,6 +58,7 @@ class Vocabulary:
     domains: Mapping[str, tuple[Formula, ...]] = field(default_factory=dict)
     scales: frozenset[str] | None = None
     reads: Callable[[], Environment] | None = None
+    introduces: Callable[[str], frozenset[str]] | None = None
     defines: Callable[[], Sequence[Definition]] | None = None
 
 

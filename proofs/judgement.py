@@ -173,6 +173,7 @@ class Judgement:
     # the verdict if they are certified
     by_rules: Verdict = field(default_factory=lambda: Verdict("unknown"))
     follows: bool = False
+    is_conclusion: bool = False
     roles: Roles = NO_ROLES
     reused: int = 0
 

@@ -21,7 +21,7 @@ from juggleproof.certificates.language import (
     disjunction,
     rests_on,
 )
-from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.nodes import Certificate, Counterexample
 from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_values
@@ -30,12 +30,13 @@ from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.vote import Vote, agree
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.claims import (
+    REMARK,
     Argument,
     Assertion,
     Body,
     Claim,
     Following,
-    Readings,
+    Verdict,
     as_body,
     assertions,
     named_statements,
@@ -52,6 +53,7 @@ from juggleproof.proofs.forms import (
 from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
 from juggleproof.proofs.ranges import search_sharp_range, text_of_range
 from juggleproof.proofs.rules import range_of_rule, whole_text
+from juggleproof.proofs.simplest import at_simple_values, is_simple
 
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget
@@ -102,7 +104,11 @@ def settle_by_rules(
             one.verdict = one.by_rules
         if one.follows:
             held = one.verdict.word == "holds"
-            text = range_of_rule(one.rests_on[-1], texts, one.roles) if held else NOT_FOUND
+            text = (
+                range_of_rule(one.rests_on[-1], texts, one.roles, one.is_conclusion)
+                if held
+                else NOT_FOUND
+            )
             one.sharp[""] = Sharp(text, one.rests_on)
 
 
@@ -189,17 +195,18 @@ class Judge:
         for prefix, assertion in assertions(body):
             self.settle_all(prefix, assertion)
         judgement.verdict = verdict_of(claim.id, body, judgement.outcomes)
-        if (
-            judgement.verdict.word == "false"
-            and (claim.printed or claim.true_nearby)
-            and isinstance(body, (Assertion, Readings))
-        ):
-            self.correct()
+        if judgement.verdict.word == "false" and not isinstance(body, Following):
+            self.correct(body)
+            correction = judgement.correction
             judgement.verdict = verdict_of(
-                claim.id, body, judgement.outcomes, corrected=judgement.correction is not None
+                claim.id,
+                body,
+                judgement.outcomes,
+                corrected=correction is not None and correction["kind"] != "nearby",
             )
         if isinstance(body, (Following, Argument)):
             judgement.rests_on, judgement.follows = body.rests_on, isinstance(body, Following)
+            judgement.is_conclusion = isinstance(body, Following) and body.is_conclusion
             judgement.by_rules = verdict_of(
                 claim.id, body, {**judgement.outcomes, **dict.fromkeys(body.rests_on, "certified")}
             )
@@ -208,7 +215,18 @@ class Judge:
                 sharp = self.find_sharp_range(prefix, assertion)
                 if sharp is not None:
                     judgement.sharp[prefix] = sharp
+        self.settle_remark()
         return judgement
+
+    def settle_remark(self) -> None:
+        """Settles what the remark of the claim states, which has to be certified."""
+        beside = self.claim.shown_beside()
+        if beside is None:
+            return
+        self.settle_all(REMARK, beside)
+        if outcome_of(self.claim.id, REMARK, beside, self.judgement.outcomes) != "certified":
+            unshown = Verdict("unknown", "its remark is not certified")
+            self.judgement.verdict = self.judgement.by_rules = unshown
 
     def body(self) -> Body:
         """What the claim asserts.
@@ -325,12 +343,37 @@ class Judge:
             )
         except Exhausted:
             certificate = {"unknown": f"the budget of {budget} units ran out"}
+        if isinstance(statement, Statement) and not self.is_trial:
+            certificate = self.in_simple_values(statement, certificate)
         if "certified" not in certificate and isinstance(statement, Statement):
             if not self.is_trial:
                 outcome = "refuted" if "refuted" in certificate else "unknown"
                 refuse_vacuous(
                     statement, outcome, self.known, budget // TRIAL, self.judgement.roles
                 )
+        return certificate
+
+    def in_simple_values(self, statement: Statement, certificate: Certificate) -> Certificate:
+        """The counterexample of a refutation in simple rationals, where a search with the parameter
+        at a simple value finds one that the checker accepts; else the refutation as it is.
+        """
+        found, parameter = certificate.get("refuted"), self.judgement.roles.parameter
+        if not isinstance(found, Counterexample) or is_simple(found):
+            return certificate
+        if parameter not in found.terms:
+            return certificate
+        for one in at_simple_values(statement, parameter, self.claim.vocabulary.roots.values()):
+            budget = Budget(self.resources.budget // TRIAL)
+            try:
+                there = search_certificate(
+                    read(one.text(), one.name), self.known, budget, roles=self.judgement.roles
+                ).get("refuted")
+            except Exhausted:
+                continue
+            if isinstance(there, Counterexample) and is_simple(there):
+                simple: Certificate = {"refuted": there._replace(node=("close",))}
+                if self.check(read(statement.text(), statement.name), simple) == "refuted":
+                    return simple
         return certificate
 
     def check(self, statement: checker.Statement, certificate: Certificate) -> str:
@@ -345,16 +388,15 @@ class Judge:
 
     # -------------------------------------------------------------- corrections
 
-    def correct(self) -> None:
-        """Keeps the first correction that is certified: a candidate print, or the true assertion
-        nearby; the one that an earlier run found is tried first, of whichever kind.
+    def correct(self, body: Body) -> None:
+        """Keeps the first correction that is certified: the true assertion nearby that the claim
+        names, or a candidate print, of which the one that an earlier run found is tried first.
         """
-        remembered = self.finding.get("correction")
-        is_nearby = remembered is not None and remembered["kind"] == "nearby"
-        if is_nearby and self.nearby_is_certified():
+        if self.nearby_is_certified() or not self.claim.printed or isinstance(body, Argument):
             return
+        remembered = self.finding.get("correction")
         first = None if remembered is None else (remembered["kind"], remembered["text"])
-        for candidate in candidates(self.claim, first) if self.claim.printed else ():
+        for candidate in candidates(self.claim, first):
             if self.candidate_is_certified(candidate):
                 self.judgement.correction = {
                     "kind": candidate.kind,
@@ -363,8 +405,6 @@ class Judge:
                     "possible transcription error": candidate.possible_transcription_error,
                 }
                 return
-        if not is_nearby:
-            self.nearby_is_certified()
 
     def nearby_is_certified(self) -> bool:
         """Whether the claim names a true assertion nearby that is certified; if so it is the
@@ -373,7 +413,7 @@ class Judge:
         if self.claim.true_nearby is None:
             return False
         text, state = self.claim.true_nearby
-        if not self.correction_is_certified(as_body(state(), self.claim.id)):
+        if not self.correction_is_certified(as_body(state(), self.claim.id), named=True):
             return False
         self.judgement.correction = {
             "kind": "nearby",
@@ -384,16 +424,21 @@ class Judge:
         return True
 
     def candidate_is_certified(self, candidate: Candidate) -> bool:
-        """Whether the claim, read with this print, is certified; if so its statements are kept as
-        ID/corrected...
+        """Whether the claim, read with this print, is certified, and each name in it is bound
+        where it stands; if so its statements are kept as ID/corrected...
         """
         try:
-            return self.correction_is_certified(self.claim.body(candidate.printed))
+            if candidate.unbound(self.claim):
+                return False
+            named = candidate.kind == "marks"  # by the claim, and one only
+            return self.correction_is_certified(self.claim.body(candidate.printed), named)
         except (ClaimError, checker.Rejected):
             return False
 
-    def correction_is_certified(self, body: Body) -> bool:
-        """Whether every statement of a corrected body is certified; if so they are kept."""
+    def correction_is_certified(self, body: Body, named: bool) -> bool:
+        """Whether every statement of a corrected body is certified; if so they are kept.  One that
+        the claim names gets all of the budget, one of many candidates a part.
+        """
         try:
             statements = [
                 _renamed(part, f"{self.claim.id}/corrected.{part.name.split('/')[1]}")
@@ -406,7 +451,7 @@ class Judge:
                 return False
         except (ClaimError, checker.Rejected):
             return False
-        trial = self.trial()
+        trial = self.trial(self.resources.budget // (1 if named else TRIAL))
         try:
             if any(trial.settle(part) != "certified" for part in statements):
                 return False
@@ -432,12 +477,9 @@ class Judge:
             and self.resources.checked.get(name) == "certified"
         )
 
-    def trial(self) -> Judge:
-        """A judge of the same claim that settles what may correct it, with less work."""
-        trial = Judge(
-            self.claim,
-            replace(self.resources, routes=("exact",), budget=self.resources.budget // TRIAL),
-        )
+    def trial(self, budget: int) -> Judge:
+        """A judge of the same claim that settles what may correct it, with this budget."""
+        trial = Judge(self.claim, replace(self.resources, routes=("exact",), budget=budget))
         trial.known, trial.is_trial, trial.judgement.roles = self.known, True, self.judgement.roles
         return trial
 

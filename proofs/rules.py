@@ -19,9 +19,12 @@ def rule_domain(name: str, texts: Mapping[str, str]) -> tuple[str, bool]:
     return rows["domain"], False
 
 
-def range_of_rule(name: str, texts: Mapping[str, str], roles: Roles = NO_ROLES) -> str:
+def range_of_rule(
+    name: str, texts: Mapping[str, str], roles: Roles = NO_ROLES, is_conclusion: bool = True
+) -> str:
     """The parameters for which the rule's conclusion is proved; `at least` stands before them
-    unless it is refuted for all others of their domain.
+    unless it is refuted for all others of their domain, or it is not that conclusion itself which
+    is asserted.
 
     >>> text = "statement t/map\\nover a r\\ndomain a > 0 and 3*a < 1 and r > 0"
     >>> range_of_rule("t/map", {"t/map": text})
@@ -31,7 +34,8 @@ def range_of_rule(name: str, texts: Mapping[str, str], roles: Roles = NO_ROLES) 
     is empty where the domain does not name it, and the domain itself where its conditions on it are
     not linear.
     """
-    domain, is_sharp = rule_domain(name, texts)
+    domain, refutes = rule_domain(name, texts)
+    is_sharp = refutes and is_conclusion
     parameter = roles.parameter or _first_over(name, texts)
     if parameter not in checker.names_in(domain):
         return ""

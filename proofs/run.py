@@ -418,7 +418,11 @@ def sent(claim: Claim, resources: Resources) -> Sent:
             f"{claim.id} has a print to be corrected, which only this process can do; certify it"
             " without an executor"
         )
-    return Sent(replace(claim, read=FixedBody(claim.body(), claim.where)), resources.only(claim))
+    beside, remark = claim.shown_beside(), claim.remark
+    if beside is not None and remark is not None:
+        remark = replace(remark, state=FixedBody(beside, claim.where))
+    body = FixedBody(claim.body(), claim.where)
+    return Sent(replace(claim, read=body, remark=remark), resources.only(claim))
 
 
 def judge_all(

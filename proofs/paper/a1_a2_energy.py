@@ -15,6 +15,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
+from juggleproof.proofs.claims import Argument, Assertion
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -22,6 +23,7 @@ from juggleproof.proofs.paper.names import (
     B2,
     PAPER,
     H,
+    K,
     T,
     alpha,
     always,
@@ -57,6 +59,7 @@ from juggleproof.proofs.paper.states import (
     STEEP,
     UNKNOWN,
     E_max,
+    always_integer,
     are_slopes,
     dE_dbeta,
     dE_dv,
@@ -205,6 +208,28 @@ def equilibrium_velocity(printed: Printed) -> Statement:
             printed.formula(names),
             equal(after, equilibrium) & equal(speed(ball_at(wait, leaves)), ball),
         )
+    )
+
+
+@claim("sA.1-in-step", "A.1", "line 638", parameters=("alpha", "K"))
+def equilibrium_is_kept_up() -> Argument:
+    """The greatest energy that is sustained is found where the fastest table just turns the
+    velocity round; for the flight that follows brings the ball back to that velocity.
+
+    For that the flight has to end as the table is launched again: when it lasts K periods and less
+    than K + 1, it has to last K.
+    """
+    turned = equal(struck(-equilibrium, r), equilibrium)
+    wait = at(derived("hang_time"), {"v": equilibrium})
+    lasts = [turned, K * T <= wait, wait < (K + 1) * T]
+    return Argument(
+        steps={
+            "turned-round": Assertion(
+                (always(equal(speed(ball_at(wait, Vector((0, equilibrium)))), -equilibrium)),)
+            ),
+            "in-step": Assertion((always_integer(equal(wait, K * T), given=lasts),)),
+        },
+        proved_by="s4.1-Emax",
     )
 
 

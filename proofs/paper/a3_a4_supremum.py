@@ -14,10 +14,9 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Readings
+from juggleproof.proofs.claims import Argument, Assertion, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
-    B2,
     PAPER,
     H,
     R,
@@ -32,9 +31,9 @@ from juggleproof.proofs.paper.names import (
     energy,
     eps,
     exists_some,
-    f2,
     g,
     impact_energy_change,
+    next_states,
     only_at,
     r,
     strikes_at,
@@ -47,24 +46,22 @@ from juggleproof.proofs.paper.regions import (
     BEYOND_R,
     CLOSED_B1,
     CORNER,
-    NAMED,
+    LEVEL,
     ON_R,
     OUTSIDE,
     PRINTED_SUPREMUM,
     SUPREMAL,
     b_0,
     beta0,
-    ceiling_of,
     change,
     dE_sup,
-    floor_of,
-    impacts_suffice,
     least,
     not_supremal,
+    not_supremal_above_the_ground,
     pieces,
     v0,
-    with_rounding,
 )
+from juggleproof.proofs.paper.s4_2_proposition import OF_THE_LOSS, is_enough
 from juggleproof.proofs.paper.states import (
     STEEP,
     are_slopes,
@@ -76,7 +73,7 @@ from juggleproof.proofs.paper.states import (
 )
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.parser import parse_name
-from juggleproof.proofs.reading.values import Region, Vector, scalar
+from juggleproof.proofs.reading.values import Region, Value, Vector, scalar
 
 # -------------------------------------------------------------------------------------------------
 # Appendix A.3: how little an impact takes outside the region R, at least.
@@ -113,19 +110,41 @@ def is_least_bound(
     "line 679",
     printed=r"\mathcal{H} - \mathcal{R}",
     as_it_stands=r"\mathcal{A} - \mathcal{R}",
+    mended=r"\mathcal{B}_1 - \mathcal{R}",
 )
-def supremum_outside_the_region(printed: Printed) -> Readings:
-    """The energy change at the corner of R is the supremum outside R: over all states there, or
-    over those whose impact comes.
+def supremum_outside_the_region(printed: Printed) -> list[Statement]:
+    """The energy change at the corner of R is the supremum over the states of this set, with or
+    without an impact.
     """
-    region = as_region(value_of(printed, PAPER))
-    impacts = is_least_bound(least, region & B1, [CORNER(b_0)])
-    flights = always(
-        energy(f2(b)) - energy(b) < least, given=[CORNER(b_0), region(b), B2(b)], label="flights"
-    )
-    return Readings(
-        {"all-states": Assertion((*impacts, flights)), "with-impact": Assertion(impacts)}
-    )
+    region, next_one = as_region(value_of(printed, PAPER)), Vector(reals("beta1 v1"))
+    _, approached = is_least_bound(least, region & B1, [CORNER(b_0)])
+    in_a_period = energy(next_one) - energy(b) < least
+    given = [CORNER(b_0), region(b), next_states(b, next_one)]
+    return [always(in_a_period, given=given, label="bound"), approached]
+
+
+ON_THE_LEVEL = Vector(((LEVEL - v0**2 / 2) / g, v0))  # the state of this velocity on R(b) = 0
+GRADIENTS = [
+    [term(entry) for entry in at(derived_vector(name), ON_THE_LEVEL).entries]
+    for name in ("energy_gradient", "region_gradient")
+]
+
+
+def must_satisfy(condition: Formula) -> Statement:
+    """A supremal state on R(b) = 0 satisfies the condition with the one multiplier that fits the
+    slopes with the height.
+    """
+    (down, _), (dR_down, _) = GRADIENTS
+    supremal = equal(impact_energy_change(ON_THE_LEVEL), derived("delta_E_sup"))
+    fits = equal(down, lam * dR_down)
+    return always(condition, given=[CLOSED_B1(ON_THE_LEVEL), supremal, fits])
+
+
+def parallel_or_on_the_ground() -> Statement:
+    """A supremal state on R(b) = 0 has parallel gradients, or is on the ground."""
+    (down, along), (dR_down, dR_along) = GRADIENTS
+    parallel = equal(down, lam * dR_down) & equal(along, lam * dR_along)
+    return must_satisfy(parallel | equal(ON_THE_LEVEL.component(1), 0))
 
 
 @claim(
@@ -144,28 +163,26 @@ def supremum_outside_the_region(printed: Printed) -> Readings:
         r"D_{\overline{\beta}} \Delta_1 E(\overline{b}_s) = \lambda D_{\overline{\beta}}"
         r" R(\overline{b}_s)"
     ),
+    true_nearby=(r"\text{(38) or } \overline{\beta} = 0", parallel_or_on_the_ground),
+    remark=Remark(
+        "This is the step of A.3.1 that does not follow: on R(b) = 0 within H a supremal state is"
+        " stationary unless it is an end point of that arc, and the corner (39) is one.",
+        by=("sA.3.2-corner",),
+    ),
 )
-def condition_on_the_boundary(printed: Printed) -> list[Statement]:
-    """Along a level line of R the energy change is stationary exactly where both gradients are
-    parallel.
+def condition_on_the_boundary(printed: Printed) -> Statement:
+    """A state on R(b) = 0 that has the supremal energy change of the impacts outside R, at whose
+    edge it is, satisfies this for some multiplier: the one that fits the slopes with the height.
     """
-    p, q = reals("p q")
-    down, along = (term(entry) for entry in at(derived_vector("region_gradient"), b_0).entries)
-    names = {
-        r"D_{\overline\beta} R": only_at(b_0, down),
-        r"D_{\dot{\overline\beta}} R": only_at(b_0, along),
+    (down, along), (dR_down, dR_along) = GRADIENTS
+    names: dict[str, Value] = {
+        r"\overline b_s": ON_THE_LEVEL,
+        r"D_{\overline\beta} \Delta_1 E": only_at(ON_THE_LEVEL, down),
+        r"D_{\dot{\overline\beta}} \Delta_1 E": only_at(ON_THE_LEVEL, along),
+        r"D_{\overline\beta} R": only_at(ON_THE_LEVEL, dR_down),
+        r"D_{\dot{\overline\beta}} R": only_at(ON_THE_LEVEL, dR_along),
     }
-    parallel = printed.formula(MULTIPLIED.extended(names))
-    return [
-        exists_some(
-            ["lam"], parallel, given=[equal(dE_dv * down, dE_dbeta * along)], label="needed"
-        ),
-        always(
-            equal(dE_dbeta * p + dE_dv * q, 0),
-            given=[parallel, equal(down * p + along * q, 0)],
-            label="enough",
-        ),
-    ]
+    return must_satisfy(printed.formula(MULTIPLIED.extended(names)))
 
 
 @claim(
@@ -235,18 +252,44 @@ def multiplier_does_not_fit(printed: Printed) -> Argument:
     )
 
 
-@claim("sA.3.1-not-on-R0", "A.3.1", "lines 681 and 700", printed=r"R(\overline{b}) = 0")
-def supremum_is_not_on_the_boundary(printed: Printed) -> Readings:
-    """On R(b) = 0 no state at the edge of the impacts outside R has the supremal energy change:
-    none at all, or none above the ground.
+ABOVE_THE_GROUND = (
+    r"R(\overline{b}) = 0 \text{ and } \overline{\beta} > 0",
+    not_supremal_above_the_ground,
+)
+
+
+@claim(
+    "sA.3.1-not-on-R0",
+    "A.3.1",
+    "lines 681 and 700",
+    printed=r"R(\overline{b}) = 0",
+    true_nearby=ABOVE_THE_GROUND,
+)
+def supremum_is_not_on_the_boundary(printed: Printed) -> Statement:
+    """On R(b) = 0 no state at the edge of the impacts outside R has the supremal energy change,
+    which A.3.2 finds at such a state.
     """
     return not_supremal(printed.formula(PAPER))
 
 
-@claim("sA.3.2-leftmost", "A.3.2", "line 702", printed=r"\overline{\beta} = 0")
-def leftmost_states(printed: Printed) -> Readings:
-    """The leftmost boundary of the impacts outside R is the edge of H: this alone, or with the arc
-    of R(b) = 0 above it.
+@claim(
+    "sA.3.2-leftmost",
+    "A.3.2",
+    "line 702",
+    printed=r"\overline{\beta} = 0",
+    remark=Remark(
+        "The line alone is not all of the leftmost boundary: to the left of some states lies R.",
+        lambda: exists_some(
+            ["beta", "v"],
+            ~BEYOND_R(Vector((0, v))),
+            within=[B1_OUTSIDE(b)],
+            label="left-of-it-is-R",
+        ),
+    ),
+)
+def leftmost_states(printed: Printed) -> Statement:
+    """The leftmost boundary of the impacts outside R is the edge of H, besides the arc of R(b) = 0,
+    which A.3.1 considers.
 
     From any such state a move to the left at the same velocity ends there, and raises the energy
     change.
@@ -255,22 +298,18 @@ def leftmost_states(printed: Printed) -> Readings:
     edge_of_h = printed.formula(PAPER.extended({r"\overline\beta": edge}))
     still_outside = at(derived("region_margin"), left) <= 0
 
-    def reading(boundary: Formula) -> Assertion:
-        return Assertion(
-            (
-                exists_some(
-                    ["edge"],
-                    conjunction(
-                        [boundary, still_outside, B1(left), change <= impact_energy_change(left)]
-                    ),
-                    within=[edge >= 0, edge <= beta],
-                    given=[B1_OUTSIDE(b)],
-                ),
-            )
-        )
-
-    return Readings(
-        {"edge-alone": reading(edge_of_h), "edge-and-arc": reading(edge_of_h | ON_R(left))}
+    return exists_some(
+        ["edge"],
+        conjunction(
+            [
+                edge_of_h | ON_R(left),
+                still_outside,
+                B1(left),
+                change <= impact_energy_change(left),
+            ]
+        ),
+        within=[edge >= 0, edge <= beta],
+        given=[B1_OUTSIDE(b)],
     )
 
 
@@ -433,9 +472,19 @@ def supremum_is_at_the_left() -> list[Statement]:
     ]
 
 
-@claim("sA.4-open", "A.4", "line 716")
-def impacts_outside_are_open() -> Readings:
-    """The states outside R whose impact comes are an open set: of the plane, or of H only."""
+@claim(
+    "sA.4-open",
+    "A.4",
+    "line 716",
+    remark=Remark(
+        "Open in H: in the plane the set is not open, since it holds states of the edge of H.",
+        lambda: exists_some(
+            ["v"], B1_OUTSIDE(Vector((0, v))), within=[v < 0], label="some-on-the-edge"
+        ),
+    ),
+)
+def impacts_outside_are_open() -> list[Statement]:
+    """The states outside R whose impact comes are an open set in H."""
     margins = {
         "collision": at(derived("collision_margin"), b),
         "energy": -term(at(derived("region_margin"), b)),
@@ -456,84 +505,45 @@ def impacts_outside_are_open() -> Readings:
         given=[B1_OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(*margins.values()), H(NEAR)],
         label="all-near",
     )
-    return Readings(
-        {
-            "of-the-plane": Assertion(
-                (
-                    exists_some(
-                        ["edge"], B1_OUTSIDE(LEFT), within=[edge < beta], given=[B1_OUTSIDE(b)]
-                    ),
-                )
-            ),
-            "of-H": Assertion((*rooms, near)),
-        }
-    )
+    return [*rooms, near]
 
 
 @claim("sA.4-boundary", "A.4", "line 716", printed=r"R(\overline{b}) = 0", as_it_stands=r"R(b) = 0")
-def boundary_of_the_region(printed: Printed) -> Readings:
-    """The boundary of R is where R(b) = 0: as a set of states of H, or as a set of the plane."""
+def boundary_of_the_region(printed: Printed) -> list[Statement]:
+    """The boundary of R, as a set of states of H, is where R(b) = 0."""
     on_it, margin = printed.formula(PAPER), term(at(derived("region_margin"), b))
-    both_sides = exists_some(
-        ["edge"],
-        OUTSIDE(LEFT),
-        within=[edge > beta, edge < beta + delta],
-        given=[H(b), on_it, delta > 0],
-        label="both-sides",
-    )
-    return Readings(
-        {
-            "in-H": Assertion(
-                (
-                    always(R(b), given=[H(b), on_it], label="one-side"),
-                    both_sides,
-                    exists_some(
-                        ["delta"],
-                        room(margin),
-                        within=[delta > 0],
-                        given=[R(b), ~on_it, *BOUNDED],
-                        label="room-inside",
-                    ),
-                    exists_some(
-                        ["delta"],
-                        room(-margin),
-                        within=[delta > 0],
-                        given=[OUTSIDE(b), *BOUNDED],
-                        label="room-outside",
-                    ),
-                    always(
-                        R(NEAR),
-                        given=[R(b), *BOUNDED, *WITHIN_DELTA, delta < 1, room(margin), H(NEAR)],
-                        label="inside",
-                    ),
-                    always(
-                        ~R(NEAR),
-                        given=[OUTSIDE(b), *BOUNDED, *WITHIN_DELTA, room(-margin)],
-                        label="outside",
-                    ),
-                )
-            ),
-            "in-the-plane": Assertion(
-                (
-                    both_sides,
-                    exists_some(
-                        ["edge"],
-                        R(LEFT),
-                        within=[edge < beta],
-                        given=[R(b), ~on_it],
-                        label="inside",
-                    ),
-                )
-            ),
-        }
-    )
+    inner, outer = [R(b), ~on_it, *BOUNDED], [OUTSIDE(b), *BOUNDED]
+    return [
+        always(R(b), given=[H(b), on_it], label="one-side"),
+        exists_some(
+            ["edge"],
+            OUTSIDE(LEFT),
+            within=[edge > beta, edge < beta + delta],
+            given=[H(b), on_it, delta > 0],
+            label="both-sides",
+        ),
+        exists_some(["delta"], room(margin), within=[delta > 0], given=inner, label="room-inside"),
+        exists_some(
+            ["delta"], room(-margin), within=[delta > 0], given=outer, label="room-outside"
+        ),
+        always(
+            R(NEAR),
+            given=[R(b), *BOUNDED, *WITHIN_DELTA, delta < 1, room(margin), H(NEAR)],
+            label="inside",
+        ),
+        always(~R(NEAR), given=[*outer, *WITHIN_DELTA, room(-margin)], label="outside"),
+    ]
 
 
-@claim("sA.4-not-on-boundary", "A.4", "line 716", repeats="sA.3.1-not-on-R0")
-def supremum_is_not_on_the_boundary_of_the_region() -> Readings:
-    """The supremum does not belong to a state of the boundary R(b) = 0: to none at all, or to none
-    above the ground.
-    """
+@claim(
+    "sA.4-not-on-boundary",
+    "A.4",
+    "line 716",
+    repeats="sA.3.1-not-on-R0",
+    true_nearby=ABOVE_THE_GROUND,
+)
+def supremum_is_not_on_the_boundary_of_the_region() -> Statement:
+    """The supremum does not belong to a state of the boundary R(b) = 0."""
     return not_supremal(ON_R(b))
 
 
@@ -552,13 +562,9 @@ def supremum_is_on_the_edge_and_negative(printed: Printed) -> Statement:
 
 
 @claim("sA.4-each-impact", "A.4", "line 718")
-def each_impact_takes_the_least_loss() -> Readings:
-    """Each impact changes the energy by Delta E_sup at most: those outside R, or all."""
-
-    def reading(region: Formula) -> Assertion:
-        return Assertion((always(change <= least, given=[CORNER(b_0), region]),))
-
-    return Readings({"outside-R": reading(B1_OUTSIDE(b)), "every-impact": reading(B1(b))})
+def each_impact_takes_the_least_loss() -> Statement:
+    """Each impact before R is entered changes the energy by Delta E_sup at most."""
+    return always(change <= least, given=[CORNER(b_0), B1_OUTSIDE(b)])
 
 
 @claim(
@@ -567,10 +573,10 @@ def each_impact_takes_the_least_loss() -> Readings:
     "lines 718 to 722",
     repeats="s4.2-count",
     printed=r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}]",
+    remark=OF_THE_LOSS,
 )
 def impacts_to_enter_the_region(printed: Printed) -> Readings:
-    """So many impacts lead from b_0 into R, the number rounded down or rounded up."""
-    count = with_rounding(printed, NAMED)[1]
-    return Readings(
-        {"floor": impacts_suffice(floor_of(count)), "ceiling": impacts_suffice(ceiling_of(count))}
-    )
+    """So many impacts, with the derived least loss, lead from b_0 into R, the number rounded down
+    or rounded up.
+    """
+    return is_enough(printed)

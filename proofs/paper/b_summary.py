@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import Formula, Statement, different, equal, iff, reals, term
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
+from juggleproof.certificates.language import Statement, different, equal, iff, reals, term
+from juggleproof.proofs.claims import Argument, Assertion, Following, Remark
 from juggleproof.proofs.paper.names import (
     B1_ZERO,
     B2,
@@ -45,6 +45,7 @@ from juggleproof.proofs.paper.names import (
 )
 from juggleproof.proofs.paper.regions import ATTRACTION, pieces
 from juggleproof.proofs.paper.states import (
+    CORNER_WITHOUT_A_TIME,
     LANDS,
     NEAR_B1,
     NEAR_B2,
@@ -65,7 +66,6 @@ from juggleproof.proofs.paper.states import (
     tells_b1,
     tells_b2,
 )
-from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.values import (
     Matrix,
@@ -79,8 +79,9 @@ from juggleproof.proofs.reading.values import (
 # -------------------------------------------------------------------------------------------------
 # Appendices B.1 and B.2: the time to collision, the table's period, and the regions, summed up.
 
-LAUNCH_SPEED = PAPER.extended({r"\dot\rho": r, r"\tau_c": only_at(b, t, factor=True)})
-SPEED_THEN = LAUNCH_SPEED.extended({r"\dot\rho": speed(table_at(t))})
+# The time to collision and the table's velocity: as \dot\rho is the velocity of the moment.
+MOMENT = PAPER.extended({r"\dot\rho": speed(table_at(t)), r"\tau_c": only_at(b, t, factor=True)})
+LAUNCH_SPEED = PAPER.extended({r"\dot\rho": r})
 _PERIOD_EQUATION = r"0 = \dot{\rho}T - \gamma T^2"
 _PERIOD = r"T = \frac{2\dot{\rho}_0}{\gamma}"
 
@@ -93,31 +94,23 @@ _PERIOD = r"T = \frac{2\dot{\rho}_0}{\gamma}"
         r"\overline{\beta} + \dot{\overline{\beta}}\tau_c - \gamma\tau_c^2 = \dot{\rho}\tau_c -"
         r" \gamma\tau_c^2"
     ),
+    mended=(
+        r"\overline{\beta} + \dot{\overline{\beta}}\tau_c - \frac{1}{2}\gamma\tau_c^2 ="
+        r" \dot{\rho}_0\tau_c - \frac{1}{2}\gamma\tau_c^2"
+    ),
 )
-def collision_equation_with_gravity(printed: Printed) -> Readings:
-    """The time to collision is the solution of this equation, the table's velocity being that of
-    its launch.
-
-    Read more strictly its sides are the heights of ball and table; or the table's velocity is that
-    of the moment.
+def collision_equation_with_gravity(printed: Printed) -> list[Statement]:
+    """The time to collision is the solution of this equation, whose sides are the heights of ball
+    and table.
     """
-    ball, table = height(ball_at(t)), height(table_at(t))
-    heights = equal(ball, scalar(printed.left(LAUNCH_SPEED))) & equal(
-        table, scalar(printed.right(LAUNCH_SPEED))
-    )
-    return Readings(
-        {
-            "equation": Assertion(
-                (always(iff(meet(t), printed.formula(LAUNCH_SPEED)), given=[t >= 0]),)
-            ),
-            "heights": Assertion(
-                (always(heights & iff(meet(t), printed.formula(LAUNCH_SPEED)), given=[t >= 0]),)
-            ),
-            "speed-then": Assertion(
-                (always(iff(meet(t), printed.formula(SPEED_THEN)), given=[t >= 0]),)
-            ),
-        }
-    )
+    sides = zip((ball_at(t), table_at(t)), (printed.left(MOMENT), printed.right(MOMENT)))
+    return [
+        always(iff(meet(t), printed.formula(MOMENT)), given=[t >= 0], label="equation"),
+        *(
+            always(equal(height(body), scalar(side)), given=[t >= 0], label=label)
+            for label, (body, side) in zip(("ball", "table"), sides)
+        ),
+    ]
 
 
 @claim(
@@ -126,32 +119,23 @@ def collision_equation_with_gravity(printed: Printed) -> Readings:
     "line 736",
     printed=r"\tau_c = \frac{\overline{\beta}}{\dot{\rho} - \dot{\overline{\beta}}}",
 )
-def time_to_collision_again(printed: Printed) -> Readings:
-    """Ball and table meet at this time and at no other, the table's velocity being that of its
-    launch, or that of the moment.
-    """
-
-    def reading(names: Environment, *apart: Formula) -> Assertion:
-        return Assertion(
-            (always(iff(meet(t), printed.formula(names)), given=[t >= 0, different(v, r), *apart]),)
-        )
-
-    return Readings(
-        {
-            "launch-speed": reading(LAUNCH_SPEED),
-            "speed-then": reading(SPEED_THEN, different(v, speed(table_at(t)))),
-        }
-    )
+def time_to_collision_again(printed: Printed) -> Statement:
+    """Ball and table meet at this time and at no other."""
+    apart = [different(v, speed(table_at(t)))] if r"\dot{\rho}" in printed.names else []
+    return always(iff(meet(t), printed.formula(MOMENT)), given=[t >= 0, different(v, r), *apart])
 
 
-@claim("sB.1-period", "B.1", "line 740", printed=_PERIOD_EQUATION)
+@claim(
+    "sB.1-period",
+    "B.1",
+    "line 740",
+    printed=_PERIOD_EQUATION,
+    mended=r"0 = \dot{\rho}_0 T - \frac{1}{2}\gamma T^2",
+)
 def period_solves_an_equation(printed: Printed) -> Statement:
-    """The table is on the ground again when the nonzero solution of this equation has passed, its
-    velocity being that of its launch.
-    """
-    return always(
-        iff(LANDS, printed.formula(LAUNCH_SPEED.extended({"T": flown}))), given=[flown > 0]
-    )
+    """The table is on the ground again when the nonzero solution of this equation has passed."""
+    names = PAPER.extended({r"\dot\rho": speed(table_at(flown)), "T": flown})
+    return always(iff(LANDS, printed.formula(names)), given=[flown > 0])
 
 
 @claim("sB.1-so-that", "B.1", "line 742", printed=rf"{_PERIOD_EQUATION} \text{{so that}} {_PERIOD}")
@@ -193,11 +177,9 @@ def states_with_a_meaning(printed: Printed) -> list[Statement]:
 
 
 @claim("sB.2-B1-less", "B.2", "line 752", repeats="s2.2.1-B1-strikes")
-def b1_strikes_in_less_than_a_period() -> Readings:
-    """From the states of B1, and from no others in H, the ball strikes the table in less than one
-    period.
-
-    To strike can mean to meet while approaching, or merely to be at one height.
+def b1_strikes_in_less_than_a_period() -> list[Statement]:
+    """From the states of B1, and from no others in H, the ball strikes the table, meeting it while
+    they approach each other, in less than one period.
     """
     return b1_is_where_the_ball_strikes()
 
@@ -218,10 +200,9 @@ def b1_by_time_to_collision(printed: Printed) -> Statement:
 
 
 @claim("sB.2-B2-atleast", "B.2", "line 756", repeats="s2.2.1-B2-no-strike")
-def b2_strikes_in_a_period_at_least() -> Readings:
-    """From no state of B2 does the ball strike the table in less than one period.
-
-    To strike can mean to meet while approaching, or merely to be at one height.
+def b2_strikes_in_a_period_at_least() -> Statement:
+    """From no state of B2 does the ball strike the table, meeting it while they approach each
+    other, in less than one period.
     """
     return b2_is_where_it_does_not()
 
@@ -249,10 +230,11 @@ def b2_by_time_to_collision(printed: Printed) -> Statement:
     printed=r"\partial\mathcal{B}_2 := \{ \overline{b} \in \mathcal{H} \mid \tau_c = T \}",
     as_it_stands=r"\partial\mathcal{B}_2 := \{ \overline{b} \in \mathcal{A} \mid \tau_c = T \}",
     repeats="s2.2.1-dB2",
+    remark=CORNER_WITHOUT_A_TIME,
 )
-def line_between_the_regions(printed: Printed) -> Readings:
+def line_between_the_regions(printed: Printed) -> Statement:
     """The line between B1 and B2, where the ball meets the table as the period ends, holds the
-    states whose time is one period.
+    states whose time is one period, wherever it is defined.
     """
     return line_of_equal_times(printed.set_predicate(PAPER, r"\partial\mathcal{B}_2")(b))
 
@@ -319,14 +301,16 @@ def map_on_b1_again(printed: Printed) -> list[Statement]:
     "line 783",
     repeats="eq-12",
     printed=r"\overline{f}_1(\overline{b}_k) := -A_T x - \alpha_T",
+    mended=r"\overline{f}_2(\overline{b}_k) := A_T \overline{b}_k - \alpha_T",
 )
 def map_on_b2_again(printed: Printed) -> Statement:
-    """The dynamics on B2, here under the name of those on B1, take a state x to this affine image
-    at the next bounce.
+    """The dynamics on B2, which have to be what free flight makes of a state until the next bounce.
+
+    f_1 is the map on B1, as the section has it; x, which it does not introduce, is taken for the
+    state.
     """
-    flown = StateFunction(lambda state: ball_at(t, state))
     names: dict[str, Value] = {
-        r"\overline f_1": flown,
+        r"\overline f_2": StateFunction(lambda state: ball_at(t, state)),
         r"\overline b_k": b_0,
         "x": b_0,
         r"\alpha_T": flight_offset(T),
@@ -343,6 +327,7 @@ def map_on_b2_again(printed: Printed) -> Statement:
     "line 785",
     repeats="eq-1",
     printed=r"\alpha_T := \gamma T \begin{bmatrix} T/2 \\ 1 \end{bmatrix}",
+    remark=Remark("(1) calls this a_T; alpha is the restitution."),
 )
 def what_gravity_takes_off_in_a_period(printed: Printed) -> Statement:
     """This column, and no other, is what a period of flight falls short of its linear part."""
@@ -362,9 +347,9 @@ def what_gravity_takes_off_in_a_period(printed: Printed) -> Statement:
         r"\overline{f}_2 & : \overline{b} \in \mathcal{B}_2 \end{array} \right."
     ),
 )
-def map_on_all_of_h_again(printed: Printed) -> Readings:
+def map_on_all_of_h_again(printed: Printed) -> list[Statement]:
     """The two cases give every state of H one image, which is the state when the table bounces
-    next.
+    next, B2 being what B1 leaves of H.
     """
     return is_the_map(printed)
 
@@ -402,26 +387,17 @@ def states_without_energy_change_again(printed: Printed) -> list[Statement]:
 
 
 @claim("sB.6-boundary", "B.6", "line 807", printed=r"R(\overline{b}) = 0")
-def boundary_of_the_region(printed: Printed) -> Readings:
-    """The states of R next to which, however near, lie states outside R, are those at which the
-    function R vanishes.
-
-    Next to a state may mean in H only, that is above it at least, or anywhere in the plane, also
-    below it.
+def boundary_of_the_region(printed: Printed) -> list[Statement]:
+    """The states of R next to which in H, however near, lie states outside R, are those at which
+    the function R vanishes.
     """
-    vanishes = printed.formula(PAPER)
-    higher, lower = (b + Vector((step, term(0))) for step in (lift, -lift))
-    leaves = always(~R(higher), given=[R(b), vanishes, lift > 0], label="on-the-boundary")
-
-    def inside(neighbour: Vector, label: str) -> Statement:
-        return exists_some(
-            ["lift"], R(neighbour), within=[lift > 0], given=[R(b), ~vanishes], label=label
-        )
-
-    above, below = inside(higher, "inside-above"), inside(lower, "inside-below")
-    return Readings(
-        {"in-H": Assertion((leaves, above)), "in-the-plane": Assertion((leaves, above, below))}
-    )
+    vanishes, higher = printed.formula(PAPER), b + Vector((lift, term(0)))
+    return [
+        always(~R(higher), given=[R(b), vanishes, lift > 0], label="on-the-boundary"),
+        exists_some(
+            ["lift"], R(higher), within=[lift > 0], given=[R(b), ~vanishes], label="inside-above"
+        ),
+    ]
 
 
 @claim(

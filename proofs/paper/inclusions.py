@@ -7,7 +7,6 @@ Each is stated for the range (21) of the paper; how far it really goes is found 
 from __future__ import annotations
 
 from juggleproof.certificates.language import Statement, equal, iff, term
-from juggleproof.proofs.claims import Assertion, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -42,7 +41,6 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.regions import B1_OUTSIDE, OUTSIDE
 from juggleproof.proofs.paper.states import (
     RANGE_21,
-    band,
     c,
     leaves_R_at,
     narrow_band_stays,
@@ -174,45 +172,17 @@ def point_p_lies_outside() -> Statement:
     return always(~R(on_the_line(speed(e_1))), in_range=RANGE_21)
 
 
-@claim("region-near", "inclusions", "line 559", parameters=("alpha", "eps"))
-def states_of_the_region_near_e_1_lie_in_b1() -> Readings:
+@claim("region-near", "inclusions", "line 559")
+def states_of_the_region_near_e_1_lie_in_b1() -> list[Statement]:
     """The states of R whose velocity is near that of e_1 lie in B1: exactly those slower than where
     R leaves B1 are sure to.
-
-    The second reading is that those lie in B1 whose velocity differs from that of e_1 by at most
-    eps r, whatever eps.
     """
     edge = on_the_line(c)
-    near = (speed(e_1) - eps * r <= v) & (v <= speed(e_1) + eps * r)
-    return Readings(
-        {
-            "exactly-how-near": Assertion(
-                (
-                    always(
-                        B1(b),
-                        given=[leaves_R_at(c), R(b), v < c],
-                        in_range=RANGE_21,
-                        label="slower",
-                    ),
-                    always(
-                        speed(e_1) < c,
-                        given=[leaves_R_at(c)],
-                        in_range=RANGE_21,
-                        label="e_1-is-slower",
-                    ),
-                    always(
-                        B2(edge) & R(edge),
-                        given=[leaves_R_at(c)],
-                        in_range=RANGE_21,
-                        label="no-further",
-                    ),
-                )
-            ),
-            "every-distance": Assertion(
-                (always(B1(b), given=[eps > 0, R(b), near], in_range=RANGE_21),)
-            ),
-        }
-    )
+    return [
+        always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=RANGE_21, label="slower"),
+        always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=RANGE_21, label="e_1-is-slower"),
+        always(B2(edge) & R(edge), given=[leaves_R_at(c)], in_range=RANGE_21, label="no-further"),
+    ]
 
 
 @claim("region-e1-R", "inclusions", "line 561")
@@ -221,30 +191,12 @@ def fixed_point_lies_in_both() -> Statement:
     return always(B1(b) & R(b), given=[equals(f1(b), b)], in_range=RANGE_21)
 
 
-@claim("region-K", "inclusions", "line 565", parameters=("alpha", "eps"))
-def bands_are_mapped_into_themselves() -> Readings:
+@claim("region-K", "inclusions", "line 565")
+def bands_are_mapped_into_themselves() -> list[Statement]:
     """f, which is f1 there, maps the band of size eps r^2 around e_1 into itself, if the band does
     not reach to where R leaves B1.
-
-    Images stay in R and in the band whatever its size; the second reading says that they stay in B1
-    as well, for every size.
     """
-    size = eps * r**2
-    return Readings(
-        {
-            "narrow": Assertion(narrow_band_stays(size)),
-            "every-size": Assertion(
-                (
-                    always(
-                        B1(f1(b)),
-                        given=[eps > 0, band(size)(b)],
-                        in_range=RANGE_21,
-                        label="stays-in-B1",
-                    ),
-                )
-            ),
-        }
-    )
+    return [*narrow_band_stays(eps * r**2)]
 
 
 @claim("region-trap", "inclusions", "not printed")

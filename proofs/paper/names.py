@@ -29,6 +29,7 @@ from juggleproof.certificates.language import (
 )
 from juggleproof.proofs import claims, forms
 from juggleproof.proofs.forms import Vocabulary
+from juggleproof.proofs.paper.bindings import introduced
 from juggleproof.proofs.paper.derivations import Origin, derived_value, made_by
 from juggleproof.proofs.paper.derivations import derived as derived
 from juggleproof.proofs.paper.derivations import derived_matrix as derived_matrix
@@ -71,6 +72,7 @@ STANDING = Vocabulary(
     domains={"alpha": (alpha > 0, alpha < 1), "K": (K >= 1,), "eps": (eps > 0,)},
     scales=frozenset({"r", "g"}),
     reads=lambda: paper_names(),
+    introduces=introduced,
     defines=lambda: definitions(),
 )
 claim = partial(claims.claim, vocabulary=STANDING)

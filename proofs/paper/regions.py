@@ -19,7 +19,7 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs import forms
-from juggleproof.proofs.claims import Assertion, Readings
+from juggleproof.proofs.claims import Assertion
 from juggleproof.proofs.paper.names import (
     B1,
     PAPER,
@@ -131,20 +131,16 @@ def ceiling_of(value: Term) -> Formula:
     return (value <= n) & (n < value + 1)
 
 
-def not_supremal(on_boundary: Formula) -> Readings:
-    """No state of this boundary of the impacts outside R has the supremal energy change: none at
-    all, or none above the ground.
-    """
-    least_loss = derived("delta_E_sup")
+def not_supremal(on_boundary: Formula) -> Statement:
+    """No state of this boundary of the impacts outside R has the supremal energy change."""
     there = [CLOSED_B1(b), on_boundary]
-    return Readings(
-        {
-            "none-at-all": Assertion((always(different(change, least_loss), given=there),)),
-            "none-above-ground": Assertion(
-                (always(change < least_loss, given=[*there, beta > 0]),)
-            ),
-        }
-    )
+    return always(different(change, derived("delta_E_sup")), given=there)
+
+
+def not_supremal_above_the_ground() -> Statement:
+    """No state of R(b) = 0 above the ground has the supremal energy change."""
+    there = [CLOSED_B1(b), ON_R(b), beta > 0]
+    return always(change < derived("delta_E_sup"), given=there)
 
 
 def impacts_suffice(rounding: Formula) -> Assertion:

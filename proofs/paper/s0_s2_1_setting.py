@@ -26,7 +26,7 @@ def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
     """Without feedback, the table brings the ball from every initial state to one periodic
     orbit.
     """
-    return Following(STABILITY)
+    return Following(STABILITY, is_conclusion=True)
 
 
 # -------------------------------------------------------------------------------------------------

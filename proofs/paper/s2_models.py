@@ -17,7 +17,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Assertion, Readings
+from juggleproof.proofs.claims import Assertion, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
@@ -59,6 +59,7 @@ from juggleproof.proofs.paper.names import (
 )
 from juggleproof.proofs.paper.regions import pieces
 from juggleproof.proofs.paper.states import (
+    CORNER_WITHOUT_A_TIME,
     NEAR_B2,
     b1_is_where_the_ball_strikes,
     b2_is_where_it_does_not,
@@ -113,15 +114,18 @@ def time_to_collision_tells_b1(printed: Printed) -> Readings:
             )
         )
 
-    return Readings({"without-edge": reading(beta > 0), "with-edge": reading(beta >= 0)})
+    return Readings(
+        {
+            "without-edge": Reading(reading(beta > 0), "section 2.2.1 prints H as beta > 0"),
+            "with-edge": Reading(reading(beta >= 0), "section B.2 prints H as beta >= 0"),
+        }
+    )
 
 
 @claim("s2.2.1-B1-strikes", "2.2.1", "line 125")
-def b1_strikes_within_a_period() -> Readings:
-    """From the states of B1, and from no others in H, the ball strikes the table before one period
-    is over.
-
-    To strike can mean to meet while approaching, or merely to be at one height.
+def b1_strikes_within_a_period() -> list[Statement]:
+    """From the states of B1, and from no others in H, the ball strikes the table, meeting it while
+    they approach each other, before one period is over.
     """
     return b1_is_where_the_ball_strikes()
 
@@ -146,21 +150,17 @@ def time_to_collision_tells_b2(printed: Printed) -> list[Statement]:
 
 
 @claim("s2.2.1-B2-no-strike", "2.2.1", "line 125")
-def b2_does_not_strike_within_a_period() -> Readings:
-    """From no state of B2 does the ball strike the table before one period is over.
-
-    To strike can mean to meet while approaching, or merely to be at one height.
+def b2_does_not_strike_within_a_period() -> Statement:
+    """From no state of B2 does the ball strike the table, meeting it while they approach each
+    other, before one period is over.
     """
     return b2_is_where_it_does_not()
 
 
-@claim("s2.2.1-dB2", "2.2.1", "line 125", printed=r"\tau_c = T")
-def line_between_b1_and_b2(printed: Printed) -> Readings:
+@claim("s2.2.1-dB2", "2.2.1", "line 125", printed=r"\tau_c = T", remark=CORNER_WITHOUT_A_TIME)
+def line_between_b1_and_b2(printed: Printed) -> Statement:
     """The line between B1 and B2, where the ball meets the table as the period ends, is where the
-    time to collision is one period.
-
-    Its lower end, with the ball on the table and as fast as it, has no time to collision: with it,
-    or without.
+    time to collision is one period, wherever it is defined.
     """
     return line_of_equal_times(printed.formula(PAPER))
 
@@ -195,8 +195,14 @@ def axis_below_the_line(printed: Printed) -> Readings:
     """
     return Readings(
         {
-            "printed": _beside_the_line(printed.formula(PAPER), v < u, B1(b)),
-            "edge": _beside_the_line(equal(beta, 0), v < u, B1(b)),
+            "printed": Reading(
+                _beside_the_line(printed.formula(PAPER), v < u, B1(b)),
+                "section 2.2.1 prints the axis so",
+            ),
+            "edge": Reading(
+                _beside_the_line(equal(beta, 0), v < u, B1(b)),
+                "section 2.2.1 says below and above, which part the edge of H in Figure 6",
+            ),
         }
     )
 
@@ -208,8 +214,14 @@ def axis_above_the_line(printed: Printed) -> Readings:
     """
     return Readings(
         {
-            "printed": _beside_the_line(printed.formula(PAPER), v > u, B2(b)),
-            "edge": _beside_the_line(equal(beta, 0), v > u, B2(b)),
+            "printed": Reading(
+                _beside_the_line(printed.formula(PAPER), v > u, B2(b)),
+                "section 2.2.1 prints the axis so",
+            ),
+            "edge": Reading(
+                _beside_the_line(equal(beta, 0), v > u, B2(b)),
+                "section 2.2.1 says below and above, which part the edge of H in Figure 6",
+            ),
         }
     )
 
@@ -289,22 +301,24 @@ table = Vector((rho, u))  # the body that the ball hits, in any state
 
 
 @claim("s2.2.2-newton", "2.2.2", "line 159", printed=r"\ddot{x} = -\gamma")
-def newtons_equation(printed: Printed) -> Readings:
-    """In free flight the second derivative by time is minus gravity.
+def newtons_equation(printed: Printed) -> list[Statement]:
+    """In free flight the second derivative by time of what the print names is minus gravity, in
+    each of its components.
 
-    x is the position as in (2), or the state as the sentence before says; the derivative is an
-    exact difference quotient, since the flight is quadratic in time.
+    x is the state, as the sentence before says, and chi the position; the derivative is an exact
+    difference quotient, since the flight is quadratic in time.
     """
 
-    def component(index: int) -> Statement:
+    def second_derivative(index: int) -> Term:
         before, now, after = (term(ball_at(time).component(index)) for time in (t - d, t, t + d))
-        quotient = (after - 2 * now + before) / d**2
-        says = printed.formula(PAPER.extended({r"\ddot{x}": quotient}))
+        return (after - 2 * now + before) / d**2
+
+    def component(index: int) -> Statement:
+        names = {r"\ddot{x}": second_derivative(index), r"\ddot\chi": second_derivative(1)}
+        says = printed.formula(PAPER.extended(names))
         return always(says, given=[different(d, 0)], label=("position", "speed")[index - 1])
 
-    return Readings(
-        {"position": Assertion((component(1),)), "state": Assertion((component(1), component(2)))}
-    )
+    return [component(1), component(2)]
 
 
 @claim(
@@ -448,7 +462,17 @@ def _steered(state: Vector, steering: Vector) -> Vector:
     return just_before_the_next
 
 
-@claim("eq-4", "2.3", "(4)", printed=r"f(b, u) := F^{u_1} \circ C_{u_2}(b)")
+@claim(
+    "eq-4",
+    "2.3",
+    "(4)",
+    printed=r"f(b, u) := F^{u_1} \circ C_{u_2}(b)",
+    remark=Remark(
+        "(3) defines C_y for a state y of the table; here its index is a velocity. It is restored"
+        " as the velocity of a table at any height.",
+        by=("eq-3",),
+    ),
+)
 def next_state_by_control(printed: Printed) -> Statement:
     """The state just before the next impact: rebound off a table of velocity u_2 by the law of
     restitution, then free flight for u_1.

@@ -13,7 +13,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
+from juggleproof.proofs.claims import Argument, Assertion, Following
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -380,9 +380,9 @@ def period_of_flight(printed: Printed) -> list[Statement]:
     printed=r"\overline{f} := \begin{cases} \overline{f}_1 : \overline{b} \in \mathcal{B}_1 \\ "
     r"\overline{f}_2 : \overline{b} \in \mathcal{B}_2 \end{cases}",
 )
-def map_on_all_of_h(printed: Printed) -> Readings:
+def map_on_all_of_h(printed: Printed) -> list[Statement]:
     """The two cases give every state of H one image, which is the state when the table bounces
-    next.
+    next, B2 being what B1 leaves of H.
     """
     return is_the_map(printed)
 

@@ -4,7 +4,6 @@ they are stable.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 
 from sympy import Integer
@@ -26,7 +25,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Readings
+from juggleproof.proofs.claims import Argument, Assertion, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -61,7 +60,7 @@ from juggleproof.proofs.paper.names import (
     v,
     vector,
 )
-from juggleproof.proofs.paper.regions import ceiling_of, floor_of, with_rounding
+from juggleproof.proofs.paper.regions import floor_of, with_rounding
 from juggleproof.proofs.paper.states import (
     always_integer,
     b_0,
@@ -114,7 +113,14 @@ def many_fixed_points() -> Readings:
         B1(b) & B2(f1(b)) & comes_back(2),
         in_range=[alpha >= Fraction(1, 3), alpha < 1],
     )
-    return Readings({"of-f": Assertion((two,)), "of-composites": Assertion((back,))})
+    return Readings(
+        {
+            "of-f": Reading(Assertion((two,)), "section 3.5 says fixed points of f"),
+            "of-composites": Reading(
+                Assertion((back,)), "section 3.5.1 calls fixed points what the composites keep"
+            ),
+        }
+    )
 
 
 @claim(
@@ -221,6 +227,11 @@ def speed_after_the_impact(printed: Printed) -> list[Statement]:
         r"\dot{\rho}(\tau_c) = \frac{1}{2} \frac{1-\alpha}{1+\alpha} K \gamma T ="
         r" \frac{1-\alpha}{1+\alpha} K \dot{\rho}_0"
     ),
+    remark=Remark(
+        "(33) is cited as the balance, and is of a table at its launch; what carries (17) is the"
+        " equation of A.1 for any velocity of the table.",
+        by=("sA.1-rearranged",),
+    ),
 )
 def table_speed_at_the_impact(printed: Printed) -> list[Statement]:
     """An impact turns the speed of a flight of K periods round exactly if the table moves at this
@@ -268,9 +279,9 @@ def table_is_fastest_at_its_launch() -> list[Statement]:
     return is_maximum(r, speed(table_at(t)), {"t": t}, {"t": 0}, (t >= 0) & (t < T))
 
 
-def longest_period(printed: Printed, rounded: Callable[[Term], Formula]) -> Assertion:
-    """There is an orbit for K exactly up to what stands in the bracket, which, rounded in this way,
-    is the last such K.
+def longest_period(printed: Printed) -> list[Statement]:
+    """There is an orbit for K exactly up to what stands in the bracket, which, rounded down, is the
+    last such K.
     """
     greatest: list[tuple[Formula, Term]] = []
 
@@ -291,13 +302,11 @@ def longest_period(printed: Printed, rounded: Callable[[Term], Formula]) -> Asse
         known = [equal(m, substitute(of, {"y": r}))]
         parts = is_maximum(m, of, {"y": y}, {"y": r}, condition, given=known)
     longest = iff(printed.formula(environment), (k <= inside) & (inside < k + 1))
-    return Assertion(
-        (
-            *parts,
-            always_integer(iff(B1(b), K <= inside), given=[*known, comes_back(K)], label="orbits"),
-            always_integer(longest, given=[*known, rounded(inside)], label="longest"),
-        )
-    )
+    return [
+        *parts,
+        always_integer(iff(B1(b), K <= inside), given=[*known, comes_back(K)], label="orbits"),
+        always_integer(longest, given=[*known, floor_of(inside)], label="longest"),
+    ]
 
 
 @claim(
@@ -314,13 +323,11 @@ def longest_period(printed: Printed, rounded: Callable[[Term], Formula]) -> Asse
         r"\frac{\dot{\rho}}{\rho_0} \right| \right]"
     ),
 )
-def longest_period_by_the_fastest_table(printed: Printed) -> Readings:
+def longest_period_by_the_fastest_table(printed: Printed) -> list[Statement]:
     """The longest period of an orbit with one impact is what the fastest table allows by (17),
-    rounded to an integer.
+    rounded down to an integer.
     """
-    return Readings(
-        {"floor": longest_period(printed, floor_of), "ceiling": longest_period(printed, ceiling_of)}
-    )
+    return longest_period(printed)
 
 
 @claim(
@@ -330,13 +337,11 @@ def longest_period_by_the_fastest_table(printed: Printed) -> Readings:
     printed=r"K_{max} = [ \frac{1+\alpha}{1-\alpha} ]",
     as_it_stands=r"= \left[ \frac{1+\alpha}{1-\alpha} \right]",
 )
-def longest_period_by_the_restitution(printed: Printed) -> Readings:
+def longest_period_by_the_restitution(printed: Printed) -> list[Statement]:
     """The longest period of an orbit with one impact is this function of the restitution, rounded
-    to an integer.
+    down to an integer.
     """
-    return Readings(
-        {"floor": longest_period(printed, floor_of), "ceiling": longest_period(printed, ceiling_of)}
-    )
+    return longest_period(printed)
 
 
 @claim("s3.5.1-note7", "3.5.1", "note 7", printed=r"\dot{\beta} > \dot{\rho}")
@@ -370,29 +375,18 @@ def threshold(count: int) -> Term:
     return term(derived("restitution_threshold", Integer(count)))
 
 
-def allows_just(printed: Printed, rounded: Callable[[Term], Formula]) -> Assertion:
-    """The print, with K_max rounded in this way, says that there is an orbit for K and none for K +
-    1.
+@claim("eq-19", "3.5.2", "(19)", printed=r"K \le K_{max} < K + 1", parameters=("alpha", "K"))
+def periods_up_to_k(printed: Printed) -> list[Statement]:
+    """There are orbits for the periods up to K, and for no longer one, exactly if the bound,
+    rounded down, lies between K and K + 1.
     """
     says = printed.formula(PAPER.extended({"K_{max}": n}))
-    return Assertion(
-        (
-            always_integer(iff(B1(b), K <= BOUND), given=[comes_back(K)], label="orbits"),
-            always_integer(
-                iff(says, (K <= BOUND) & (BOUND < K + 1)), given=[rounded(BOUND)], label="longest"
-            ),
-        )
-    )
-
-
-@claim("eq-19", "3.5.2", "(19)", printed=r"K \le K_{max} < K + 1", parameters=("alpha", "K"))
-def periods_up_to_k(printed: Printed) -> Readings:
-    """There are orbits for the periods up to K, and for no longer one, exactly if the rounded bound
-    lies between K and K + 1.
-    """
-    return Readings(
-        {"floor": allows_just(printed, floor_of), "ceiling": allows_just(printed, ceiling_of)}
-    )
+    return [
+        always_integer(iff(B1(b), K <= BOUND), given=[comes_back(K)], label="orbits"),
+        always_integer(
+            iff(says, (K <= BOUND) & (BOUND < K + 1)), given=[floor_of(BOUND)], label="longest"
+        ),
+    ]
 
 
 @claim("eq-20", "3.5.2", "(20)", printed=r"\frac{K-1}{K+1} \le \alpha < \frac{K}{K+2}")
@@ -518,59 +512,6 @@ def eigenvalues_of_the_composites_lie_in_the_unit_circle() -> Statement:
     )
 
 
-@claim("s3.5.3-locally-stable", "3.5.3", "line 424", parameters=("alpha", "K"))
-def fixed_points_are_stable_where_they_exist() -> Argument:
-    """The eigenvalues make every fixed point stable that exists, also at the left end of its range
-    (20).
-
-    For that, the composite has to be what the map does around the fixed point: a state that lies a
-    little higher must fly on as long. And from a state that lies a little higher the orbit has to
-    come back near the fixed point, whose period is 2 here.
-    """
-    higher = b + Vector((lift, term(0)))
-    flies_on = B1(higher) & B2(vector(flights(K - 2)(f1(higher))))
-    second = at(derived_vector("impact_fixed_point"), {"K": 2})
-    lifted = second + Vector((lift, term(0)))
-    returns = B1(lifted) & next_state_is(
-        f1(lifted), lambda state: within(r, speed(state) - speed(second))
-    )
-    return Argument(
-        steps={
-            "eigenvalues": Assertion(
-                (
-                    always_integer(
-                        p**2 + q**2 < 1,
-                        given=[eigenvalue_of(derived_matrix("return_jacobian"), p, q)],
-                    ),
-                )
-            ),
-            "same-pieces": Assertion(
-                (
-                    exists_integer(
-                        ["lift"],
-                        flies_on,
-                        within=[lift > 0],
-                        given=[K >= 2, comes_back(K)],
-                        in_range=from_threshold_on(),
-                    ),
-                )
-            ),
-        },
-        conclusion=Assertion(
-            (
-                always(comes_back(2, second), label="second"),
-                exists_some(
-                    ["lift"],
-                    returns,
-                    within=[lift > 0],
-                    in_range=[alpha >= Fraction(1, 3), alpha < 1],
-                    label="returns",
-                ),
-            )
-        ),
-    )
-
-
 @claim("s3.5.3-stable-inside", "3.5.3", "line 424", parameters=("alpha", "K"))
 def fixed_points_are_stable_inside_their_range() -> list[Statement]:
     """Where the fixed point lies above the edge of H, every small box around it has the same impact
@@ -614,3 +555,48 @@ def fixed_points_are_stable_inside_their_range() -> list[Statement]:
         ),
         always(B2(b), given=[H(b), H(f2(b))], label="flights"),
     ]
+
+
+@claim(
+    "s3.5.3-locally-stable",
+    "3.5.3",
+    "line 424",
+    parameters=("alpha", "K"),
+    true_nearby=(
+        "every fixed point is stable for which alpha is above the left end of its range (20)",
+        fixed_points_are_stable_inside_their_range,
+    ),
+)
+def fixed_points_are_stable_where_they_exist() -> Argument:
+    """The eigenvalues make every fixed point stable that exists, also at the left end of its range
+    (20).
+
+    For that, the composite has to be what the map does around the fixed point: a state that lies a
+    little higher must fly on as long. And from a state that lies a little higher the orbit has to
+    come back near the fixed point after K periods.
+    """
+    lifted = b + Vector((lift, term(0)))
+    flying = vector(flights(K - 2)(f1(lifted)))
+    returns = B1(lifted) & next_state_is(flying, lambda state: within(r, speed(state) - speed(b)))
+
+    def of_some_lift(formula: Formula) -> Assertion:
+        return Assertion(
+            (
+                exists_integer(
+                    ["lift"],
+                    formula,
+                    within=[lift > 0],
+                    given=[K >= 2, comes_back(K)],
+                    in_range=from_threshold_on(),
+                ),
+            )
+        )
+
+    eigenvalue = eigenvalue_of(derived_matrix("return_jacobian"), p, q)
+    return Argument(
+        steps={
+            "eigenvalues": Assertion((always_integer(p**2 + q**2 < 1, given=[eigenvalue]),)),
+            "same-pieces": of_some_lift(B1(lifted) & B2(flying)),
+        },
+        conclusion=of_some_lift(returns),
+    )

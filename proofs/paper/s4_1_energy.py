@@ -14,7 +14,7 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Assertion, Readings
+from juggleproof.proofs.claims import Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -61,30 +61,26 @@ def speed_of_no_change() -> Term:
     return term(at(derived("zero_change_speed"), {"tau": collision_time(b)}))
 
 
-@claim("s4.1-every-B1-changes", "4.1", "line 432")
-def impacts_change_the_energy() -> Readings:
-    """From every state of B1 an impact within the period changes the energy.
-
-    This can say that the energy always differs afterwards, or that its change, if any, comes from
-    the impact alone.
+@claim(
+    "s4.1-every-B1-changes",
+    "4.1",
+    "line 432",
+    remark=Remark("On B1^0 that change is zero.", by=("s4.1-partition",)),
+)
+def impacts_change_the_energy() -> list[Statement]:
+    """What the energy changes by in a period from a state of B1 comes from the impact alone; from
+    the other states of H it does not change.
     """
     gained = energy(f1(b)) - energy(b)
     before, after = speed(ball_at(t)), speed(after_impact(t))
-    return Readings(
-        {
-            "always-differs": Assertion((always(different(gained, 0), given=[B1(b)]),)),
-            "from-the-impact": Assertion(
-                (
-                    always(
-                        equal(gained, (after**2 - before**2) / 2),
-                        given=[B1(b), strikes_at(t)],
-                        label="at-the-impact",
-                    ),
-                    always(equal(energy(f2(b)), energy(b)), given=[B2(b)], label="nowhere-else"),
-                )
-            ),
-        }
-    )
+    return [
+        always(
+            equal(gained, (after**2 - before**2) / 2),
+            given=[B1(b), strikes_at(t)],
+            label="at-the-impact",
+        ),
+        always(equal(energy(f2(b)), energy(b)), given=[B2(b)], label="nowhere-else"),
+    ]
 
 
 @claim("s4.1-from-16", "4.1", "line 436", printed=r"\Delta_1 E = 0")
@@ -147,6 +143,10 @@ def three_regions_of_b1(printed: Printed) -> list[Statement]:
     "4.1",
     "lines 443 to 445",
     printed=r"E_{max} = \frac{1}{2} \left(\frac{1+\alpha}{1-\alpha} \dot{\rho}_0 \right)^2",
+    remark=Remark(
+        "(34) is cited for this maximum, and does not show it: A.1 finds an equilibrium.",
+        by=("sA.1-in-step",),
+    ),
 )
 def greatest_energy_that_is_kept(printed: Printed) -> list[Statement]:
     """E_max is the greatest energy of a state of B1 whose impact does not lose energy."""
@@ -160,7 +160,17 @@ def greatest_energy_that_is_kept(printed: Printed) -> list[Statement]:
     )
 
 
-@claim("s4.1-Emax-maintain", "4.1", "line 447")
+@claim(
+    "s4.1-Emax-maintain",
+    "4.1",
+    "line 447",
+    remark=Remark(
+        "It is kept over one impact, and not for ever: the next impact comes as the table is"
+        " launched again just for alpha = (K - 1)/(K + 1), K a whole number. No orbit of less"
+        " energy exceeds it.",
+        by=("sA.1-in-step", "theorem-E-max"),
+    ),
+)
 def table_maintains_that_energy_at_most() -> list[Statement]:
     """An impact from a state of more energy than E_max loses energy; some state of the energy E_max
     keeps it over one impact.
@@ -271,6 +281,9 @@ def energy_that_is_left_written_out(printed: Printed) -> Statement:
     "(24)",
     printed=r"\mathcal{R} := \{ \overline{b} \in \mathcal{H} \mid R(\overline{b}) \ge 0 \}",
     as_it_stands=r"R := \left\{ \overline{b} \in \mathcal{A} \mid R(\overline{b}) \ge 0 \right\}",
+    remark=Remark(
+        "R is the region here, and the function of (23) on the right; R_alpha of (3) is a matrix."
+    ),
 )
 def region_below_the_level(printed: Printed) -> list[Statement]:
     """R holds the states of H whose energy is at most the sum of E_max and Delta E_max."""

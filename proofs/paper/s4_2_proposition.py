@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from juggleproof.certificates.language import Formula, Statement, different, equal, real
-from juggleproof.proofs.claims import Assertion, Following, Readings, Simulated
+from juggleproof.certificates.language import Formula, Statement, different, equal, real, term
+from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark, Simulated
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -23,7 +23,6 @@ from juggleproof.proofs.paper.names import (
     claim,
     derived,
     energy,
-    exists_some,
     f1,
     f2,
     height,
@@ -95,30 +94,33 @@ def impacts_outside_the_region_lose() -> Statement:
     return always(B1_MINUS(b), given=[B1_OUTSIDE(b)])
 
 
-@claim("prop-1-B2-to-B1", "4.2", "line 478")
-def flights_end_in_b1_outside_the_region() -> Readings:
-    """Free flight at constant energy takes the states of B2 to the part of B1 outside R: those
-    outside R, or all of them.
+def flights_outside() -> list[Statement]:
+    """From the states of B2 outside R flight leads at constant energy to B1 outside R."""
+    return [*flights_end(), always((B1 & OUTSIDE)(f2(b)), given=[B2(b), ~R(b), B1(f2(b))])]
 
-    The flights end, for once its worst flight time is over the ball would be below the ground.
+
+def flights_end() -> tuple[Statement, Statement]:
+    """Flight keeps the energy and stays in H, and does not last for ever: once its worst time is
+    over the ball would be below the ground.
     """
-    arrives = (B1 & OUTSIDE)(f2(b))
-    flying = (
+    return (
         always(
             H(f2(b)) & equal(energy(f2(b)), energy(b)), given=[B2(b)], label="in-H-at-one-energy"
         ),
         always_counting(~B2(flown(n)), given=[H(b_0), n * T > worst_wait], label="not-for-ever"),
     )
-    return Readings(
-        {
-            "outside-R": Assertion(
-                (*flying, always(arrives, given=[B2(b), ~R(b), B1(f2(b))], label="arrives-outside"))
-            ),
-            "all-of-B2": Assertion(
-                (*flying, always(arrives, given=[B2(b), B1(f2(b))], label="arrives-outside"))
-            ),
-        }
-    )
+
+
+@claim(
+    "prop-1-B2-to-B1",
+    "4.2",
+    "line 478",
+    true_nearby=("the states of B2 outside R move to the part of B1 outside R", flights_outside),
+)
+def flights_end_in_b1_outside_the_region() -> list[Statement]:
+    """Free flight at constant energy takes every state of B2 to the part of B1 outside R."""
+    arrives = (B1 & OUTSIDE)(f2(b))
+    return [*flights_end(), always(arrives, given=[B2(b), B1(f2(b))], label="arrives-outside")]
 
 
 @claim("prop-1-lose-energy", "4.2", "line 478")
@@ -166,34 +168,56 @@ def worst_time_to_impact(printed: Printed) -> list[Statement]:
     ]
 
 
+# The two roundings of the bracket, with what the paper prints for either.
+ROUNDED_DOWN = "(18) prints the same bracket, which rounds down there"
+ROUNDED_UP = "section 4.2 says a number of impacts that is enough in the worst case"
+OF_THE_LOSS = Remark(
+    "Delta E_sup is the least loss as derived. With the loss that A.3.2 prints, this number of"
+    " impacts is too small for great alpha also when rounded up.",
+    by=("theorem-count", "sA.3.2-sup3"),
+)
+
+
+def is_enough(printed: Printed) -> Readings:
+    """The number of impacts, rounded down or up."""
+    count = with_rounding(printed, NAMED)[1]
+    return Readings(
+        {
+            "floor": Reading(impacts_suffice(floor_of(count)), ROUNDED_DOWN),
+            "ceiling": Reading(impacts_suffice(ceiling_of(count)), ROUNDED_UP),
+        }
+    )
+
+
 @claim(
     "s4.2-count",
     "4.2",
     "line 484",
     printed=r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}]",
+    remark=OF_THE_LOSS,
 )
 def impacts_before_the_region_is_entered(printed: Printed) -> Readings:
-    """The energy above the level of R, over the least loss, tells how many impacts lead into R:
-    rounded down, or rounded up.
+    """The energy above the level of R, over the derived least loss, tells how many impacts lead
+    into R: rounded down, or rounded up.
     """
-    count = with_rounding(printed, NAMED)[1]
-    return Readings(
-        {"floor": impacts_suffice(floor_of(count)), "ceiling": impacts_suffice(ceiling_of(count))}
-    )
+    return is_enough(printed)
 
 
-@claim("s4.2-less-energy-shorter", "4.2", "line 484")
-def less_energy_makes_flights_shorter() -> Readings:
-    """States of less energy have shorter times between impacts: each of them, or the longest among
-    them.
-    """
+def longest_waits() -> Statement:
+    """A ball of less energy than b_0 lands sooner than the worst flight of b_0's energy."""
+    return always_counting(t < worst_wait, given=[H(b), energy(b) < energy(b_0), lands(b, t)])
+
+
+@claim(
+    "s4.2-less-energy-shorter",
+    "4.2",
+    "line 484",
+    true_nearby=("the longest of them is shorter for states of less energy", longest_waits),
+)
+def less_energy_makes_flights_shorter() -> Statement:
+    """Of two states, that of less energy has the shorter time to the next impact."""
     less = [H(b), H(b_0), energy(b) < energy(b_0), lands(b, t)]
-    return Readings(
-        {
-            "each-of-them": Assertion((always(t <= tau, given=[*less, lands(b_0, tau)]),)),
-            "the-longest": Assertion((always_counting(t < worst_wait, given=less),)),
-        }
-    )
+    return always(t <= tau, given=[*less, lands(b_0, tau)])
 
 
 @claim("s4.2-max-time", "4.2", "line 484")
@@ -207,6 +231,29 @@ def longest_time_between_impacts() -> list[Statement]:
     ]
 
 
+def never_enough_of_samples() -> list[Statement]:
+    """A ball thrown up from the ground outside R, with so little energy that one impact is counted,
+    is outside R for the m periods that it flies.
+    """
+    loss = -term(derived("delta_E_sup"))
+    thrown = [equal(beta0, 0), v0 > 0, LEVEL < energy(b_0), energy(b_0) <= LEVEL + loss]
+    return [
+        always_counting(
+            equal(n, 1), given=[*thrown, ceiling_of((energy(b_0) - LEVEL) / loss)], label="counted"
+        ),
+        always_counting(
+            OUTSIDE(flown(n)),
+            given=[*thrown, m * T <= worst_wait, n >= 0, n <= m],
+            label="outside-in-flight",
+        ),
+    ]
+
+
+# What the time to collision of b_0 may be, with what the paper prints for either.
+BY_THE_FORMULA = "section 4.2 prints tau_c(b_0), which (6) defines by a formula"
+IN_REAL_TIME = "section 4.2 speaks of the time to impact, which may be more than a period"
+
+
 @claim("s4.2-note9-equal", "4.2", "footnote 9", printed=r"\tau_w = \tau_c(\overline{b}_0)")
 def worst_time_is_met(printed: Printed) -> Readings:
     """From the ground in B2, with tau_w a multiple of the period, the time to collision is tau_w:
@@ -217,22 +264,28 @@ def worst_time_is_met(printed: Printed) -> Readings:
     earlier = [j >= 0, t >= 0, t < T, j * T + t < tau]
     return Readings(
         {
-            "by-6": Assertion(
-                (always_counting(printed.formula(NAMED), given=[*case, different(v0, r)]),)
+            "by-6": Reading(
+                Assertion(
+                    (always_counting(printed.formula(NAMED), given=[*case, different(v0, r)]),)
+                ),
+                BY_THE_FORMULA,
             ),
-            "in-real-time": Assertion(
-                (
-                    always_counting(
-                        strikes_in_period(m, tau - m * T),
-                        given=[*case, real_time],
-                        label="strikes-then",
-                    ),
-                    always_counting(
-                        ~strikes_in_period(j, t),
-                        given=[*case, real_time, *earlier],
-                        label="not-before",
-                    ),
-                )
+            "in-real-time": Reading(
+                Assertion(
+                    (
+                        always_counting(
+                            strikes_in_period(m, tau - m * T),
+                            given=[*case, real_time],
+                            label="strikes-then",
+                        ),
+                        always_counting(
+                            ~strikes_in_period(j, t),
+                            given=[*case, real_time, *earlier],
+                            label="not-before",
+                        ),
+                    )
+                ),
+                IN_REAL_TIME,
             ),
         }
     )
@@ -248,40 +301,42 @@ def worst_time_is_not_met_otherwise(printed: Printed) -> Readings:
     outside = [OUTSIDE(b_0), equal(tau_w, worst_wait)]
     sooner = printed.formula(NAMED.extended({r"\tau_c": only_at(b_0, tau)}))
     between = [m * T < tau_w, tau_w < (m + 1) * T]
+    by_formula = Assertion(
+        (
+            always_counting(
+                printed.formula(NAMED),
+                given=[*outside, beta0 > 0, different(v0, r)],
+                label="above-the-ground",
+            ),
+            always_counting(
+                printed.formula(NAMED),
+                given=[*outside, equal(beta0, 0), different(v0, r)],
+                label="on-the-ground",
+            ),
+        )
+    )
+    real = Assertion(
+        (
+            exists_counting(
+                ["tau"],
+                height(ball_at(tau, b_0)) <= 0,
+                within=[tau >= 0, sooner],
+                given=[*outside, (beta0 > 0) | (v0 <= 0)],
+                label="falls-before",
+            ),
+            exists_counting(
+                ["tau"],
+                strikes_in_period(m, tau - m * T),
+                within=[tau >= m * T, sooner],
+                given=[equal(beta0, 0), v0 > 0, equal(tau_w, worst_wait), *between],
+                label="strikes-before",
+            ),
+        )
+    )
     return Readings(
         {
-            "by-6": Assertion(
-                (
-                    always_counting(
-                        printed.formula(NAMED),
-                        given=[*outside, beta0 > 0, different(v0, r)],
-                        label="above-the-ground",
-                    ),
-                    always_counting(
-                        printed.formula(NAMED),
-                        given=[*outside, equal(beta0, 0), different(v0, r)],
-                        label="on-the-ground",
-                    ),
-                )
-            ),
-            "in-real-time": Assertion(
-                (
-                    exists_counting(
-                        ["tau"],
-                        height(ball_at(tau, b_0)) <= 0,
-                        within=[tau >= 0, sooner],
-                        given=[*outside, (beta0 > 0) | (v0 <= 0)],
-                        label="falls-before",
-                    ),
-                    exists_counting(
-                        ["tau"],
-                        strikes_in_period(m, tau - m * T),
-                        within=[tau >= m * T, sooner],
-                        given=[equal(beta0, 0), v0 > 0, equal(tau_w, worst_wait), *between],
-                        label="strikes-before",
-                    ),
-                )
-            ),
+            "by-6": Reading(by_formula, BY_THE_FORMULA),
+            "in-real-time": Reading(real, IN_REAL_TIME),
         }
     )
 
@@ -294,13 +349,18 @@ def worst_time_is_not_met_otherwise(printed: Printed) -> Readings:
     r"[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sup}}].",
     as_it_stands=r"t_R := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)} "
     r"\left[\frac{E(\overline{b}_0) - E_{max} - \Delta E_{max}}{-\Delta E_{sun}} \right].",
+    remark=Remark(
+        f"{OF_THE_LOSS.text} Of the states sampled once a period, as section 2.3 takes them, (26)"
+        " is too early for every alpha: a ball that is thrown up from the ground with little more"
+        " than the energy of R, for which one impact is counted, flies for all of the whole periods"
+        " in that time, and is outside R at their end.",
+        lambda: never_enough_of_samples(),
+        by=OF_THE_LOSS.by,
+    ),
 )
 def longest_time_to_enter_the_region(printed: Printed) -> Readings:
-    """Within this time b_0 enters R: one worst flight for each impact, their number rounded down or
-    up.
-
-    To enter can be meant in continuous time, or of the states sampled once a period: an orbit that
-    flies for m periods is then outside as long, and needs one more.
+    """Within this time b_0 enters R: one worst flight for each impact, their number, with the
+    derived least loss, rounded down or up.
     """
     environment, count = with_rounding(printed, NAMED.extended({r"t_{\mathcal{R}}": t_R}))
     defined = printed.formula(environment)
@@ -312,20 +372,10 @@ def longest_time_to_enter_the_region(printed: Printed) -> Readings:
         waits = grounded_after(worst_wait, b, [energy(b) <= energy(b_0)], "each-wait")
         return Assertion((enough, waits, *impacts_suffice(rounding).parts))
 
-    # As alpha nears 1 more and more periods are needed, so that no one family tells the range: it
-    # stands among the givens.
-    in_flight = [alpha > 0, alpha < 1, OUTSIDE(b_0), B2(b_0), m >= 1, B2(flown(m - 1))]
-    sampled = always_counting(
-        (m + 1) * T <= t_R,
-        given=[*in_flight, ceiling_of(count), defined],
-        in_range=[],
-        label="enters-later",
-    )
     return Readings(
         {
-            "floor": continuous(floor_of(count)),
-            "ceiling": continuous(ceiling_of(count)),
-            "sampled": Assertion((sampled,)),
+            "floor": Reading(continuous(floor_of(count)), ROUNDED_DOWN),
+            "ceiling": Reading(continuous(ceiling_of(count)), ROUNDED_UP),
         }
     )
 
@@ -336,32 +386,31 @@ def orbits_do_not_leave_the_region() -> Assertion:
     return stays()
 
 
-@claim("s4.2-highest-B1plus", "4.2", "line 494")
-def greatest_energy_that_can_gain() -> Readings:
-    """E_max is the greatest energy of the states whose impact gains energy: the least bound of
-    their energies, or one of them.
+@claim(
+    "s4.2-highest-B1plus",
+    "4.2",
+    "line 494",
+    remark=Remark(
+        "It is the least bound; no state whose impact gains energy has as much.",
+        lambda: always(
+            different(energy(b), derived("E_max")), given=[B1_PLUS(b)], label="not-attained"
+        ),
+    ),
+)
+def greatest_energy_that_can_gain() -> list[Statement]:
+    """E_max is the least bound of the energies of the states whose impact gains energy.
 
-    It is the least bound since a ball that comes down to the ground with less energy than that
-    gains.
+    A ball that comes down to the ground with less energy than that gains.
     """
     greatest, coming_down = derived("E_max"), Vector((0, v))
-    return Readings(
-        {
-            "least-bound": Assertion(
-                (
-                    always(energy(b) < greatest, given=[B1_PLUS(b)], label="bound"),
-                    always(
-                        B1_PLUS(coming_down),
-                        given=[v < 0, energy(coming_down) < greatest],
-                        label="all-below",
-                    ),
-                )
-            ),
-            "attained": Assertion(
-                (exists_some(["beta", "v"], equal(energy(b), greatest), within=[B1_PLUS(b)]),)
-            ),
-        }
-    )
+    return [
+        always(energy(b) < greatest, given=[B1_PLUS(b)], label="bound"),
+        always(
+            B1_PLUS(coming_down),
+            given=[v < 0, energy(coming_down) < greatest],
+            label="all-below",
+        ),
+    ]
 
 
 @claim("s4.2-adding", "4.2", "line 494")

@@ -14,7 +14,7 @@ from juggleproof.certificates.language import (
     reals,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
+from juggleproof.proofs.claims import Argument, Assertion, Following, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -31,6 +31,7 @@ from juggleproof.proofs.paper.names import (
     e_1,
     eps,
     equals,
+    exists_some,
     f1,
     f2,
     height,
@@ -43,6 +44,7 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.states import (
     AROUND_E1,
     BOUNDARY_OF_R,
+    FALLS_FROM_IMPACT_TO_IMPACT,
     NEAR,
     RANGE_21,
     STABILITY,
@@ -84,6 +86,11 @@ def line_between_b1_and_b2(printed: Printed) -> Statement:
     return always(iff(JUST_AT_THE_BOUNCE, printed.formula(PAPER)), given=[different(v, r)])
 
 
+def is_just_as_fast() -> Formula:
+    """The ball has the kinetic energy of e_1."""
+    return equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
+
+
 @claim(
     "eq-30",
     "4.3.2",
@@ -92,28 +99,21 @@ def line_between_b1_and_b2(printed: Printed) -> Statement:
         r"p := \begin{bmatrix} \frac{2T}{1+\alpha} \dot{\rho}_0 \\ -\frac{1-\alpha}{1+\alpha}"
         r" \dot{\rho}_0 \end{bmatrix}"
     ),
+    remark=Remark(
+        "The line is that of the velocity of e_1. A second line has the same kinetic energy, with"
+        " the velocity turned round, and meets the line between B1 and B2 as well.",
+        lambda: exists_some(
+            ["beta", "v"],
+            JUST_AT_THE_BOUNCE & is_just_as_fast() & different(v, speed(e_1)),
+            within=[different(v, r)],
+            label="another",
+        ),
+    ),
 )
-def point_p_is_the_intersection(printed: Printed) -> Readings:
-    """p is where that line meets the states with the kinetic energy of e_1: those of its velocity,
-    or those of its kinetic energy.
-    """
+def point_p_is_the_intersection(printed: Printed) -> Statement:
+    """p is where that line meets the states with the velocity of e_1."""
     is_p = printed.formula(PAPER.extended({"p": b}))
-    same_energy = equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
-    return Readings(
-        {
-            "of-its-velocity": Assertion(
-                (
-                    always(
-                        iff(JUST_AT_THE_BOUNCE & equal(v, speed(e_1)), is_p),
-                        given=[different(v, r)],
-                    ),
-                )
-            ),
-            "of-its-kinetic-energy": Assertion(
-                (always(iff(JUST_AT_THE_BOUNCE & same_energy, is_p), given=[different(v, r)]),)
-            ),
-        }
-    )
+    return always(iff(JUST_AT_THE_BOUNCE & equal(v, speed(e_1)), is_p), given=[different(v, r)])
 
 
 AT_P = PAPER.extended({"p": derived_vector("point_p")})
@@ -166,12 +166,16 @@ def states_near_e_1_in_kinetic_energy_are_in_b1() -> Readings:
 
     The velocity c is the one at which the boundary of R meets the line between B1 and B2.
     """
-    same_energy = equal(term(kinetic_energy(b)), term(kinetic_energy(e_1)))
+    same_energy = always(B1(b), given=[R(b), is_just_as_fast()], in_range=RANGE_21)
     return Readings(
         {
-            "relative": Assertion(slower_states_are_in_b1()),
-            "of-the-ball": Assertion(
-                (always(B1(b), given=[R(b), same_energy], in_range=RANGE_21),)
+            "relative": Reading(
+                Assertion(slower_states_are_in_b1()), "(28) defines K for the difference to e_1"
+            ),
+            "of-the-ball": Reading(
+                Assertion((same_energy,)),
+                "section 4.3.2 says kinetic energy near that of e_1, and B.7 defines K(b) for the"
+                " ball",
             ),
         }
     )
@@ -223,8 +227,14 @@ def boundary_of_the_band_is_mapped_into_it(printed: Printed) -> Readings:
     stays = printed.formula(AROUND_E1)
     return Readings(
         {
-            "every-size": Assertion((always(stays, given=[eps > 0], in_range=RANGE_21),)),
-            "near-e_1": Assertion((always(stays, given=[eps > 0, *NEAR], in_range=RANGE_21),)),
+            "every-size": Reading(
+                Assertion((always(stays, given=[eps > 0], in_range=RANGE_21),)),
+                "(32) defines the band for an epsilon of which nothing is said",
+            ),
+            "near-e_1": Reading(
+                Assertion((always(stays, given=[eps > 0, *NEAR], in_range=RANGE_21),)),
+                "before (32) the kinetic energy is said to be close to that of e_1",
+            ),
         }
     )
 
@@ -300,7 +310,7 @@ def band_is_mapped_into_itself(printed: Printed) -> Argument:
     )
 
 
-@claim("s4.3.2-K-attracts", "4.3.2", "line 565")
+@claim("s4.3.2-K-attracts", "4.3.2", "line 565", remark=FALLS_FROM_IMPACT_TO_IMPACT)
 def band_attracts_the_region() -> Argument:
     """The band attracts all of R, since on R the kinetic energy relative to e_1 decreases, at
     impacts and in flight, unless it is zero.
@@ -344,26 +354,18 @@ y_pair = Vector((y1, y2))
     "line 569",
     printed=r"\overline{f}|_{\mathcal{K}} = \overline{f}_1",
     repeats="s4.3.2-f-K-continuous",
+    remark=Remark(
+        "In the states themselves f1 is affine, and not linear: it does not keep the origin.",
+        lambda: always(different(speed(f1(Vector((0, 0)))), 0), label="moves-the-origin"),
+    ),
 )
-def map_on_the_band_is_linear(printed: Printed) -> Readings:
-    """On the band f is f1, which is linear: in the differences to e_1, or in the states
-    themselves.
-    """
+def map_on_the_band_is_linear(printed: Printed) -> list[Statement]:
+    """On the band f is f1, which is linear in the differences to e_1."""
     agrees = always(printed.formula(AROUND_E1), given=[next_states(b, next_image)], label="agrees")
 
-    def combines(one: Vector, other: Vector, f: StateFunction[Vector]) -> Statement:
-        mixed = one.scaled(p) + other.scaled(q)
-        return always(
-            equals(vector(f(mixed)), vector(f(one)).scaled(p) + vector(f(other)).scaled(q)),
-            label="linear",
-        )
-
-    return Readings(
-        {
-            "in-z": Assertion((agrees, combines(z, y_pair, relative_step))),
-            "in-b": Assertion((agrees, combines(b, y_pair, f1))),
-        }
-    )
+    mixed = z.scaled(p) + y_pair.scaled(q)
+    combined = vector(relative_step(z)).scaled(p) + vector(relative_step(y_pair)).scaled(q)
+    return [agrees, always(equals(vector(relative_step(mixed)), combined), label="linear")]
 
 
 @claim("s4.4-e1-attracts-K", "4.4", "line 569")
@@ -390,8 +392,8 @@ def fixed_point_attracts_the_band() -> Following:
 
 @claim("s4.4-global", "4.4", "line 569")
 def fixed_point_is_a_global_attractor() -> Following:
-    """Every orbit on H tends to e_1."""
-    return Following(STABILITY)
+    """e_1 is stable, and every orbit on H tends to it."""
+    return Following(STABILITY, is_conclusion=True)
 
 
 # -------------------------------------------------------------------------------------------------
@@ -403,4 +405,4 @@ def a_range_of_restitution_makes_the_orbit_globally_stable() -> Following:
     """For a range of the restitution the periodic orbit of one impact a period is globally
     asymptotically stable.
     """
-    return Following(STABILITY)
+    return Following(STABILITY, is_conclusion=True)

@@ -14,7 +14,7 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Following, Readings
+from juggleproof.proofs.claims import Argument, Assertion, Following, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -25,6 +25,7 @@ from juggleproof.proofs.paper.names import (
     b,
     claim,
     derived_matrix,
+    derived_vector,
     e_1,
     eps,
     equals,
@@ -38,6 +39,7 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.regions import pieces
 from juggleproof.proofs.paper.states import (
     AT_Z,
+    FALLS_FROM_IMPACT_TO_IMPACT,
     RANGE_21,
     STABILITY,
     STEP,
@@ -154,7 +156,16 @@ def next_difference_is_linear(printed: Printed) -> Statement:
     return follows(printed)
 
 
-@claim("eq-28", "4.3.1", "(28)", printed=r"K(z) = \frac{1}{2} (u_2' z)^2")
+@claim(
+    "eq-28",
+    "4.3.1",
+    "(28)",
+    printed=r"K(z) = \frac{1}{2} (u_2' z)^2",
+    remark=Remark(
+        "K is a number of periods in section 3.5, the kinetic energy of the difference to e_1 here,"
+        " that of the ball in B.7 and in the limit after this, and a region in (32)."
+    ),
+)
 def kinetic_energy_of_the_difference(printed: Printed) -> Statement:
     """K is half the square of the velocity component, u_2' being the row that takes it out."""
     return always(
@@ -261,7 +272,31 @@ def _limit(printed: Printed) -> tuple[Term, str, Term]:
     return term(scalar(value.value)), sign, term(scalar(limit))
 
 
-@claim("s4.3.1-LaSalle", "4.3.1", "lines 533 to 535", printed=r"\lim_{k\to\infty}K(z_k)=0")
+def orbit_that_stays_away() -> Statement:
+    """At alpha = 1/2 the state e_2 of R comes back after two periods, and its K is positive."""
+    second = at(derived_vector("impact_fixed_point"), {"K": 2})
+    back = equals(vector(f2(vector(f1(second)))), second) & B1(second) & B2(vector(f1(second)))
+    return always(
+        back & R(second) & (from_e_1(second) > 0),
+        in_range=[equal(2 * alpha, 1)],
+        label="comes-back",
+    )
+
+
+@claim(
+    "s4.3.1-LaSalle",
+    "4.3.1",
+    "lines 533 to 535",
+    printed=r"\lim_{k\to\infty}K(z_k)=0",
+    remark=Remark(
+        "LaSalle's invariance principle is one of continuous maps, and f jumps. Nor can the"
+        " argument be right: of alpha it uses alpha < 1 only, and at alpha = 1/2 it would prove"
+        " what is false, for there the orbit of e_2 lies in R, comes back after two periods, and"
+        " its K does not tend to zero.",
+        orbit_that_stays_away,
+        by=("s3.3.1-discontinuous", "s4.3.1-DK-negative"),
+    ),
+)
 def kinetic_energy_tends_to_zero(printed: Printed) -> Argument:
     """K is not negative and decreases along the orbits in R, so that it tends to zero; its decrease
     is needed on both branches of f.
@@ -319,14 +354,14 @@ def kinetic_energy_tends_to_that_of_the_fixed_point(printed: Printed) -> Followi
     )
 
 
-@claim("s4.3.1-B2-approach", "4.3.1", "line 541")
+@claim("s4.3.1-B2-approach", "4.3.1", "line 541", remark=FALLS_FROM_IMPACT_TO_IMPACT)
 def flight_in_the_region_approaches_too() -> Readings:
     """A period of free flight within R brings the kinetic energy closer to that of e_1.
 
     That of the motion relative to e_1 comes closer to zero, or that of the ball closer to that of
     e_1.
     """
-    in_flight = [R(b), B2(b)]
+    in_flight = [B2(b), R(b)]
 
     def excess(state: Vector) -> Term:
         return term(kinetic_energy(state)) - term(kinetic_energy(e_1))
@@ -334,11 +369,23 @@ def flight_in_the_region_approaches_too() -> Readings:
     after = f2(b)
     return Readings(
         {
-            "relative": Assertion(
-                (always(from_e_1(after) < from_e_1(b), given=in_flight, in_range=RANGE_21),)
+            "relative": Reading(
+                Assertion(
+                    (always(from_e_1(after) < from_e_1(b), given=in_flight, in_range=RANGE_21),)
+                ),
+                "(28) defines K for the difference to e_1",
             ),
-            "of-the-ball": Assertion(
-                (always(excess(after) ** 2 < excess(b) ** 2, given=in_flight, in_range=RANGE_21),)
+            "of-the-ball": Reading(
+                Assertion(
+                    (
+                        always(
+                            excess(after) ** 2 < excess(b) ** 2,
+                            given=in_flight,
+                            in_range=RANGE_21,
+                        ),
+                    )
+                ),
+                "section 4.3.1 says K(e_1), and B.7 defines K(b) for the ball",
             ),
         }
     )

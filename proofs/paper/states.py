@@ -24,7 +24,7 @@ from juggleproof.certificates.language import (
     term,
 )
 from juggleproof.proofs import forms
-from juggleproof.proofs.claims import Assertion, Readings
+from juggleproof.proofs.claims import Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_PLUS,
@@ -147,8 +147,6 @@ def are_slopes(*slopes: Term, state: Vector = b) -> Formula:
 WITH_INTEGERS = replace(WITH_INTEGER_K, integers=frozenset({"K", "n", "k"}))
 b_0 = Vector(reals("beta0 v0"))  # another state
 image = Vector(reals("beta1 v1"))  # what becomes of the state b within a period
-# The states of H whose derived time to collision is a period at least.
-MEETS_LATE = Region(lambda state: H(state) & (term(collision_time(state)) >= T))
 always_integer = partial(forms.always, vocabulary=WITH_INTEGERS)  # for all integers K >= 1, n and k
 exists_integer = partial(forms.exists_some, vocabulary=WITH_INTEGERS)
 
@@ -264,39 +262,19 @@ def is_fixed_point(printed: Printed) -> Statement:
     return always(iff(equals(f1(b), b), printed.formula(PAPER.extended({"e_1": b}))))
 
 
-def one_image_for_every_state(
-    printed: Printed, environment: Environment, given: tuple[Formula, ...] = ()
-) -> Assertion:
+def is_the_map(printed: Printed) -> list[Statement]:
     """What is printed for f holds of a state and of what becomes of the ball within a period, and
     of nothing else.
     """
-    stated = printed.formula(environment.extended({r"\overline f": image}))
-    return Assertion(
-        (
-            always(
-                iff(equals(image, next_bounce(b, t)), stated),
-                given=[*given, H(b), strikes_from(b, t)],
-                label="with-impact",
-            ),
-            always(
-                iff(equals(image, ball_at(T)), stated),
-                given=[*given, B2(b)],
-                label="without-impact",
-            ),
-        )
-    )
-
-
-def is_the_map(printed: Printed) -> Readings:
-    """The cases of f, with B2 as the rest of H, and with B2 as (11) has it."""
-    return Readings(
-        {
-            "rest-of-H": one_image_for_every_state(printed, PAPER),
-            "as-in-11": one_image_for_every_state(
-                printed, PAPER.extended({r"\mathcal{B}_2": MEETS_LATE}), (different(v, r),)
-            ),
-        }
-    )
+    stated = printed.formula(PAPER.extended({r"\overline f": image}))
+    return [
+        always(
+            iff(equals(image, next_bounce(b, t)), stated),
+            given=[H(b), strikes_from(b, t)],
+            label="with-impact",
+        ),
+        always(iff(equals(image, ball_at(T)), stated), given=[B2(b)], label="without-impact"),
+    ]
 
 
 # -------------------------------------------------------------------------------------------------
@@ -381,6 +359,13 @@ def narrow_band_stays(size: Term) -> tuple[Statement, ...]:
             label="stays-in-the-band",
         ),
     )
+
+
+FALLS_FROM_IMPACT_TO_IMPACT = Remark(
+    "What falls is this kinetic energy as sampled at impacts: from one to the next by the square"
+    " of kappa = alpha (1 + 3 alpha)/(1 - alpha) at least, which is below 1 just for alpha < 1/3.",
+    by=("theorem-kinetic",),
+)
 
 
 def lies_around_e_1(size: Term) -> Statement:
@@ -475,51 +460,32 @@ def strikes_from_region(inside: Formula) -> tuple[Statement, Statement]:
     )
 
 
-def b1_is_where_the_ball_strikes() -> Readings:
-    """From the states of B1, and no others in H, the ball strikes within a period: meets the table
-    approaching, or merely meets it.
+def b1_is_where_the_ball_strikes() -> list[Statement]:
+    """From the states of B1, and no others in H, the ball meets the table, approaching it, within a
+    period.
     """
-    return Readings(
-        {
-            "approaching": Assertion(
-                (
-                    *strikes_from_region(B1(b)),
-                    always(B1(b), given=[H(b), strikes_at(t)], label="only-these"),
-                )
-            ),
-            "one-height": Assertion(
-                (
-                    *strikes_from_region(B1(b)),
-                    always(B1(b), given=[H(b), IN_PERIOD, meet(t)], label="only-these"),
-                )
-            ),
-        }
-    )
+    return [
+        *strikes_from_region(B1(b)),
+        always(B1(b), given=[H(b), strikes_at(t)], label="only-these"),
+    ]
 
 
-def b2_is_where_it_does_not() -> Readings:
-    """From no state of B2 does the ball strike within a period: meet the table approaching, or
-    merely meet it.
-    """
-    return Readings(
-        {
-            "approaching": Assertion((always(~(meet(t) & (v < r)), given=[B2(b), IN_PERIOD]),)),
-            "one-height": Assertion((always(~meet(t), given=[B2(b), IN_PERIOD]),)),
-        }
-    )
+def b2_is_where_it_does_not() -> Statement:
+    """From no state of B2 does the ball meet the table, approaching it, within a period."""
+    return always(~(meet(t) & (v < r)), given=[B2(b), IN_PERIOD])
 
 
-def line_of_equal_times(times_are_equal: Formula) -> Readings:
-    """The times are equal where ball and table meet as the period ends.
+def line_of_equal_times(times_are_equal: Formula) -> Statement:
+    """The times are equal where ball and table meet as the period ends."""
+    return always(iff(times_are_equal, meet(T)), given=[H(b), different(v, r)])
 
-    The line that these states make has a corner with the ball on the table and as fast as it, where
-    the time to collision is not defined: the line is taken without it, or with it.
-    """
-    same = always(iff(times_are_equal, meet(T)), given=[H(b), different(v, r)], label="same-states")
-    defined = always(different(v, r), given=[H(b), meet(T)], label="time-is-defined")
-    return Readings(
-        {"without-corner": Assertion((same,)), "with-corner": Assertion((same, defined))}
-    )
+
+CORNER_WITHOUT_A_TIME = Remark(
+    "The line has one state without a time to collision: on the ground, and as fast as the table.",
+    lambda: always(
+        iff(equal(v, r), equal(term(b.component(1)), 0)), given=[H(b), meet(T)], label="no-time"
+    ),
+)
 
 
 def tells_b1(early: Formula) -> Statement:

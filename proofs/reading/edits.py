@@ -4,6 +4,7 @@ in which a correction is sought.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
 from juggleproof.proofs.reading.lexer import BINARY, RELATIONS, PrintError, Token, lex
@@ -43,6 +44,8 @@ class Edits:
         before = self.latex[:start]
         if not text and after[:1].isalpha() and before[-1:].isalpha():
             gap = " "
+        if text[:1].isalpha() and re.search(r"\\[A-Za-z]+$", before):
+            before += " "
         return before + text + gap + after
 
     def without(self, i: int) -> str:
@@ -232,7 +235,7 @@ ALTERNATIVES: dict[str, tuple[str, ...]] = {
     "r": ("b",),
     "t": ("T",),
     "u": ("e",),
-    "x": ("y",),
+    "x": ("y", r"\chi"),
     "y": ("x",),
     "z": ("b",),
 }
@@ -338,8 +341,8 @@ def _of_spans(print_: Edits, i: int, where: str) -> Iterator[Change]:
 def one_mark_changes(latex: str) -> Iterator[Change]:
     r"""Prints that differ by one mark and can still be read, the simplest marks first.
 
-    The order is dot, bar, prime, sign, exponent, half, index, strictness, letter, and in each the
-    right of the first relation before its left; each change names its kind first.
+    The order is dot, bar, prime, sign, exponent, half, index, strictness, letter, swap, and in each
+    the right of the first relation before its left; each change names its kind first.
 
     >>> changes = one_mark_changes(r"a \le b")
     >>> [changed for change, changed in changes if change.startswith("strictness")]
@@ -494,6 +497,22 @@ def _letters(print_: Edits) -> Iterator[Change]:
                 )
 
 
+def _swaps(print_: Edits) -> Iterator[Change]:
+    """Two different letters that change places."""
+    letters = [i for i, one in enumerate(print_.tokens) if one.kind == "letter"]
+    letters = [i for i in letters if i not in print_.words]
+    for place, i in enumerate(letters):
+        for j in letters[place + 1 :]:
+            one, other = print_.tokens[i].text, print_.tokens[j].text
+            if one != other:
+                later = Edits(print_.instead(j, one))
+                yield (
+                    f"{one} and {other} at columns {print_.tokens[i].start + 1} and"
+                    f" {print_.tokens[j].start + 1}",
+                    later.instead(i, other),
+                )
+
+
 _MARKS: dict[str, Callable[[Edits], Iterator[Change]]] = {
     "dot": _accents(r"\dot"),
     "bar": _accents(r"\bar", r"\overline"),
@@ -504,4 +523,5 @@ _MARKS: dict[str, Callable[[Edits], Iterator[Change]]] = {
     "index": _indices,
     "strictness": _strictness,
     "letter": _letters,
+    "swap": _swaps,
 }

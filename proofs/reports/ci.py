@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 from juggleproof.proofs.register import FIELDS, Change
 from juggleproof.proofs.reports.contents import Contents, results_of
+from juggleproof.proofs.reports.errata import GROUPS, WRONG
 from juggleproof.proofs.reports.results import (
     COLUMNS,
     OWN_COLUMNS,
@@ -172,12 +173,6 @@ def fails_at(one: Result) -> list[str]:
 LIMIT = 1_000_000  # bytes; GitHub refuses a summary above 1024 * 1024
 LONGEST = 2_000  # characters of one text
 ROOM = 2_000  # bytes kept for the lines that end the file and tell what is left out
-GROUPS = {
-    "errors": "errors",
-    "readings": "false in one reading",
-    "repeats": "wrong again: repeats",
-    "transcription": "possible transcription errors",
-}
 
 
 def markdown(contents: Contents | Results) -> str:
@@ -373,7 +368,7 @@ def _change(change: Change) -> list[tuple[str, str, str, str]]:
 
 
 def _errata(results: Results) -> Iterable[str]:
-    wrong = [one for one in results.claims if one.group]
+    wrong = [one for one in results.claims if one.group in WRONG]
     if not wrong:
         return
     yield from (
@@ -383,12 +378,12 @@ def _errata(results: Results) -> Iterable[str]:
         ),
         "",
     )
-    for group, title in GROUPS.items():
+    for group in WRONG:
         members = [one for one in wrong if one.group == group]
         if not members:
             continue
         if not results.own:
-            yield from (f"{title[0].upper()}{title[1:]} ({len(members)}):", "")
+            yield from (f"{GROUPS[group].partition(':')[0]} ({len(members)}):", "")
         yield from (_erratum(one) for one in members)
         yield ""
 

@@ -47,7 +47,7 @@ TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy")
 @dataclass(frozen=True)
 class Shown:
     """A statement as reports show it: the text that the checker reads, outcome, certificate as
-    stored, counterexample, answers of the routes.
+    stored, counterexample and its numbers, answers of the routes.
     """
 
     name: str
@@ -55,6 +55,7 @@ class Shown:
     outcome: str
     certificate: object
     at: str
+    numbers: str
     votes: Mapping[str, str]
 
 
@@ -77,6 +78,22 @@ class Entry:
     steps: tuple[Derivation, ...]
     statements: tuple[Shown, ...]
     rests_on: tuple[str, ...]
+
+    @property
+    def fails(self) -> list[str]:
+        """The counterexamples, each once."""
+        shown = (errata.with_numbers(one.at, one.numbers) for one in self.statements if one.at)
+        return list(dict.fromkeys(shown))
+
+    @property
+    def remark(self) -> str:
+        """The remark on the claim with what shows it, or nothing."""
+        return errata.told(self.claim.remark) if self.claim.remark else ""
+
+    @property
+    def why_restored(self) -> str:
+        """What keeps the transcription from being judged, for a print that holds as restored."""
+        return errata.why_restored(self.claim) if self.group == "restored" else ""
 
 
 @dataclass(frozen=True)
@@ -109,6 +126,22 @@ class Contents:
     derivations: tuple[Derivation, ...]
     changes: tuple[str, ...]
     tools: Mapping[str, str]
+
+    @property
+    def theorem_stands(self) -> str:
+        """Whether the theorem survives the errors."""
+        register = {one.claim.id: {"verdict": one.verdict} for one in self.entries}
+        return errata.theorem_stands([one.claim for one in self.entries], register)
+
+    def first_page(self) -> list[tuple[Entry, list[errata.Line]]]:
+        """What matters to whoever cites the theorem: the claims with their three lines."""
+        claims = [one.claim for one in self.entries]
+        matters = errata.what_matters(claims, {one.claim.id: one.group for one in self.entries})
+        entries = [self.entry(claim.id) for claim in matters]
+        return [
+            (one, errata.in_three_lines(one.claim, one.wrong, one.fails, one.correction))
+            for one in entries
+        ]
 
     def entry(self, claim_id: str) -> Entry:
         """The entry of this claim."""
@@ -185,7 +218,13 @@ def _entry(
         table.settled_by(judgement),
         table.sharp_range(judgement),
         reading,
-        tuple(errata.what_is_wrong(by_id[claim.id], finding.get("sharp", {}))) if group else (),
+        tuple(
+            errata.what_is_wrong(
+                by_id[claim.id], finding.get("sharp", {}), errata.passages_of(claim)
+            )
+        )
+        if group and judgement.verdict.word != "holds"
+        else (),
         group,
         judgement.correction,
         steps,
@@ -211,6 +250,7 @@ def _shown(name: str, text: str, outcome: str, certificate: object, votes: Seque
         outcome,
         certificate,
         errata.counterexample(refuted) if refuted else "",
+        errata.numbers_of(text, refuted),
         {vote.route: vote.answer for vote in votes},
     )
 
@@ -280,6 +320,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
             one.settled_by,
             one.sharp or table.NO_RANGE,
             one.correction,
+            one.remark,
             tuple(one.wrong),
             one.group,
             tuple(
@@ -348,6 +389,7 @@ def _claim(one: Result, change: Change | None) -> dict[str, Json]:
             "detail",
             "verdict_text",
             "settled_by",
+            "remark",
             "group",
         )
     }

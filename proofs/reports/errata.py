@@ -6,34 +6,44 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from functools import cache
 from typing import NamedTuple
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.claims import Argument, Claim, Readings, Remark, stated_texts
+from juggleproof.proofs.evaluating import numbers_at, value_at
 from juggleproof.proofs.judgement import Correction, Finding
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.register import Register, load_register, registered
 from juggleproof.proofs.run import judge_some
 
+THEOREM = "theorem-in-units"  # the claim on which those of section 4 rest
 ERRORS = ("misprint", "false", "gap")
 HEAD = """\
 What the paper prints wrongly: the print, what is wrong with it, the correction, and exact \
 values at which it fails.
-  misprint  false as printed, certified as corrected
-  false     refuted, and no correction is known
+  misprint  false as printed, certified with some marks of the print changed
+  false     refuted; where a true assertion nearby is known, it stands beside
   gap       a step of the argument is refuted; the conclusion may stand by another route
 alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; beta and v the \
 ball's height and velocity when the table is
 at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
-words; a line is one of the transcription.
-`juggleproof explain ID` shows the other names, the derivation, the statements and their \
-certificates.
+words.
+`juggleproof explain ID` shows the line of the transcription, the other names, the derivation, \
+the statements and their certificates.
 """
-GROUPS = {
-    "errors": "Errors of the paper",
+GROUPS = {  # by weight, the heaviest first
+    "proof": "Breaks the proof: what a section concludes rests on it, and stands by a repair",
+    "statement": "Wrong statements",
+    "mark": "Wrong formulas, mended by one mark",
+    "marks": "Wrong formulas, mended by several marks",
     "readings": (
         "False in one reading: what is said can be read in several ways, and not all of them are"
         " true"
@@ -43,6 +53,17 @@ GROUPS = {
         "Possible transcription errors: one lost mark mends the print, so the fault may not be the"
         " authors'"
     ),
+    "remarks": "Remarks on what is true",
+    "restored": "Mangled in the transcription, and true as restored",
+}
+WRONG = [name for name in GROUPS if name not in ("remarks", "restored")]
+FIRST = "What matters to whoever cites the theorem"
+WEIGHTS = {
+    "proof": "breaks the proof",
+    "statement": "wrong statement",
+    "mark": "wrong formula, mended by one mark",
+    "marks": "wrong formula, mended by several marks",
+    "readings": "wording",
 }
 WIDTH, LONGEST_GOAL = 124, 110  # characters of a formula that are still read at a glance
 
@@ -57,25 +78,32 @@ def as_text() -> str:
         raise ClaimError(
             "no verdict is registered yet; `juggleproof certify --accept` registers them"
         )
-    doubted = [claim for claim in claims if register.get(claim.id, {}).get("verdict") != "holds"]
+    doubted = [
+        claim
+        for claim in claims
+        if register.get(claim.id, {}).get("verdict") != "holds" or is_noted(claim)
+    ]
     judged = {one.id: one for one in judge_some(doubted, claims, DEFAULT)}
     for name, one in judged.items():
         register[name] = registered(one.verdict.word, one.verdict.detail, "", "")
     findings = {name: one.finding() for name, one in judged.items()}
-    lines = [HEAD]
+    settled = {
+        name: [(*part, one.certificates[part[0]]) for part in one.statements]
+        for name, one in judged.items()
+    }
+    lines = [HEAD, *first_page(claims, register, findings, settled)]
     for group, title in GROUPS.items():
         members = [claim for claim in claims if group_of(claim, register, findings) == group]
         lines.append(f"{title} ({len(members)})\n")
         for claim in members:
-            one = judged[claim.id]
-            settled = [(*part, one.certificates[part[0]]) for part in one.statements]
-            lines += [*entry_of(claim, register, findings[claim.id], settled), ""]
-    names = restored(claims, register)
-    mangled = (
-        f"Mangled in the transcription, and true as restored ({len(names)}):"
-        f" {', '.join(names) or 'none'}"
-    )
-    return "\n".join([*lines, textwrap.fill(mangled, WIDTH, break_on_hyphens=False)])
+            own = settled[claim.id]
+            lines += [*entry_of(claim, register, findings[claim.id], own), ""]
+    return "\n".join(lines).rstrip("\n")
+
+
+def is_noted(claim: Claim) -> bool:
+    """Whether the errata have something to say of a claim that holds."""
+    return bool(claim.as_it_stands or claim.remark)
 
 
 def group_of(
@@ -91,15 +119,48 @@ def group_of(
         return register.get(name, {}).get("verdict") in (*ERRORS, "ambiguous")
 
     if not wrong(claim.id):
-        return ""
+        noted = "restored" if claim.as_it_stands else "remarks" if claim.remark else ""
+        return noted if register.get(claim.id, {}).get("verdict") == "holds" else ""
     if claim.repeats and wrong(claim.repeats):
         return "repeats"
+    correction = findings.get(claim.id, Finding()).get("correction")
+    if correction and correction["possible transcription error"]:
+        return "transcription"
+    return weight_of(claim, register, correction)
+
+
+def weight_of(claim: Claim, register: Register, correction: Correction | None) -> str:
+    """How much an error weighs, as a key of `WEIGHTS`.
+
+    An argument that falls back on the theorem's rules breaks the proof, and so does a claim that
+    asserts one of its refuted steps; what one mark or several mend is a wrong formula, all else a
+    wrong statement.
+    """
     if register[claim.id]["verdict"] == "ambiguous":
         return "readings"
-    correction = findings.get(claim.id, Finding()).get("correction")
-    return (
-        "transcription" if correction and correction["possible transcription error"] else "errors"
-    )
+    texts = {text.partition("\n")[2] for text in stated_texts(claim).values()}
+    details = frozenset((name, one.get("detail", "")) for name, one in register.items())
+    if texts & _broken_steps(details):
+        return "proof"
+    if correction and correction["kind"] != "nearby":
+        return "marks" if correction["kind"] in ("marks", "coefficients", "derived") else "mark"
+    return "statement"
+
+
+@cache
+def _broken_steps(details: frozenset[tuple[str, str]]) -> frozenset[str]:
+    """The refuted steps of arguments whose conclusion stands by rules of the theorem, as texts
+    without their names.
+    """
+    by_id, found = dict(details), set[str]()
+    for claim in paper_claims():
+        body = claim.body() if by_id.get(claim.id, "").startswith("step ") else None
+        if isinstance(body, Argument) and body.rests_on:
+            steps = by_id[claim.id].removeprefix("step ").partition(" is false")[0].split(", ")
+            for name, text in stated_texts(claim).items():
+                if name.split("/")[1].partition(".")[0] in steps:
+                    found.add(text.partition("\n")[2])
+    return frozenset(found)
 
 
 Settled = tuple[str, str, Certificate | None]  # a statement: its name, its text, its certificate
@@ -114,13 +175,12 @@ def stored(claim: Claim, store: Store) -> list[Settled]:
 class Row(NamedTuple):
     """One row of an entry: its title, empty where it goes on with the row before, and its text.
 
-    `latex` says how the text is a formula: "print" for LaTeX, "term" for the language of
-    statements, empty for prose; `code` that the text is an exact one of the program.
+    `latex` says that the text is LaTeX; `code` that it is an exact text of the program.
     """
 
     title: str
     text: str
-    latex: str = ""
+    latex: bool = False
     code: bool = False
 
 
@@ -134,12 +194,14 @@ def rows_of(
     correction, exact counterexamples.
     """
     entry = register[claim.id]
-    heading = f"{claim.id}, {_place(claim)}: {entry['verdict']}"
+    heading = f"{claim.id}, {place_of(claim)}: {entry['verdict']}"
+    if entry["verdict"] != "holds":
+        heading += f"; {WEIGHTS[weight_of(claim, register, finding.get('correction'))]}"
     if claim.repeats:
         holds = register.get(claim.repeats, {}).get("verdict") == "holds"
         which = (
             ""
-            if not holds
+            if not holds or entry["verdict"] == "holds"
             else ", which holds"
             if entry["verdict"] == "ambiguous"
             else ", which prints it right"
@@ -149,17 +211,22 @@ def rows_of(
     if claim.as_it_stands:
         rows.append(Row("transcribed", claim.as_it_stands, code=True))
     if claim.printed:
-        rows.append(Row("restored" if claim.as_it_stands else "printed", claim.printed, "print"))
+        rows.append(Row("restored" if claim.as_it_stands else "printed", claim.printed, latex=True))
+    if claim.as_it_stands and entry["verdict"] == "holds":
+        rows.append(Row("why", why_restored(claim)))
     title = "readings" if entry["verdict"] == "ambiguous" else "wrong"
-    rows.append(Row(title, "\n".join(what_is_wrong(entry, finding.get("sharp", {})))))
+    if entry["verdict"] != "holds":
+        wrong = what_is_wrong(entry, finding.get("sharp", {}), passages_of(claim))
+        rows.append(Row(title, "\n".join(wrong)))
     correction = finding.get("correction")
     if correction:
-        form = "term" if correction["kind"] in ("coefficients", "derived") else "print"
-        rows.append(Row("correction", correction["text"], form))
-        change = "; ".join([correction["change"], *_roots_named(correction, settled)])
+        rows.append(Row("correction", correction["text"], latex=is_latex(correction)))
+        change = correction["change"]
         rows.append(Row("", change, code="\\" in change or "=" in change))
-    elif entry["verdict"] not in ("ambiguous", "gap"):
+    elif entry["verdict"] in ("misprint", "false"):
         rows.append(Row("correction", "none found"))
+    if claim.remark:
+        rows.append(Row("remark", told(claim.remark)))
     return [
         *rows,
         *(Row("fails at", text, code=True) for text in _counterexamples(settled)),
@@ -180,7 +247,7 @@ def entry_of(
             _row(
                 row.title,
                 textwrap.fill(row.text, WIDTH, break_on_hyphens=False)
-                if row.title == "said"
+                if row.title in ("said", "remark")
                 else row.text,
             )
             for row in rows
@@ -188,13 +255,118 @@ def entry_of(
     ]
 
 
-def restored(claims: Sequence[Claim], register: Register) -> list[str]:
-    """The claims whose print the transcription mangles, and which hold as restored."""
-    return [
-        claim.id
-        for claim in claims
-        if claim.as_it_stands and register.get(claim.id, {}).get("verdict") == "holds"
+def told(remark: Remark) -> str:
+    """A remark with the claims that show it."""
+    return remark.text + (f" ({', '.join(remark.by)})" if remark.by else "")
+
+
+def passages_of(claim: Claim) -> dict[str, str]:
+    """The passage of the paper for each reading of a claim."""
+    body = claim.body()
+    return (
+        {name: one.passage for name, one in body.of.items()} if isinstance(body, Readings) else {}
+    )
+
+
+def why_restored(claim: Claim) -> str:
+    """What keeps the transcription from being judged as it stands."""
+    try:
+        claim.body(read(claim.as_it_stands))
+    except (ClaimError, checker.Rejected) as problem:
+        return f"as transcribed: {problem}"
+    return "as transcribed it can be read, and says something else"
+
+
+def first_page(
+    claims: Sequence[Claim],
+    register: Register,
+    findings: Mapping[str, Finding],
+    settled: Mapping[str, Sequence[Settled]],
+) -> list[str]:
+    """What matters to whoever cites the theorem: the heaviest errors of section 4 and appendix A,
+    each as what is said, why it is wrong, and what is true.
+    """
+    lines = [f"{FIRST}\n", theorem_stands(claims, register), ""]
+    for claim in what_matters(
+        claims, {one.id: group_of(one, register, findings) for one in claims}
+    ):
+        lines.append(f"{claim.id}, {place_of(claim)}")
+        three = three_lines_of(claim, register, findings[claim.id], settled[claim.id])
+        for one in three:
+            lines.append(_row(one.title, textwrap.fill(one.text, WIDTH, break_on_hyphens=False)))
+        lines.append("")
+    return lines
+
+
+def three_lines_of(
+    claim: Claim, register: Register, finding: Finding, settled: Sequence[Settled]
+) -> list[Line]:
+    """The three lines of a claim on the first page."""
+    wrong = what_is_wrong(register[claim.id], finding.get("sharp", {}), passages_of(claim))
+    fails = [_at_a_glance(text) for text in _counterexamples(settled)]
+    return in_three_lines(claim, wrong, fails, finding.get("correction"))
+
+
+def theorem_stands(claims: Sequence[Claim], register: Register) -> str:
+    """Whether the theorem survives, as registered."""
+    says = [claim.says for claim in claims if claim.id == THEOREM]
+    if register.get(THEOREM, {}).get("verdict") != "holds" or not says:
+        return f"The theorem is open ({THEOREM})."
+    return f"The theorem survives all of these, by another proof ({THEOREM}). {says[0]}"
+
+
+def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Claim]:
+    """The errors that bear on the theorem, by the groups of all: those that break its proof, then
+    the wrong statements of section 4 and appendix A.
+    """
+    wrong = [claim for claim in claims if group[claim.id] == "statement"]
+    return [claim for claim in claims if group[claim.id] == "proof"] + [
+        claim for claim in wrong if claim.section[:1] in ("4", "A")
     ]
+
+
+def _at_a_glance(counterexample: str) -> str:
+    """The values of a counterexample, and the numbers that disagree."""
+    values, _, numbers = counterexample.partition("\nin numbers: ")
+    return with_numbers(values.partition("\n")[0], numbers)
+
+
+def with_numbers(values: str, numbers: str) -> str:
+    """The values of a counterexample with the numbers that disagree there."""
+    return f"{values}: {numbers}" if numbers else values
+
+
+class Line(NamedTuple):
+    """A line of the first page: its title, a formula as LaTeX or nothing, and words."""
+
+    title: str
+    words: str
+    latex: str = ""
+
+    @property
+    def text(self) -> str:
+        """The line as it is printed on a terminal."""
+        return ". ".join(part for part in (self.latex, self.words) if part)
+
+
+def in_three_lines(
+    claim: Claim, wrong: Sequence[str], fails: Sequence[str], correction: Correction | None
+) -> list[Line]:
+    """What is said, why it is wrong, and what is true instead."""
+    mended = correction["text"] if correction else ""
+    latex, words = (mended, "") if correction and is_latex(correction) else ("", mended)
+    parts = [words, told(claim.remark) if claim.remark else ""]
+    true = ". ".join(part for part in parts if part)
+    return [
+        Line("said", claim.says.partition(". ")[0].rstrip(".")),
+        Line("wrong", "; fails at ".join(["; ".join(wrong), *fails[:1]])),
+        Line("true", true or ("" if latex else "the conclusion itself"), latex),
+    ]
+
+
+def is_latex(correction: Correction) -> bool:
+    """Whether the text of a correction is a print, and not a sentence."""
+    return correction["kind"] != "nearby" or "\\" in correction["text"]
 
 
 def _row(title: str, text: str) -> str:
@@ -204,16 +376,11 @@ def _row(title: str, text: str) -> str:
     )
 
 
-def _place(claim: Claim) -> str:
-    section = f"section {claim.section}" if re.match(r"[A-Z0-9]", claim.section) else claim.section
-    return f"{section}, " + (
-        f"equation {claim.place}" if claim.place.startswith("(") else claim.place
-    )
-
-
-def what_is_wrong(entry: Mapping[str, str], sharp: Mapping[str, str]) -> list[str]:
-    """One line for each reading where there are several, else one in all, with the alpha for which
-    it holds where that is known.
+def what_is_wrong(
+    entry: Mapping[str, str], sharp: Mapping[str, str], passages: Mapping[str, str] | None = None
+) -> list[str]:
+    """One line for each reading where there are several, with the passage that prints it so, else
+    one in all; with the alpha for which it holds where that is known.
     """
     detail, verdict = entry.get("detail", ""), entry["verdict"]
     readings = dict(part.split(": ") for part in detail.split("; ")) if ": " in detail else {}
@@ -221,6 +388,7 @@ def what_is_wrong(entry: Mapping[str, str], sharp: Mapping[str, str]) -> list[st
         words = {"holds": "true", "false": "false", "unknown": "open"}
         return [
             f"read as {name}: {words[word]}{_for_alpha(sharp.get(name + '.', ''), word)}"
+            + (f"; {passages[name]}" if passages else "")
             for name, word in readings.items()
         ]
     for pattern, wording in (
@@ -248,19 +416,6 @@ def _for_alpha(sharp: str, word: str) -> str:
     return ", for every alpha" if sharp == "nowhere" else f"; it would be true exactly for {sharp}"
 
 
-def _roots_named(correction: Correction, settled: Sequence[Settled]) -> Iterator[str]:
-    """What a name of a root in a corrected term means: the statements say it."""
-    lines = {
-        line for _, text, _ in settled for line in text.splitlines() if line.startswith("root ")
-    }
-    for line in sorted(lines):
-        name = line.split()[1]
-        if correction["kind"] in ("coefficients", "derived") and re.search(
-            rf"\b{name}\b", correction["text"]
-        ):
-            yield line.removeprefix("root ")
-
-
 def counterexample(refutation: object) -> str:
     """The values of a counterexample as text; raises ClaimError where a certificate has none."""
     match refutation:
@@ -278,15 +433,42 @@ def _counterexamples(settled: Sequence[Settled]) -> list[str]:
     """The exact values of every refuted statement, with the part of the claim that fails there, and
     what it says where that is short.
     """
-    goals = dict[str, str]()
+    goals = dict[str, tuple[str, str]]()
     for name, text, certificate in settled:
         if certificate is not None and "refuted" in certificate:
             label = name.split("/")[1].removesuffix(".main")
             values = counterexample(certificate["refuted"]) + (
                 "" if label == "main" else f"   [{label}]"
             )
-            goals.setdefault(values, goal_of(text))
-    return [values + (f"\nfalse there: {goal}" if goal else "") for values, goal in goals.items()]
+            goals.setdefault(values, (goal_of(text), numbers_of(text, certificate["refuted"])))
+    return [
+        values
+        + (f"\nfalse there: {goal}" if goal else "")
+        + (f"\nin numbers: {numbers}" if numbers else "")
+        for values, (goal, numbers) in goals.items()
+    ]
+
+
+def numbers_of(text: str, refutation: object) -> str:
+    """What the statement shows, with the numbers of a rational counterexample in place; nothing
+    where there is a choice or a root, or where that is long.
+    """
+    match refutation:
+        case [_, [] | (), {**terms}, *_]:
+            point = {str(name): Fraction(str(value)) for name, value in terms.items()}
+        case _:
+            return ""
+    lines = [line.partition(" ") for line in text.splitlines()]
+    for keyword, _, rest in lines:
+        name, _, value = rest.partition(" = ")
+        known = value_at(value, point) if keyword == "let" else None
+        if known is not None:
+            point[name] = known
+    if any(keyword == "exists" for keyword, _, _ in lines):
+        return ""
+    shown = [formula for keyword, _, formula in lines if keyword == "show"]
+    failing = [numbers for numbers in (numbers_at(one, point) for one in shown) if numbers]
+    return failing[0] if failing and len(failing[0]) <= LONGEST_GOAL else ""
 
 
 def goal_of(text: str) -> str:

@@ -84,7 +84,11 @@ def shown(text: str, longest: int) -> str:
 
 
 def change(text: str) -> str:
-    """What a correction changes: LaTeX commands in it as what they stand for."""
+    """What a correction changes: LaTeX commands in it as what they stand for; as code where several
+    marks change, which need not be formulas.
+    """
+    if text.startswith("marks: "):
+        return f"marks: <code>{escape(text.removeprefix('marks: '), quote=False)}</code>"
     return "".join(
         mathml(part) if part.startswith("\\") else escape(part, quote=False)
         for part in re.split(r"(\\[A-Za-z]+)", text)

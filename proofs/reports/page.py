@@ -5,16 +5,17 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown
-from juggleproof.proofs.reports.errata import GROUPS, goal_of
+from juggleproof.proofs.reports.errata import FIRST, GROUPS, goal_of, is_latex
 from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
@@ -32,8 +33,8 @@ from juggleproof.scenes.figures.look import inline_svg
 LONGEST = 300
 VERDICTS = {  # word -> symbol, and what it means
     "holds": ("✓", "true as printed, with a certificate"),
-    "misprint": ("✎", "false as printed, certified as corrected"),
-    "false": ("✗", "refuted, and no correction is known"),
+    "misprint": ("✎", "false as printed, certified with some marks of the print changed"),
+    "false": ("✗", "refuted; where a true assertion nearby is known, it stands beside"),
     "gap": ("⋯", "a step of the argument is refuted; the conclusion may stand by another route"),
     "ambiguous": ("⇄", "can be read in several ways, and not all of them are true"),
     "simulated": ("≈", "what a simulation shows, with its figures; nothing is proved"),
@@ -59,6 +60,7 @@ class Statement:
     rows: Sequence[markup.Row]
     text: str
     at: str
+    numbers: str
     false_there: str
     votes: str
     certificate: str
@@ -90,6 +92,7 @@ def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) ->
         markup.rows_of([line for line in lines if line[1]]),
         shown.text,
         markup.values(shown.at) if refuted and shown.at else "",
+        shown.numbers,
         _false_there(shown.text) if refuted else "",
         votes,
         text if whole or len(text) <= LONGEST else "",
@@ -148,7 +151,8 @@ class ClaimView:
     wrong: Sequence[str]
     corrected: str
     change: str
-    roots: Sequence[str]
+    remark: str
+    why: str
     sharp: str
     steps: Sequence[tuple[str, str]]  # title, anchor
     shared: Sequence[markup.Row]
@@ -182,24 +186,22 @@ class ClaimView:
 def view_of(entry: Entry) -> ClaimView:
     """One claim for the page."""
     claim, corrected, change = entry.claim, "", ""
-    roots: list[str] = []
     shared = shared_lines(entry.statements)
     if entry.correction:
         text, change = entry.correction["text"], entry.correction["change"]
-        if entry.correction["kind"] in ("coefficients", "derived"):  # in the statement language
-            corrected, roots = markup.formula(text, block=True), list(_roots(entry, text))
-        else:
-            corrected = mathml(text, block=True)
+        latex = is_latex(entry.correction)
+        corrected = mathml(text, block=True) if latex else markup.prose(text)
     return ClaimView(
         entry=entry,
-        place=place(claim.section, claim.place),
+        place=place_of(claim),
         says=markup.prose(claim.says),
         transcribed=claim.as_it_stands,
         printed=mathml(claim.printed, block=True) if claim.printed else "",
         wrong=[markup.ranged(line) for line in entry.wrong],
         corrected=corrected,
         change=markup.change(change),
-        roots=roots,
+        remark=markup.prose(entry.remark),
+        why=entry.why_restored,
         sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
         steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
         shared=_rows(shared),
@@ -265,24 +267,6 @@ def _rows(lines: Sequence[Line]) -> list[markup.Row]:
     return markup.rows_of([(key.partition(" ")[0], content) for key, content in joined.items()])
 
 
-def _roots(entry: Entry, made: str) -> Iterator[str]:
-    lines = {
-        line
-        for one in entry.statements
-        for line in one.text.splitlines()
-        if line.startswith("root ")
-    }
-    for line in sorted(lines):
-        if re.search(rf"\b{line.split()[1]}\b", made):
-            yield markup.rows_of(markup.lines_of(f"statement\n{line}"))[0].parts[0]
-
-
-def place(section: str, where: str) -> str:
-    """Where a claim stands, in words."""
-    shown = f"equation {where}" if where.startswith("(") else where
-    return ", ".join(part for part in (section_title(section), shown) if part)
-
-
 def section_title(section: str) -> str:
     """The heading of a section: the paper's have numbers, ours have words."""
     return f"Section {section}" if re.match(r"[A-Z0-9]", section) else section.capitalize()
@@ -345,7 +329,7 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
             rule.name.partition("/")[2],
             rule.kind,
             inspect.cleandoc(checker.orbit_rules()[rule.kind]),
-            statement(Shown(rule.name, rule.text, rule.outcome, None, "", {}), whole=True),
+            statement(Shown(rule.name, rule.text, rule.outcome, None, "", "", {}), whole=True),
             [statement(premise, whole=True) for premise in rule.premises],
             rule.rests_on,
             rule.uses,
@@ -459,6 +443,10 @@ def _shown(
         "contents": contents,
         "sections": by_section,
         "errata": errata(by_section),
+        "first_title": FIRST,
+        "theorem_stands": markup.prose(contents.theorem_stands),
+        "first_page": [(view_of(entry), three) for entry, three in contents.first_page()],
+        "mathml": mathml,
         "panels": panels(contents.rules),
         "derivations": derivations(contents),
         "tree": tree(contents.rules, outcomes),

@@ -8,19 +8,19 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.proofs.claims import VERDICTS, Claim
 from juggleproof.proofs.judgement import Finding
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.ledger.remarks import remarks
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports import errata
 from juggleproof.proofs.reports import tex_words as words
-from juggleproof.proofs.reports.latex import latex_of
 from juggleproof.proofs.run import findings_in
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,19 +74,33 @@ def printed_wrongly() -> str:
     """Every claim that is not simply true, in the groups of `juggleproof errata`, prints and
     corrections as LaTeX."""
     register, store, findings = load_register(), Store(DEFAULT), findings_in(DEFAULT)
-    claims, lines = paper_claims(), list[str]()
+    claims = paper_claims()
+    lines = _first_page(claims, register, findings, store)
     for group, title in errata.GROUPS.items():
         members = [one for one in claims if errata.group_of(one, register, findings) == group]
         lines += [f"## {title} ({len(members)})", ""]
         for claim in members:
             lines += _entry(claim, register, findings.get(claim.id, {}), store)
-    restored = errata.restored(claims, register)
-    lines += [
-        f"## Mangled in the transcription, and true as restored ({len(restored)})",
-        "",
-        ", ".join(f"[{name}](results.md#{name})" for name in restored) or "None.",
-    ]
-    return "\n".join(lines)
+    return "\n".join(lines).rstrip("\n")
+
+
+def _first_page(
+    claims: Sequence[Claim],
+    register: Register,
+    findings: Mapping[str, Finding],
+    store: Store,
+) -> list[str]:
+    lines = [f"## {errata.FIRST}", "", errata.theorem_stands(claims, register), ""]
+    groups = {one.id: errata.group_of(one, register, findings) for one in claims}
+    for claim in errata.what_matters(claims, groups):
+        settled = errata.stored(claim, store)
+        three = errata.three_lines_of(claim, register, findings.get(claim.id, {}), settled)
+        lines += [f"**[{claim.id}](#{claim.id})**, {place_of(claim)}", ""]
+        for one in three:
+            formula = f" ${one.latex}$" if one.latex else ""
+            lines.append(f"- *{one.title}:*{formula} {_prose(one.words)}".rstrip())
+        lines.append("")
+    return lines
 
 
 def _entry(
@@ -101,8 +115,7 @@ def _entry(
     for row in rows:
         title, parts = row.title or "change", row.text.splitlines()
         if row.latex:
-            formula = row.text if row.latex == "print" else latex_of(row.text)
-            lines += [f"*{title}:*", "", *_display(formula)]
+            lines += [f"*{title}:*", "", *_display(row.text)]
         elif row.code:
             lines += [f"*{title}:* " + "; ".join(map(_code, parts)), ""]
         elif len(parts) > 1:

@@ -26,7 +26,13 @@ from juggleproof.proofs.claims import (
 )
 from juggleproof.proofs.judgement import Correction, Judgement
 from juggleproof.proofs.register import Change, Register, differences, registered
-from juggleproof.proofs.reports.errata import counterexample, group_of, what_is_wrong
+from juggleproof.proofs.reports.errata import (
+    counterexample,
+    group_of,
+    passages_of,
+    told,
+    what_is_wrong,
+)
 from juggleproof.proofs.reports.tables import plain
 from juggleproof.proofs.reports.tree import theorem_line
 from juggleproof.proofs.run import Run
@@ -100,11 +106,7 @@ def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
 def reading_of(body: Body) -> str:
     """How the statements of a body make up the claim, in a few words."""
     if isinstance(body, Assertion):
-        return (
-            f"all {len(body.parts)} statements hold"
-            if len(body.parts) > 1
-            else "the statement holds"
-        )
+        return "asserts " + (f"{len(body.parts)} statements" if body.parts[1:] else "one statement")
     if isinstance(body, Readings):
         return "can be read as " + ", or as ".join(body.of)
     if isinstance(body, Following):
@@ -251,6 +253,7 @@ class Result:
     settled_by: str
     sharp: str
     correction: Correction | None
+    remark: str
     wrong: tuple[str, ...]
     group: str
     statements: tuple[Stated, ...]
@@ -357,7 +360,9 @@ def results_of_run(
             wrong=(
                 ()
                 if one.verdict in ("holds", "simulated", "unknown")
-                else tuple(what_is_wrong(entries[one.id], findings[one.id]["sharp"]))
+                else tuple(
+                    what_is_wrong(entries[one.id], findings[one.id]["sharp"], passages_of(claim))
+                )
             ),
         )
         for claim, one in zip(claims, judged_claims)
@@ -406,6 +411,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         settled_by(judged),
         sharp_range(judged, claim),
         judged.correction,
+        told(claim.remark) if claim.remark else "",
         (),
         "",
         statements,

@@ -15,7 +15,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import Contents, Entry
-from juggleproof.proofs.reports.errata import GROUPS
+from juggleproof.proofs.reports.errata import FIRST, GROUPS
 from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.latex import MACROS, NOTATION, latex_of, with_macros
 from juggleproof.proofs.reports.words import parts_of
@@ -149,7 +149,12 @@ def _render(made: Environment, name: str, contents: Contents, values: Mapping[st
 
 def _counterexamples(entry: Entry) -> list[str]:
     """The counterexamples as they are set, each once."""
-    return list(dict.fromkeys(tex_words.values(one.at) for one in entry.statements if one.at))
+    shown = (
+        tex_words.values(one.at) + (f": {tex_words.prose(one.numbers)}" if one.numbers else "")
+        for one in entry.statements
+        if one.at
+    )
+    return list(dict.fromkeys(shown))
 
 
 def _appendix(contents: Contents, letter: str, title: str) -> dict[str, object]:
@@ -197,7 +202,13 @@ def _errata(contents: Contents) -> dict[str, object]:
     counted = "; ".join(
         f"{len(claims)} {title[:1].lower()}{title[1:]}" for title, claims in groups if claims
     )
-    return {"groups": [one for one in groups if one[1]], "counts": f"In all: {counted}."}
+    return {
+        "groups": [one for one in groups if one[1]],
+        "counts": f"In all: {counted}.",
+        "first_title": FIRST,
+        "theorem_stands": contents.theorem_stands,
+        "first_page": contents.first_page(),
+    }
 
 
 def _theorem(contents: Contents) -> dict[str, object]:

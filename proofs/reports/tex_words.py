@@ -8,8 +8,10 @@ from collections.abc import Sequence
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports.contents import Entry
+from juggleproof.proofs.reports.errata import is_latex
 from juggleproof.proofs.reports.latex import latex_of, with_macros
 from juggleproof.proofs.reports.words import pieces
 
@@ -68,6 +70,16 @@ def plain(text: str) -> str:
     return "".join(SPECIAL.get(sign, sign) for sign in text)
 
 
+def code(text: str) -> str:
+    r"""A text of marks in typewriter face, which may be broken after each sign.
+
+    >>> code("a_1+b")
+    '\\texttt{a\\_\\penalty0 1+\\penalty0 b}'
+    """
+    signs = (plain(sign) + (r"\penalty0 " if sign in "_^+-=(){}," else "") for sign in text)
+    return rf"\texttt{{{''.join(signs)}}}"
+
+
 def prose(text: str) -> str:
     r"""A sentence, its formulas set.
 
@@ -119,21 +131,26 @@ def without_stop(row: str) -> str:
 
 
 def correction(entry: Entry) -> str:
-    """The corrected print: as LaTeX where a print was changed, else the corrected term after the
-    print's left side.
-    """
+    """The corrected print as LaTeX, or the sentence that is true."""
     if entry.correction is None:
         raise ValueError(f"{entry.claim.id} has no correction")
     text = entry.correction["text"]
-    if entry.correction["kind"] not in ("coefficients", "derived"):
-        return text
-    left = entry.claim.printed.partition("=")[0].strip() if "=" in entry.claim.printed else ""
-    return (f"{left} = " if left and not left.startswith("<") else "") + latex_of(text)
+    return text if is_latex(entry.correction) else rf"\text{{{prose(text)}}}"
+
+
+def corrected(entry: Entry) -> str:
+    """The corrected print within a line, or the sentence that is true."""
+    found = entry.correction
+    if found is None or is_latex(found):
+        return f"${inline(correction(entry))}$"
+    return prose(found["text"])
 
 
 def change(entry: Entry) -> str:
     """What the correction changes, the signs set as mathematics."""
     text = entry.correction["change"].partition(" at column")[0] if entry.correction else ""
+    if text.startswith("marks: "):
+        return f"marks: {code(text.removeprefix('marks: '))}"
     return re.sub(r"\\[A-Za-z]+|[<>]", lambda match: f"${match.group()}$", text)
 
 
@@ -145,13 +162,8 @@ def number(claim: Claim) -> str:
 
 def heading(claim: Claim) -> str:
     """What the claim is referred to by: the number of its equation, or its section and place."""
-    shown = (
-        claim.place
-        if claim.place.startswith("(") and number(claim)
-        else f"{claim.section}, {claim.place}"
-        if claim.place
-        else claim.section
-    )
+    numbered = claim.place.startswith("(") and number(claim)
+    shown = claim.place if numbered else place_of(claim)
     return plain(shown[:1].upper() + shown[1:])
 
 
@@ -258,6 +270,8 @@ def _chained(relations: Sequence[str]) -> str:
 __all__ = [
     "Steps",
     "change",
+    "code",
+    "corrected",
     "correction",
     "entries",
     "formula",

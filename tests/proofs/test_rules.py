@@ -9,6 +9,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+from juggleproof.proofs.rules import range_of_rule
+
 ROOT = Path(__file__).resolve().parents[2]
 CLAIMS = """
 from juggleproof.proofs import MapRule, claim
@@ -96,3 +100,20 @@ def test_no_claim_is_left_out_where_its_file_was_loaded_before() -> None:
         )
     ]
     assert told[0] == told[1] and "theorem-roots" in told[0]
+
+
+SHARP = {
+    "t/map": "statement t/map\nover a\ndomain a > 0",
+    "t/falls": "statement t/falls\nmap t/map\ndomain a > 0 and 3*a < 1",
+    "t/attracts": "statement t/attracts\ndescent t/falls\ncontraction t/closes",
+    "t/exactly": "statement t/exactly\nattraction t/attracts\nescape t/escapes",
+}
+
+
+@pytest.mark.parametrize(
+    "is_conclusion, text", [(True, "0 < a < 1/3"), (False, "at least 0 < a < 1/3")]
+)
+def test_a_range_is_sharp_only_for_the_conclusion_itself_holds(
+    is_conclusion: bool, text: str
+) -> None:
+    assert range_of_rule("t/exactly", SHARP, is_conclusion=is_conclusion) == text

@@ -5,8 +5,9 @@ that it changes is checked again.
 from __future__ import annotations
 
 import shutil
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -187,3 +188,22 @@ def test_rejects_a_claim_without_a_sentence_by_its_line(
     Path("mine.py").write_text(source, encoding="utf-8")
     with pytest.raises(ClaimError, match=r"mine\.py:4: bare has no docstring"):
         claims_of_file(Path(path.format(tmp_path)))
+
+
+def test_a_remark_goes_with_its_claim_to_another_process_holds(tmp_path: Path) -> None:
+    path = tmp_path / "own.py"
+    path.write_text(
+        "from juggleproof.proofs import Remark, always, claim, real\n"
+        'x = real("x")\n'
+        'zero = Remark("It is 0 at 0.", lambda: always(x**2 >= 0, label="zero"))\n'
+        '@claim("square", remark=zero)\n'
+        "def squares_are_not_negative():\n"
+        '    """A square is not negative."""\n'
+        "    return always(x**2 + 1 > 0)\n",
+        encoding="utf-8",
+    )
+    options = Options(tmp_path / "store", ("exact",), jobs=1)
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        done = run(claims_of_file(path), options, executor=pool)
+    assert [one.verdict.word for one in done.judgements] == ["holds"]
+    assert done.outcomes["square/remark.zero"] == "certified"

@@ -176,7 +176,18 @@ def test_a_lost_mark_is_found_by_one_change(lost: str, mended: str, kind: str) -
 
 
 def test_simpler_marks_come_first_and_all_can_be_read() -> None:
-    order = ["dot", "bar", "prime", "sign", "exponent", "half", "index", "strictness", "letter"]
+    order = [
+        "dot",
+        "bar",
+        "prime",
+        "sign",
+        "exponent",
+        "half",
+        "index",
+        "strictness",
+        "letter",
+        "swap",
+    ]
     latex = next(latex for where, latex in ALL if where == "20")
     changes = list(one_mark_changes(latex))
     kinds = [order.index(change.split(":")[0]) for change, _ in changes]

@@ -57,7 +57,7 @@ def test_run_of_the_paper_is_as_described_holds() -> None:
         and data["changes"] == []
     )
     assert data["counts"]["statements"] == sum(len(one["statements"]) for one in data["claims"])
-    assert claim(data, "eq-19")["sharp"]["floor"] == "0 < alpha < 1" and claim(data, "eq-10")[
+    assert claim(data, "eq-26")["sharp"]["ceiling"] == "0 < alpha < 1" and claim(data, "eq-10")[
         "sharp"
     ] == {"": "0 < alpha < 1"}
     assert claim(data, ERRATUM)["correction"]["possible_transcription_error"] is True

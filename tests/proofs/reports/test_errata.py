@@ -10,6 +10,7 @@ import re
 import pytest
 
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
@@ -26,22 +27,31 @@ def listing() -> dict[str, dict[str, str]]:
         heading = re.fullmatch(r"(.*) \((\d+)\)", block.strip())
         if heading and heading[1] in TITLES:
             groups[heading[1]] = {}
-        elif groups and not block.startswith("Mangled"):
+        elif groups:
             groups[list(groups)[-1]][block.split(",")[0].strip()] = block
     return groups
+
+
+def wrong(listing: dict[str, dict[str, str]]) -> list[dict[str, str]]:
+    """The groups of what is wrong."""
+    return [listing[errata.GROUPS[group]] for group in errata.WRONG]
 
 
 def test_groups_stand_in_order_and_hold_every_claim_that_is_not_true(
     listing: dict[str, dict[str, str]],
 ) -> None:
     assert list(listing) == TITLES
-    named = [name for group in listing.values() for name in group]
+    named = [name for group in wrong(listing) for name in group]
     register = load_register()
     assert sorted(named) == sorted(
         name
         for name, entry in register.items()
         if entry["verdict"] not in ("holds", "simulated", "unknown")
     )
+    noted = {claim.id for claim in paper_claims() if claim.as_it_stands or claim.remark}
+    assert {*listing[errata.GROUPS["remarks"]], *listing[errata.GROUPS["restored"]]} == {
+        name for name in noted if register[name]["verdict"] == "holds"
+    }
     assert all(
         register[name]["verdict"] == "ambiguous" for name in listing[errata.GROUPS["readings"]]
     )
@@ -51,7 +61,7 @@ def test_every_entry_says_what_is_wrong_and_where_it_fails(
     listing: dict[str, dict[str, str]],
 ) -> None:
     register = load_register()
-    for group in listing.values():
+    for group in wrong(listing):
         for name, text in group.items():
             verdict, rows = (
                 register[name]["verdict"],
@@ -63,6 +73,10 @@ def test_every_entry_says_what_is_wrong_and_where_it_fails(
                 and ("readings" if verdict == "ambiguous" else "wrong") in rows
             ), text
             assert verdict not in ("misprint", "false") or "correction" in rows, text
+    for text in listing[errata.GROUPS["restored"]].values():
+        assert all(f"\n    {row}" in text for row in ("transcribed", "restored", "why")), text
+    for text in listing[errata.GROUPS["remarks"]].values():
+        assert "\n    remark" in text, text
 
 
 def test_every_stored_counterexample_is_printed_holds(listing: dict[str, dict[str, str]]) -> None:
@@ -85,10 +99,10 @@ def test_every_stored_counterexample_is_printed_holds(listing: dict[str, dict[st
 
 def test_a_repeat_follows_a_listed_print_holds(listing: dict[str, dict[str, str]]) -> None:
     claims = {claim.id: claim for claim in paper_claims()}
-    listed = {name for group in listing.values() for name in group}
+    listed = {name for group in wrong(listing) for name in group}
     assert listing[errata.GROUPS["repeats"]]
-    for title, group in listing.items():
-        for name in group:
+    for title in (errata.GROUPS[name] for name in errata.WRONG):
+        for name in listing[title]:
             assert (claims[name].repeats in listed and bool(claims[name].repeats)) == (
                 title == errata.GROUPS["repeats"]
             ), name
@@ -102,7 +116,8 @@ def test_transcription_errors_are_those_of_the_table_holds(
         assert findings[name]["correction"]["possible transcription error"]
     assert not any(
         findings[name].get("correction", {}).get("possible transcription error")
-        for name in listing[errata.GROUPS["errors"]]
+        for group in ("proof", "statement", "mark", "marks")
+        for name in listing[errata.GROUPS[group]]
     )
 
 
@@ -148,3 +163,95 @@ def test_rejects_errata_without_a_register(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(errata, "load_register", dict)
     with pytest.raises(errata.ClaimError, match="no verdict is registered yet"):
         errata.as_text()
+
+
+def test_errors_stand_by_their_weight_holds(listing: dict[str, dict[str, str]]) -> None:
+    for group, names in {
+        "proof": ["s4.3.1-LaSalle", "s4.3.1-B2-approach", "s4.3.2-K-attracts"],
+        "statement": ["eq-38", "s3.5.3-locally-stable", "sA.3.1-not-on-R0", "prop-1-B2-to-B1"],
+        "mark": ["s3.3-e1-closed", "s4.3.1-DK-negative", "sB.1-tau", "sB.7-C"],
+        "marks": ["sA.3.2-sup3", "sB.1-collision", "sA.3-sup"],
+    }.items():
+        entries = listing[errata.GROUPS[group]]
+        assert {*names} <= {*entries}, group
+        assert all(errata.WEIGHTS[group] in text.splitlines()[0] for text in entries.values())
+
+
+def test_first_page_tells_what_bears_on_the_theorem_in_three_lines_holds() -> None:
+    text = errata.as_text()
+    page = text[text.index(errata.FIRST) : text.index(errata.GROUPS["proof"])]
+    first, stands, *entries = page.strip().split("\n\n")
+    assert first == errata.FIRST and stands.startswith("The theorem survives all of these")
+    assert entries[0].startswith("s4.3.1-LaSalle, section 4.3.1")
+    for entry in entries:
+        titles = [line.split()[0] for line in entry.splitlines()[1:] if line[4] != " "]
+        assert titles == ["said", "wrong", "true"], entry
+
+
+def test_rejects_that_the_theorem_survives_where_it_is_not_registered() -> None:
+    claims = paper_claims()
+    assert errata.theorem_stands(claims, {}) == "The theorem is open (theorem-in-units)."
+    unknown = {"theorem-in-units": {"verdict": "unknown"}}
+    assert errata.theorem_stands(claims, unknown).startswith("The theorem is open")
+
+
+@pytest.mark.parametrize(
+    "name, place",
+    [
+        ("eq-38", "section A.3.1, equation (38)"),
+        ("s4.3.2-p-not-R", "section 4.3.2, sentence 1 after (31)"),
+        ("s2.2.1-H", "section 2.2.1, sentence 2"),
+        ("s4.3.1-DK1", "section 4.3.1, display 2 after (28)"),
+        ("s4.2-note9-equal", "section 4.2, footnote 9"),
+        ("sB.7-T", "section B.7, row of the table 5"),
+        ("theorem", "theorem, normal form"),
+    ],
+)
+def test_places_are_as_a_reader_finds_them_holds(name: str, place: str) -> None:
+    (claim,) = [one for one in paper_claims() if one.id == name]
+    assert place_of(claim) == place
+
+
+@pytest.mark.parametrize(
+    "name, numbers",
+    [
+        ("s4.3.1-B2-approach", "49/50 < 9/50"),
+        ("s4.3.2-K-attracts", "49/50 < 9/50"),
+        ("s4.3.1-LaSalle", "0 < 0"),
+        ("sA.1-in-step", "10/3 = 2"),
+        ("s4.2-less-energy-shorter", "2 <= 5/3"),
+    ],
+)
+def test_counterexamples_show_the_numbers_that_disagree_holds(
+    listing: dict[str, dict[str, str]], name: str, numbers: str
+) -> None:
+    (text,) = [group[name] for group in listing.values() if name in group]
+    assert f"in numbers: {numbers}" in map(str.strip, text.splitlines())
+
+
+def test_counterexamples_are_in_simple_rationals_holds() -> None:
+    store = Store(DEFAULT)
+    for name, text in store.texts.items():
+        refuted = (store.certificate(name, text) or {}).get("refuted")
+        if refuted and refuted[0] != "sign":
+            _, adjoined, terms, *_ = refuted
+            assert not adjoined, name
+            numbers = [int(n) for value in terms.values() for n in re.findall(r"\d+", value)]
+            assert max(numbers) <= 16, name
+
+
+@pytest.mark.parametrize(
+    "name, why",
+    [
+        ("eq-29", "a sum of a vector and a scalar"),
+        ("sB.2-line", "= between a scalar and a vector states no formula"),
+        ("sA.4-on-edge", "= between a vector and a scalar states no formula"),
+        ("s4.3.1-DK1", "z_{z} has no meaning here"),
+    ],
+)
+def test_what_was_restored_stands_beside_what_was_transcribed_holds(
+    listing: dict[str, dict[str, str]], name: str, why: str
+) -> None:
+    text = listing[errata.GROUPS["restored"]][name]
+    (claim,) = [one for one in paper_claims() if one.id == name]
+    assert claim.as_it_stands in text and claim.printed in text and why in text

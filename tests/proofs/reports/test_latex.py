@@ -16,8 +16,10 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command import report, show
 from juggleproof.proofs.command.main import run
+from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import gather
+from juggleproof.proofs.reports.errata import WRONG
 from juggleproof.proofs.reports.latex import latex_of, narrow, with_macros, without_macros
 from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 from juggleproof.proofs.reports.words import formulas_of
@@ -47,13 +49,13 @@ def test_every_derivation_reads_back_holds() -> None:
     assert differences((entry, latex_of(entry)) for entry in entries) == []
 
 
-def test_every_corrected_term_reads_back_holds() -> None:
-    terms = [
-        str(entry.correction["text"])
+def test_every_correction_reads_back_holds() -> None:
+    prints = [
+        entry.correction["text"]
         for entry in contents().entries
-        if entry.correction and entry.correction["kind"] in ("coefficients", "derived")
+        if entry.correction and entry.correction["kind"] != "nearby"
     ]
-    assert terms and differences((text, latex_of(text)) for text in terms) == []
+    assert prints and all(read(text).names for text in prints)
 
 
 def test_every_formula_is_read_with_its_macros_holds() -> None:
@@ -121,10 +123,19 @@ def test_every_erratum_stands_with_its_verdict_and_its_counterexample_holds() ->
     listed = [entry for entry in contents().entries if entry.group]
     assert len(listed) > 50 and set(blocks) == {entry.claim.id for entry in listed}
     for entry in listed:
-        assert (
-            f"{{{entry.verdict}}}" in blocks[entry.claim.id]
-            and r"\jugnote{Fails}{at " in blocks[entry.claim.id]
-        )
+        block = blocks[entry.claim.id]
+        assert f"{{{entry.verdict}}}" in block
+        assert (entry.group in WRONG) == (r"\jugnote{Fails}{at " in block)
+        assert (entry.group == "restored") == (r"\jugnote{Transcribed}" in block)
+        assert bool(entry.claim.remark) == (r"\jugnote{Remark}" in block)
+
+
+def test_errata_begin_with_what_bears_on_the_theorem_holds() -> None:
+    page = made()["errata.tex"].partition(r"\jugclaim[errata:]")[0]
+    assert re.findall(r"\{first:([^{}]*)\}", page) == [
+        entry.claim.id for entry, _ in contents().first_page()
+    ]
+    assert page.count(r"\jugnote{True}") == len(contents().first_page()) > 5
 
 
 def test_labels_are_unique_and_every_reference_has_one_holds() -> None:

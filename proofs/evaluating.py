@@ -1,0 +1,119 @@
+"""Terms and formulas of the statement language at rational values, for what is shown and for what
+is tried first; nothing that is proved rests on it.
+"""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+
+from juggleproof.certificates import checker
+
+Point = Mapping[str, Fraction]
+ARITHMETIC: Mapping[type, Callable[[Fraction, Fraction], Fraction]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+RELATIONS: Mapping[type, tuple[str, Callable[[Fraction, Fraction], bool]]] = {
+    ast.Lt: ("<", operator.lt),
+    ast.LtE: ("<=", operator.le),
+    ast.Gt: (">", operator.gt),
+    ast.GtE: (">=", operator.ge),
+    ast.Eq: ("=", operator.eq),
+    ast.NotEq: ("!=", operator.ne),
+}
+
+
+def value_at(text: str, point: Point) -> Fraction | None:
+    """The value of a term, or None where a name has none, or zero divides.
+
+    >>> str(value_at("alpha^2/(1 - beta)", {"alpha": Fraction(1, 2), "beta": Fraction(0)}))
+    '1/4'
+    """
+    try:
+        return _value(checker.parse(text), point)
+    except (KeyError, ZeroDivisionError):
+        return None
+
+
+def numbers_at(text: str, point: Point) -> str:
+    """A formula that is false at the point with its numbers in place: the first part that fails, or
+    the two sides of what ought to be equivalent; nothing where they cannot be worked out.
+
+    >>> point = {"a": Fraction(1, 2)}
+    >>> numbers_at("a > 0 and a^2 >= a", point), numbers_at("iff(a < 1, a < 0)", point)
+    ('1/4 >= 1/2', '1/2 < 1 is true, and 1/2 < 0 false')
+    """
+    try:
+        return _numbers(checker.parse(text), point)
+    except (KeyError, ZeroDivisionError):
+        return ""
+
+
+def _value(node: ast.AST, point: Point) -> Fraction:
+    if isinstance(node, ast.Name):
+        return point[node.id]
+    if isinstance(node, ast.Constant):
+        return Fraction(str(node.value))
+    if isinstance(node, ast.UnaryOp):
+        return -_value(node.operand, point)
+    if not isinstance(node, ast.BinOp):
+        raise KeyError(ast.dump(node))
+    left, right = _value(node.left, point), _value(node.right, point)
+    if isinstance(node.op, ast.Pow):
+        return Fraction(left ** int(right))
+    return ARITHMETIC[type(node.op)](left, right)
+
+
+def _is_true(node: ast.AST, point: Point) -> bool:
+    if isinstance(node, ast.Compare):
+        sides = [_value(side, point) for side in (node.left, *node.comparators)]
+        signs = [RELATIONS[type(sign)][1] for sign in node.ops]
+        return all(sign(a, b) for sign, a, b in zip(signs, sides, sides[1:]))
+    if isinstance(node, ast.BoolOp):
+        parts = [_is_true(part, point) for part in node.values]
+        return all(parts) if isinstance(node.op, ast.And) else any(parts)
+    if isinstance(node, ast.UnaryOp):
+        return not _is_true(node.operand, point)
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        first, second = (_is_true(part, point) for part in node.args)
+        return first == second if node.func.id == "iff" else not first or second
+    raise KeyError(ast.dump(node))
+
+
+def _numbers(node: ast.AST, point: Point) -> str:
+    if isinstance(node, ast.Compare):
+        shown = str(_value(node.left, point))
+        for sign, side in zip(node.ops, node.comparators):
+            shown += f" {RELATIONS[type(sign)][0]} {_value(side, point)}"
+        return shown
+    if isinstance(node, ast.BoolOp):
+        failing = [part for part in node.values if not _is_true(part, point)]
+        shown_parts = [_numbers(part, point) for part in failing]
+        return shown_parts[0] if isinstance(node.op, ast.And) else " or ".join(shown_parts)
+    if isinstance(node, ast.Call):
+        first, second = node.args
+        if _is_true(first, point) == _is_true(second, point):
+            raise KeyError("not false there")
+        words = ["true" if _is_true(part, point) else "false" for part in (first, second)]
+        return (
+            f"{_all_numbers(first, point)} is {words[0]}, and {_all_numbers(second, point)}"
+            f" {words[1]}"
+        )
+    if isinstance(node, ast.UnaryOp):
+        return f"yet {_all_numbers(node.operand, point)}"
+    raise KeyError(ast.dump(node))
+
+
+def _all_numbers(node: ast.AST, point: Point) -> str:
+    """Every relation of a formula with its numbers."""
+    if isinstance(node, ast.BoolOp):
+        word = " and " if isinstance(node.op, ast.And) else " or "
+        return word.join(_all_numbers(part, point) for part in node.values)
+    if not isinstance(node, ast.Compare):
+        raise KeyError(ast.dump(node))
+    return _numbers(node, point)
