@@ -5,7 +5,7 @@ derivations           derived expressions as terms that say what made them
 names                 what names stand for, and what happens within a period
 states                impacts and their energy, orbits, motion relative to e_1
 regions               the states outside the region R
-s2_models             what the table adds; the regions H, B1, B2; flight and impact
+s2_models             the regions H, B1, B2; flight and impact
 s3_1_s3_2_coupling    the table, and the ball coupled to it
 s3_3_local            the fixed point e_1 and its neighbourhood
 s3_4_energy           total energy, and its change by an impact

@@ -1,5 +1,5 @@
-"""Section 2: what the table adds at an impact, the regions of the plane, free flight, the impact of
-two point masses, and the ball from one impact to the next.
+"""Section 2: the regions of the plane, free flight, the impact of two point masses, and the ball
+from one impact to the next.
 """
 
 from __future__ import annotations
@@ -41,7 +41,6 @@ from juggleproof.proofs.paper.names import (
     derived_vector,
     energy,
     equals,
-    exists_some,
     f1,
     f2,
     flight,
@@ -68,39 +67,6 @@ from juggleproof.proofs.paper.states import (
 )
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.values import ShapeError, StateFunction, Vector
-
-# -------------------------------------------------------------------------------------------------
-# Section 2.1: what the table adds to the velocity at an impact.
-
-amplitude, omega, cosine, sine = reals("amplitude omega cosine sine")
-
-
-@claim(
-    "s2.1-proportionate",
-    "2.1",
-    "line 79",
-    parameters=(),
-    remark=Remark(
-        "The relative velocity at an impact is not in proportion to it: the ball's own velocity"
-        " does not grow with the vibration."
-    ),
-)
-def fastest_table_is_proportionate() -> list[Statement]:
-    """The greatest velocity of a table that moves by a sine is its amplitude times its angular
-    frequency: in proportion to either.
-    """
-    on_the_circle = [amplitude > 0, omega > 0, equal(cosine**2 + sine**2, 1)]
-    velocity = amplitude * omega * cosine
-    return [
-        always(velocity <= amplitude * omega, given=on_the_circle, label="bound"),
-        exists_some(
-            ["cosine", "sine"],
-            equal(velocity, amplitude * omega) & equal(cosine**2 + sine**2, 1),
-            given=on_the_circle[:2],
-            label="attained",
-        ),
-    ]
-
 
 # -------------------------------------------------------------------------------------------------
 # Section 2.2.1: the regions H, B1 and B2, the line between them, and the curve on which an impact
