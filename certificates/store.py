@@ -9,7 +9,7 @@ import os
 import re
 import tempfile
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from functools import lru_cache
+from functools import cache, lru_cache, partial
 from pathlib import Path
 
 from juggleproof.certificates import checker
@@ -174,6 +174,7 @@ def statement_file(
     """
     lines = defining_lines(definitions)
     known = held if isinstance(held, WrittenOut) and held.definitions == lines else None
+    short = cache(partial(short_line, definitions=definitions))  # claims share many lines
     blocks = [comment(title), *(["\n".join(lines)] if lines else [])]
     for heading, texts in chapters:
         if texts and heading:
@@ -184,7 +185,7 @@ def statement_file(
             if known is not None and known.get(name) == text:
                 blocks.append("\n".join(known.shortened[name]))
             else:
-                blocks.append("\n".join([first, *(short_line(row, definitions) for row in rows)]))
+                blocks.append("\n".join([first, *map(short, rows)]))
     return "\n\n".join(blocks) + "\n"
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, TypedDict, TypeVar, Union
+from typing import TYPE_CHECKING, TypedDict, TypeVar, Union, get_args
 
 from juggleproof.certificates.language import (
     AnyStatement,
@@ -35,7 +35,7 @@ Read = TypeVar("Read", bound=Callable[..., object])
 #
 # A claim is a function from its parsed print to statements.  What it returns is an assertion (all
 # its statements hold), readings (a sentence that can be read in several ways), an argument (steps
-# and a conclusion), or what follows from map rules.
+# and a conclusion), what follows from map rules, what a simulation shows, or why nothing is stated.
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,24 @@ class Following:
 
 
 REMARK = "remark."  # the prefix of the statements of a remark
-Body = Union[Assertion, Readings, Argument, Following]
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """What a simulation shows: figures with the seed that they come from, and no proof."""
+
+    figures: str
+
+
+@dataclass(frozen=True)
+class NotFormalised:
+    """A sentence that no statement of real arithmetic says, and why; it stays open."""
+
+    why: str
+
+
+NOT_FORMALISED = "not formalised: "  # begins the detail of such a verdict
+Body = Union[Assertion, Readings, Argument, Following, Simulated, NotFormalised]
 
 
 @dataclass(frozen=True)
@@ -209,23 +226,24 @@ class Claim:
 
 def as_body(returned: object, claim_id: str) -> Body:
     """What a claim function returned, as a body."""
-    if isinstance(returned, (Assertion, Readings, Argument, Following)):
-        return returned
+    if isinstance(returned, get_args(Body)):
+        body: Body = returned
+        return body
     if isinstance(returned, (Statement, Iterates, MapRule)):
         return Assertion((returned,))
     if isinstance(returned, Iterable) and not isinstance(returned, (str, Formula)):
         parts: list[AnyStatement] = []
         for item in returned:
-            body = item if isinstance(item, Statement) else as_body(item, claim_id)
-            if isinstance(body, Statement):
-                parts.append(body)
-            elif isinstance(body, Assertion):
-                parts += body.parts
+            part = item if isinstance(item, Statement) else as_body(item, claim_id)
+            if isinstance(part, Statement):
+                parts.append(part)
+            elif isinstance(part, Assertion):
+                parts += part.parts
         if parts:
             return Assertion(tuple(parts))
     raise ClaimError(
         f"{claim_id} returns {type(returned).__name__}; return always(...), a list of such,"
-        " Readings, Argument or Following"
+        " Readings, Argument, Following, Simulated or NotFormalised"
     )
 
 
@@ -245,6 +263,8 @@ def assertions(body: Body) -> list[tuple[str, Assertion]]:
         return [(f"{name}.", reading.assertion) for name, reading in body.of.items()]
     if isinstance(body, Following):
         return [("beside.", body.beside)] if body.beside else []
+    if isinstance(body, (Simulated, NotFormalised)):
+        return []
     steps = [(f"{name}.", assertion) for name, assertion in body.steps.items()]
     return steps + ([("conclusion.", body.conclusion)] if body.conclusion else [])
 
@@ -396,7 +416,7 @@ def claim_named(text: str, known: Collection[str]) -> str:
 # -------------------------------------------------------------------------------------------------
 # From the outcomes of statements, which the checker accepted, to the verdict on a print.
 
-VERDICTS = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
+VERDICTS = ("holds", "misprint", "false", "gap", "ambiguous", "simulated", "unknown")
 
 
 @dataclass(frozen=True)
@@ -453,6 +473,10 @@ def verdict_of(
             beside if beside != "holds" else rules,
             ("by " if rules == "holds" else "awaits ") + ", ".join(body.rests_on),
         )
+    if isinstance(body, Simulated):
+        return Verdict("simulated", body.figures)
+    if isinstance(body, NotFormalised):
+        return Verdict("unknown", NOT_FORMALISED + body.why)
     return _argument(body, word, by_rules(body.rests_on, outcomes))
 
 

@@ -161,7 +161,7 @@ def faults(results: Results, name: str) -> list[str]:
     changed = [] if change is None else [f"differs from the register: {change}"]
     if one is None:
         return [*changed, "the claim is gone from the sources"]
-    if one.verdict == "unknown":
+    if one.is_open:
         return [f"unknown: {one.detail or 'neither proved nor refuted'}", *changed]
     if results.own:
         return [] if one.verdict == "holds" else failing(one).splitlines()

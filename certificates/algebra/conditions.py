@@ -131,6 +131,25 @@ class Condition:
             self.ring, self.polys + other.polys, _join("and", [self.tree, moved(other.tree)])
         )
 
+    def negated(self) -> Condition:
+        """The negation; the opposites of the polynomials follow them."""
+        size = len(self.polys)
+
+        def turned(tree: Tree) -> Tree:
+            if isinstance(tree, bool):
+                return not tree
+            if isinstance(tree[0], int):
+                k, relation = tree
+                return {
+                    ">": (k + size, ">="),
+                    ">=": (k + size, ">"),
+                    "=": (k, "!="),
+                    "!=": (k, "="),
+                }[relation]
+            return ("or" if tree[0] == "and" else "and", [turned(part) for part in tree[1]])
+
+        return Condition(self.ring, [*self.polys, *(-p for p in self.polys)], turned(self.tree))
+
     def substituted(self, values: Mapping[str, fmpq]) -> Condition:
         """The condition with numbers in place of variables, folded."""
         place, ring = places(self.ring), self.ring

@@ -187,8 +187,8 @@ class Poly:
     ) -> None:
         # a degree beyond the limit would carry into the exponent of the next variable; work alone
         # does not bound memory, so neither the terms nor their coefficients grow without limit
-        if deg > MAX_DEGREE or bits > MAX_BITS or den.bit_length() > MAX_BITS:
-            raise Rejected(Kind.SIZE, f"degree {deg}, {max(bits, den.bit_length())} bits")
+        if deg > MAX_DEGREE or bits > MAX_BITS:
+            raise Rejected(Kind.SIZE, f"degree {deg}, {bits} bits")
         self.terms = terms
         self.den = den
         self.deg = deg

@@ -238,10 +238,10 @@ class Context:
                 upper *= c
                 lower *= value.den
                 # a long product of constants would grow unseen
-                require((upper * lower).bit_length() <= MAX_BITS, Kind.SIZE)
-        self.work.spend(1)
+                size = max(upper.bit_length(), lower.bit_length())
+                require(size <= MAX_BITS, Kind.SIZE, f"{size} bits")
         first = Poly({monomial: upper}, lower, degree, bits_of(upper), self.work)
-        return prod(others, start=first) if others else first
+        return prod(others, start=first)
 
     def polynomial(self, text: str) -> Poly:
         """The value of a term without quotients."""

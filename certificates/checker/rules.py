@@ -478,7 +478,9 @@ def check_sharp(
     state = State(Context(work=work))
     for parameter in over:
         state.context.declare(parameter, parameter in whole)
+    numbers = Context(state.context)
     for name, (tree, *ends) in statement.get("number"):
+        numbers.declare(name)  # fresh, though no formula names it
         poly = state.context.value(tree)
         low, high = (rational_value(state.context, end) for end in ends)
         (parameter,) = variables_of(state.context, poly)

@@ -18,6 +18,7 @@ from juggleproof.certificates.nodes import (
 )
 from juggleproof.certificates.search.closing import SQUARED, Hints, search_closing
 from juggleproof.certificates.search.points import search_values
+from juggleproof.certificates.search.ranges import Violation
 from juggleproof.certificates.states import State, proves, state_of
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 
@@ -141,10 +142,13 @@ def _search(
     ended: set[tuple[bool, int]] = (
         set()
     )  # attempts that were not cut short: more work would not help them
+    is_false: bool | None = None  # as Z3 sees it, asked where the first search for a proof fails
     try:
         for refutes, effort, share in attempts:
             if (refutes, effort) in ended or effort == SQUARED and statement.get("exists"):
                 continue  # in vain, or for goals that no terms make true
+            if not refutes and is_false:
+                continue
             part = budget.part(budget.left * share // 100)
             try:
                 if refutes:
@@ -161,6 +165,8 @@ def _search(
             ended.add((refutes, effort))
             if proof is not None:
                 return with_point(statement, proof, known, budget, roles)
+            if is_false is None:
+                is_false = Violation.of(statement, None, roles).absent_everywhere(budget) is False
     except Exhausted:
         pass
     reason = (

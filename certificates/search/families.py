@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from itertools import islice
 from math import lcm
 
-from flint import fmpq_mpoly
+from flint import fmpq, fmpq_mpoly
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.conditions import (
@@ -23,6 +23,9 @@ from juggleproof.certificates.language import End, SharpRange, bounds_of
 from juggleproof.certificates.nodes import Values, by_sign
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.lines import LineCover
+from juggleproof.certificates.search.models import ask
+from juggleproof.certificates.search.ranges import QUICK
+from juggleproof.certificates.search.samples import state_condition
 from juggleproof.certificates.search.scales import Normal
 from juggleproof.certificates.search.templates import TemplateSearch
 from juggleproof.certificates.search.terms import SPARE, Choice, Quotient, Sample
@@ -39,6 +42,9 @@ from juggleproof.certificates.work import Budget, Exhausted
 # -------------------------------------------------------------------------------------------------
 # Terms on all of a state: one choice of terms where it serves, and the state split by a sign where
 # it does not.
+
+
+ROUNDS = 3  # of choices, each with the points at which those before do not serve
 
 
 def cover(
@@ -62,30 +68,39 @@ def cover(
     normal = Normal(state, condition)
     condition = normal.condition(condition)
     base = normal.base([n for n in condition.ring.names() if n not in unknowns and n not in SPARE])
-    given = [normal.sample(sample) for sample in samples]
-    tried: list[Choice] = list(former)
-    if samples:
-        margins = margins_of(state, condition, normal)
-        search = TemplateSearch(
-            base,
-            given,
-            task.budget,
-            integers,
-            task.nodes,
-            None,
-            task.hints,
-            margins,
-            roles=task.roles,
-        )
-        tried += islice(search.search(condition, unknowns), task.tries)
-    else:
+    margins = margins_of(state, condition, normal)
+    if not samples:
         node = search_closing(state, task.known, task.budget, 1)
         if node is not None:
             return "empty", node
-    for choice in _shortest(tried):
-        values = confirmed(task, normal, state, choice, keys, samples)
-        if values is not None:
-            return values
+    for _ in range(ROUNDS):
+        given = [normal.sample(sample) for sample in samples]
+        tried: list[Choice] = list(former)
+        if samples:
+            search = TemplateSearch(
+                base,
+                given,
+                task.budget,
+                integers,
+                task.nodes,
+                None,
+                task.hints,
+                margins,
+                roles=task.roles,
+            )
+            tried += islice(search.search(condition, unknowns), task.tries)
+        failing: list[Sample] = []
+        for choice in _shortest(tried):
+            point = (
+                _failing_point(task, normal, state, condition, choice) if task.effort > 1 else None
+            )
+            values = confirmed(task, normal, state, choice, keys, samples) if not point else None
+            if values is not None:
+                return values
+            failing += [point] if point and point not in [*samples, *failing] else []
+        if not failing:
+            break
+        samples = [*samples, *failing]
     if depth <= 0 or len(samples) < 2:
         return None
     partial = TemplateSearch(
@@ -100,6 +115,24 @@ def cover(
             if values is not None:
                 return values
     return None
+
+
+def _failing_point(
+    task: Task, normal: Normal, state: State, condition: Condition, choice: Choice
+) -> Sample | None:
+    """A point of the state at which a choice of terms does not serve, where Z3 sees one."""
+    if choice.roots:
+        return None
+    for name, value in choice.values.items():
+        condition = condition.replaced(name, value.top, value.bottom)
+    inside = state_condition(state)
+    polys = [poly.project_to_context(condition.ring) for poly in inside.polys]
+    there = Condition(condition.ring, polys, inside.tree).conjoined(condition.negated())
+    there, integers = there.substituted(normal.scales), state.context.integers
+    model = ask(there, task.budget, integers, QUICK, model=True).model
+    point = {name: model.get(name, fmpq(1)) for name in state.context.index}
+    exact = {name: value for name, value in point.items() if isinstance(value, fmpq)}
+    return exact if model and len(exact) == len(point) else None
 
 
 def _split(

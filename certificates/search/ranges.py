@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
@@ -42,7 +42,7 @@ from juggleproof.certificates.search.candidates import FAVOURITE_PARAMETERS, sep
 from juggleproof.certificates.search.models import RESOURCES, ask
 from juggleproof.certificates.search.scales import with_scales
 from juggleproof.certificates.search.terms import ring_names
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, unfolded
 
 # -------------------------------------------------------------------------------------------------
 # Whole numbers that the hypotheses tie to a parameter, as floor and ceiling do: the pairs of both
@@ -371,11 +371,14 @@ class Violation:
     goal: Condition | None
     bound: tuple[str, ...]
     integers: tuple[str, ...]
+    verdicts: dict[fmpq, bool] = field(default_factory=dict)  # at rationals, as far as known
 
     @staticmethod
-    def of(statement: checker.Statement, domain: ast.expr, roles: Roles = NO_ROLES) -> Violation:
-        """The violations of a statement in a domain, scales being 1."""
-        unfolding = checker.Unfolding(statement, checker.Context(), [domain])
+    def of(
+        statement: checker.Statement, domain: ast.expr | None = None, roles: Roles = NO_ROLES
+    ) -> Violation:
+        """The violations of a statement, in a domain of a parameter if given, scales being 1."""
+        unfolding = unfolded(statement, None if domain is None else [domain])
         premises = list(unfolding.premises)
         ones = _ones(unfolding, roles)
         ring = ring_of(unfolding.context)
@@ -410,9 +413,23 @@ class Violation:
                 ("and", [(0, "="), (1, ">"), (2, ">")]),
             )
             condition = condition.conjoined(here)
+        elif at in self.verdicts:
+            return self.verdicts[at]
         else:
             condition = condition.substituted({parameter: at})
             goal = goal.substituted({parameter: at}) if goal is not None else None
+        absent = self._absent(condition, goal, budget, resources)
+        if absent is not None and isinstance(at, fmpq):
+            self.verdicts[at] = absent
+        return absent
+
+    def absent_everywhere(self, budget: Budget) -> bool | None:
+        """Z3's verdict within little work, whatever the parameters are."""
+        return self._absent(self.condition, self.goal, budget, QUICK)
+
+    def _absent(
+        self, condition: Condition, goal: Condition | None, budget: Budget, resources: int
+    ) -> bool | None:
         unreachable = (goal, self.bound) if goal is not None else None
         verdict = ask(condition, budget, self.integers, resources, unreachable=unreachable).verdict
         return {"sat": False, "unsat": True}.get(verdict)
@@ -471,7 +488,8 @@ class Lines:
         numbers = sorted([*numbers, *(n for n in more if n not in numbers)])
         separate(numbers)
         self.inner = [n for n in numbers if allowed.univariate_truth(parameter, n, cells)]
-        samples = _cell_samples(numbers, len(self.inner) + 1, allowed, parameter, cells)
+        asked = [value for violation in violations for value in violation.verdicts]
+        samples = _cell_samples(numbers, len(self.inner) + 1, allowed, parameter, cells, asked)
         if samples is None:
             raise Undecided("the domain is not one interval")
         self.each = [self._verdict(violation, samples) for violation in violations]
@@ -546,8 +564,11 @@ def _cell_samples(
     allowed: Condition,
     parameter: str,
     cells: Mapping[int, fmpq_poly],
+    asked: Sequence[fmpq] = (),
 ) -> list[fmpq] | None:
-    """A simple rational in every open cell of the domain, which has to be one interval."""
+    """A simple rational in every open cell of the domain, which has to be one interval; one at
+    which Z3 was asked before where there is one.
+    """
     borders = [(left._high, right._low) for left, right in zip(numbers, numbers[1:])]
     if numbers:
         borders = [
@@ -557,7 +578,7 @@ def _cell_samples(
         ]
     samples = []
     for bottom, top in borders or [(fmpq(-2), fmpq(2))]:
-        nice = [v for v in FAVOURITE_PARAMETERS if bottom < v < top]
+        nice = [v for v in (*asked, *FAVOURITE_PARAMETERS) if bottom < v < top]
         value = nice[0] if nice else simplest_between(bottom, top)
         if allowed.univariate_truth(parameter, value, cells):
             samples.append(value)

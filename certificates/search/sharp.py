@@ -103,7 +103,8 @@ def proofs_inside(
     budget: Budget,
     roles: Roles,
 ) -> tuple[dict[str, Proof] | None, str]:
-    """({name: proof}, "") where the condition holds, or (None, which proof is missing).
+    """({name: proof}, "") where the condition holds, or (None, which proof is missing); it is left
+    to the caller to have the proofs checked.
 
     Raises Exhausted where the budget ends.
     """
@@ -119,6 +120,7 @@ def proofs_inside(
                     budget.part(part),
                     sharp=[domain, condition],
                     effort=effort,
+                    confirm=False,
                     roles=roles,
                 )
             except Exhausted:

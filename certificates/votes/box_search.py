@@ -23,7 +23,7 @@ from juggleproof.certificates.algebra.intervals import (
     widest,
 )
 from juggleproof.certificates.algebra.polynomials import value_at
-from juggleproof.certificates.votes.branches import Region, regions
+from juggleproof.certificates.votes.branches import regions
 from juggleproof.certificates.votes.questions import Atom, Formula, Question, atom, join
 from juggleproof.certificates.votes.vote import Enclosure
 
@@ -383,6 +383,6 @@ def _attained(
     """The least value of the polynomial at a few exact points of the region, with its point; None
     where none is met.
     """
-    parts: list[Region] = regions(names, assumed) or []
+    parts = regions(names, assumed) or ()
     met = [(value_at(poly, point), point) for part in parts for point in part.samples(assumed)]
     return min(met, key=lambda pair: pair[0]) if met else None

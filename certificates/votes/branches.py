@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from itertools import islice, product
 from math import prod
 
@@ -273,7 +274,8 @@ def holds_at(formula: Formula, point: Sequence[Fraction]) -> bool:
     return truth(formula, lambda fact: fact.holds_at(point)) is True
 
 
-def regions(names: tuple[str, ...], formula: Formula) -> list[Region] | None:
+@lru_cache(maxsize=16)  # one vote asks about the same part of the space again
+def regions(names: tuple[str, ...], formula: Formula) -> Sequence[Region] | None:
     """The branches of the formula that are not seen to be empty at once; None where there are too
     many.
     """
@@ -281,7 +283,7 @@ def regions(names: tuple[str, ...], formula: Formula) -> list[Region] | None:
     if parts is None:
         return None
     candidates = (_region(names, facts) for facts in parts)
-    return [region for region in candidates if region is not None]
+    return tuple(region for region in candidates if region is not None)
 
 
 def _region(names: tuple[str, ...], facts: Sequence[Atom]) -> Region | None:

@@ -3,9 +3,13 @@
    Defined:  iterate, within (a ball of a weighted sup norm), converges, stage, last_stage.
    Proved:   descent      a falling rank leads every orbit into the last of finitely many stages, and says when;
              contraction  a map that contracts a weighted sup norm around a point does so geometrically;
+             fixed_point  its point is a fixed point;
              weighted_stability, stability   and is Lyapunov stable there, in the weighted and in the plain sup norm;
              approach, convergence           both together: an explicit bound, and the limit of every orbit;
-             periodic_orbit_stays_away       a periodic orbit through another point does not converge.
+             periodic_orbit_stays_away       a periodic orbit through another point does not converge;
+             exactly      where one of both holds, the point is stable and attracts exactly where the first does;
+             closed_form  terms that begin with the state and go on by the map are its iterates;
+             pieces_make_a_map   pieces that cover the space, and do not overlap, make one map of it into itself.
    Coordinates are indexed by any type; Lists.v says the same for states that are lists of reals.
    No rule here uses excluded middle: a state "is in a stage or loses rank" stands where "in no stage" is meant. *)
 
@@ -123,6 +127,14 @@ Section Contraction.
       apply Rmult_le_pos; [now apply pow_le|exact positive].
   Qed.
 
+  Theorem fixed_point s : on s -> (forall j, coordinate j s = point j) -> forall j, coordinate j (f s) = point j.
+  Proof.
+    intros inside there j. pose proof (contracts 0 s (Rle_refl 0) inside) as close. unfold within in close.
+    specialize (close ltac:(intro i; rewrite there, Rminus_diag_eq, Rabs_R0 by reflexivity; lra) j).
+    rewrite Rmult_0_r, Rmult_0_l in close. pose proof (Rabs_pos (coordinate j (f s) - point j)).
+    destruct (Req_dec (coordinate j (f s) - point j) 0) as [zero|other]; [lra|]. apply Rabs_pos_lt in other. lra.
+  Qed.
+
   Variables (space : State -> Prop) (radius lowest highest : R).
   Hypothesis rate_below_1 : rate < 1.
   Hypothesis lowest_positive : 0 < lowest.
@@ -222,3 +234,43 @@ Proof.
   destruct (tends _ gap) as [N near]. specialize (near (period * N)%nat).
   rewrite iterate_periodic in near by exact back. specialize (near ltac:(nia) j). lra.
 Qed.
+
+(* For one value of the parameters: inside the domain of an attraction, or in that of an escape, from the same point. *)
+Theorem exactly {State Index : Type} (f : State -> State) (coordinate : Index -> State -> R) (point other : Index -> R)
+    (space : State -> Prop) (period : nat) (s : State) (inside outside stable : Prop) :
+  inside \/ outside -> (inside -> stable) -> (inside -> forall t, space t -> converges f coordinate point t) ->
+  (outside -> (0 < period)%nat /\ space s /\ iterate f period s = s /\ exists j, coordinate j s <> other j) ->
+  (outside -> forall j, other j = point j) ->
+  inside <-> stable /\ forall t, space t -> converges f coordinate point t.
+Proof.
+  intros covers stays attracts escapes same. split; [auto|]. intros [_ all]. destruct covers as [yes|out]; [exact yes|exfalso].
+  destruct (escapes out) as (positive & there & back & j & apart). rewrite (same out j) in apart.
+  exact (periodic_orbit_stays_away f coordinate point period s j positive back apart (all s there)).
+Qed.
+
+Theorem closed_form {State : Type} (f : State -> State) (after : nat -> State -> State) :
+  (forall s, after O s = s) -> (forall k s, f (after k s) = after (S k) s) -> forall k s, iterate f k s = after k s.
+Proof. intros start step k s. induction k as [|k IH]; cbn; [now rewrite start|]. now rewrite IH. Qed.
+
+Section Pieces.
+  Context {State : Type}.
+  Variables (space : State -> Prop) (guard : nat -> State -> Prop) (image : nat -> State -> State) (count : nat).
+  Hypothesis decided : forall k s, {guard k s} + {~ guard k s}.
+  Hypothesis covers : forall s, space s -> exists k, (k < count)%nat /\ guard k s.
+  Hypothesis apart : forall i k s, (k < i < count)%nat -> space s -> guard i s -> ~ guard k s.
+  Hypothesis stays : forall k s, (k < count)%nat -> space s -> guard k s -> space (image k s).
+
+  Fixpoint piecewise (n : nat) (s : State) : State :=
+    match n with O => s | S k => if decided k s then image k s else piecewise k s end.
+
+  Theorem pieces_make_a_map :
+    (forall k s, (k < count)%nat -> space s -> guard k s -> piecewise count s = image k s) /\ (forall s, space s -> space (piecewise count s)).
+  Proof.
+    assert (given : forall n k s, (n <= count)%nat -> (k < n)%nat -> space s -> guard k s -> piecewise n s = image k s).
+    { induction n as [|n IH]; intros k s less before inside here; [lia|]. cbn. destruct (decided n s) as [yes|no].
+      - destruct (Nat.eq_dec k n) as [->|other]; [reflexivity|]. destruct (apart n k s); [lia|assumption..].
+      - apply IH; try assumption; [lia|]. destruct (Nat.eq_dec k n) as [->|]; [contradiction|lia]. }
+    split; [intros k s before; now apply given|]. intros s inside. destruct (covers s inside) as (k & before & here).
+    rewrite (given count k s); auto.
+  Qed.
+End Pieces.

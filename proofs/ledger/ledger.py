@@ -20,6 +20,7 @@ from pathlib import Path
 REASONS = {
     "heading": "names a section, a proof or a part of a table",
     "names": "gives or recalls a name or notation, or is a formula that only names a thing",
+    "background": "tells of factories, machines or the work of others, and nothing of this juggler",
     "narrative": "says what the text does or hopes, or judges without stating anything exact",
     "modelling-assumption": "sets up the model and cannot follow from anything",
     "figure-or-table": "says what a figure or table shows",
@@ -66,25 +67,16 @@ UNPRINTED = {
     ),
     "theorem-count": "which readings of (26) and of the count of impacts hold for which alpha",
     "part-products": "the lemma of the claims about a corner's impact",
-    "part-corner": (
-        "what an impulse at a corner of the part of section 2.1 does, on which its simulation rests"
-    ),
     "part-rectangle": "how much friction the simulation of the part may have",
-    **{
-        f"part-{mode}": "a mode of a corner's impact: its impulse, and what it guarantees"
-        for mode in _MODES
-    },
     **{f"part-{mode}-energy": "that an impact in this mode gains no energy" for mode in _MODES},
-    "part-modes-cover": "that the modes of a corner's impact leave nothing out",
-    "part-modes-agree": "that the modes of a corner's impact do not contradict one another",
     "part-at-rest": "the impact of a corner that does not slide at first",
     "part-newton": "why the simulation of the part has Poisson's restitution and not Newton's",
 }
 
 
 # -------------------------------------------------------------------------------------------------
-# Rebuild, from the text of the paper, the ordered list of all it prints in sections 2.2 to 4.4 and
-# the appendices.
+# Rebuild, from the text of the paper, the ordered list of all it prints but its references; what
+# stands before section 1 (title, abstract, key words) is section 0.
 #
 # An item is a display, an inline formula or a piece of prose: a sentence, a sentence of a footnote,
 # a caption, a table row. A sentence that a display, a page turn or a footnote interrupts gives one
@@ -105,7 +97,6 @@ KINDS = {
     "caption": "c",
     "tablerow": "t",
 }
-SCOPE = ("2.2", "2.3", "3", "4", "A", "B")
 
 NUMBERED = re.compile(r"\s*(?:APPENDIX )?(\d(?:\.\d){0,2}|[AB](?:\.\d){0,2})\.\s+(?=\S)")
 NUMBER_AT_THE_END = re.compile(
@@ -113,8 +104,8 @@ NUMBER_AT_THE_END = re.compile(
 )  # the transcription puts one heading's number after its words
 # What opens or closes a section without a number: section 4.2 has lost its heading.
 UNNUMBERED = {re.compile(r"\s*References\s*$"): "", re.compile(r"\s*Proposition 1\."): "4.2"}
-CAPTION = re.compile(r"\s*(?:Figure \d+ (?=[A-Z#\u0370-\u03ff])|Table II )")
-FOOTNOTE = re.compile(r"\s*(?:[⁰¹²³⁴-⁹]+|\$\^\{\^\{\d+\}\}\$)\s")
+CAPTION = re.compile(r"\s*(?:Figure \d+ (?=[A-Z#\u0370-\u03ff])|Table II? (?=[A-Z]))")
+FOOTNOTE = re.compile(r"\s*(?:[⁰¹²³⁴-⁹]+|\$\^\{\^\{\d+\}\}\$)\s*")
 NOT_PROSE = re.compile(r"\s*(?:\(\d+\))?\s*[.,]?\s*$")
 BLOCK = re.compile(r"\$\$.*?\$\$|(?:(?!\$\$)[^\n])+", re.DOTALL)
 INLINE = re.compile(r"\$(.+?)\$")
@@ -171,7 +162,7 @@ def _pieces(paper: str) -> Iterator[tuple[str, int, str, str]]:
         elif not NOT_PROSE.match(block):
             kind = _kind_of_prose(block)
             for sentence in _sentences(
-                FOOTNOTE.sub("", block) if kind == "note" else block, whole=kind == "tablerow"
+                FOOTNOTE.sub("", block, 1) if kind == "note" else block, whole=kind == "tablerow"
             ):
                 yield section, line, kind, sentence
                 for formula in INLINE.finditer(sentence):
@@ -180,19 +171,19 @@ def _pieces(paper: str) -> Iterator[tuple[str, int, str, str]]:
 
 def _blocks(paper: str) -> Iterator[tuple[str, int, str]]:
     """Section, first line and text of every display and of every line of prose between displays,
-    within the scope.
+    but for the references.
     """
     if paper.count("$$") % 2:
         raise ValueError(
             f"the paper holds {paper.count('$$')} double dollars: some display is never closed"
         )
-    section, line, counted = "", 1, 0
+    section, line, counted = "0", 1, 0
     for found in BLOCK.finditer(paper):
         block, start = found[0], found.start()
         line, counted = line + paper.count("\n", counted, start), start
         if not block.startswith("$$"):
             section, block = _section_opened_by(block, section)
-        if section.startswith(SCOPE) and block.strip():
+        if section and block.strip():
             yield section, line, block
 
 

@@ -41,6 +41,7 @@ from juggleproof.proofs.paper.names import (
     derived_vector,
     energy,
     equals,
+    exists_some,
     f1,
     f2,
     flight,
@@ -526,3 +527,12 @@ def next_state_by_impact_and_flight() -> list[Statement]:
             label="twice",
         ),
     ]
+
+
+@claim("s2.3-any-effect", "2.3", "line 207")
+def every_effect_of_the_table_is_a_control() -> Statement:
+    """Whatever velocity an impact leaves the ball with, and however long it then flies, some table
+    velocity u_2 has that effect, so that the pair of both describes it.
+    """
+    step = flight(u1)(collide(Vector((rho, u2)))(ball))
+    return exists_some(["u2"], equals(step, just_before_the_next))

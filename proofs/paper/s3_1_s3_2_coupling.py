@@ -16,6 +16,7 @@ from juggleproof.certificates.language import (
     real,
     reals,
 )
+from juggleproof.proofs.claims import NotFormalised
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -56,6 +57,7 @@ from juggleproof.proofs.paper.names import (
     vector,
 )
 from juggleproof.proofs.paper.regions import pieces
+from juggleproof.proofs.paper.s0_s2_1_setting import CLOSED_FORM
 from juggleproof.proofs.paper.states import is_the_period, strikes_from_region
 from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
@@ -76,6 +78,12 @@ def time_to_collision_is_rational() -> Statement:
     polynomials gives it.
     """
     return always(iff(meet(t), equal(t, collision_time(b))), given=[different(v, r)])
+
+
+@claim("s3.0-sine", "3", "line 220", parameters=())
+def no_closed_form_for_a_table_that_moves_as_a_sine() -> NotFormalised:
+    """Where the table moves as a sine, no closed form gives the time of collision."""
+    return NotFormalised(CLOSED_FORM)
 
 
 @claim("s3.0-velocity-jumps", "3", "line 220")

@@ -168,6 +168,18 @@ def one_impact_in_k_periods() -> list[Statement]:
     ]
 
 
+@claim("s3.5.1-two-conditions", "3.5.1", "line 386")
+def two_conditions_make_the_orbit_of_k_periods() -> Statement:
+    """A state whose impact comes within the period comes back after K periods exactly if the impact
+    leaves the ball so fast that its flight lasts K periods, and turns its speed round.
+    """
+    before, after = speed(ball_at(t)), speed(struck(b, t))
+    back = equal(height(ball_at(K * T, struck(b, t))), height(struck(b, t)))
+    return always_integer(
+        iff(comes_back(K), back & equal(after, -before)), given=[strikes_from(b, t)]
+    )
+
+
 @claim("s3.5.1-tf", "3.5.1", "line 386", printed=r"t_f = 2\beta/\gamma")
 def time_of_flight(printed: Printed) -> Statement:
     """A ball is back at the height that it left after this time, and at no other time but that of

@@ -7,7 +7,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from juggleproof.certificates.language import Formula, Statement, different, equal, real, term
-from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark
+from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark, Simulated
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
@@ -59,6 +59,7 @@ from juggleproof.proofs.paper.regions import (
 )
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.simulations import HEIGHTS, SPEEDS, figures
 
 tau, t_R = real("tau"), real("t_R")
 
@@ -429,3 +430,21 @@ def greatest_gain_does_not_lead_out() -> list[Statement]:
 def region_is_attracting_and_invariant() -> Following:
     """R is attracting and f maps it into itself."""
     return Following(ATTRACTION, beside=stays())
+
+
+@claim("s4.2-typically-shorter", "4.2", "line 492", parameters=())
+def orbits_reach_the_region_sooner_than_the_bound() -> Simulated:
+    """Orbits from outside R are typically in R much sooner than t_R; typical are states drawn from
+    a box.
+    """
+    kept = figures()
+    rows = "; ".join(
+        f"alpha = {one['alpha']}: median {one['median']:g}, greatest {one['greatest']:g} of"
+        f" {one['starts']} starts"
+        for one in kept["region"]
+    )
+    (low, high), (slow, fast) = HEIGHTS, SPEEDS
+    return Simulated(
+        f"time in parts of t_R: {rows}; uniform in {low} < x < {high}, {slow} < w < {fast}, seed"
+        f" {kept['seed']}"
+    )

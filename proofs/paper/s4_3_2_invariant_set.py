@@ -394,3 +394,15 @@ def fixed_point_attracts_the_band() -> Following:
 def fixed_point_is_a_global_attractor() -> Following:
     """e_1 is stable, and every orbit on H tends to it."""
     return Following(STABILITY, is_conclusion=True)
+
+
+# -------------------------------------------------------------------------------------------------
+# Section 5: what the conclusion says was found.
+
+
+@claim("s5-range", "5", "line 583")
+def a_range_of_restitution_makes_the_orbit_globally_stable() -> Following:
+    """For a range of the restitution the periodic orbit of one impact a period is globally
+    asymptotically stable.
+    """
+    return Following(STABILITY)

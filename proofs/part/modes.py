@@ -11,6 +11,7 @@ from itertools import combinations
 from juggleproof.certificates.language import (
     Formula,
     Statement,
+    Term,
     conjunction,
     disjunction,
     equal,
@@ -460,8 +461,15 @@ def a_corner_at_rest_sticks_or_slides_as_friction_lets_it() -> list[Statement]:
     ]
 
 
+def is_only(mode: str) -> Formula:
+    """An impact of this mode and of no other."""
+    others = [conjunction(conditions_of(one)) for one in MODES if one != mode]
+    return conjunction([*conditions_of(mode), *(~other for other in others)])
+
+
 # -------------------------------------------------------------------------------------------------
-# Why restitution is Poisson's: Newton's, C = -e C0 after the impact, can raise the energy.
+# One corner has impacts in all five modes; and Newton's restitution, C = -e C0 after an impact, can
+# raise its energy, which is why restitution is Poisson's.
 
 CORNER = {
     "x_c": Fraction(-2),
@@ -470,12 +478,42 @@ CORNER = {
 }  # half-sides 1 and 2; it lies on a longer side
 
 
+def numbers_of_the_corner() -> dict[str, Term]:
+    """B1, B2 and B3 of this corner."""
+    return {name: term(value_of(value, CORNER)) for name, value in COEFFICIENTS.items()}
+
+
+@claim("s2.1-five-modes", "2.1", "line 81", parameters=())
+def five_modes_that_differ_and_depend_on_the_motion() -> list[Statement]:
+    """Each of the five modes is that of some impact, at a corner of the 1 by 2 rectangle, that no
+    other mode describes; and with the same e and mu there are two, by the motion alone.
+    """
+    impact = [DIRECTION, SLIDES, NO_JAM, APPROACH, FRICTION, *RESTITUTION]
+    names, again = ["sigma", "e", "mu", "S0", "C0"], real("S0_again")
+    words_here = words("", **numbers_of_the_corner())
+    sticks = [
+        substitute(one, {"S0": again}) for one in (SLIDES, is_only("sticking-in-compression"))
+    ]
+    return [
+        *(
+            exists_some(names, is_only(mode), within=impact, label=mode, vocabulary=words_here)
+            for mode in MODES
+        ),
+        exists_some(
+            [*names, "S0_again"],
+            conjunction([is_only("sliding"), *sticks]),
+            within=impact,
+            label="by-the-motion",
+            vocabulary=words_here,
+        ),
+    ]
+
+
 @claim("part-newton", "part", "restitution", parameters=())
 def newtons_restitution_can_raise_the_energy() -> Statement:
     """A corner of the 1 by 2 rectangle, at e <= 1, can stick in compression in such a way that it
     would gain energy by Newton's restitution.
     """
-    numbers = {name: term(value_of(value, CORNER)) for name, value in COEFFICIENTS.items()}
 
     def to_the_right(formula: Formula) -> Formula:
         there: Formula = substitute(formula, {"sigma": 1})
@@ -486,5 +524,5 @@ def newtons_restitution_can_raise_the_energy() -> Statement:
         ["e", "mu", "S0", "C0"],
         to_the_right(work_of(of("newton_impulse")) > 0),
         within=[to_the_right(conjunction(sticks))],
-        vocabulary=words("", **numbers),
+        vocabulary=words("", **numbers_of_the_corner()),
     )

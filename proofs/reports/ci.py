@@ -35,8 +35,8 @@ def badge(contents: Contents | Results) -> bytes:
 
 
 def message_of(results: Results) -> tuple[str, str]:
-    """The message and its colour: red where the theorem is not proved, something is unknown or
-    rejected, or a verdict is not as registered.
+    """The message and its colour: red where the theorem is not proved, something that is stated is
+    unknown or rejected, or a verdict is not as registered.
     """
     count, unknown = len(results.claims), results.verdicts()["unknown"]
     claims = f"{count} claim{'' if count == 1 else 's'}, {unknown} unknown"
@@ -51,7 +51,8 @@ def message_of(results: Results) -> tuple[str, str]:
         words.append(f"{len(results.changes)} changed")
     if results.rejected:
         words.append(f"{len(results.rejected)} rejected")
-    return ", ".join(words), BAD if results.exit or unknown or not results.is_proved else GOOD
+    is_open = any(one.is_open for one in results.claims)
+    return ", ".join(words), BAD if results.exit or is_open or not results.is_proved else GOOD
 
 
 # -------------------------------------------------------------------------------------------------
@@ -136,7 +137,7 @@ def _failure(one: Result, change: Change | None, results: Results) -> tuple[str,
         if change is None
         else f"{'new' if change.before is None else 'changed'} since the register: {change}"
     )
-    if one.verdict == "unknown":
+    if one.is_open:
         return "error", "unknown: " + (one.detail or "neither proved nor refuted") + (
             f"; {changed}" if changed else ""
         )
@@ -305,7 +306,7 @@ def _many(count: int, thing: str) -> str:
 
 
 def _unknown(results: Results) -> list[str]:
-    open_claims = [one for one in results.claims if one.verdict == "unknown"]
+    open_claims = [one for one in results.claims if one.is_open]
     if not open_claims:
         return []
     return [

@@ -37,7 +37,8 @@ VERDICTS = {  # word -> symbol, and what it means
     "false": ("✗", "refuted; where a true assertion nearby is known, it stands beside"),
     "gap": ("⋯", "a step of the argument is refuted; the conclusion may stand by another route"),
     "ambiguous": ("⇄", "can be read in several ways, and not all of them are true"),
-    "unknown": ("?", "open: the counted work ran out, which says nothing"),
+    "simulated": ("≈", "what a simulation shows, with its figures; nothing is proved"),
+    "unknown": ("?", "open: not settled, or not stated, which says nothing"),
 }
 KINDS = {  # kind of rule -> what it says, in a few words
     "exactly": "stable and attracting for these alpha only",

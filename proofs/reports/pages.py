@@ -1,7 +1,7 @@
-"""The generated Markdown: two lines of README.md, the table of docs/results.md and the entries of
-docs/errata.md, each between two comments of its file.
+"""The generated Markdown: two lines of README.md, the table of docs/results.md, the entries of
+docs/errata.md and the tables of docs/remarks.md, each between two comments of its file.
 
-All of it is made from the register and the store, and depends on nothing else.
+All of it is made from the register, the store and the ledger, and depends on nothing else.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.proofs.claims import VERDICTS, Claim
 from juggleproof.proofs.judgement import Finding
 from juggleproof.proofs.ledger.places import place_of
+from juggleproof.proofs.ledger.remarks import remarks
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports import errata
@@ -157,6 +158,7 @@ PAGES: Mapping[str, Callable[[], str]] = {
     "README.md": summary,
     "docs/results.md": results,
     "docs/errata.md": printed_wrongly,
+    "docs/remarks.md": remarks,
 }
 
 

@@ -13,13 +13,16 @@ from rich.table import Table
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import Store
 from juggleproof.proofs.claims import (
+    NOT_FORMALISED,
     VERDICTS,
     Argument,
     Assertion,
     Body,
     Claim,
     Following,
+    NotFormalised,
     Readings,
+    Simulated,
 )
 from juggleproof.proofs.judgement import Correction, Judgement
 from juggleproof.proofs.register import Change, Register, differences, registered
@@ -45,6 +48,7 @@ COLOURS = {
     "false": "red",
     "gap": "magenta",
     "ambiguous": "cyan",
+    "simulated": "blue",
     "unknown": "bold red",
 }
 
@@ -113,6 +117,10 @@ def reading_of(body: Body) -> str:
             + ", ".join(body.steps)
             + (f"; rescued by {body.proved_by}" if body.proved_by else "")
         )
+    if isinstance(body, Simulated):
+        return "what a simulation shows"
+    if isinstance(body, NotFormalised):
+        return "no statement of real arithmetic"
     raise ClaimError("a body of unknown kind")
 
 
@@ -169,8 +177,7 @@ def _many(count: int, thing: str) -> str:
 
 def summary(judgements: Sequence[Judgement]) -> str:
     """Counts of claims by verdict, of statements by outcome, and of decided votes by route."""
-    words = ("holds", "misprint", "false", "gap", "ambiguous", "unknown")
-    verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in words]
+    verdicts = [f"{sum(j.verdict.word == word for j in judgements)} {word}" for word in VERDICTS]
     outcomes = [o for j in judgements for o in j.outcomes.values()]
     counted = ", ".join(
         f"{outcomes.count(word)} {word}" for word in ("certified", "refuted", "unknown")
@@ -250,6 +257,11 @@ class Result:
     wrong: tuple[str, ...]
     group: str
     statements: tuple[Stated, ...]
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is stated and not settled."""
+        return self.verdict == "unknown" and not self.detail.startswith(NOT_FORMALISED)
 
     def registered(self) -> dict[str, str]:
         """What the register keeps of it."""
@@ -347,7 +359,7 @@ def results_of_run(
             group=group_of(claim, entries, findings),
             wrong=(
                 ()
-                if one.verdict in ("holds", "unknown")
+                if one.verdict in ("holds", "simulated", "unknown")
                 else tuple(
                     what_is_wrong(entries[one.id], findings[one.id]["sharp"], passages_of(claim))
                 )

@@ -92,15 +92,31 @@ def test_others_use_its_public_names_only_and_change_nothing_holds() -> None:
     assert len(users) > 20  # else nothing was looked at
 
 
-def test_its_states_and_rules_are_private_holds() -> None:
+PARTS = {"State", "close", "find", "prove", "verdict"}  # of a check
+
+
+def parts_used(tree: ast.Module) -> set[str]:
+    """The parts of a check that a file asks for."""
+    return {
+        node.attr
+        for node in with_examples(tree)
+        if isinstance(node, ast.Attribute) and ast.unparse(node) in {f"checker.{x}" for x in PARTS}
+    }
+
+
+def test_its_states_and_rules_are_asked_for_in_one_place_holds() -> None:
     inside = {
         node.name
         for node in tree_of(ROOT / FOLDER / "rules.py").body
         if isinstance(node, (ast.FunctionDef, ast.ClassDef))
     }
     assert {"State", "state_of", "close", "find", "prove", "adjoin", "check_sharp"} <= inside
-    assert not inside & set(checker.__all__)
+    assert inside & set(checker.__all__) == PARTS - {"verdict"}
     assert not {"settle", "ORBIT_RULES"} & set(checker.__all__)
+    users = {str(path.relative_to(ROOT)): parts_used(tree_of(path)) for path in others()}
+    assert {path: parts for path, parts in users.items() if parts} == {
+        "certificates/states.py": PARTS
+    }
 
 
 IMPORT = "from juggleproof.certificates import checker\n"
@@ -109,10 +125,10 @@ IMPORT = "from juggleproof.certificates import checker\n"
 @pytest.mark.parametrize(
     "text",
     [
-        IMPORT + "checker.State(context)",
+        IMPORT + "checker.state_of(unfolding)",
         "from juggleproof.certificates import checker as c\nc.rules.close(state, node, known)",
-        IMPORT + 'def f():\n    """\n    >>> checker.prove(statement, proof, {})\n    """',
-        "from juggleproof.certificates.checker import State",
+        IMPORT + 'def f():\n    """\n    >>> checker.check_sharp(statement, proof, {})\n    """',
+        "from juggleproof.certificates.checker import adjoin",
         "from juggleproof.certificates.checker.rules import close",
         "import juggleproof.certificates.checker.rules",
         IMPORT + "checker.check_one = print",

@@ -162,7 +162,8 @@ NO_REGISTERS = {
     "not text": ("\udcff", "not a register (UnicodeDecodeError)"),
     "an unknown word": (
         '{"eq-1": {"verdict": "true"}}',
-        'eq-1: "true" is no verdict; write one of holds, misprint, false, gap, ambiguous, unknown',
+        'eq-1: "true" is no verdict; write one of holds, misprint, false, gap, ambiguous,'
+        " simulated, unknown",
     ),
     "no verdict": ('{"eq-1": {"sharp": "nowhere"}}', "eq-1: no verdict; add"),
     "a verdict that is a list": ('{"eq-1": {"verdict": []}}', "eq-1: [] is no verdict"),

@@ -361,10 +361,11 @@ class Scaling:
 
     def largest(self, poly: fmpz_mpoly) -> Weight:
         """The least weight to which a lowered polynomial can be lifted."""
-        parts = [self.of_monomial(monomial) for monomial in poly.monoms()] or [
-            (0,) * len(self.scales)
-        ]
-        return tuple(map(max, zip(*parts)))
+        monomials = poly.monoms()
+        return tuple(
+            max((int(sum(map(mul, monomial, weights))) for monomial in monomials), default=0)
+            for weights in self.of_scale
+        )
 
     def lift(self, poly: fmpz_mpoly, weight: Weight) -> fmpz_mpoly:
         """The homogeneous polynomial of this weight which lowers to the given one."""

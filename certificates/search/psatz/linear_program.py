@@ -150,9 +150,10 @@ def assemble(program: Program, budget: Budget) -> Floats | None:
     """
     columns, values = program.columns, np.concatenate(program.values)
     keys, inverse = np.unique(np.concatenate(program.keys), return_inverse=True)
-    budget.spend(20 + len(values) // 4 + len(keys) * columns // 50)
+    budget.spend(20 + len(values) // 4)
     if len(keys) * columns > MOST_ENTRIES or columns > len(NOISE):
         return None
+    budget.spend(len(keys) * columns // 50)
     places = np.concatenate(program.places)
     if program.rewritings:
         try:

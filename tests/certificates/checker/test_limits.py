@@ -64,6 +64,8 @@ NODES: dict[str, Json] = {
     "huge coefficients": summand(
         power_sum(f"{BIG}*x") + "*" + power_sum(f"{BIG}*y") + "*" + power_sum(f"{BIG}*z")
     ),
+    "a product of numbers without end": summand("*".join(["2^4000"] * 30_000)),
+    "a product of fractions without end": summand("*".join(["((1/3)^2500)"] * 20_000)),
     "a huge number": summand(f"{BIG}^4000"),
     "many summands after a long one": [
         "psatz",

@@ -4,6 +4,8 @@ reason that names them.
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 
 from juggleproof.certificates import checker
@@ -99,3 +101,26 @@ def test_every_case_has_a_name_of_its_own() -> None:
     for module in TABLES.values():
         defects = [case.defect for case in [*module.ACCEPTED, *module.REJECTED]]
         assert len(set(defects)) == len(defects)
+
+
+def test_a_polynomial_has_its_terms_and_bounds_on_them() -> None:
+    context = checker.Context()
+    context.declare("x")
+    context.declare("y")
+    x, y = context.values["x"], context.values["y"]
+    third = context.number(Fraction(-5, 3))
+    shown = [
+        (context.show(p), p.deg, p.bits)
+        for p in (x, third, context.number(0), x + y, x - third, third * x * y, (x + y) ** 2, x**3)
+    ]
+    # deg: of a product the sum; bits: 2^bits is at least the sum of the absolute coefficients
+    assert shown == [
+        ("x", 1, 0),
+        ("-5/3", 0, 3),
+        ("0", 0, 0),
+        ("y + x", 1, 1),
+        ("x + 5/3", 1, 4),
+        ("-5/3*x*y", 2, 3),
+        ("y^2 + 2*x*y + x^2", 2, 2),
+        ("x^3", 3, 0),
+    ]

@@ -110,6 +110,11 @@ def state_of_40(work: Work) -> State:
 COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] = {
     "a long summand first": (long, lambda p: p.plus(checker.variable(0, p.work)), 100),
     "a long summand last": (long, lambda p: checker.variable(0, p.work).plus(p), 100),
+    "a common denominator": (
+        lambda work: checker.number(Fraction(1, 2**20000), work),
+        lambda p: p.plus(checker.number(Fraction(1, 3**12000), p.work)),
+        5000,
+    ),
     "a negative": (long, lambda p: -p, 100),
     "a product with a number": (long, lambda p: p * checker.number(2, p.work), 100),
     "a primitive part": (long, lambda p: p.primitive(), 100),

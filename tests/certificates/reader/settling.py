@@ -174,6 +174,8 @@ def settle_sharp(
     inside, outside, points = list_of(certificate, 3)
     named = {name: statements[name] for name in sharp.one("sharp")}
     parameters, domain, condition = sharp.one("over"), sharp.one("domain"), sharp.one("holds")
+    names = [*parameters, *(name for name, *_ in sharp.all("number"))]
+    require(len(set(names)) == len(names) and all(map(is_name, names)), "a number has its own name")
     for number in sharp.all("number"):
         check_number(number, parameters)
     require(isinstance(inside, dict) and set(inside) == set(named), "a proof of each statement")

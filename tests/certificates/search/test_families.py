@@ -9,7 +9,9 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import SharpRange, reals
+from juggleproof.certificates.search.certificate import search_proof
 from juggleproof.certificates.search.families import implies_domain, solved
+from juggleproof.certificates.work import Budget
 
 alpha, K, n = reals("alpha K n")
 UNIT = (alpha > 0) & (alpha < 1)
@@ -66,3 +68,19 @@ def test_a_whole_number_that_the_condition_ties():
     )
     assert not implies_domain(tied, ["n"])
     assert implies_domain(exact, ["n"])
+
+
+ROOM = """statement demo/room
+forall a k v
+range a > 0 and a < 1
+given (1 + a) - (1 - a)^2*v^2/2 > 0
+given v > k
+exists d
+with d > 0
+show (1 - a)^2*k*d < (1 + a) - (1 - a)^2*v^2/2"""
+
+
+def test_terms_that_serve_at_the_samples_alone_are_given_up_for_others_holds():
+    (statement,) = checker.read_statements(ROOM).values()
+    proof = search_proof(statement, {}, Budget(300_000))
+    assert proof is not None and checker.proves(statement, proof, {})

@@ -158,6 +158,14 @@ def test_a_program_without_solution_has_none() -> None:
     assert solve(program, Budget(10**5)) is None
 
 
+def test_a_program_that_is_too_large_is_not_paid_for_holds() -> None:
+    columns = np.arange(3_000)
+    program = Program()
+    program.add(columns, columns, np.ones(3_000), np.ones(3_000, dtype=bool), np.ones(3_000))
+    budget = Budget(10_000)
+    assert solve(program, budget) is None and budget.left > 0
+
+
 @settings(max_examples=50, deadline=None)
 @given(st.lists(st.integers(-4, 4), min_size=2, max_size=6).filter(lambda c: bool(c[-1])))
 def test_positivity_on_an_interval_agrees_with_samples(coefficients: list[int]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,7 +12,7 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.claims import VERDICTS
+from juggleproof.proofs.claims import NOT_FORMALISED, VERDICTS
 from juggleproof.proofs.command import explain
 from juggleproof.proofs.ledger.ledger import check_claims, load_ledger
 from juggleproof.proofs.paper import paper_claims
@@ -31,9 +32,28 @@ def test_register_has_every_claim_holds() -> None:
     assert {entry["verdict"] for entry in register.values()} <= set(VERDICTS)
 
 
-def test_unknown_claims_await_a_theorem_holds() -> None:
+def test_unknown_claims_await_a_theorem_or_have_no_statement_holds() -> None:
+    store = Store(DEFAULT)
+    stated = {name.split("/")[0] for name in store.texts}
     for claim, entry in load_register().items():
-        assert entry["verdict"] != "unknown" or entry.get("detail", "").startswith("awaits "), claim
+        detail = entry.get("detail", "")
+        assert (
+            entry["verdict"] != "unknown"
+            or detail.startswith("awaits ")
+            or (detail.startswith(NOT_FORMALISED) and claim not in stated)
+        ), claim
+
+
+def test_what_a_simulation_shows_has_figures_and_no_statement_holds() -> None:
+    store = Store(DEFAULT)
+    stated = {name.split("/")[0] for name in store.texts}
+    simulated = {
+        claim: entry["detail"]
+        for claim, entry in load_register().items()
+        if entry["verdict"] == "simulated"
+    }
+    assert simulated and not simulated.keys() & stated
+    assert all(re.search(r"\d", figures) for figures in simulated.values())
 
 
 def test_every_stored_statement_is_settled_by_the_checker_holds() -> None:

@@ -14,7 +14,7 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports.contents import Contents, gather
 from juggleproof.proofs.reports.page import Picture, build, pictures
-from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
+from juggleproof.proofs.reports.results import Result, Results, results_of_run, theorem_of_run
 from juggleproof.proofs.run import Options, Run, claims_of_file, run
 
 # -------------------------------------------------------------------------------------------------
@@ -119,3 +119,8 @@ def some_contents() -> Contents:
 @cache
 def page_of_some() -> bytes:
     return build(some_contents())
+
+
+def refuted() -> Result:
+    """A claim of the paper with a statement that is refuted."""
+    return next(one for one in paper().claims if one.id == "s2.2.1-H")

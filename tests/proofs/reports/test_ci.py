@@ -24,7 +24,7 @@ from juggleproof.proofs.reports.ci import (
 )
 from juggleproof.proofs.reports.errata import WRONG
 from juggleproof.proofs.reports.results import Results
-from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, contents, own, paper
+from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, contents, own, paper, refuted
 
 # -------------------------------------------------------------------------------------------------
 # The JUnit report counts rightly, has the usual attributes only, and skips nothing.
@@ -145,7 +145,7 @@ def test_true_claims_of_ones_own_pass_holds(tmp_path: Path) -> None:
 
 
 def test_rejected_statement_is_an_error_holds() -> None:
-    stated = paper().claims[0].statements[0].name
+    stated = refuted().statements[0].name
     errors = messages(
         read(paper(rejected=[(stated, "the sum is not 0"), ("elsewhere/main", "no such kind")])),
         "error",
@@ -278,7 +278,7 @@ def test_lost_theorem_is_told_first_holds() -> None:
 def test_unknown_and_rejected_come_first_holds(tmp_path: Path) -> None:
     text = markdown(own(tmp_path, OPEN))
     assert headings(text) == ["# 1 of 2 claims holds", "## Unknown (1): neither proved nor refuted"]
-    stated = paper().claims[0].statements[0].name
+    stated = refuted().statements[0].name
     found = headings(markdown(paper(rejected=[(stated, "the sum | is not 0")])))
     assert [one.split(" (")[0] for one in found[:4]] == [
         "# The theorem is proved",
@@ -298,7 +298,7 @@ def test_false_claim_of_ones_own_is_told_with_its_counterexample_holds(tmp_path:
 
 
 def test_summary_keeps_to_the_limit_and_tells_what_is_left_out_holds() -> None:
-    one = paper().claims[0]
+    one = refuted()
     many = Results(
         tuple(
             replace(one, id=f"claim-{number}", says="é" * 5000, detail="x" * 5000)
@@ -328,8 +328,9 @@ def read_badge(results: Results) -> tuple[str, bool]:
 
 
 def test_badge_of_the_paper_is_green_holds() -> None:
+    unknown = sum(entry["verdict"] == "unknown" for entry in load_register().values())
     assert read_badge(paper()) == (
-        f"theorem proved, {len(load_register())} claims, 0 unknown",
+        f"theorem proved, {len(load_register())} claims, {unknown} unknown",
         True,
     )
     assert badge(contents()) == badge(paper())
@@ -337,11 +338,12 @@ def test_badge_of_the_paper_is_green_holds() -> None:
 
 def test_badge_is_red_where_something_is_wrong_holds(tmp_path: Path) -> None:
     register = {**load_register(), "eq-2": {"verdict": "holds"}}
-    stated = paper().claims[0].statements[0].name
+    unknown = sum(entry["verdict"] == "unknown" for entry in register.values())
+    stated = refuted().statements[0].name
     for results, part in (
         (paper(register), "1 changed"),
         (replace(paper(), theorem=""), "theorem NOT proved"),
-        (paper(rejected=[(stated, "no")]), "1 unknown"),
+        (paper(rejected=[(stated, "no")]), f"{unknown + 1} unknown"),
         (own(tmp_path, OPEN), "1 of 2 holds, 1 unknown"),
     ):
         message, is_green = read_badge(results)

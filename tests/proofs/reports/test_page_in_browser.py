@@ -161,7 +161,7 @@ def test_every_formula_is_drawn_and_nothing_scrolls_sideways_holds(show_whole: L
 def test_verdict_filter_shows_these_claims_only_holds(show: Load) -> None:
     driver = show()
     assert shown(driver) == with_verdict(
-        "holds", "misprint", "false", "gap", "ambiguous", "unknown"
+        "holds", "misprint", "false", "gap", "ambiguous", "simulated", "unknown"
     )
     for word in ("gap", "false"):
         find(driver, f"input[value={word}]").click()

@@ -53,6 +53,18 @@ ACCEPTED = [
     ),
 ]
 
+ACCEPTED += [
+    Case(
+        "a denominator of the greatest length",
+        lines("forall x", "show {0} = {0}".format("((x + 1)/2^3999)^10*((x + 1)/2^9)")),
+        proof(CLOSE, at={"x": "-1"}),
+    ),
+    Case(
+        "a power 0 of a sum",
+        lines("forall x y", "show (x + y)^0 = 1"),
+        proof(CLOSE, at={"x": "0", "y": "0"}),
+    ),
+]
 REJECTED = [
     Case(
         "a power so high that it would pass for another variable",

@@ -112,6 +112,16 @@ ACCEPTED = [
     counted("an integer parameter"),
     case("a number", VALID, text=over(*SQRT)),
     case(
+        "a number with coefficients -1 and 1",
+        VALID,
+        text=over(*SHARP[:3], "number c = root(2*a - 1, 0, 1)", SHARP[3]),
+    ),
+    case(
+        "a number with coefficients 1, 0, 1 and -1",
+        VALID,
+        text=over(*SHARP[:3], "number c = root(1 - 3*a + 6*a^2 - 5*a^3, 0, 1)", SHARP[3]),
+    ),
+    case(
         "outside by cases of a sign",
         sharp(
             {"rule/squares": INSIDE},
@@ -414,6 +424,24 @@ REJECTED = [
         VALID,
         Kind.ONE_ROOT,
         over(*SHARP[:3], "number c = root(a - 1, 1, 1)", SHARP[3]),
+    ),
+    case(
+        "a number with the name of a parameter",
+        VALID,
+        (Kind.NAME, "a"),
+        over(*SHARP[:3], "number a = root(a^2 - 2, 0, 2)", SHARP[3]),
+    ),
+    case(
+        "two numbers of one name",
+        VALID,
+        (Kind.NAME, "c"),
+        over(*SHARP[:3], *["number c = root(a^2 - 2, 0, 2)"] * 2, SHARP[3]),
+    ),
+    case(
+        "a formula for the name of a number",
+        VALID,
+        (Kind.NAME, "x<1"),
+        over(*SHARP[:3], "number x<1 = root(a^2 - 2, 0, 2)", SHARP[3]),
     ),
     case(
         "a number with three roots",

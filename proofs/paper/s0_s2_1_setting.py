@@ -1,0 +1,328 @@
+"""Title, abstract, and section 2.1: what the paper promises, and the part on the vibrating table,
+of which much is simulated and not proved.
+"""
+
+from __future__ import annotations
+
+from juggleproof.certificates.language import (
+    Formula,
+    Statement,
+    Term,
+    different,
+    equal,
+    iff,
+    real,
+    reals,
+)
+from juggleproof.proofs import forms
+from juggleproof.proofs.claims import Following, NotFormalised, Simulated
+from juggleproof.proofs.paper.names import alpha, always, claim, g
+from juggleproof.proofs.paper.states import STABILITY
+from juggleproof.proofs.simulations import Onset, figures
+
+
+@claim("s0-all-starts", "title and abstract", "line 3")
+def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
+    """Without feedback, the table brings the ball from every initial state to one periodic
+    orbit.
+    """
+    return Following(STABILITY)
+
+
+# -------------------------------------------------------------------------------------------------
+# Section 2.1: what can be decided of the part.
+
+om, acc, x, y = reals("om acc x y")
+half_short, half_long, c, s, c_2, s_2 = reals("a b c s c_2 s_2")  # c, s: of the block's angle
+UNIT, UNIT_2 = equal(c**2 + s**2, 1), equal(c_2**2 + s_2**2, 1)
+PAST = half_long * s - half_short * c  # 0 where the centre is above the corner, theta = atan(a/b)
+
+
+def height_of_centre(cosine: Term, sine: Term) -> Term:
+    """The height of a block's centre above its lowest corner, for angles of 0 to 90 degrees."""
+    return half_long * cosine + half_short * sine
+
+
+@claim("s2.1-rotating-table", "2.1", "footnote 2", parameters=())
+def parts_away_from_the_centre_of_a_turning_table_are_accelerated_otherwise() -> Statement:
+    """Where a table turns, or begins to, each place away from its centre has another acceleration
+    than the centre.
+
+    The place (x, y) is in the plane of the turning; its velocity is the turning rate times its
+    distance, across.
+    """
+    along, across = -(om**2) * x - acc * y, acc * x - om**2 * y
+    return forms.always(
+        different(along, 0) | different(across, 0),
+        given=[different(om, 0) | different(acc, 0), different(x, 0) | different(y, 0)],
+    )
+
+
+@claim("s2.1-fall-sides", "2.1", "line 70", parameters=())
+def a_block_let_go_never_passes_the_angle_at_which_its_centre_is_highest() -> list[Statement]:
+    """A block that is let go with a corner on a still table, where its centre is not above that
+    corner, never passes through the angle at which it is; upright and lying, its centre is lowest.
+
+    It is parted at tan(theta) = a/b, the half sides, which is 1/2 for 2 x 4 cm.  Its energy never
+    rises, in flight as at impacts, and the centre is at least as high as above the lowest corner.
+    """
+    highest = half_short**2 + half_long**2
+    return [
+        forms.always(
+            (height_of_centre(c, s) ** 2 <= highest)
+            & iff(equal(height_of_centre(c, s) ** 2, highest), equal(PAST, 0)),
+            given=[UNIT],
+            label="highest",
+        ),
+        forms.always(
+            different(half_long * s_2 - half_short * c_2, 0),
+            given=[
+                UNIT,
+                different(PAST, 0),
+                y <= height_of_centre(c, s),
+                half_short > 0,
+                half_long > 0,
+                UNIT_2,
+                c_2 >= 0,
+                y >= height_of_centre(c_2, s_2),
+            ],
+            label="never-passed",
+        ),
+        forms.always(
+            height_of_centre(c, s) > half_long,
+            given=[half_long > 0, UNIT, c > 0, s > 0, PAST < 0],
+            label="upright",
+        ),
+        forms.always(
+            height_of_centre(c, s) > half_short,
+            given=[half_short > 0, UNIT, c > 0, s > 0, PAST > 0],
+            label="lying",
+        ),
+    ]
+
+
+@claim("s2.1-fall-angles", "2.1", "line 70", parameters=())
+def the_angle_that_parts_the_blocks_lies_between_26_and_27_degrees() -> list[Statement]:
+    """tan 26 degrees < 1/2 < tan 27 degrees; of 26 degrees it is shown of 26.25.
+
+    The tangent of five times 27 degrees is -1; that of four times 26.25 degrees, 105, is -2 -
+    sqrt(3), and 26.25 degrees is an angle below 30, of which the tangent is below 3/5.
+    """
+    tangent = real("tangent")
+    of_twice, over = 2 * tangent, 1 - tangent**2  # the tangent of twice the angle is a quotient
+    of_four_times, over_that = 2 * of_twice * over, over**2 - of_twice**2
+    return [
+        forms.always(
+            2 * tangent > 1,
+            given=[
+                tangent > 0,
+                equal(
+                    tangent**5 - 10 * tangent**3 + 5 * tangent,
+                    -(1 - 10 * tangent**2 + 5 * tangent**4),
+                ),
+            ],
+            label="above",
+        ),
+        forms.always(
+            (2 * tangent < 1) | (5 * tangent > 3),
+            given=[equal((of_four_times + 2 * over_that) ** 2, 3 * over_that**2)],
+            label="below",
+        ),
+    ]
+
+
+A, f, phase, A_2, f_2, phase_2 = reals("A f phase A_2 f_2 phase_2")
+
+
+def meeting_speed(amplitude: Term, frequency: Term, at_phase: Term) -> Term:
+    """The relative speed of an impact at which a ball that strikes once a period meets the table:
+    it falls at g/(2 f), and the table's velocity is A f times a factor of the phase.
+    """
+    return amplitude * frequency * at_phase + g / (2 * frequency)
+
+
+def strikes_once_a_period(amplitude: Term, frequency: Term, at_phase: Term) -> list[Formula]:
+    """The ball leaves the impact as fast as it came, upwards, so that it is back a period later."""
+    falls = g / (2 * frequency)
+    table = amplitude * frequency * at_phase
+    factor = [at_phase >= -6, at_phase <= 6]  # within 2 pi
+    return [
+        amplitude > 0,
+        frequency > 0,
+        *factor,
+        equal(falls, alpha * falls + (1 + alpha) * table),
+    ]
+
+
+def true_of_impact_speeds() -> list[Statement]:
+    """What is true of the table's velocity, and of a ball that strikes once a period."""
+    table = A * f * phase
+    once = meeting_speed(A, f, phase)
+    return [
+        always(
+            equal(A * f_2 * phase * f, table * f_2) & equal(A_2 * f * phase * A, table * A_2),
+            label="table",
+        ),
+        always(
+            equal(once * (1 + alpha) * f, g),
+            given=[f > 0, strikes_once_a_period(A, f, phase)[-1]],
+            label="once-a-period",
+        ),
+    ]
+
+
+@claim(
+    "s2.1-impact-velocity",
+    "2.1",
+    "line 79",
+    parameters=(),
+    true_nearby=(
+        "the table's own velocity, at one phase, is proportional to amplitude and to frequency; a"
+        " ball that strikes once a period meets the table at the relative speed g/((1 + alpha) f),"
+        " whatever the amplitude, and the slower the higher the frequency",
+        true_of_impact_speeds,
+    ),
+)
+def impact_speeds_grow_with_amplitude_and_with_frequency() -> list[Statement]:
+    """The relative velocity of impacts on a vibrating table is proportional to the frequency and to
+    the amplitude of the vibration; it is asked of balls, or of blocks that fall flat, that strike
+    once in each period.
+    """
+    given = [*strikes_once_a_period(A, f, phase), *strikes_once_a_period(A_2, f_2, phase_2)]
+    one, two = meeting_speed(A, f, phase), meeting_speed(A_2, f_2, phase_2)
+    return [
+        always(equal(two * A, one * A_2), given=[*given, equal(f_2, f)], label="with-amplitude"),
+        always(equal(two * f, one * f_2), given=[*given, equal(A_2, A)], label="with-frequency"),
+    ]
+
+
+CLOSED_FORM = (
+    "which functions a closed form may be made of is not said, and that none of them solves an"
+    " equation with a sine is no statement of real arithmetic"
+)
+
+
+@claim("s2.1-flight-time", "2.1", "line 81", parameters=())
+def no_closed_form_of_the_time_of_flight() -> NotFormalised:
+    """Between a block that turns as it flies and a table that moves as a sine, no closed form gives
+    the time of flight.
+    """
+    return NotFormalised(CLOSED_FORM)
+
+
+# -------------------------------------------------------------------------------------------------
+# Section 2.1: what is simulated of the part; the figures are those of `simulations`.
+
+
+def of_the_part() -> str:
+    """What the runs have in common."""
+    kept = figures()
+    return (
+        f"e = {kept['e']:g}, mu = {kept['mu']:g}; {kept['ensembles']} ensembles of 91 blocks, seed"
+        f" {kept['seed']}"
+    )
+
+
+def spread(counts: list[int]) -> str:
+    """The least and the greatest."""
+    return f"{min(counts)} to {max(counts)}"
+
+
+def name_of(row: Onset) -> str:
+    """The vibration along the table."""
+    return f"{row['frequency']:g} Hz {row['amplitude']:g} mm"
+
+
+def onset_of(row: Onset) -> str:
+    """A row of table I: the median onset with its spread, and what the paper prints."""
+    printed = "chaotic" if row["paper"] is None else f"{row['paper']:g} s"
+    return (
+        f"{name_of(row)} {row['median']:g} s ({row['low']:g} to {row['high']:g}, {row['chaotic']}"
+        f" chaotic; printed {printed})"
+    )
+
+
+def third_row() -> Onset:
+    """The row of table I with the vibration of figure 2."""
+    return next(
+        row for row in figures()["table"] if (row["frequency"], row["amplitude"]) == (30, 1)
+    )
+
+
+@claim("s2.1-fall", "2.1", "line 70", parameters=())
+def where_blocks_come_to_rest_without_vibration() -> Simulated:
+    """Let go on a still table, blocks from 0 to 26 degrees come to rest upright and those from 27
+    to 90 degrees lying.
+    """
+    still, kept = figures()["still"], figures()
+    low, high = still["between"]
+    return Simulated(
+        f"{still['upright']} of 91 blocks end upright and {still['lying']} lie, parted between"
+        f" {low:.9f} and {high:.9f} degrees; e = {kept['e']:g}, mu = {kept['mu']:g}"
+    )
+
+
+@claim("s2.1-at-0.8-s", "2.1", "line 77", parameters=())
+def some_blocks_still_stand_early() -> Simulated:
+    """After 0.8 s of the vibration of figure 2 some blocks stand upright while their neighbours
+    have fallen.
+    """
+    frame = figures()["frame"]
+    return Simulated(
+        f"{spread(frame['upright'])} of 91 stand at 0.8 s, and {spread(frame['apart'])} of 90 pairs"
+        f" of neighbours differ; {of_the_part()}"
+    )
+
+
+@claim("s2.1-at-3-s", "2.1", "line 77", parameters=())
+def all_blocks_lie_late() -> Simulated:
+    """After 3 s of the vibration of figure 2 all blocks lie."""
+    late = figures()["frame"]["late"]
+    return Simulated(
+        f"all lie at 3 s in {late.count(0)} of {len(late)} ensembles, else {max(late)} or fewer"
+        f" stand; {of_the_part()}"
+    )
+
+
+@claim("s2.1-destabilizes", "2.1", "line 77", parameters=())
+def the_vibration_fells_upright_blocks_and_no_lying_one() -> Simulated:
+    """The vibration of figure 2 destabilizes the upright position and not the lying one."""
+    row = third_row()
+    return Simulated(
+        f"no block stands at 12 s in {figures()['ensembles'] - row['censored']} of"
+        f" {figures()['ensembles']} ensembles, and {row['rises']} blocks rise from 6 s on;"
+        f" {of_the_part()}"
+    )
+
+
+@claim("table-1", "2.1.2", "table I", parameters=())
+def from_when_on_all_blocks_lie() -> Simulated:
+    """From when on all blocks lie, for six vibrations along the table, of which one is chaotic; by
+    such a choice the lying position attracts all of these starts.
+    """
+    rows = "; ".join(onset_of(row) for row in figures()["table"])
+    return Simulated(f"median onsets: {rows}; {of_the_part()}")
+
+
+@claim("s2.1-no-generalization", "2.1", "line 79", parameters=())
+def equal_speeds_of_the_table_act_unlike() -> Simulated:
+    """Frequency and amplitude do not act alike: vibrations with the same product of both, 60 mm/s,
+    have unlike onsets.
+    """
+    alike = [row for row in figures()["table"] if row["frequency"] * row["amplitude"] == 60]
+    rows = "; ".join(onset_of(row) for row in alike)
+    return Simulated(f"median onsets: {rows}; {of_the_part()}")
+
+
+@claim("s2.1-chaotic", "2.1", "line 79", parameters=())
+def the_chaotic_vibration_turns_blocks_back_and_forth() -> Simulated:
+    """The vibration that is called chaotic turns blocks back and forth between upright and
+    lying.
+    """
+    (row,) = (row for row in figures()["table"] if row["paper"] is None)
+    ensembles = figures()["ensembles"]
+    as_printed = "" if 2 * row["chaotic"] > ensembles else ", not as printed"
+    return Simulated(
+        f"{row['chaotic']} of {ensembles} ensembles are chaotic{as_printed}, and {row['rises']}"
+        f" blocks rise from 6 s on; {of_the_part()}"
+    )

@@ -1,0 +1,86 @@
+"""The figures of simulations are what the scenes compute."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs import simulations
+from juggleproof.proofs.simulating import (
+    ALPHAS,
+    figure_two,
+    onsets,
+    still_table,
+    time_to_region,
+)
+from juggleproof.proofs.simulations import Figures, figures
+from juggleproof.scenes.part.onsets import table_one
+from juggleproof.scenes.part.setting import Scene, scene
+
+ENSEMBLES = 8  # of the 24 that are kept
+
+
+@pytest.fixture(scope="module")
+def kept() -> Figures:
+    return figures()
+
+
+@pytest.fixture(scope="module")
+def setting(kept: Figures) -> Scene:
+    if importlib.util.find_spec("numba") is None:
+        pytest.skip("numba is not installed; the extra part has it")
+    return scene(e=kept["e"], mu=kept["mu"])
+
+
+def test_times_to_the_region_are_exact_holds(kept: Figures) -> None:
+    assert [time_to_region(alpha) for alpha in ALPHAS] == kept["region"]
+    assert all(one["greatest"] <= 1 for one in kept["region"])  # (26) is a bound
+
+
+def test_the_still_table_parts_the_blocks_where_it_did_holds(kept: Figures, setting: Scene) -> None:
+    now = still_table(setting)
+    assert (now["upright"], now["lying"]) == (kept["still"]["upright"], kept["still"]["lying"])
+    assert now["between"] == pytest.approx(kept["still"]["between"], abs=1e-8)
+
+
+def test_figure_2_is_within_its_scatter_holds(kept: Figures, setting: Scene) -> None:
+    now, then = figure_two(setting, ENSEMBLES), kept["frame"]
+    for name in ("upright", "apart"):
+        low, high = min(then[name]), max(then[name])
+        assert low - 4 <= min(now[name]) and max(now[name]) <= high + 4
+    assert max(now["late"]) <= max(then["late"]) + 4
+
+
+def test_table_1_is_within_its_scatter_holds(kept: Figures, setting: Scene) -> None:
+    now = onsets(table_one(setting, ensembles=ENSEMBLES))
+    for row, then in zip(now, kept["table"], strict=True):
+        same = ("frequency", "amplitude", "paper", "chaotic", "censored", "rises")
+        assert [row[name] for name in same] == [then[name] for name in same]
+        assert then["low"] <= row["median"] <= then["high"]
+
+
+def test_reading_the_figures_loads_no_scene_holds() -> None:
+    code = "import sys; import juggleproof.proofs.paper as p; p.paper_claims(); print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = done.stdout.split()
+    assert "juggleproof.proofs.simulations" in loaded
+    assert not [name for name in loaded if name == "numba" or "scenes.part" in name]
+
+
+@pytest.mark.parametrize("text", [None, "", "{"])
+def test_rejects_figures_that_cannot_be_read(
+    text: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    record = tmp_path / "simulations.json"
+    if text is not None:
+        record.write_text(text)
+    monkeypatch.setattr(simulations, "RECORD", record)
+    figures.cache_clear()
+    with pytest.raises(ClaimError, match=r"simulations\.json: \w+; restore it"):
+        figures()
+    figures.cache_clear()
