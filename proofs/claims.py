@@ -100,6 +100,9 @@ class Following:
     is_conclusion: bool = False
 
 
+REMARK = "remark."  # the prefix of the statements of a remark
+
+
 @dataclass(frozen=True)
 class Simulated:
     """What a simulation shows: figures with the seed that they come from, and no proof."""
@@ -114,7 +117,6 @@ class NotFormalised:
     why: str
 
 
-REMARK = "remark."  # the prefix of the statements of a remark
 NOT_FORMALISED = "not formalised: "  # begins the detail of such a verdict
 Body = Union[Assertion, Readings, Argument, Following, Simulated, NotFormalised]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from juggleproof.certificates.language import Statement, different, equal, iff, reals, term
-from juggleproof.proofs.claims import Argument, Assertion, Following, Remark
+from juggleproof.proofs.claims import Argument, Assertion, Following
 from juggleproof.proofs.paper.names import (
     B1_ZERO,
     B2,
@@ -327,7 +327,6 @@ def map_on_b2_again(printed: Printed) -> Statement:
     "line 785",
     repeats="eq-1",
     printed=r"\alpha_T := \gamma T \begin{bmatrix} T/2 \\ 1 \end{bmatrix}",
-    remark=Remark("(1) calls this a_T; alpha is the restitution."),
 )
 def what_gravity_takes_off_in_a_period(printed: Printed) -> Statement:
     """This column, and no other, is what a period of flight falls short of its linear part."""

@@ -25,7 +25,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Reading, Readings, Remark
+from juggleproof.proofs.claims import Argument, Assertion, Reading, Readings
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -226,11 +226,6 @@ def speed_after_the_impact(printed: Printed) -> list[Statement]:
     printed=(
         r"\dot{\rho}(\tau_c) = \frac{1}{2} \frac{1-\alpha}{1+\alpha} K \gamma T ="
         r" \frac{1-\alpha}{1+\alpha} K \dot{\rho}_0"
-    ),
-    remark=Remark(
-        "(33) is cited as the balance, and is of a table at its launch; what carries (17) is the"
-        " equation of A.1 for any velocity of the table.",
-        by=("sA.1-rearranged",),
     ),
 )
 def table_speed_at_the_impact(printed: Printed) -> list[Statement]:

@@ -281,9 +281,6 @@ def energy_that_is_left_written_out(printed: Printed) -> Statement:
     "(24)",
     printed=r"\mathcal{R} := \{ \overline{b} \in \mathcal{H} \mid R(\overline{b}) \ge 0 \}",
     as_it_stands=r"R := \left\{ \overline{b} \in \mathcal{A} \mid R(\overline{b}) \ge 0 \right\}",
-    remark=Remark(
-        "R is the region here, and the function of (23) on the right; R_alpha of (3) is a matrix."
-    ),
 )
 def region_below_the_level(printed: Printed) -> list[Statement]:
     """R holds the states of H whose energy is at most the sum of E_max and Delta E_max."""

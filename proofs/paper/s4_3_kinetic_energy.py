@@ -156,16 +156,7 @@ def next_difference_is_linear(printed: Printed) -> Statement:
     return follows(printed)
 
 
-@claim(
-    "eq-28",
-    "4.3.1",
-    "(28)",
-    printed=r"K(z) = \frac{1}{2} (u_2' z)^2",
-    remark=Remark(
-        "K is a number of periods in section 3.5, the kinetic energy of the difference to e_1 here,"
-        " that of the ball in B.7 and in the limit after this, and a region in (32)."
-    ),
-)
+@claim("eq-28", "4.3.1", "(28)", printed=r"K(z) = \frac{1}{2} (u_2' z)^2")
 def kinetic_energy_of_the_difference(printed: Printed) -> Statement:
     """K is half the square of the velocity component, u_2' being the row that takes it out."""
     return always(

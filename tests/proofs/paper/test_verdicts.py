@@ -4,7 +4,6 @@ by stored statements that the checker accepts.
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from dataclasses import replace
 from functools import cache
@@ -19,10 +18,8 @@ from juggleproof.proofs.judgement import Resources
 from juggleproof.proofs.judging import judge
 from juggleproof.proofs.ledger.ledger import UNPRINTED
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.names import B1, PAPER, always, b, energy, f1
-from juggleproof.proofs.paper.states import AROUND_E1, STEP
+from juggleproof.proofs.paper.names import B1, always, b, energy, f1
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.tree import Name, spelled
 from juggleproof.proofs.register import load_register
 
 REGISTER, STORE = load_register(), Store(DEFAULT)
@@ -254,18 +251,3 @@ def test_differences_name_each_mark_holds() -> None:
         "- dropped",
         r"x to \bar{b}_k",
     ]
-
-
-def test_letters_of_several_kinds_have_a_remark_holds() -> None:
-    kinds: dict[str, set[str]] = {}
-    for environment in (PAPER, STEP, AROUND_E1):
-        for key, value in environment.meanings.items():
-            if isinstance(key, Name):
-                accents = tuple(one for one in key.accents if one not in ("script", "bar"))
-                letter = spelled(dataclasses.replace(key, accents=accents))
-                kinds.setdefault(letter, set()).add(type(value).__name__)
-    several = {letter for letter, found in kinds.items() if len(found) > 1}
-    assert several == {"K", "R"}
-    texts = [claim.remark.text for claim in claims().values() if claim.remark]
-    for letter in several:
-        assert any(text.startswith(f"{letter} is ") for text in texts), letter
