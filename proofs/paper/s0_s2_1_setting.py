@@ -21,7 +21,7 @@ from juggleproof.proofs.paper.states import STABILITY
 from juggleproof.proofs.simulations import Onset, figures
 
 
-@claim("s0-all-starts", "title and abstract", "line 3")
+@claim("s0-all-starts", "abstract", "title and line 3")
 def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
     """Without feedback, the table brings the ball from every initial state to one periodic
     orbit.
