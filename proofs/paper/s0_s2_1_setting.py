@@ -36,7 +36,7 @@ om, acc, x, y = reals("omega acc x y")
 half_short, half_long = reals("h k")
 c, s, c_2, s_2 = reals("p q p_2 q_2")  # cosine and sine of the angle of a block
 UNIT, UNIT_2 = equal(c**2 + s**2, 1), equal(c_2**2 + s_2**2, 1)
-PAST = half_long * s - half_short * c  # 0 where the centre is above the corner, theta = atan(a/b)
+PAST = half_long * s - half_short * c  # 0 where the centre is above the corner, theta = atan(h/k)
 
 
 def height_of_centre(cosine: Term, sine: Term) -> Term:
@@ -64,7 +64,7 @@ def a_block_let_go_never_passes_the_angle_at_which_its_centre_is_highest() -> li
     """A block that is let go with a corner on a still table, where its centre is not above that
     corner, never passes through the angle at which it is; upright and lying, its centre is lowest.
 
-    It is parted at tan(theta) = a/b, the half sides, which is 1/2 for 2 x 4 cm.  Its energy never
+    It is parted at tan(theta) = h/k, the half sides, which is 1/2 for 2 x 4 cm.  Its energy never
     rises, in flight as at impacts, and the centre is at least as high as above the lowest corner.
     """
     highest = half_short**2 + half_long**2
