@@ -489,7 +489,7 @@ def five_modes_that_differ_and_depend_on_the_motion() -> list[Statement]:
     other mode describes; and with the same e and mu there are two, by the motion alone.
     """
     impact = [DIRECTION, SLIDES, NO_JAM, APPROACH, FRICTION, *RESTITUTION]
-    names, again = ["sigma", "e", "mu", "S0", "C0"], real("S0_again")
+    names, again = ["sigma", "e", "mu", "S0", "C0"], real("S1")
     words_here = words("", **numbers_of_the_corner())
     sticks = [
         substitute(one, {"S0": again}) for one in (SLIDES, is_only("sticking-in-compression"))
@@ -500,7 +500,7 @@ def five_modes_that_differ_and_depend_on_the_motion() -> list[Statement]:
             for mode in MODES
         ),
         exists_some(
-            [*names, "S0_again"],
+            [*names, "S1"],
             conjunction([is_only("sliding"), *sticks]),
             within=impact,
             label="by-the-motion",

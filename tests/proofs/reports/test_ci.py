@@ -349,3 +349,15 @@ def test_badge_is_red_where_something_is_wrong_holds(tmp_path: Path) -> None:
         message, is_green = read_badge(results)
         assert part in message and not is_green
     assert read_badge(own(tmp_path, HOLDS)) == ("1 of 1 holds, 0 unknown", True)
+
+
+def test_what_is_not_stated_is_no_error_and_what_is_stated_and_open_is_holds() -> None:
+    open_claims = [one for one in paper().claims if one.verdict == "unknown"]
+    assert open_claims and not any(one.is_open for one in open_claims)
+    assert "## Unknown" not in markdown(paper())
+    stated = replace(open_claims[0], detail="")
+    assert stated.is_open
+    others = tuple(one for one in paper().claims if one.id != stated.id)
+    lost = replace(paper(), claims=(*others, stated))
+    assert "## Unknown (1)" in markdown(lost) and not read_badge(lost)[1]
+    assert stated.id in messages(read(lost), "error")
