@@ -7,7 +7,7 @@ In reading order, each importing those before it only:
 - `claims`, `forms`: an assertion with its place and print, the statements that it makes, verdicts.
 - `encoding`: SymPy expressions as terms.
 - `correcting`, `rules`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
-- `simplest`, `evaluating`: counterexamples in simple rationals; terms and formulas at such values.
+- `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
 - `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
   range.
 - `register`: the verdicts that stand.

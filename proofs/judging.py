@@ -45,6 +45,7 @@ from juggleproof.proofs.claims import (
     verdict_of,
 )
 from juggleproof.proofs.correcting import Candidate, candidates
+from juggleproof.proofs.evaluating import at_simple_values, is_simple
 from juggleproof.proofs.forms import (
     has_whole_range,
     read,
@@ -53,7 +54,6 @@ from juggleproof.proofs.forms import (
 from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
 from juggleproof.proofs.ranges import search_sharp_range, text_of_range
 from juggleproof.proofs.rules import range_of_rule, whole_text
-from juggleproof.proofs.simplest import at_simple_values, is_simple
 
 QUICK_BUDGET = 150_000
 TRIAL = 10  # a candidate correction, or a look for a contradiction, gets this part of the budget

@@ -8,9 +8,8 @@ import pytest
 
 from juggleproof.certificates.language import real
 from juggleproof.certificates.nodes import Counterexample
-from juggleproof.proofs.evaluating import numbers_at, value_at
+from juggleproof.proofs.evaluating import at_simple_values, is_simple, numbers_at, value_at
 from juggleproof.proofs.paper.names import always
-from juggleproof.proofs.simplest import at_simple_values, is_simple
 
 alpha, s, x = real("alpha"), real("s"), real("x")
 
