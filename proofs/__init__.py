@@ -13,7 +13,7 @@ In reading order, each importing those before it only:
 - `register`: the verdicts that stand.
 - `checked`, `run`: the checker's outcomes of what is stored; many claims over processes.
 - `bounds`, `kept`: certified enclosures of minima; figures kept between runs.
-- `simulations`, `simulating`: what simulations show, as it is kept, and as the scenes compute it.
+- `simulations`: what simulations show, as it is kept, and as the scenes compute it.
 - `paper`, `theorem`, `part`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
 - `reports`, `api`: what a run came to, in words, pages and data; the same from Python.
 - `command`, `pytest_plugin`, `pytest_items`: the command line; claims as test items.

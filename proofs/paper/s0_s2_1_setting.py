@@ -18,7 +18,7 @@ from juggleproof.proofs import forms
 from juggleproof.proofs.claims import Following, NotFormalised, Simulated
 from juggleproof.proofs.paper.names import alpha, always, claim, g
 from juggleproof.proofs.paper.states import STABILITY
-from juggleproof.proofs.simulations import Onset, figures
+from juggleproof.proofs.simulations.figures import Onset, figures
 
 
 @claim("s0-all-starts", "abstract", "title and line 3")
@@ -34,7 +34,7 @@ def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
 
 om, acc, x, y = reals("omega acc x y")
 half_short, half_long = reals("h k")
-c, s, c_2, s_2 = reals("p q p_2 q_2")  # cosine and sine of the angle of a block
+c, s, c_2, s_2 = reals("cosine sine cosine_2 sine_2")  # cosine and sine of the angle of a block
 UNIT, UNIT_2 = equal(c**2 + s**2, 1), equal(c_2**2 + s_2**2, 1)
 PAST = half_long * s - half_short * c  # 0 where the centre is above the corner, theta = atan(h/k)
 
@@ -172,7 +172,7 @@ def meets_at_one_speed() -> Statement:
     "line 79",
     parameters=(),
     true_nearby=(
-        r"\dot\chi = \frac{\gamma}{(1 + \alpha) f} \text{ where one impact comes in each period}",
+        r"\dot\chi = \frac{\gamma}{(1 + \alpha) f} \text{ at one impact a period}",
         meets_at_one_speed,
     ),
 )

@@ -59,7 +59,7 @@ from juggleproof.proofs.paper.regions import (
 )
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.values import Vector
-from juggleproof.proofs.simulations import HEIGHTS, SPEEDS, figures
+from juggleproof.proofs.simulations.figures import HEIGHTS, SPEEDS, figures
 
 tau, t_R = real("tau"), real("t_R")
 

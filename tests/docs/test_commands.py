@@ -48,7 +48,7 @@ ELSEWHERE = {
             ".ci/run",
             "for format in html latex markdown json badge figures pdf;",
         )
-        for form in ("html", "latex", "markdown", "json", "figures")
+        for form in ("html", "latex", "markdown", "json", "figures", "pdf")
     },
     "pytest --juggleproof": (
         "tests/proofs/test_pytest_plugin.py",
@@ -56,6 +56,10 @@ ELSEWHERE = {
     ),
     "juggleproof bench --quick": ("tests/docs/test_commands.py", '"juggleproof bench": "--quick'),
     "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
+    "python -m tests.certificates.checker.mutate rules.close_by_sign": (
+        "tests/certificates/checker/test_mutants.py",
+        "found = dict(judge_all(",
+    ),
     "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
 }
 NEEDS = {

@@ -10,15 +10,15 @@ from pathlib import Path
 import pytest
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs import simulations
-from juggleproof.proofs.simulating import (
+from juggleproof.proofs.simulations import figures as module
+from juggleproof.proofs.simulations.compute import (
     ALPHAS,
     figure_two,
     onsets,
     still_table,
     time_to_region,
 )
-from juggleproof.proofs.simulations import Figures, figures
+from juggleproof.proofs.simulations.figures import Figures, figures
 from juggleproof.scenes.part.onsets import table_one
 from juggleproof.scenes.part.setting import Scene, scene
 
@@ -68,7 +68,7 @@ def test_reading_the_figures_loads_no_scene_holds() -> None:
     code = "import sys; import juggleproof.proofs.paper as p; p.paper_claims(); print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     loaded = done.stdout.split()
-    assert "juggleproof.proofs.simulations" in loaded
+    assert "juggleproof.proofs.simulations.figures" in loaded
     assert not [name for name in loaded if name == "numba" or "scenes.part" in name]
 
 
@@ -76,11 +76,11 @@ def test_reading_the_figures_loads_no_scene_holds() -> None:
 def test_rejects_figures_that_cannot_be_read(
     text: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    record = tmp_path / "simulations.json"
+    record = tmp_path / "figures.json"
     if text is not None:
         record.write_text(text)
-    monkeypatch.setattr(simulations, "RECORD", record)
+    monkeypatch.setattr(module, "RECORD", record)
     figures.cache_clear()
-    with pytest.raises(ClaimError, match=r"simulations\.json: \w+; restore it"):
+    with pytest.raises(ClaimError, match=r"figures\.json: \w+; restore it"):
         figures()
     figures.cache_clear()

@@ -73,7 +73,6 @@ CASES = [
     *(("universal", "", line) for line in ("have", "root", "integer")),
     *(("exists", rule, "") for rule in ("", "sign", "empty")),
     ("refuted", "", ""),
-    ("refuted", "adjoined", ""),
     ("refuted", "", "exists"),
     ("refuted", "", "integer"),
     ("sharp", "", ""),

@@ -99,8 +99,9 @@ def test_every_range_of_the_results_is_read_holds() -> None:
     entries = results()
     ranges = rows(entries)
     assert len(entries) > 250 and without_alpha(entries) > 50
+    # a range told as "at least" has no known end: it is not drawn
     assert {name for name, _, intervals in ranges if intervals is None} == {
-        name for name, _, intervals in ranges if name == "eq-26 (sampled)"
+        one.claim.id for one in entries if (one.sharp or "").startswith("at least ")
     }
     assert {name.split(" ")[0] for name, _, _ in ranges} | {
         one.claim.id for one in entries if one.sharp == "no alpha"

@@ -1,6 +1,6 @@
-"""Computes the figures of `simulations` by the scenes, with stored seeds, in about a minute.
+"""Computes `figures.json` by the scenes, with stored seeds, in about a minute.
 
-    python -m juggleproof.proofs.simulating         computes the figures anew and writes them
+    python -m juggleproof.proofs.simulations.compute    computes the figures anew, and writes them
 
 The part of section 2.1 has the e and mu of the stored sweep; its orbits are chaotic, so that
 another processor gives other figures within their scatter.  Orbits of the juggler are exact.
@@ -15,7 +15,7 @@ from operator import ne
 from statistics import median
 
 from juggleproof.certificates.store import write_file
-from juggleproof.proofs.simulations import (
+from juggleproof.proofs.simulations.figures import (
     HEIGHTS,
     RECORD,
     SPEEDS,

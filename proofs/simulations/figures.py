@@ -1,5 +1,5 @@
 """What simulations show of the paper's sentences about motion: the figures that are kept in
-`simulations.json`, which `simulating` computes; nothing here is proved.
+`figures.json`, which `compute` computes; nothing here is proved.
 """
 
 from __future__ import annotations
@@ -82,6 +82,6 @@ def figures() -> Figures:
     except (OSError, ValueError) as fault:
         raise ClaimError(
             f"{RECORD.name}: {type(fault).__name__}; restore it from the repository, or run"
-            " python -m juggleproof.proofs.simulating"
+            " python -m juggleproof.proofs.simulations.compute"
         ) from None
     return kept
