@@ -248,8 +248,8 @@ def mutations(latex: str) -> Iterator[Change]:
 
     >>> changes = [change for change, _ in mutations(r"x < 2")]
     >>> [change for change in changes if "becomes" in change]  # doctest: +NORMALIZE_WHITESPACE
-    ['column 1: x becomes y', 'column 1: x becomes \\chi', 'column 3: < becomes \\le', 'column 3: < becomes >',
-     'column 5: the digit 2 becomes 3']
+    ['column 1: x becomes y', 'column 1: x becomes \\chi', 'column 3: < becomes \\le',
+     'column 3: < becomes >', 'column 5: the digit 2 becomes 3']
     """
     seen = {latex}
     for change, changed in _all_changes(Edits(latex)):
