@@ -198,7 +198,7 @@ def install(mutant: Mutant) -> None:
     exec(compile(tree, str(module.__file__), "exec"), vars(other))
     sys.modules[module.__name__] = module
     for name, new in vars(other).items():
-        if getattr(new, "__module__", "") == module.__name__:
+        if callable(new) and getattr(new, "__module__", "") == module.__name__:
             transplant(vars(module)[name], new)
         elif not mutant.function and name in mutant.names:
             for user in MODULES.values():

@@ -124,3 +124,11 @@ def test_a_polynomial_has_its_terms_and_bounds_on_them() -> None:
         ("y^2 + 2*x*y + x^2", 2, 2),
         ("x^3", 3, 0),
     ]
+
+
+@pytest.mark.parametrize("factor", ["2^3999", "1/2^3999", "(-2^3999)", "(2/3)^2500"])
+def test_rejects_a_product_of_long_numbers_before_it_grows(factor: str) -> None:
+    with pytest.raises(checker.Rejected) as info:
+        context = checker.Context(work=checker.Work(checker.MAX_WORK))
+        context.value(checker.parse("*".join([f"({factor})"] * 11)))
+    assert refused(info.value, (Kind.SIZE, "4"))

@@ -113,7 +113,7 @@ COUNTED: dict[str, tuple[Callable[[Work], Any], Callable[[Any], object], int]] =
     "a common denominator": (
         lambda work: checker.number(Fraction(1, 2**20000), work),
         lambda p: p.plus(checker.number(Fraction(1, 3**12000), p.work)),
-        5000,
+        12_000,
     ),
     "a negative": (long, lambda p: -p, 100),
     "a product with a number": (long, lambda p: p * checker.number(2, p.work), 100),
