@@ -17,7 +17,7 @@ from juggleproof.certificates.checker.rules import State, parts_of_box, prove
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused
 from tests.certificates.checker.maps import ASKED, read
 
-POWER = lines("forall x", "show (x + 1)^60 - (x + 1)^60 = 0", "")
+POWER = lines("forall x", "given x + 1 > 0", "show (x + 1)^60 - (x + 1)^60 = 0", "")
 (STATEMENT,) = checker.read_statements(POWER.rstrip() + "\n").values()
 CERTIFICATE = proof(CLOSE, at={"x": "0"})
 
