@@ -34,7 +34,7 @@ def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
 
 om, acc, x, y = reals("omega acc x y")
 half_short, half_long = reals("h k")
-c, s, c_2, s_2 = reals("cosine sine cosine_2 sine_2")  # cosine and sine of the angle of a block
+c, s, c_2, s_2 = reals("m p n q")  # cosine and sine of the angle of a block
 UNIT, UNIT_2 = equal(c**2 + s**2, 1), equal(c_2**2 + s_2**2, 1)
 PAST = half_long * s - half_short * c  # 0 where the centre is above the corner, theta = atan(h/k)
 
