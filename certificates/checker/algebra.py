@@ -202,8 +202,8 @@ class Poly:
 
     def numerator(self, under: Under) -> Poly:
         """The numerator over a denominator that is a multiple of the present one."""
-        missing = {key[0]: e - self.under.get(key, 0) for key, e in under.items()}
-        return prod((poly**e for poly, e in missing.items() if e), start=self.over({}))
+        missing = ((key[0], e - self.under.get(key, 0)) for key, e in under.items())
+        return prod((poly**e for poly, e in missing if e), start=self.over({}))
 
     def plus(self, other: Poly, factor: Rational = 1) -> Poly:
         """self + factor * other."""
