@@ -5,10 +5,13 @@ from __future__ import annotations
 import inspect
 import json
 import re
+import zlib
+from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
+from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
@@ -21,7 +24,9 @@ from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.markup import Chip, Node, picture
 from juggleproof.proofs.reports.mathml import mathml
+from juggleproof.proofs.reports.opening import PROOF, motion, opening
 from juggleproof.proofs.reports.part import HEADS, Results
+from juggleproof.proofs.reports.tex_words import SYMBOLS
 from juggleproof.scenes.figures.look import inline_svg
 
 # -------------------------------------------------------------------------------------------------
@@ -40,6 +45,7 @@ VERDICTS = {  # word -> symbol, and what it means
     "simulated": ("≈", "what a simulation shows, with its figures; nothing is proved"),
     "unknown": ("?", "open: not settled, or not stated, which says nothing"),
 }
+ANY = "any numbers that meet what is given"
 KINDS = {  # kind of rule -> what it says, in a few words
     "exactly": "stable and attracting for these alpha only",
     "attracts": "every orbit tends to the point",
@@ -155,6 +161,7 @@ class ClaimView:
     why: str
     sharp: str
     steps: Sequence[tuple[str, str]]  # title, anchor
+    letters: Sequence[tuple[str, str]]
     shared: Sequence[markup.Row]
     statements: Sequence[Statement]
     note: str
@@ -204,21 +211,36 @@ def view_of(entry: Entry) -> ClaimView:
         why=entry.why_restored,
         sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
         steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
+        letters=letters_of([one.text for one in entry.statements]),
         shared=_rows(shared),
         statements=[statement(one, shared=shared) for one in entry.statements],
         note=entry.verdict_text.partition(" (")[2].removesuffix(")"),
     )
 
 
+def letters_of(texts: Sequence[str]) -> list[tuple[str, str]]:
+    """Each letter of the statements with its meaning: as the notation has it, or, for those that a
+    statement is about without more, that they are any numbers.
+    """
+    words = set(re.findall(r"[A-Za-z]\w*", "\n".join(texts)))
+    known = [(name, meaning) for name, _, meaning in NOTATION if meaning and name in words]
+    lines = [line.partition(" ")[::2] for text in texts for line in text.splitlines()]
+    bound = {name: 0 for word, names in lines if word == "forall" for name in names.split()}
+    free = [glyph(name) for name in bound if name not in dict(known)]
+    letters = [(mathml(glyph(name)), meaning) for name, meaning in known]
+    return [*letters, *([(mathml(", ".join(free)), ANY)] if free else [])]
+
+
 @dataclass(frozen=True)
 class Derived:
-    """A derived expression: its anchor, what it is, its entries as markup, and what it is made
-    from.
+    """A derived expression: its anchor, what it is, its equation as markup, its entries as text,
+    and what it is made from.
     """
 
     anchor: str
     title: str
     shown: str
+    text: str
     uses: Sequence[tuple[str, str]]
 
 
@@ -229,7 +251,8 @@ def derivations(contents: Contents) -> list[Derived]:
         Derived(
             anchor(one.function),
             titles[one.function],
-            rows(one.rows),
+            equation(one.function, one.rows),
+            one.line.rpartition(f"{one.sentence} ")[2],
             [(titles[name], anchor(name)) for name in one.uses if name in titles],
         )
         for one in contents.derivations
@@ -245,17 +268,23 @@ def anchor(function: str) -> str:
     return "derived-" + "-".join(re.findall(r"\w+", function))
 
 
-def rows(entries: Sequence[Sequence[str]]) -> str:
-    """A derived expression, column or matrix as markup."""
+def equation(function: str, entries: Sequence[Sequence[str]]) -> str:
+    """A derived expression, column or matrix as markup, with the paper's name for it on the left,
+    or else the name of its function.
+    """
+    name, _, arguments = function.partition("(")
+    words = rf"\text{{{name.replace('_', ' ')}}}"
+    given = rf"(\text{{{arguments[:-1]}}})" if arguments else ""
+    left = SYMBOLS.get(function, words + given)
     if len(entries) == 1 and len(entries[0]) == 1:
-        return markup.formula(entries[0][0], block=True)
+        return mathml(f"{left} = {latex_of(entries[0][0])}", block=True)
 
     lines = (
         r" \\ ".join(" & ".join(map(latex_of, row)) for row in entries)
         if len(entries) > 1
         else r" \\ ".join(map(latex_of, entries[0]))
     )
-    return mathml(rf"\begin{{bmatrix}} {lines} \end{{bmatrix}}", block=True)
+    return mathml(rf"{left} = \begin{{bmatrix}} {lines} \end{{bmatrix}}", block=True)
 
 
 def _rows(lines: Sequence[Line]) -> list[markup.Row]:
@@ -371,11 +400,15 @@ def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# The report as one HTML page: nothing is fetched, formulas are MathML, pictures are SVG, and what
-# moves is a few lines of script.
+# The report as one HTML page: nothing is fetched, formulas are MathML, pictures are SVG.
+#
+# What stands in the page is the theorem with its proof, the errata, and everything else as a list.
+# The parts behind the list are data in the page, compressed, that a script puts in their places
+# when they are opened: as elements they would be ten times all the rest.
 
 TEMPLATES = Path(__file__).parent / "templates"
 FILE = "juggleproof.html"
+TRAP = "fig-trap"  # the figure that the written proof shows
 
 
 @dataclass(frozen=True)
@@ -385,6 +418,7 @@ class Picture:
     slug: str
     title: str
     caption: str
+    alt: str
     svg: str
 
 
@@ -392,7 +426,11 @@ def pictures(contents: Contents) -> list[Picture]:
     """The report's figures."""
     return [
         Picture(
-            one.slug, one.title, one.caption, inline_svg(one.data, one.slug, one.title, one.alt)
+            one.slug,
+            one.title,
+            one.caption,
+            one.alt,
+            inline_svg(one.data, one.slug, one.title, one.alt),
         )
         for one in saved(contents)
     ]
@@ -425,15 +463,28 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
     environment.filters["markup"] = markupsafe.Markup
     environment.filters["text"] = lambda text: markupsafe.Markup(escape(text, quote=False))
     environment.filters["prose"] = lambda text: markupsafe.Markup(markup.prose(text))
-    text: str = environment.get_template("page.html.j2").render(
-        **_shown(contents, drawn, scene, markupsafe.Markup)
-    )
+    shown = _shown(contents, drawn, scene, markupsafe.Markup)
+    macros = environment.get_template("parts.html.j2").module
+    linked = shown["linked"]
+    parts = {
+        **{one.id: macros.claim(one, linked) for _, found in shown["sections"] for one in found},
+        **{f"rule-{one.name}": macros.rule(one, linked) for one in shown["panels"]},
+        **{one.anchor: macros.derived(one) for one in shown["derivations"]},
+        **{f"figure-{one.slug}": macros.figure(one) for one in shown["drawn"]},
+    }
+    text: str = environment.get_template("page.html.j2").render(**shown, parts=packed(parts))
     return (text.rstrip() + "\n").encode()
+
+
+def packed(parts: Mapping[str, str]) -> str:
+    """Named parts of the page as JSON, compressed (RFC 1950), in base 64."""
+    data = json.dumps({name: part.strip() for name, part in parts.items()}, ensure_ascii=False)
+    return b64encode(zlib.compress(data.encode(), 9)).decode("ascii")
 
 
 def _shown(
     contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Callable[[str], str]
-) -> dict[str, object]:
+) -> dict[str, Any]:
     by_section = sections(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
     headline, *further = [
@@ -450,7 +501,11 @@ def _shown(
         "panels": panels(contents.rules),
         "derivations": derivations(contents),
         "tree": tree(contents.rules, outcomes),
-        "drawn": drawn,
+        "drawn": [one for one in drawn if one.slug != TRAP],
+        "trap": next((one for one in drawn if one.slug == TRAP), None),
+        "motion": motion(),
+        "opening": opening(contents),
+        "proof_claim": PROOF,
         "scene": scene,
         "scene_heads": HEADS,
         "scene_picture": raw(scene_picture(scene)),
