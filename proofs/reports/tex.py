@@ -150,7 +150,9 @@ def _render(made: Environment, name: str, contents: Contents, values: Mapping[st
 def _counterexamples(entry: Entry) -> list[str]:
     """The counterexamples as they are set, each once."""
     shown = (
-        tex_words.values(one.at) + (f": {tex_words.prose(one.numbers)}" if one.numbers else "")
+        tex_words.values(one.at)
+        + (f": {tex_words.prose(one.numbers)}." if one.numbers else ".")
+        + (f" {tex_words.prose(one.words)}" if one.words else "")
         for one in entry.statements
         if one.at
     )

@@ -229,6 +229,12 @@ def test_counterexamples_show_the_numbers_that_disagree_holds(
     assert f"in numbers: {numbers}" in map(str.strip, text.splitlines())
 
 
+def test_every_counterexample_is_in_words_holds(listing: dict[str, dict[str, str]]) -> None:
+    for text in (text for group in listing.values() for text in group.values()):
+        rows = [line.split("  ")[2] for line in text.splitlines()[1:] if line[4] != " "]
+        assert rows.count("in words") == rows.count("fails at"), text
+
+
 def test_counterexamples_are_in_simple_rationals_holds() -> None:
     store = Store(DEFAULT)
     for name, text in store.texts.items():
