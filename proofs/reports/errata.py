@@ -38,8 +38,9 @@ alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; 
 ball's height and velocity when the table is
 at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
 words.
-`juggleproof explain ID` shows the line of the transcription, the other names, the derivation, \
-the statements and their certificates.
+`juggleproof explain ID` shows the other names, the derivation, the statements and their \
+certificates, and with --lines
+the line of the transcription.
 """
 GROUPS = {  # by weight, the heaviest first
     "proof": "Breaks the proof: what a section concludes rests on it, and stands by a repair",

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import Contents, Entry
@@ -296,7 +297,7 @@ def equation(entry: Entry) -> str:
     tag = f"\\tag{{{tex_words.number(entry.claim)}}}" if tex_words.number(entry.claim) else ""
     head = [
         (
-            f"% {entry.claim.id}, {entry.claim.section} {entry.claim.place}: {entry.verdict_text};"
+            f"% {entry.claim.id}, {place_of(entry.claim)}: {entry.verdict_text};"
             f" as printed it holds {words_of(entry)}"
         ),
         *(
