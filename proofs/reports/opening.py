@@ -8,6 +8,7 @@ from fractions import Fraction
 from html import escape
 from typing import NamedTuple
 
+from juggleproof.certificates.language import term
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Entry
 from juggleproof.proofs.reports.latex import glyph, latex_of
@@ -38,12 +39,12 @@ def motion() -> Motion:
     """Heights of ball and table over the periods, in units of r T, against time in units of T."""
     start = scene(ALPHA, point(*START), r=1, g=2)  # r = T = 1
     path = heights(start, [Fraction(k, A_PERIOD) for k in range(PERIODS * A_PERIOD + 1)])
-    level = value_of(FIXED.component(1), {"alpha": ALPHA})
+    level = value_of(term(FIXED.component(1)), {"alpha": ALPHA})
     caption = (
         f"Ball and table for alpha = {ALPHA} from x = {START[0]}, w = {START[1]}, over"
         f" {PERIODS} periods. A dot stands where the ball is when the table is at its lowest. The"
-        f" dots near the height of e_1, which is x = {level}: there each period has one impact, at"
-        " the same place."
+        f" dots approach the height of e_1, which is x = {level}; there each period has one impact,"
+        " at the same place."
     )
     return Motion(_drawn(path, level), caption)
 
@@ -55,7 +56,7 @@ def _drawn(path: Sequence[Heights], level: Fraction) -> str:
     )
     rules = "".join(f"M{_x(Fraction(k))} {TOP}V{BOTTOM}" for k in range(PERIODS + 1))
     numbers = "".join(
-        f'<text x="{_x(Fraction(k))}" y="{BOTTOM + 21}" text-anchor="middle">{k}</text>'
+        f'<text x="{_x(Fraction(k))}" y="{BOTTOM + 26}" text-anchor="middle">{k}</text>'
         for k in range(0, PERIODS + 1, 2)
     )
     title, alt = (
@@ -65,7 +66,7 @@ def _drawn(path: Sequence[Heights], level: Fraction) -> str:
         " repeat themselves every period.",
     )
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" id="motion" viewBox="0 0 620 310" role="img"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" id="motion" viewBox="0 0 620 324" role="img"'
         f' aria-labelledby="motion-title motion-desc"><title id="motion-title">{title}</title>'
         f'<desc id="motion-desc">{alt}</desc><path class="rules" d="{rules}M{LEFT} {BOTTOM}'
         f'H{RIGHT}"/><path class="level" d="M{LEFT} {_y(level)}H{RIGHT}"/>'
@@ -73,8 +74,8 @@ def _drawn(path: Sequence[Heights], level: Fraction) -> str:
         f' font-size="12">1</tspan></text><polyline class="table"'
         f' points="{_points(path, tables)}"/><polyline class="ball"'
         f' points="{_points(path, balls)}"/><g class="samples">{samples}</g>{numbers}'
-        f'<text x="{(LEFT + RIGHT) // 2}" y="{BOTTOM + 42}" text-anchor="middle">time, in'
-        f' periods</text><text x="{STRIP}" y="{BOTTOM + 21}" text-anchor="middle">table</text>'
+        f'<text x="{(LEFT + RIGHT) // 2}" y="{BOTTOM + 52}" text-anchor="middle">time, in'
+        f' periods</text><text x="{STRIP}" y="{BOTTOM + 26}" text-anchor="middle">table</text>'
         f'<g class="still">{_bodies(balls[0], tables[0])}</g>'
         f'<g class="moving">{_bodies(balls[0], tables[0], balls, tables)}'
         f'<path class="now" d="M{LEFT} {TOP}V{BOTTOM}"><animateTransform'

@@ -11,10 +11,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
+from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown
@@ -45,7 +45,6 @@ VERDICTS = {  # word -> symbol, and what it means
     "simulated": ("≈", "what a simulation shows, with its figures; nothing is proved"),
     "unknown": ("?", "open: not settled, or not stated, which says nothing"),
 }
-ANY = "any numbers that meet what is given"
 KINDS = {  # kind of rule -> what it says, in a few words
     "exactly": "stable and attracting for these alpha only",
     "attracts": "every orbit tends to the point",
@@ -183,6 +182,11 @@ class ClaimView:
         return list(by_values.values())
 
     @property
+    def own_letters(self) -> list[tuple[str, str]]:
+        """The letters of the first counterexample that the notation lacks."""
+        return markup.letters_of([one.text for one in self.refuted[:1]], with_notation=False)
+
+    @property
     def outcomes(self) -> str:
         """How many statements came to which outcome."""
         counts = {
@@ -197,7 +201,7 @@ def view_of(entry: Entry) -> ClaimView:
     claim, corrected, change = entry.claim, "", ""
     shared = shared_lines(entry.statements)
     if entry.correction:
-        text, change = entry.correction["text"], entry.correction["change"]
+        text, change = entry.correction["text"], note_of(entry.correction["change"])
         latex = is_latex(entry.correction)
         corrected = mathml(text, block=True) if latex else markup.prose(text)
     return ClaimView(
@@ -213,24 +217,11 @@ def view_of(entry: Entry) -> ClaimView:
         why=entry.why_restored,
         sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
         steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
-        letters=letters_of([one.text for one in entry.statements]),
+        letters=markup.letters_of([one.text for one in entry.statements]),
         shared=_rows(shared),
         statements=[statement(one, shared=shared) for one in entry.statements],
         note=entry.verdict_text.partition(" (")[2].removesuffix(")"),
     )
-
-
-def letters_of(texts: Sequence[str]) -> list[tuple[str, str]]:
-    """Each letter of the statements with its meaning: as the notation has it, or, for those that a
-    statement is about without more, that they are any numbers.
-    """
-    words = set(re.findall(r"[A-Za-z]\w*", "\n".join(texts)))
-    known = [(name, meaning) for name, _, meaning in NOTATION if meaning and name in words]
-    lines = [line.partition(" ")[::2] for text in texts for line in text.splitlines()]
-    bound = {name: 0 for word, names in lines if word == "forall" for name in names.split()}
-    free = [glyph(name) for name in bound if name not in dict(known)]
-    letters = [(mathml(glyph(name)), meaning) for name, meaning in known]
-    return [*letters, *([(mathml(", ".join(free)), ANY)] if free else [])]
 
 
 @dataclass(frozen=True)
@@ -243,6 +234,7 @@ class Derived:
     title: str
     shown: str
     text: str
+    letters: Sequence[tuple[str, str]]
     uses: Sequence[tuple[str, str]]
 
 
@@ -255,6 +247,7 @@ def derivations(contents: Contents) -> list[Derived]:
             titles[one.function],
             equation(one.function, one.rows),
             one.line.rpartition(f"{one.sentence} ")[2],
+            markup.letters(re.findall(r"[A-Za-z]\w*", str(one.rows))),
             [(titles[name], anchor(name)) for name in one.uses if name in titles],
         )
         for one in contents.derivations
@@ -410,6 +403,8 @@ def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
 
 TEMPLATES = Path(__file__).parent / "templates"
 FILE = "juggleproof.html"
+# functions of `symbolic` whose formulas stand before the errata, R(b) first
+NAMED = ("region_margin", "E_max", "delta_E_max", "relative_kinetic_energy")
 TRAP = "fig-trap"  # the figure that the written proof shows
 
 
@@ -425,26 +420,25 @@ class Picture:
 
 
 def pictures(contents: Contents) -> list[Picture]:
-    """The report's figures."""
+    """The report's figures, coordinates cut to hundredths of a point."""
     return [
         Picture(
             one.slug,
             one.title,
             one.caption,
             one.alt,
-            inline_svg(one.data, one.slug, one.title, one.alt),
+            re.sub(r"(\.\d\d)\d+", r"\1", inline_svg(one.data, one.slug, one.title, one.alt)),
         )
         for one in saved(contents)
     ]
 
 
-def scene_picture(scene: Results | None) -> str:
-    """Figure 2 as it stands in the page; empty where it was not drawn."""
+def scene_picture(scene: Results | None) -> list[Picture]:
+    """Figure 2 as it stands in the page; none where it was not drawn."""
     if scene is None or not scene.figure:
-        return ""
-    return inline_svg(
-        scene.figure["svg"], scene.figure["slug"], scene.figure["title"], scene.figure["alt"]
-    )
+        return []
+    slug, title, caption, alt = (scene.figure[key] for key in ("slug", "title", "caption", "alt"))
+    return [Picture(slug, title, caption, alt, inline_svg(scene.figure["svg"], slug, title, alt))]
 
 
 def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
@@ -465,52 +459,81 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
     environment.filters["markup"] = markupsafe.Markup
     environment.filters["text"] = lambda text: markupsafe.Markup(escape(text, quote=False))
     environment.filters["prose"] = lambda text: markupsafe.Markup(markup.prose(text))
-    shown = _shown(contents, drawn, scene, markupsafe.Markup)
     macros = environment.get_template("parts.html.j2").module
-    linked = shown["linked"]
-    parts = {
-        **{one.id: macros.claim(one, linked) for _, found in shown["sections"] for one in found},
-        **{f"rule-{one.name}": macros.rule(one, linked) for one in shown["panels"]},
-        **{one.anchor: macros.derived(one) for one in shown["derivations"]},
-        **{f"figure-{one.slug}": macros.figure(one) for one in shown["drawn"]},
-    }
-    text: str = environment.get_template("page.html.j2").render(**shown, parts=packed(parts))
+
+    def drawn_by(macro: str, *arguments: object) -> str:
+        return str(getattr(macros, macro)(*arguments))
+
+    text: str = environment.get_template("page.html.j2").render(
+        **_shown(contents, drawn, scene, markupsafe.Markup, drawn_by)
+    )
     return (text.rstrip() + "\n").encode()
 
 
 def packed(parts: Mapping[str, str]) -> str:
-    """Named parts of the page as JSON, compressed (RFC 1950), in base 64."""
-    data = json.dumps({name: part.strip() for name, part in parts.items()}, ensure_ascii=False)
+    """Named parts of the page, and apart from them their formulas, each once, as JSON that is
+    compressed (RFC 1950) and in base 64: a formula's place in a part is its number after #.
+    """
+    formulas = dict[str, int]()
+    numbered = {
+        name: re.sub(
+            r"<math.*?</math>|#",
+            lambda one: f"#{formulas.setdefault(one.group(), len(formulas))};",
+            part.strip(),
+        )
+        for name, part in parts.items()
+    }
+    data = json.dumps({"parts": numbered, "formulas": [*formulas]}, ensure_ascii=False)
     return b64encode(zlib.compress(data.encode(), 9)).decode("ascii")
 
 
 def _shown(
-    contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Callable[[str], str]
-) -> dict[str, Any]:
-    by_section = sections(contents)
+    contents: Contents,
+    drawn: Sequence[Picture],
+    scene: Results | None,
+    raw: Callable[[str], str],
+    part: Callable[..., str],
+) -> dict[str, object]:
+    by_section, rules = sections(contents), panels(contents.rules)
+    groups, behind = errata(by_section), derivations(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
+    linked = {*outcomes, *(entry.claim.id for entry in contents.entries)}
+    trap = [one for one in drawn if one.slug == TRAP]
+    folded = [one for one in drawn if one.slug != TRAP]
+    parts = {
+        **{one.id: part("claim", one, linked) for _, found in by_section for one in found},
+        **{
+            f"erratum-{one.id}": part("erratum", one)
+            for *_, found in groups
+            for one in found
+            if one.refuted
+        },
+        **{f"rule-{one.name}": part("rule", one, linked) for one in rules},
+        **{one.anchor: part("derived", one) for one in behind},
+        **{f"figure-{one.slug}": part("figure", one) for one in [*folded, *scene_picture(scene)]},
+    }
     headline, *further = [
         line.strip().rstrip(";") for line in contents.theorem.removeprefix("theorem: ").splitlines()
     ] or [""]
     return {
         "contents": contents,
         "sections": by_section,
-        "errata": errata(by_section),
+        "errata": groups,
         "first_title": FIRST,
         "theorem_stands": markup.prose(contents.theorem_stands),
         "first_page": [(view_of(entry), three) for entry, three in contents.first_page()],
         "mathml": mathml,
-        "panels": panels(contents.rules),
-        "derivations": derivations(contents),
+        "panels": rules,
+        "derivations": behind,
+        "named": [one for name in NAMED for one in behind if one.anchor == anchor(name)],
         "tree": tree(contents.rules, outcomes),
-        "drawn": [one for one in drawn if one.slug != TRAP],
-        "trap": next((one for one in drawn if one.slug == TRAP), None),
+        "drawn": folded,
+        "trap": next(iter(trap), None),
         "motion": motion(),
         "opening": opening(contents),
         "proof_claim": PROOF,
         "scene": scene,
         "scene_heads": HEADS,
-        "scene_picture": raw(scene_picture(scene)),
         "impact_law": [
             entry.verdict for entry in contents.entries if entry.claim.section == "part"
         ],
@@ -522,7 +545,8 @@ def _shown(
         "notation": [
             (mathml(glyph(name)), name, meaning) for name, _, meaning in NOTATION if meaning
         ],
-        "linked": {*outcomes, *(entry.claim.id for entry in contents.entries)},
+        "linked": linked,
+        "parts": packed(parts),
         "style": raw((TEMPLATES / "style.css").read_text(encoding="utf-8")),
         "script": raw((TEMPLATES / "page.js").read_text(encoding="utf-8")),
     }

@@ -8,17 +8,20 @@
   const texts = new Map();
   let timer = 0;
 
-  // The parts of the page that stand in it as data: JSON, compressed, in base 64. Without them the page is a list.
+  // The parts of the page that stand in it as data: JSON, compressed, in base 64, with the formulas by number. Without them the page is a list.
   let parts = null;
+  let formulas = [];
   const unpacked = async () => {
     const bytes = Uint8Array.from(atob(document.getElementById("parts").textContent), (sign) => sign.charCodeAt(0));
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    parts = JSON.parse(await new Response(stream).text());
+    ({ parts, formulas } = JSON.parse(await new Response(stream).text()));
   };
 
   // Puts parts in their places within an element.
   const fill = (element) => {
-    for (const place of parts ? element.querySelectorAll("[data-part]") : []) place.outerHTML = parts[place.dataset.part];
+    for (const place of parts ? element.querySelectorAll("[data-part]") : []) {
+      place.outerHTML = parts[place.dataset.part].replace(/#(\d+);/g, (_, number) => formulas[number]);
+    }
   };
 
   const plain = (text) => text.toLowerCase().replace(/\s+/g, " ");
