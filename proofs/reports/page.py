@@ -404,7 +404,7 @@ def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
 TEMPLATES = Path(__file__).parent / "templates"
 FILE = "juggleproof.html"
 # functions of `symbolic` whose formulas stand before the errata, R(b) first
-NAMED = ("region_margin", "E_max", "delta_E_max", "relative_kinetic_energy")
+NAMED = ("region_margin", "total_energy", "E_max", "delta_E_max", "relative_kinetic_energy")
 TRAP = "fig-trap"  # the figure that the written proof shows
 
 
@@ -420,14 +420,14 @@ class Picture:
 
 
 def pictures(contents: Contents) -> list[Picture]:
-    """The report's figures, coordinates cut to hundredths of a point."""
+    """The report's figures."""
     return [
         Picture(
             one.slug,
             one.title,
             one.caption,
             one.alt,
-            re.sub(r"(\.\d\d)\d+", r"\1", inline_svg(one.data, one.slug, one.title, one.alt)),
+            inline_svg(one.data, one.slug, one.title, one.alt),
         )
         for one in saved(contents)
     ]

@@ -38,6 +38,13 @@
     return texts.get(claim);
   };
 
+  const unfold = (place) => {
+    for (let box = place.closest("details"); box; box = box.parentElement.closest("details")) {
+      fill(box);
+      box.open = true;
+    }
+  };
+
   const wanted = () => ({
     verdicts: [...form.elements.verdict].filter((box) => box.checked).map((box) => box.value),
     section: form.elements.section.value,
@@ -96,12 +103,9 @@
     let place = name && document.getElementById(name);
     if (!place) return;
     if (name === "claims" || place.closest("[hidden]")) choose("");
-    for (let box = place.closest("details"); box; box = box.parentElement.closest("details")) {
-      fill(box);
-      box.open = true;
-    }
-    place = document.getElementById(name);
-    for (let box = place.closest("details"); box; box = box.parentElement.closest("details")) box.open = true;
+    unfold(place.matches(".claim") ? place.querySelector("details") : place);
+    place = document.getElementById(name); // what was a line of the list is whole now
+    unfold(place);
     place.scrollIntoView();
     if (place.tabIndex === -1 && !place.matches("a, button, input")) {
       if (!place.hasAttribute("tabindex")) place.setAttribute("tabindex", "-1");
