@@ -50,16 +50,6 @@ def explain(claim_id: str, with_premises: bool = False) -> int:
     """
     claims = {claim.id: claim for claim in paper_claims()}
     claim_id = claim_named(claim_id, claims)
-    if claim_id not in claims:
-        similar = [name for name in claims if claim_id in name][:5]
-        raise ClaimError(
-            f"{claim_id}: no such claim"
-            + (
-                f"; did you mean {', '.join(similar)}?"
-                if similar
-                else "; `juggleproof list` names them"
-            )
-        )
     claim = claims[claim_id]
     body = claim.body()
     (judgement,) = judge_some([claim], [*claims.values()], DEFAULT)

@@ -97,9 +97,6 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
     """
     by_id = {entry.claim.id: entry for entry in gather().entries}
     ids = [claim_named(wanted, by_id) for wanted in ids]
-    for wanted in ids:
-        if wanted not in by_id:
-            raise ClaimError(f"{wanted}: no such claim; `juggleproof list` names them")
     texts = {
         name: equation(by_id[name])
         for name in ids or [name for name, entry in by_id.items() if entry.claim.printed]
@@ -118,14 +115,13 @@ def _file_name(name: str) -> str:
 
 
 def _names(store: Store, ids: Sequence[str]) -> list[str]:
-    claims = {name.split("/")[0] for name in store.texts}
-    ids = [claim_named(wanted, claims) for wanted in ids]
+    claims = [claim.id for claim in paper_claims()] if ids else []
+    ids = [claim_named(wanted, [*claims, *store.texts]) for wanted in ids]
     names = [name for name in store.texts if not ids or name in ids or name.split("/")[0] in ids]
     for wanted in ids:
         if not any(wanted in (name, name.split("/")[0]) for name in names):
             raise ClaimError(
-                f"{wanted}: no stored statement of this name; `juggleproof certify` makes them,"
-                " `juggleproof list` names the claims"
+                f"{wanted}: no statement is stored for it; `juggleproof explain {wanted}` says why"
             )
     return names
 
