@@ -13,6 +13,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.claims import claim_named
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
@@ -28,17 +29,22 @@ def command(parsed: argparse.Namespace) -> int:
     if parsed.command == "export":
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "list":
-        return list_claims()
+        return list_claims(parsed.lines)
     print(errata.as_text())
     return 0
 
 
-def list_claims() -> int:
-    """One line a claim: id, place, registered verdict, what it says."""
+def list_claims(with_lines: bool = False) -> int:
+    """One line a claim: id, place, registered verdict, what it says; places are lines of the
+    transcription where these are asked for.
+    """
     register = load_register()
     for claim in paper_claims():
         verdict = register[claim.id]["verdict"] if claim.id in register else "not judged"
-        print(f"{claim.id:32} {claim.section + ' ' + claim.place:24} {verdict:12} {claim.says}")
+        place = place_of(claim).removeprefix("section ")
+        if with_lines:
+            place = f"{claim.section} {claim.place}"
+        print(f"{claim.id:32} {place:34} {verdict:12} {claim.says}")
     return 0
 
 
