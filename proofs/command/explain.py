@@ -59,7 +59,7 @@ def explain(claim_id: str, with_premises: bool = False, with_lines: bool = False
     print(f"{claim.id}   {place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for one in derivations_of(body):
+    for one in derivations_of(claim, judgement.correction):
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(body)}")
     for name, text in judgement.statements:

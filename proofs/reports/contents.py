@@ -165,7 +165,7 @@ def gather(register: Path = PATH) -> Contents:
     derived, entries = dict[str, Derivation](), list[Entry]()
     for claim, judgement in zip(done.claims, judgements):
         body = claim.body()
-        steps = derivations_of(body)
+        steps = derivations_of(claim, judgement.correction)
         derived.update((one.function, one) for one in behind(steps))
         entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading_of(body)))
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
