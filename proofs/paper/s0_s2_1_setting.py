@@ -32,7 +32,7 @@ def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
 # -------------------------------------------------------------------------------------------------
 # Section 2.1: what can be decided of the part.
 
-om, acc, x, y = reals("omega acc x y")
+om, acc, x, y, mass, a_x, a_y = reals("omega acc x y mass a_x a_y")
 half_short, half_long = reals("h k")
 c, s, c_2, s_2 = reals("m p n q")  # cosine and sine of the angle of a block
 UNIT, UNIT_2 = equal(c**2 + s**2, 1), equal(c_2**2 + s_2**2, 1)
@@ -45,17 +45,17 @@ def height_of_centre(cosine: Term, sine: Term) -> Term:
 
 
 @claim("s2.1-rotating-table", "2.1", "footnote 2", parameters=())
-def parts_away_from_the_centre_of_a_turning_table_are_accelerated_otherwise() -> Statement:
-    """Where a table turns, or begins to, each place away from its centre has another acceleration
-    than the centre.
+def parts_away_from_the_centre_of_a_turning_table_need_another_force() -> Statement:
+    """Where a table turns about an axis through its centre, or begins to, a part that it carries
+    off that axis experiences another force than one of the same mass at the centre.
 
-    The place (x, y) is in the plane of the turning; its velocity is the turning rate times its
-    distance, across.
+    The place (x, y) is in the plane across the axis; the force is the mass times the acceleration,
+    which at the centre is any.
     """
-    along, across = -(om**2) * x - acc * y, acc * x - om**2 * y
+    along, across = mass * (a_x - om**2 * x - acc * y), mass * (a_y + acc * x - om**2 * y)
     return forms.always(
-        different(along, 0) | different(across, 0),
-        given=[different(om, 0) | different(acc, 0), different(x, 0) | different(y, 0)],
+        different(along, mass * a_x) | different(across, mass * a_y),
+        given=[mass > 0, different(om, 0) | different(acc, 0), different(x, 0) | different(y, 0)],
     )
 
 

@@ -17,6 +17,7 @@ from juggleproof.certificates.language import (
 from juggleproof.proofs.claims import Remark
 from juggleproof.proofs.paper.names import (
     B1,
+    B1_ZERO,
     B2,
     PAPER,
     H,
@@ -65,11 +66,15 @@ def speed_of_no_change() -> Term:
     "s4.1-every-B1-changes",
     "4.1",
     "line 432",
-    remark=Remark("On B1^0 that change is zero.", by=("s4.1-partition",)),
+    remark=Remark(
+        "The print says every state of B1. On B1^0, which the next sentence takes out, the change"
+        " is zero.",
+        by=("s4.1-partition",),
+    ),
 )
 def impacts_change_the_energy() -> list[Statement]:
-    """What the energy changes by in a period from a state of B1 comes from the impact alone; from
-    the other states of H it does not change.
+    """From a state of B1, but for those of B1^0, the energy changes in a period, and by the impact
+    alone; from the other states of H it does not change.
     """
     gained = energy(f1(b)) - energy(b)
     before, after = speed(ball_at(t)), speed(after_impact(t))
@@ -79,6 +84,7 @@ def impacts_change_the_energy() -> list[Statement]:
             given=[B1(b), strikes_at(t)],
             label="at-the-impact",
         ),
+        always(different(gained, 0), given=[B1(b), ~B1_ZERO(b)], label="changes"),
         always(equal(energy(f2(b)), energy(b)), given=[B2(b)], label="nowhere-else"),
     ]
 

