@@ -14,7 +14,7 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Remark
+from juggleproof.proofs.claims import Assertion, Following, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
@@ -30,6 +30,7 @@ from juggleproof.proofs.paper.names import (
     claim,
     collision_time,
     derived,
+    e_1,
     energy,
     exists_some,
     f1,
@@ -44,10 +45,11 @@ from juggleproof.proofs.paper.names import (
     t,
     v,
 )
-from juggleproof.proofs.paper.regions import pieces
+from juggleproof.proofs.paper.regions import LEVEL, pieces
 from juggleproof.proofs.paper.states import (
     BOTH_BOUNDS,
     NOT_LOSING,
+    STABILITY,
     UNKNOWN,
     E_max,
     dE_max,
@@ -243,11 +245,25 @@ def sum_of_both_bounds(printed: Printed) -> Statement:
 
 
 @claim("s4.1-conservative", "4.1", "line 455")
-def level_is_not_reached_by_gaining() -> Statement:
-    """The level of R is on the safe side: an impact that does not lose energy ends strictly below
-    it.
+def smaller_region_attracts_too() -> Following:
+    """R is larger than need be: its states of energy at most E_max, which is below the level of R,
+    are mapped to such states, and attract every orbit.
+
+    Every orbit tends to e_1, which has less energy than that.
     """
-    return always(energy(f1(b)) < derived("E_max") + derived("delta_E_max"), given=[NOT_LOSING(b)])
+    little = derived("E_max")
+    given = [energy(b) <= little]
+    return Following(
+        STABILITY,
+        Assertion(
+            (
+                always(energy(f1(b)) <= little, given=[B1(b), *given], label="with-impact"),
+                always(energy(f2(b)) <= little, given=[B2(b), *given], label="without-impact"),
+                always(little < LEVEL, label="smaller"),
+                always(energy(e_1) < little, label="e_1-inside"),
+            )
+        ),
+    )
 
 
 @claim(

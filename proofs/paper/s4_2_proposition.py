@@ -10,13 +10,17 @@ from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
     B1_PLUS,
+    B1_ZERO,
     B2,
+    PAPER,
     H,
     R,
     T,
     always,
+    as_region,
     b,
     ball_at,
+    beta,
     claim,
     derived,
     energy,
@@ -24,10 +28,12 @@ from juggleproof.proofs.paper.names import (
     f2,
     height,
     impact_energy_change,
+    is_maximum,
     only_at,
     r,
     t,
     v,
+    value_of,
 )
 from juggleproof.proofs.paper.regions import (
     ATTRACTION,
@@ -48,14 +54,16 @@ from juggleproof.proofs.paper.regions import (
     lands,
     m,
     n,
+    pieces,
     strikes_in_period,
     tau_w,
     v0,
     with_rounding,
     worst_wait,
 )
+from juggleproof.proofs.paper.states import place
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.reading.values import scalar
 from juggleproof.proofs.simulations.figures import HEIGHTS, SPEEDS, figures
 
 tau, t_R = real("tau"), real("t_R")
@@ -81,7 +89,9 @@ def loses_outside() -> tuple[Statement, Statement]:
 
 @claim("prop-1", "4.2", "Proposition 1, line 476")
 def region_attracts_and_is_invariant() -> Following:
-    """Every orbit is attracted to R, and R is mapped into itself, for alpha below 1/3 and beyond."""
+    """For alpha below 1/3, and beyond, every orbit is attracted to R, and R is mapped into
+    itself.
+    """
     return Following(ATTRACTION, beside=stays())
 
 
@@ -387,38 +397,51 @@ def orbits_do_not_leave_the_region() -> Assertion:
     "s4.2-highest-B1plus",
     "4.2",
     "line 494",
+    printed=r"\mathcal{B}_1^+ \cup \mathcal{B}_1^0, \quad E_{max}",
+    as_it_stands=r"\ell_1 \ell_1, \quad \ell_1 \text{ region is } \ell_2 \text{ region is } \ell_2",
+    repeats="s4.1-Emax",
     remark=Remark(
-        "It is the least bound; no state whose impact gains energy has as much.",
-        lambda: always(
-            different(energy(b), derived("E_max")), given=[B1_PLUS(b)], label="not-attained"
-        ),
+        "The transcription has lost the names of the region and of the energy. They are restored"
+        " as section 4.1 has them; on B1^+ alone E_max is not attained.",
+        lambda: always(energy(b) < derived("E_max"), given=[B1_PLUS(b)], label="not-attained"),
+        by=("s4.1-Emax",),
     ),
 )
-def greatest_energy_that_can_gain() -> list[Statement]:
-    """E_max is the least bound of the energies of the states whose impact gains energy.
-
-    A ball that comes down to the ground with less energy than that gains.
-    """
-    greatest, coming_down = derived("E_max"), Vector((0, v))
-    return [
-        always(energy(b) < greatest, given=[B1_PLUS(b)], label="bound"),
-        always(
-            B1_PLUS(coming_down),
-            given=[v < 0, energy(coming_down) < greatest],
-            label="all-below",
-        ),
-    ]
+def greatest_energy_that_can_gain(printed: Printed) -> list[Statement]:
+    """E_max is the greatest energy of the states whose impact gains or keeps energy."""
+    where, greatest = pieces(printed, 2)
+    parts = {r"\mathcal{B}_1^+": B1_PLUS, r"\mathcal{B}_1^0": B1_ZERO}
+    return is_maximum(
+        term(scalar(value_of(greatest, PAPER))),
+        energy(b),
+        {"beta": beta, "v": v},
+        at=place("largest_kept_energy"),
+        on=as_region(value_of(where, PAPER.extended(parts)))(b),
+    )
 
 
-@claim("s4.2-adding", "4.2", "line 494")
-def greatest_gain_does_not_lead_out() -> list[Statement]:
+@claim(
+    "s4.2-adding",
+    "4.2",
+    "line 494",
+    printed=r"\Delta E_{max}, \quad \mathcal{R}",
+    as_it_stands=r"\ell_2 + \ell_2, \quad \ell_3",
+    remark=Remark(
+        "The transcription has lost both names. They are restored as the greatest gain of section"
+        " 4.1, and the region that the sentences before and after speak of.",
+        by=("s4.1-DEmax-on-H",),
+    ),
+)
+def greatest_gain_does_not_lead_out(printed: Printed) -> list[Statement]:
     """The greatest gain, on top of the greatest energy at which an impact gains, does not lead out
     of R.
     """
-    kept, gain = derived("E_max"), derived("delta_E_max")
+    what, where = pieces(printed, 2)
+    kept, gain = derived("E_max"), term(scalar(value_of(what, PAPER)))
+    inside = as_region(value_of(where, PAPER))
     return [
         always(impact_energy_change(b) <= gain, given=[B1_PLUS(b)], label="gain"),
-        always(R(f1(b)), given=[B1(b), energy(b) <= kept], label="stays"),
+        always(inside(f1(b)), given=[B1(b), energy(b) <= kept], label="stays"),
         always(kept + gain <= LEVEL, label="level"),
     ]
 

@@ -41,7 +41,6 @@ from juggleproof.proofs.paper.names import (
     s,
     speed,
     v,
-    vector,
 )
 from juggleproof.proofs.paper.states import (
     AROUND_E1,
