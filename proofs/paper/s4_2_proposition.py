@@ -56,6 +56,8 @@ from juggleproof.proofs.paper.regions import (
     n,
     pieces,
     strikes_in_period,
+    struck_by,
+    tau,
     tau_w,
     v0,
     with_rounding,
@@ -66,7 +68,7 @@ from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.values import scalar
 from juggleproof.proofs.simulations.figures import HEIGHTS, SPEEDS, figures
 
-tau, t_R = real("tau"), real("t_R")
+t_R = real("t_R")
 
 
 def stays() -> Assertion:
@@ -162,12 +164,13 @@ def finite_states_arrive_in_finite_time() -> Following:
 
 @claim("eq-25", "4.2", "(25)", printed=r"\tau_w := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)}.")
 def worst_time_to_impact(printed: Printed) -> list[Statement]:
-    """No ball of this energy is above the ground longer than tau_w, and one thrown up from the
-    ground is as long as that.
+    """A ball of this energy strikes the table within tau_w, after which it would be on or below the
+    ground, and one thrown up from the ground is above it as long as that.
     """
     defined = printed.formula(NAMED)
     above = height(ball_at(t, b_0))
     return [
+        *struck_by(tau_w, b_0, [defined]),
         grounded_after(tau_w, b_0, [defined], "no-longer"),
         always_counting(
             above > 0, given=[equal(beta0, 0), v0 > 0, defined, t > 0, t < tau_w], label="as-long"
@@ -229,12 +232,12 @@ def less_energy_makes_flights_shorter() -> Statement:
 
 @claim("s4.2-max-time", "4.2", "line 484")
 def longest_time_between_impacts() -> list[Statement]:
-    """While an orbit is outside R its energy does not rise, and no ball of that energy or less
-    stays up longer than tau_w.
+    """While an orbit is outside R its energy does not rise, and a ball of that energy or less
+    strikes the table within tau_w of any moment, as of its last impact.
     """
     return [
         *loses_outside(),
-        grounded_after(worst_wait, b, [energy(b) <= energy(b_0)], "lands-by-then"),
+        *struck_by(worst_wait, b, [energy(b) <= energy(b_0)]),
     ]
 
 
