@@ -67,8 +67,8 @@ def parts_away_from_the_centre_of_a_turning_table_need_another_force() -> Statem
     "line 70",
     parameters=(),
     remark=Remark(
-        "That its energy never rises is assumed; no impact of a corner raises it. That it comes to"
-        " rest is simulated, and not shown.",
+        "That the energy of a block never rises is assumed; no impact of a corner raises it. That a"
+        " block comes to rest is simulated, and not shown.",
         by=(*(f"part-{mode}-energy" for mode in MODES), "s2.1-fall"),
     ),
 )

@@ -14,13 +14,14 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Assertion, Following, Remark
+from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B1_ZERO,
     B2,
     PAPER,
     H,
+    K,
     after_impact,
     always,
     at,
@@ -52,6 +53,8 @@ from juggleproof.proofs.paper.states import (
     STABILITY,
     UNKNOWN,
     E_max,
+    always_integer,
+    cycle,
     dE_max,
     keeps_energy,
     place,
@@ -172,27 +175,42 @@ def greatest_energy_that_is_kept(printed: Printed) -> list[Statement]:
     "s4.1-Emax-maintain",
     "4.1",
     "line 447",
+    parameters=("alpha", "K"),
     remark=Remark(
-        "It is kept over one impact, and not for ever: the next impact comes as the table is"
-        " launched again just for alpha = (K - 1)/(K + 1), K a whole number. No orbit of less"
-        " energy exceeds it.",
+        "The next impact comes as the table is launched again just for alpha = (K - 1)/(K + 1), K a"
+        " whole number. No orbit of less energy than E_max exceeds it.",
         by=("sA.1-in-step", "theorem-E-max"),
     ),
 )
-def table_maintains_that_energy_at_most() -> list[Statement]:
+def table_maintains_that_energy_at_most() -> Readings:
     """An impact from a state of more energy than E_max loses energy; some state of the energy E_max
-    keeps it over one impact.
+    keeps it over one impact; or for ever, and so over the next impact too, which comes after K
+    periods and before K + 1.
     """
     greatest = derived("E_max")
-    return [
-        always(energy(f1(b)) < energy(b), given=[B1(b), energy(b) > greatest], label="not-more"),
-        exists_some(
-            ["beta", "v"],
-            keeps_energy(b),
-            within=[B1(b), equal(energy(b), greatest)],
-            label="as-much",
-        ),
-    ]
+    at_most = always(
+        energy(f1(b)) < energy(b), given=[B1(b), energy(b) > greatest], label="not-more"
+    )
+    keeps = [B1(b), equal(energy(b), greatest), keeps_energy(b)]
+    as_much = exists_some(["beta", "v"], keeps[2], within=keeps[:2], label="as-much")
+    periods = derived("subharmonic_bound")  # that a ball of this speed flies from the ground
+    again = always_integer(
+        keeps_energy(cycle(K)),
+        given=[*keeps, K <= periods, periods < K + 1],
+        label="at-the-next-impact",
+    )
+    return Readings(
+        {
+            "over-one-impact": Reading(
+                Assertion((at_most, as_much)),
+                "section 4.1 takes E_max as the greatest energy at which an impact does not lose",
+            ),
+            "for-ever": Reading(
+                Assertion((again,)),
+                "A.1 seeks the energy that can be sustained, of a velocity in equilibrium",
+            ),
+        }
+    )
 
 
 @claim(

@@ -51,6 +51,12 @@ def remark(claim_id: str) -> Remark:
 def test_s4_1_Emax_maintain_says_one_impact_and_points_to_what_follows_it_holds() -> None:
     assert "over one impact" in claims()["s4.1-Emax-maintain"].says
     assert "sA.1-in-step" in remark("s4.1-Emax-maintain").by
+    assert REGISTER["s4.1-Emax-maintain"] == {
+        "verdict": "ambiguous",
+        "detail": "over-one-impact: holds; for-ever: false",
+        "sharp": "over-one-impact: 0 < alpha < 1;"
+        " for-ever: alpha = (K - 1)/(K + 1) for a whole number K",
+    }
     step = REGISTER["sA.1-in-step"]
     assert step["verdict"] == "gap" and step["detail"].startswith("step in-step is false")
     assert step["sharp"] == "in-step: alpha = (K - 1)/(K + 1) for a whole number K"
