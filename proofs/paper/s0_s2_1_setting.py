@@ -82,11 +82,11 @@ def a_block_let_go_never_passes_the_angle_at_which_its_centre_is_highest() -> li
     """
     start, highest = height_of_centre(c, s), half_short**2 + half_long**2
 
-    def never_passed(side: int, label: str) -> Statement:
-        """The angle to this side at which the centre is above a corner, or below it."""
-        above_corner = half_long * c_2 + side * half_short * s_2
+    def never_passed(across: Term, label: str) -> Statement:
+        """The angle at which the centre is above, or below, the corner that is so far across."""
+        above_corner = half_long * c_2 + across * s_2
         return forms.always(
-            different(half_long * s_2, side * half_short * c_2),
+            different(half_long * s_2, across * c_2),
             given=[
                 UNIT,
                 different(PAST, 0),
@@ -107,8 +107,8 @@ def a_block_let_go_never_passes_the_angle_at_which_its_centre_is_highest() -> li
         forms.always(
             y <= start, given=[g > 0, kinetic >= 0, kinetic + g * y <= g * start], label="no-higher"
         ),
-        never_passed(1, "never-passed"),
-        never_passed(-1, "never-passed-on-the-other-side"),
+        never_passed(half_short, "never-passed"),
+        never_passed(-half_short, "never-passed-on-the-other-side"),
         forms.always(
             start > half_long,
             given=[half_long > 0, UNIT, c > 0, s > 0, PAST < 0],
