@@ -33,7 +33,7 @@ def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
 # -------------------------------------------------------------------------------------------------
 # Section 2.1: what can be decided of the part.
 
-om, acc, x, y, mass, a_x, a_y = reals("omega acc x y mass a_x a_y")
+om, acc, x, y, mass, c_x, c_y = reals("omega acc x y mass c_x c_y")
 half_short, half_long = reals("h k")
 kinetic = real("kinetic")
 c, s, c_2, s_2 = reals("m p n q")  # cosine and sine of the angle of a block
@@ -54,9 +54,9 @@ def parts_away_from_the_centre_of_a_turning_table_need_another_force() -> Statem
     The place (x, y) is in the plane across the axis; the force is the mass times the acceleration,
     which at the centre is any.
     """
-    along, across = mass * (a_x - om**2 * x - acc * y), mass * (a_y + acc * x - om**2 * y)
+    along, across = mass * (c_x - om**2 * x - acc * y), mass * (c_y + acc * x - om**2 * y)
     return forms.always(
-        different(along, mass * a_x) | different(across, mass * a_y),
+        different(along, mass * c_x) | different(across, mass * c_y),
         given=[mass > 0, different(om, 0) | different(acc, 0), different(x, 0) | different(y, 0)],
     )
 

@@ -160,8 +160,8 @@ def b2_does_not_strike_within_a_period() -> Statement:
 @claim("s2.2.1-dB2", "2.2.1", "line 125", printed=r"\tau_c = T", remark=CORNER_WITHOUT_A_TIME)
 def line_between_b1_and_b2(printed: Printed) -> list[Statement]:
     """The line between B1 and B2, where the ball meets the table as the period ends, is where the
-    time to collision is one period, wherever it is defined: of the states of one height, the slower
-    ones are B1, and the others B2.
+    time to collision is one period, wherever it is defined. Of the states of any height, those
+    slower than that of the line are B1, and the others B2.
     """
     parted = iff(B1(b), v < u) & iff(B2(b), v >= u)
     return [

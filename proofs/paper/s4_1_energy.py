@@ -193,7 +193,7 @@ def table_maintains_that_energy_at_most() -> Readings:
     )
     keeps = [B1(b), equal(energy(b), greatest), keeps_energy(b)]
     as_much = exists_some(["beta", "v"], keeps[2], within=keeps[:2], label="as-much")
-    periods = derived("subharmonic_bound")  # that a ball of this speed flies from the ground
+    periods = derived("subharmonic_bound")  # of the flight after that impact
     again = always_integer(
         keeps_energy(cycle(K)),
         given=[*keeps, K <= periods, periods < K + 1],
