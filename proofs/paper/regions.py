@@ -26,6 +26,7 @@ from juggleproof.proofs.paper.names import (
     STANDING,
     H,
     R,
+    T,
     always,
     at,
     b,
@@ -37,10 +38,12 @@ from juggleproof.proofs.paper.names import (
     f1,
     height,
     impact_energy_change,
+    meet,
     r,
     speed,
     t,
     table_at,
+    v,
     value_of,
 )
 from juggleproof.proofs.reading import tree
@@ -48,7 +51,9 @@ from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.values import Region, Vector, scalar
 
-beta0, v0, u, tau_w, dE_sup, n, m, j = reals("beta0 v0 u tau_w dE_sup n m j")
+beta0, v0, u, tau_w, dE_sup, n, m, j, tau, launch = reals(
+    "beta0 v0 u tau_w dE_sup n m j tau launch"
+)
 b_0 = Vector((beta0, v0))
 WITH_INTEGERS = replace(
     STANDING,
@@ -119,6 +124,24 @@ def grounded_after(wait: Term, state: Vector, given: list[Formula], label: str) 
     return always_counting(
         height(ball_at(t, state)) <= 0, given=[H(state), *given, t >= wait], label=label
     )
+
+
+def struck_by(wait: Term, state: Vector, given: list[Formula]) -> list[Statement]:
+    """A ball of this state that nothing has struck until the last launch of the table within the
+    wait strikes it by the end of the wait: it approaches, so that they meet, and by then.
+    """
+    ball = ball_at(launch, state)
+    there = [H(state), *given, launch >= 0, wait < launch + T]
+    met = equal(height(ball_at(tau, state)), height(table_at(tau - launch)))
+    return [
+        always_counting(speed(ball) < r, given=there, label="approaches"),
+        exists_counting(["tau"], meet(tau), given=[v < r], label="meets"),
+        always_counting(
+            (launch <= tau) & (tau <= wait),
+            given=[H(state), *given, wait < launch + T, H(ball), met],
+            label="by-then",
+        ),
+    ]
 
 
 def floor_of(value: Term) -> Formula:
