@@ -50,10 +50,12 @@ from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.reading.values import Vector, scalar
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
+    BELOW_A_THIRD,
     FIXED,
     IMPACT,
     LEMMA,
     NORMAL,
+    PIECES,
     SPACE,
     SPEED,
     TO_THE_POINT,
@@ -189,9 +191,12 @@ def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
 # A flight begins with an impact at the state (x, w) and lasts K periods, to the impact at (x', w').
 # Since x' >= 0, a long flight needs a high closing speed, and leaves a low one: the next flight
 # lasts J periods with J - 1 <= alpha (K + 1). For alpha < 1/3 flights grow shorter until all last
-# one period. The closing speeds at the impacts approach that of e_1 by the factor kappa = alpha (1
-# + 3 alpha)/(1 - alpha) at least, which is less than 1 exactly for alpha < 1/3: so the relative
-# kinetic energy falls from impact to impact, which the paper claims of every period.
+# one period. That is certified of a map which counts: k is the number of periods that the flight
+# lasts so far, the one that begins here among them, and `most` bounds its length; an impact after k
+# periods sets the bound of the next flight, 1 + alpha (k + 1). The closing speeds at the impacts
+# approach that of e_1 by the factor kappa = alpha (1 + 3 alpha)/(1 - alpha) at least, which is less
+# than 1 exactly for alpha < 1/3: so the relative kinetic energy falls from impact to impact, which
+# the paper claims of every period.
 
 HERE = Vector((x, w))
 K, J, n, d = reals("K J n d")
@@ -223,6 +228,20 @@ AFTER = next_impact(K)
 x_after, w_after = (term(entry) for entry in AFTER)
 IN_FLIGHT = [x >= 0, x_after >= 0]  # the next impact is above the table
 
+k, most = reals("k most")
+STRUCK, FLOWN = PIECES
+COUNTING = replace(
+    NORMAL,
+    state=(x, w, k, most),
+    space=conjunction([SPACE, k >= 1, k <= most, w >= 2 * k + 1 - most, x + k * w <= k * (k + 1)]),
+    pieces=(
+        (STRUCK[0], Vector((*STRUCK[1].entries, 1, 1 + alpha * (k + 1)))),
+        (FLOWN[0], Vector((*FLOWN[1].entries, k + 1, most))),
+    ),
+)
+TO_ONE_PERIOD = Descent(2 * most / (1 - 3 * alpha) - k, (most < 2,))
+BELOW = BELOW_A_THIRD & (1 - 3 * alpha > 0)  # for what is divided by
+
 
 @claim("theorem-flights", "theorem", "argument B")
 def flights_grow_shorter_below_a_third() -> list[AnyStatement]:
@@ -250,6 +269,11 @@ def flights_grow_shorter_below_a_third() -> list[AnyStatement]:
             in_range=[alpha > 0, 3 * alpha < 1],
             label="shorter",
         ),
+        forms.exists_some(
+            ["k", "most"], COUNTING.space, given=[x >= 0], label="counted", vocabulary=STANDING
+        ),
+        the_map("counting", COUNTING),
+        descends("until-one", "theorem-flights/counting", COUNTING, BELOW, TO_ONE_PERIOD),
     ]
 
 
