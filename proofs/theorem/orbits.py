@@ -45,6 +45,7 @@ from juggleproof.proofs.paper.names import (
     x,
 )
 from juggleproof.proofs.paper.names import always as always_real
+from juggleproof.proofs.paper.names import exists_some as exists_real
 from juggleproof.proofs.paper.regions import LEVEL, PRINTED_SUPREMUM
 from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.reading.values import Vector, scalar
@@ -269,9 +270,7 @@ def flights_grow_shorter_below_a_third() -> list[AnyStatement]:
             in_range=[alpha > 0, 3 * alpha < 1],
             label="shorter",
         ),
-        forms.exists_some(
-            ["k", "most"], COUNTING.space, given=[x >= 0], label="counted", vocabulary=STANDING
-        ),
+        exists_real(["k", "most"], COUNTING.space, given=[x >= 0], label="counted"),
         the_map("counting", COUNTING),
         descends("until-one", "theorem-flights/counting", COUNTING, BELOW, TO_ONE_PERIOD),
     ]
@@ -385,6 +384,7 @@ def orbits_of_little_energy_keep_to_it() -> list[AnyStatement]:
 
 W, after = reals("W after")
 FACTOR = (1 + alpha) * W / (2 * ((1 - alpha) * W - 2))
+LEAST_FACTOR = (1 + alpha) / (2 * (1 - alpha))
 LITTLE = 4 * x + (w - 1) ** 2 <= (W - 1) ** 2
 RANK_THERE = (
     5 * (W - 1) / 2
@@ -409,7 +409,7 @@ USES = Hints(
 )
 def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
     """For every W > 2/(1 - alpha) an orbit has u <= W - 1 from some period on, no later than a rank
-    tells that nears the worst case as W grows.
+    tells whose factor of u falls to (1 + alpha)/(2 (1 - alpha)) as W grows.
     """
     high = [W > 2, u >= W - 1, u >= w - 1, after <= 1 + alpha * w]
     return [
@@ -427,6 +427,11 @@ def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
             given=[W >= 1, u**2 <= (W - 1) ** 2, -u <= w - 1],
             label="rank-there",
             vocabulary=STANDING,
+        ),
+        always_real(
+            equal(FACTOR, LEAST_FACTOR + (1 + alpha) / ((1 - alpha) * ((1 - alpha) * W - 2))),
+            given=WITH_W.positive,
+            label="factor",
         ),
     ]
 
@@ -485,9 +490,9 @@ def orbits_in_the_trap_in_closed_form() -> list[AnyStatement]:
 #
 # The bracket, (E - E_max - Delta E_max)/(-Delta E_sup), is at most n where u^2 <= 2 (level + n
 # loss), u^2 being twice the energy. With the derived loss, rounded up, it counts enough impacts.
-# With the printed loss it does exactly where `ENOUGH` holds, alpha <= 0.3645..: an impact from the
-# ground with bracket 1 then leads into R, and one with more loses as much as is counted. Beyond,
-# such an impact leaves the ball outside of R, in all readings of time: its flight before took m > u
+# With the printed loss it does exactly where `ENOUGH` holds, alpha <= 0.3645..: an impact that
+# leaves the ball outside of R then takes as much as is counted. Beyond, an impact on the ground
+# with bracket 1 leaves the ball outside of R, in all readings of time: its flight before took m > u
 # - 1 periods, the next impact comes a period later at the earliest, and u < m + 1 is all of (26).
 
 m, n = reals("m n")
@@ -518,9 +523,7 @@ MARGIN = (
 TOO_MUCH = 4 * alpha * s > (1 - alpha) * (
     1 + alpha
 )  # where the printed loss is above the derived one
-CORNER = s / (1 - alpha)  # the u of the border of R
 GROUND = Vector((0, 1 + u))  # the ball comes down to the ground with u
-AFTER_GROUND = alpha * u + 1 + alpha  # the u after the impact there
 AFTER_IMPACT = derived_vector("normal_f1")
 
 
@@ -547,46 +550,35 @@ def printed_loss_counts_too_few_impacts() -> list[AnyStatement]:
     """The bracket of (26), rounded up, counts enough impacts with the loss that A.3.2 prints just
     for alpha up to 0.3645.., an algebraic number.
 
+    Up to there an impact that leaves the ball outside R takes that loss at least; beyond, a ball on
+    the ground, for which one impact is counted, is outside R after it.
+
     Of the states sampled once a period (26) is too early for every alpha and either loss: u < m + 1
     periods are counted, and m + 1 are needed.
     """
-    speed, struck = (
-        SPEED[1],
-        Vector(
-            tuple(at_state(term(entry), GROUND) for entry in derived_vector("normal_f1").entries)
-        ),
-    )
-    outside, one = u > CORNER, u**2 <= 2 * (LEVEL_OF_R + PRINTED_LOSS)
-    most = u**2 >= 2 * (LEVEL_OF_R + PRINTED_LOSS)
+    speed = SPEED[1]
+    after = at_state(speed, AFTER_IMPACT)
+    one = equal(u**2, 2 * (LEVEL_OF_R + PRINTED_LOSS))
+    little = s / (1 - alpha) + alpha * (1 - alpha) / 4  # a u just outside of R
     margin = written(MARGIN)
     slope = written([k * c for k, c in enumerate(MARGIN)][1:])
     in_flight = [u > 0, m <= u, u < m + 1, m >= 1]
     return [
         always_counted(iff(PRINTED_LOSS > TRUE_LOSS, TOO_MUCH), label="differs"),
         always_counted(
-            at_state(speed, AFTER_IMPACT) <= (alpha * u + 1 + alpha) ** 2,
-            given=[x >= 0, IMPACT, u >= 0, equal(u**2, speed)],
-            label="impact",
-        ),
-        always_counted(AFTER_GROUND <= CORNER, given=[u >= 0, one, ENOUGH], label="one-is-enough"),
-        always_counted(
-            u**2 - AFTER_GROUND**2 >= 2 * PRINTED_LOSS,
-            given=[outside, most, ENOUGH],
-            label="more-lose-as-counted",
+            speed - after >= 2 * PRINTED_LOSS,
+            given=[x >= 0, IMPACT, after > 2 * LEVEL_OF_R, ENOUGH],
+            label="each-loses-as-counted",
         ),
         always_counted(
-            at_state(IMPACT, GROUND)
-            & equal(at_state(speed, GROUND), u**2)
-            & equal(at_state(speed, struck), AFTER_GROUND**2),
-            given=[u > 0],
-            label="on-the-ground",
-        ),
-        always_counted(
-            AFTER_GROUND > CORNER, given=[u > 0, most, ~ENOUGH], label="one-is-not-enough"
+            at_state(IMPACT & equal(speed, u**2) & (after > 2 * LEVEL_OF_R), GROUND),
+            given=[u > 0, one, ~ENOUGH],
+            label="one-is-not-enough",
         ),
         always_counted(
             at_state(SPACE & ~IMPACT, before_the_ground(m))
-            & equals(flown_for(m, before_the_ground(m)), GROUND),
+            & equals(flown_for(m, before_the_ground(m)), GROUND)
+            & at_state(IMPACT, GROUND),
             given=in_flight,
             label="flight",
         ),
@@ -595,11 +587,20 @@ def printed_loss_counts_too_few_impacts() -> list[AnyStatement]:
             given=[*in_flight, n >= 1, n <= m],
             label="in-flight-between",
         ),
-        always_counted(equal(CORNER**2, 2 * LEVEL_OF_R), label="corner"),
+        always_counted(
+            equal(at_state(speed, before_the_ground(n)), u**2), label="energy-in-flight"
+        ),
+        *(
+            always_counted(
+                (little**2 > 2 * LEVEL_OF_R) & (little**2 < 2 * (LEVEL_OF_R + loss)),
+                label=f"one-is-counted-{which}",
+            )
+            for which, loss in (("derived", TRUE_LOSS), ("printed", PRINTED_LOSS))
+        ),
         always_counted(iff(ENOUGH, margin >= 0), label="enough-by-alpha"),
         always_counted(slope < 0, given=[5 * alpha >= 1], label="falls-there"),
-        always_counted(ENOUGH, given=[1000 * alpha <= 364], label="enough-up-to"),
-        always_counted(~ENOUGH, given=[1000 * alpha >= 365], label="not-enough-from"),
+        always_counted(ENOUGH, given=[10000 * alpha <= 3645], label="enough-up-to"),
+        always_counted(~ENOUGH, given=[10000 * alpha >= 3646], label="not-enough-from"),
         always_counted(
             iff(TOO_MUCH, 32 * alpha**2 > (1 - alpha) ** 2 * (1 + alpha)), label="differs-by-alpha"
         ),
