@@ -20,6 +20,7 @@ from juggleproof.proofs.paper.names import (
     PAPER,
     H,
     R,
+    alpha,
     always,
     as_region,
     at,
@@ -29,11 +30,12 @@ from juggleproof.proofs.paper.names import (
     derived,
     derived_vector,
     energy,
-    eps,
     exists_some,
+    g,
     impact_energy_change,
     next_states,
     only_at,
+    r,
     strikes_at,
     t,
     v,
@@ -93,17 +95,16 @@ MULTIPLIED = with_slopes(PAPER, b_0).extended({r"\lambda": lam, r"\overline b_s"
 def is_least_bound(
     value: Term, region: Region, given: list[Formula]
 ) -> tuple[Statement, Statement]:
-    """The value bounds the energy change of the impacts from the region, and those above the corner
-    come as close to it as one likes.
+    """The value bounds the energy change of the impacts from the region, and above the corner that
+    falls from it steadily, so that it comes as close as one likes.
     """
     above = Vector((height, v0))
+    falls = equal(impact_energy_change(above), value - (1 + alpha) * g * height)
     return (
         always(change < value, given=[*given, region(b)], label="bound"),
-        exists_some(
-            ["height"],
-            impact_energy_change(above) > value - eps,
-            within=[region(above)],
-            given=[*given, eps > 0],
+        always(
+            region(above) & falls,
+            given=[*given, height > 0, g * height <= r**2],
             label="approached",
         ),
     )

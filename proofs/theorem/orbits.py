@@ -192,12 +192,12 @@ def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
 # A flight begins with an impact at the state (x, w) and lasts K periods, to the impact at (x', w').
 # Since x' >= 0, a long flight needs a high closing speed, and leaves a low one: the next flight
 # lasts J periods with J - 1 <= alpha (K + 1). For alpha < 1/3 flights grow shorter until all last
-# one period. That is certified of a map which counts: k is the number of periods that the flight
-# lasts so far, the one that begins here among them, and `most` bounds its length; an impact after k
-# periods sets the bound of the next flight, 1 + alpha (k + 1). The closing speeds at the impacts
-# approach that of e_1 by the factor kappa = alpha (1 + 3 alpha)/(1 - alpha) at least, which is less
-# than 1 exactly for alpha < 1/3: so the relative kinetic energy falls from impact to impact, which
-# the paper claims of every period.
+# one period. That is certified of f with a count: k is the number of periods that the flight has
+# lasted when this one ends, and `most` a bound of its length; an impact after k periods makes it
+# 1 + alpha (k + 1) for the next flight. The space has what is known of w and x then. The closing
+# speeds at the impacts approach that of e_1 by the factor kappa = alpha (1 + 3 alpha)/(1 - alpha)
+# at least, which is less than 1 exactly for alpha < 1/3: so the relative kinetic energy falls from
+# impact to impact, which the paper claims of every period.
 
 HERE = Vector((x, w))
 K, J, n, d = reals("K J n d")
@@ -240,7 +240,7 @@ COUNTING = replace(
         (FLOWN[0], Vector((*FLOWN[1].entries, k + 1, most))),
     ),
 )
-TO_ONE_PERIOD = Descent(2 * most / (1 - 3 * alpha) - k, (most < 2,))
+TO_ONE_PERIOD = Descent(2 * most / (1 - 3 * alpha) - k, (IMPACT & (most < 2),))
 BELOW = BELOW_A_THIRD & (1 - 3 * alpha > 0)  # for what is divided by
 
 
@@ -407,7 +407,7 @@ USES = Hints(
     "sharper bounds",
     hints={"uses": (LEMMA, LOSES), "premises": {"falls-1": USES}},
 )
-def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
+def a_smaller_rank_leads_to_little_energy() -> list[AnyStatement]:
     """For every W > 2/(1 - alpha) an orbit has u <= W - 1 from some period on, no later than a rank
     tells whose factor of u falls to (1 + alpha)/(2 (1 - alpha)) as W grows.
     """
