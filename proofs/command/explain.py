@@ -12,6 +12,7 @@ from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
+from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import derivations_of
@@ -67,7 +68,7 @@ def explain(
     print(f"{claim.id}   {claim.where if files else place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for one in derivations_of(claim, judgement.correction):
+    for one in derivations_of(statements_of(claim, judgement.correction)):
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(claim.body())}")
     for name, text in judgement.statements:

@@ -86,7 +86,7 @@ SIDES = {
     **dict.fromkeys(
         ("s4.2-count/floor.losses-cover", "eq-26/floor.losses-cover")
         + ("sA.4-count/floor.losses-cover",),
-        ("", "the energy at the edge of R and n least losses"),
+        ("", "the energy at the edge of R plus n least losses"),
     ),
     "sA.3-sup/bound": ("the energy change of b in the period", ""),
     "s4.3.2-K-invariant/boundary-is-enough.main": ("the value of the map at y", ""),
