@@ -335,6 +335,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
                     shown.outcome,
                     dict(shown.votes),
                     table.where(shown.outcome, shown.at),
+                    shown.words,
                 )
                 for shown in one.statements
             ),

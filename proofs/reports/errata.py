@@ -461,10 +461,10 @@ def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
     return [*fails.values()]
 
 
-def words_of(text: str, refutation: object) -> str:
+def words_of(text: str, refutation: object, of_paper: bool = True) -> str:
     """What is so at a rational counterexample, in a line of words; nothing at a root."""
     point = point_of(text, refutation)
-    return "" if point is None else in_words(text, point)
+    return "" if point is None else in_words(text, point, of_paper)
 
 
 def numbers_of(text: str, refutation: object) -> str:
