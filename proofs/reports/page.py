@@ -471,19 +471,20 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
 
 
 def packed(parts: Mapping[str, str]) -> str:
-    """Named parts of the page, and apart from them their formulas, each once, as JSON that is
-    compressed (RFC 1950) and in base 64: a formula's place in a part is its number after #.
+    """Named parts of the page, and apart from them their formulas and the outlines of pictures,
+    each once, as JSON that is compressed (RFC 1950) and in base 64: where one stands in a part, its
+    number stands after #.
     """
-    formulas = dict[str, int]()
+    shared = dict[str, int]()
     numbered = {
         name: re.sub(
-            r"<math.*?</math>|#",
-            lambda one: f"#{formulas.setdefault(one.group(), len(formulas))};",
+            r'<math.*?</math>|(?<= d=")[^"]+|#',
+            lambda one: f"#{shared.setdefault(one.group(), len(shared))};",
             part.strip(),
         )
         for name, part in parts.items()
     }
-    data = json.dumps({"parts": numbered, "formulas": [*formulas]}, ensure_ascii=False)
+    data = json.dumps({"parts": numbered, "shared": [*shared]}, ensure_ascii=False)
     return b64encode(zlib.compress(data.encode(), 9)).decode("ascii")
 
 

@@ -8,19 +8,19 @@
   const texts = new Map();
   let timer = 0;
 
-  // The parts of the page that stand in it as data: JSON, compressed, in base 64, with the formulas by number. Without them the page is a list.
+  // The parts of the page that stand in it as data: JSON, compressed, in base 64, with formulas and outlines by number. Without them the page is a list.
   let parts = null;
-  let formulas = [];
+  let shared = [];
   const unpacked = async () => {
     const bytes = Uint8Array.from(atob(document.getElementById("parts").textContent), (sign) => sign.charCodeAt(0));
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    ({ parts, formulas } = JSON.parse(await new Response(stream).text()));
+    ({ parts, shared } = JSON.parse(await new Response(stream).text()));
   };
 
   // Puts parts in their places within an element.
   const fill = (element) => {
     for (const place of parts ? element.querySelectorAll("[data-part]") : []) {
-      place.outerHTML = parts[place.dataset.part].replace(/#(\d+);/g, (_, number) => formulas[number]);
+      place.outerHTML = parts[place.dataset.part].replace(/#(\d+);/g, (_, number) => shared[number]);
     }
   };
 

@@ -97,7 +97,7 @@ def parts_of(document: Element) -> dict[str, str]:
     packed = next(one for one in document.all("script") if one.attributes.get("id") == "parts")
     data = json.loads(zlib.decompress(b64decode(packed.text())))
     return {
-        name: re.sub(r"#(\d+);", lambda number: data["formulas"][int(number[1])], part)
+        name: re.sub(r"#(\d+);", lambda number: data["shared"][int(number[1])], part)
         for name, part in data["parts"].items()
     }
 
