@@ -226,11 +226,12 @@ def view_of(entry: Entry) -> ClaimView:
 
 @dataclass(frozen=True)
 class Derived:
-    """A derived expression: its anchor, what it is, its equation as markup, its entries as text,
-    and what it is made from.
+    """A derived expression: its anchor, the paper's name for it, what it is, its equation as
+    markup, its entries as text, its letters, and what it is made from.
     """
 
     anchor: str
+    symbol: str
     title: str
     shown: str
     text: str
@@ -244,6 +245,7 @@ def derivations(contents: Contents) -> list[Derived]:
     return [
         Derived(
             anchor(one.function),
+            mathml(SYMBOLS[one.function]) if one.function in SYMBOLS else "",
             titles[one.function],
             equation(one.function, one.rows),
             one.line.rpartition(f"{one.sentence} ")[2],
