@@ -199,8 +199,9 @@ def build_parser() -> argparse.ArgumentParser:
     report.add_argument(
         "--format",
         required=True,
+        action="append",
         metavar="F",
-        help="html, latex, pdf, markdown, json, badge or figures",
+        help="html, latex, pdf, markdown, json, badge or figures; several with commas between",
     )
     report.add_argument(
         "-o",

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
@@ -25,26 +25,30 @@ Files = Mapping[str, bytes]
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Writes the report that is asked for; returns the exit code."""
-    return report(parsed.format, parsed.output)
+    """Writes the reports that are asked for; returns the exit code."""
+    return report([one for given in parsed.format for one in given.split(",")], parsed.output)
 
 
-def report(wanted: str, folder: Path | None) -> int:
-    """Writes a report of this format into the folder and prints the paths; returns 1 where what was
-    made has faults that a reader would see.
+def report(formats: Sequence[str], folder: Path | None) -> int:
+    """Writes reports of these formats into the folder, from claims judged once, and prints the
+    paths; returns 1 where what was made has faults that a reader would see.
 
     Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
     library or program that is absent.
     """
-    if wanted not in FORMATS:
-        raise ClaimError(f"--format {wanted}: choose from {', '.join(FORMATS)}")
+    for wanted in formats:
+        if wanted not in FORMATS:
+            raise ClaimError(f"--format {wanted}: choose from {', '.join(FORMATS)}")
     place = folder or DEFAULT_FOLDER
     _refuse_what_is_no_folder(place)
-    made, faults = FORMATS[wanted](gather(), place)
-    write_all(made, place)
-    for fault in faults:
-        print(f"juggleproof: {fault}", file=sys.stderr)
-    return 1 if faults else 0
+    contents, code = gather(), 0
+    for wanted in formats:
+        made, faults = FORMATS[wanted](contents, place)
+        write_all(made, place)
+        for fault in faults:
+            print(f"juggleproof: {fault}", file=sys.stderr)
+            code = 1
+    return code
 
 
 def write_all(files: Files, place: Path) -> None:

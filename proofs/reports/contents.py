@@ -31,7 +31,7 @@ from juggleproof.proofs.register import (
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
-from juggleproof.proofs.run import Options, judge_stored
+from juggleproof.proofs.run import Options, judge_some, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
@@ -158,16 +158,12 @@ def gather(register: Path = PATH) -> Contents:
     judgements, checked = done.judgements, done.outcomes
     settle_by_rules(judgements, checked, store.texts, done.claims)
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
-    by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(done.claims, judgements)}
-    derived, entries = dict[str, Derivation](), list[Entry]()
-    for claim, judgement in zip(done.claims, judgements):
-        body = claim.body()
-        steps = derivations_of(body)
-        derived.update((one.function, one) for one in behind(steps))
-        entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading_of(body)))
+    by_id = _judged(done.claims, judgements)
+    entries = _entries(done.claims, judgements, by_id, store)
+    derived = {one.function: one for entry in entries for one in behind(entry.steps)}
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
-        tuple(entries),
+        entries,
         {word: sum(one.verdict.word == word for one in judgements) for word in VERDICTS},
         dict(outcomes),
         tuple(table.summary(judgements).splitlines()[2:]),
@@ -176,6 +172,31 @@ def gather(register: Path = PATH) -> Contents:
         tuple(derived.values()),
         tuple(changes(before, by_id, partial=False)),
         tool_versions(),
+    )
+
+
+def entries_of(claims: Sequence[Claim]) -> tuple[Entry, ...]:
+    """The entries of some of the paper's claims, which alone are judged, by certificates alone; how
+    much an error weighs depends on the registered verdicts of the others.
+
+    Raises ClaimError, one line, where the store holds no certificates, or the register is none.
+    """
+    judgements = judge_some(claims, paper_claims(), DEFAULT)
+    by_id = {**load_register(), **_judged(claims, judgements)}
+    return _entries(claims, judgements, by_id, Store(DEFAULT))
+
+
+def _judged(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> Register:
+    return {claim.id: entry(claim, judgement) for claim, judgement in zip(claims, judgements)}
+
+
+def _entries(
+    claims: Sequence[Claim], judgements: Sequence[Judgement], by_id: Register, store: Store
+) -> tuple[Entry, ...]:
+    bodies = [claim.body() for claim in claims]
+    return tuple(
+        _entry(claim, judgement, by_id, store, tuple(derivations_of(body)), reading_of(body))
+        for claim, judgement, body in zip(claims, judgements, bodies)
     )
 
 

@@ -14,7 +14,7 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.command import report, show
+from juggleproof.proofs.command import report
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.reports import tex_words
@@ -207,10 +207,8 @@ def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
 
 
 def test_rejects_an_equation_that_the_paper_does_not_print(
-    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(show, "gather", contents)
     assert run(["export", "latex", "theorem"]) == 2
     assert "theorem has no printed formula" in capsys.readouterr().err
     assert run(["export", "latex", "no-such"]) == 2
