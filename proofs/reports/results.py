@@ -25,6 +25,7 @@ from juggleproof.proofs.claims import (
     Simulated,
 )
 from juggleproof.proofs.judgement import Correction, Judgement
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.register import Change, Register, differences, registered
 from juggleproof.proofs.reports.errata import (
     counterexample,
@@ -90,6 +91,11 @@ def is_of_paper(claim: Claim) -> bool:
     return claim.source.startswith("juggleproof.proofs.")
 
 
+def locator(claim: Claim) -> str:
+    """Where the claim stands, as a reader of the paper finds it; as it says, for one's own."""
+    return place_of(claim) if is_of_paper(claim) else f"{claim.section} {claim.place}".strip()
+
+
 def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
     """The sharp range, or each reading's; that there is none, for a claim of one's own without the
     name of the paper's parameter.
@@ -144,7 +150,7 @@ def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple
     return [
         (
             claim.id,
-            f"{claim.section} {claim.place}".strip(),
+            locator(claim).removeprefix("section "),
             verdict_text(claim, judgement),
             settled_by(judgement),
             sharp_range(judgement, claim),
@@ -243,6 +249,7 @@ class Result:
     id: str
     section: str
     place: str
+    locator: str
     says: str
     printed: str
     as_it_stands: str
@@ -401,6 +408,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         claim.id,
         claim.section,
         claim.place,
+        locator(claim),
         claim.says,
         claim.printed,
         claim.as_it_stands,
