@@ -146,11 +146,29 @@ def test_labels_are_unique_and_every_reference_has_one_holds() -> None:
         prefix + name
         for prefix, name in re.findall(r"\\jugclaim(?:\[([^]]*)\])?\{[^{}]*\}\{([^{}]*)\}", text)
     ]
-    labels += re.findall(r"\\jugitem\{D\d+\}\{([^{}]*)\}", text) + re.findall(
-        r"\\label\{jug:([^{}#]*)\}", text
-    )
+    labels += re.findall(r"\\jugitem\{D\d+\}\{([^{}]*)\}", text)
+    labels += re.findall(r"\\jugsection\{\w+\}\{([^{}]*)\}", text)
     assert len(labels) > 150 and len(set(labels)) == len(labels)
-    assert set(re.findall(r"\\ref\{jug:([^{}]*)\}", text)) <= set(labels)
+    references = set(re.findall(r"\\(?:page)?ref\{jug:([^{}#]*)\}", text))
+    assert len(references) > 100 and references <= set(labels)
+
+
+def test_every_display_stands_once_holds() -> None:
+    """The print of a claim, and what is derived."""
+    printed = [entry for entry in contents().entries if entry.claim.printed]
+    places = [made()[name] for name in ("appendix-a.tex", "appendix-b.tex", "errata.tex")]
+    blocks = [
+        (re.findall(r"^\{[^{}]*\}\{([^{}]*)\}", block)[0], block)
+        for text in places
+        for block in re.split(r"\\jugclaim(?:\[errata:\])?(?=\{)", text)[1:]
+    ]
+    shown = [name for name, block in blocks if r"\jugdisplay" in block or r"\jugsides" in block]
+    wanted = [one.claim.id for one in printed if one.group or one.claim.section[0] in "AB"]
+    assert len(wanted) > 100 and sorted(shown) == sorted(wanted)
+    for one in contents().derivations:
+        label = f"{{derived:{tex_words.key(one.function)}}}"
+        assert made()["derivations.tex"].count(label) <= 1
+    assert r"\jugdisplay" not in made()["notation.tex"]
 
 
 def test_every_line_of_the_written_proof_is_certified_and_printed_holds() -> None:
@@ -223,16 +241,62 @@ def test_documents_compile_without_a_fault_holds(document: str) -> None:
     assert pdf.startswith(b"%PDF") and faults == []
 
 
+def equations() -> dict[str, str]:
+    return {one.claim.id: equation(one) for one in contents().entries if one.claim.printed}
+
+
 @latex
 def test_every_equation_compiles_alone_holds() -> None:
-    every = [equation(entry) for entry in contents().entries if entry.claim.printed]
+    """Each in a group, which ends what it defines."""
+    every = equations().values()
     assert len(every) > 100
     body = (
-        "\\documentclass{article}\\usepackage{amsmath}\\begin{document}\n"
-        + "\n".join(every)
+        "\\documentclass{article}\\usepackage{amsmath,amssymb}\\begin{document}\n"
+        + "\n".join(f"\\begingroup\n{one}\\endgroup" for one in every)
         + "\\end{document}\n"
     )
-    assert compiled({"all.tex": body.encode()}, "all")[0].startswith(b"%PDF")
+    pdf, faults = compiled({"all.tex": body.encode()}, "all")
+    assert pdf.startswith(b"%PDF") and not [one for one in faults if "Warning" in one]
+
+
+# Commands of equations that are no symbols of the paper.
+STRUCTURE = set(
+    r"\frac \sqrt \left \right \middle \in \notin \subset \subseteq \cap \circ \cdot \equiv \le \ge"
+    r" \mid \quad \qquad \to \lim \max \forall \partial".split()
+)
+ACCENTED = re.compile(r"((?:\\(?:dot|bar|mathcal)[ {]*)*)(\\[A-Za-z]+|[A-Za-z])")
+
+
+def signs(latex: str) -> set[str]:
+    """The letters of a formula, each after its accents in the order of the alphabet."""
+    spelled = latex.replace(r"\overline", r"\bar").replace(r"\ddot", r"\dot\dot")
+    found = ACCENTED.findall(spelled)
+    accented = ("".join(sorted(re.findall(r"\\[a-z]+", over))) + one for over, one in found)
+    return {one for one in accented if one not in STRUCTURE}
+
+
+def unlisted(fragment: str) -> set[str]:
+    """The signs of an exported equation that its comments do not list."""
+    listed = re.findall(r"^%   (.+?): \w", fragment, re.MULTILINE)
+    means = dict(re.findall(r"\\providecommand\{(\\jug\w+)\}\{(.*)\}\n", fragment))
+    body = "\n".join(one for one in fragment.splitlines() if one[0] != "%" and "provide" not in one)
+    body = re.sub(r"\\(?:text|tag|label|begin|end)\{[^{}]*\}(?:\{l+\})?", " ", body)
+    for macro in sorted(means, key=len, reverse=True):
+        body = body.replace(macro, means[macro])
+    return signs(body) - set[str]().union(*map(signs, listed))
+
+
+def test_every_symbol_of_an_equation_has_its_meaning_beside_it_holds() -> None:
+    assert {name: unlisted(text) for name, text in equations().items() if unlisted(text)} == {}
+
+
+def test_rejects_an_equation_with_a_symbol_that_is_not_listed() -> None:
+    text = equation(contents().entry("eq-37"))
+    (row,) = re.findall(r"^%   \\alpha: .*\n", text, re.MULTILINE)
+    assert unlisted(text.replace(row, "")) == {r"\alpha"}
+    assert unlisted(text.replace(r"\jugrestitution^", "s^") + "s") == {"s"}
+    with pytest.raises(ClaimError, match=r"no meaning of q; add one for section A\.2"):
+        tex_words.symbols("q = 1", "A.2")
 
 
 @latex
