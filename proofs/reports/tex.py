@@ -302,7 +302,7 @@ def equation(entry: Entry) -> str:
         *([f"% holds as printed: {entry.sharp}"] if entry.sharp != "no alpha" else []),
         *(
             [
-                f"% {'what is true' if entry.correction['kind'] == 'nearby' else 'corrected'};"
+                f"% {'true instead' if entry.correction['kind'] == 'nearby' else 'corrected'};"
                 f" printed was: {' '.join(entry.claim.printed.split())}"
             ]
             if entry.correction

@@ -115,12 +115,9 @@ def _set(kind: str, content: str) -> str:
     return f"${with_macros(content)}$" if kind == "math" else plain(content).replace("!=", r"$\ne$")
 
 
-def with_code(text: str) -> str:
-    r"""A sentence in which words with commands of LaTeX are code.
-
-    >>> with_code(r"where \chi was expected")
-    'where \\texttt{\\textbackslash{}chi} was expected'
-    """
+def why(entry: Entry) -> str:
+    """What keeps the transcription from being judged; words with commands of LaTeX are code."""
+    text = re.sub(r"column \d+: ", "", entry.why_restored)
     return " ".join(code(one) if "\\" in one or "_" in one else plain(one) for one in text.split())
 
 
@@ -402,5 +399,5 @@ __all__ = [
     "settled",
     "symbol",
     "values",
-    "with_code",
+    "why",
 ]

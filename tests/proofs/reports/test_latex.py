@@ -241,6 +241,20 @@ def test_documents_compile_without_a_fault_holds(document: str) -> None:
     assert pdf.startswith(b"%PDF") and faults == []
 
 
+@latex
+def test_the_fragments_need_only_amsmath_holds() -> None:
+    given = {
+        name: content for name, content in files(contents()).items() if "juggleproof." not in name
+    }
+    names = ["juggleproof-macros", "notation", "theorem", "errata", "appendix-a", "appendix-b"]
+    body = "".join(f"\\input{{{name}}}\n" for name in [*names, "derivations"])
+    source = (
+        rf"\documentclass{{article}}\usepackage{{amsmath}}\begin{{document}}{body}\end{{document}}"
+    )
+    pdf, faults = compiled({**given, "own.tex": source.encode()}, "own")
+    assert pdf.startswith(b"%PDF") and not [one for one in faults if "Warning" in one]
+
+
 def equations() -> dict[str, str]:
     return {one.claim.id: equation(one) for one in contents().entries if one.claim.printed}
 
