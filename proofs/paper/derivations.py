@@ -15,12 +15,20 @@ from typing import NamedTuple, TypeVar, Union
 from sympy import Expr, ImmutableMatrix, MatrixBase
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import ClaimError, Formula, Term, origins_in, real, term
-from juggleproof.proofs.claims import Body, assertions
+from juggleproof.certificates.language import (
+    AnyStatement,
+    ClaimError,
+    Formula,
+    Term,
+    origins_in,
+    real,
+    term,
+)
 from juggleproof.proofs.encoding import from_sympy
 from juggleproof.proofs.paper.paper_form import paper_form
 from juggleproof.proofs.reading.values import Matrix, Vector
 
+RESULTS = ("Expr", "State", "ImmutableMatrix", "Extremum", "tuple[Expr, Expr]", "tuple[Expr, ...]")
 Rows = tuple[tuple[str, ...], ...]
 Derived = Union[Term, Vector, Matrix]
 Made = TypeVar("Made", Term, Formula, Vector, Matrix, Derived)
@@ -187,11 +195,11 @@ def derivation(origin: Origin) -> Derivation:
 
 @cache
 def made_from(name: str) -> tuple[str, ...]:
-    """The derivations without arguments that this one calls, itself or through functions that take
-    some, in the order of its code.
+    """The derivations that this one calls, itself or through functions that have to be given
+    arguments, in the order of its code.
 
     >>> made_from("E_max")
-    ('normal_energy_change', 'unscaling', 'collision_margin', 'period', 'normal_energy')
+    ('largest_kept_energy',)
     >>> made_from("total_energy")
     ('acceleration',)
     """
@@ -224,14 +232,11 @@ def _names_in(code: CodeType) -> Iterator[str]:
 
 
 def _is_derivation(function: Callable[..., object], name: str) -> bool:
-    """Whether it takes no arguments and comes to an expression, column or matrix."""
-    if name not in dir(symbolic) or inspect.signature(function).parameters:
+    """Whether it can be worked out as it is, and what it comes to has rows."""
+    parameters = inspect.signature(function).parameters.values()
+    if name not in dir(symbolic) or any(one.default is one.empty for one in parameters):
         return False
-    return inspect.unwrap(function).__annotations__.get("return") in (
-        "Expr",
-        "State",
-        "ImmutableMatrix",
-    )
+    return inspect.unwrap(function).__annotations__.get("return") in RESULTS
 
 
 def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
@@ -253,15 +258,13 @@ def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
     return list(ordered.values())
 
 
-def derivations_of(body: Body) -> list[Derivation]:
-    """The derived expressions that the statements of a body contain, each once, in the order in
-    which they stand there.
+def derivations_of(statements: Sequence[AnyStatement]) -> list[Derivation]:
+    """The derived expressions that the statements contain, each once, in the order in which they
+    stand there.
 
-    >>> from juggleproof.proofs.claims import Assertion
     >>> from juggleproof.proofs.forms import always
-    >>> body = Assertion((always(derived("E_max") > 0),))
-    >>> [one.function for one in derivations_of(body)]
+    >>> [one.function for one in derivations_of([always(derived("E_max") > 0)])]
     ['E_max']
     """
-    origins = origins_in([assertion.parts for _, assertion in assertions(body)])
-    return [derivation(one) for one in dict.fromkeys(origins) if isinstance(one, Origin)]
+    origins = dict.fromkeys(origins_in([*statements]))
+    return [derivation(one) for one in origins if isinstance(one, Origin)]

@@ -16,7 +16,7 @@ from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.judgement import Correction, Judgement
+from juggleproof.proofs.judgement import Correction, Judgement, statements_of
 from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
@@ -196,11 +196,12 @@ def _judged(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> Registe
 def _entries(
     claims: Sequence[Claim], judgements: Sequence[Judgement], by_id: Register, store: Store
 ) -> tuple[Entry, ...]:
-    bodies = [claim.body() for claim in claims]
-    return tuple(
-        _entry(claim, judgement, by_id, store, tuple(derivations_of(body)), reading_of(body))
-        for claim, judgement, body in zip(claims, judgements, bodies)
-    )
+    entries = list[Entry]()
+    for claim, judgement in zip(claims, judgements):
+        steps = derivations_of(statements_of(claim, judgement.correction))
+        reading = reading_of(claim.body())
+        entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading))
+    return tuple(entries)
 
 
 def tool_versions() -> dict[str, str]:
@@ -356,6 +357,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
                     shown.outcome,
                     dict(shown.votes),
                     table.where(shown.outcome, shown.at),
+                    shown.words,
                 )
                 for shown in one.statements
             ),
