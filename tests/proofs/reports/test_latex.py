@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -14,15 +15,19 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command import report
 from juggleproof.proofs.command.main import run
+from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.reading.meaning import read
+from juggleproof.proofs.reports import contents as gathered
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import gather
 from juggleproof.proofs.reports.errata import WRONG
 from juggleproof.proofs.reports.latex import latex_of, narrow, with_macros, without_macros
 from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 from juggleproof.proofs.reports.words import formulas_of
+from juggleproof.proofs.run import judge_some
 from tests.proofs.reports.comparison import differences
 from tests.proofs.reports.runs import contents
 
@@ -226,6 +231,21 @@ def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
     assert r"\tag{37}" in equation(contents().entry("eq-37"))
 
 
+def test_an_export_judges_only_what_is_asked_for_holds(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    judged = list[str]()
+
+    def recorded(chosen: Sequence[Claim], claims: Sequence[Claim], folder: Path) -> list[Judgement]:
+        judged.extend(one.id for one in chosen)
+        return judge_some(chosen, claims, folder)
+
+    monkeypatch.setattr(gathered, "judge_some", recorded)
+    assert run(["export", "latex", "sB.3-f1", "37"]) == 0 and judged == ["sB.3-f1", "eq-37"]
+    wanted = [equation(contents().entry(name)) for name in judged]
+    assert capsys.readouterr().out == "".join(f"{one}\n" for one in wanted)
+
+
 def test_rejects_an_equation_that_the_paper_does_not_print(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -275,8 +295,8 @@ def test_every_equation_compiles_alone_holds() -> None:
 
 # Commands of equations that are no symbols of the paper.
 STRUCTURE = set(
-    r"\frac \sqrt \left \right \middle \in \notin \subset \subseteq \cap \circ \cdot \equiv \le \ge"
-    r" \mid \quad \qquad \to \lim \max \forall \partial".split()
+    r"\frac \sqrt \left \right \middle \in \notin \subset \subseteq \cap \cup \circ \cdot \equiv"
+    r" \le \ge \mid \quad \qquad \to \lim \max \forall \partial".split()
 )
 ACCENTED = re.compile(r"((?:\\(?:dot|bar|mathcal)[ {]*)*)(\\[A-Za-z]+|[A-Za-z])")
 
