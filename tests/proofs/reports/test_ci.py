@@ -127,7 +127,8 @@ def test_change_is_a_failure_with_before_and_after_holds() -> None:
 def test_unknown_is_an_error_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, OPEN))
     assert messages(suite, "error") == {
-        "open": "unknown: neither proved nor refuted"
+        "open": "unknown: neither proved nor refuted; open/main is open: no proof of the premise"
+        " stays-1 was found"
     } and not messages(suite, "failure")
 
 
@@ -136,7 +137,9 @@ def test_false_claim_of_ones_own_is_a_failure_holds(tmp_path: Path) -> None:
     assert set(messages(suite, "failure")) == {"above", "negative-square"} and not messages(
         suite, "error"
     )
-    assert messages(suite, "failure")["above"] == "false; above/main fails at x = 1"
+    assert messages(suite, "failure")["above"] == (
+        "false; above/main fails at x = 1: x^2 and x are both 1."
+    )
 
 
 def test_true_claims_of_ones_own_pass_holds(tmp_path: Path) -> None:
