@@ -115,7 +115,7 @@ def _can_draw() -> bool:
     if importlib.util.find_spec("matplotlib") is not None:
         return True
     print(
-        "juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]'"
+        "juggleproof: matplotlib is absent, so figures are left out; pip install matplotlib"
         " brings it",
         file=sys.stderr,
     )
