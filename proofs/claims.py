@@ -6,6 +6,7 @@ import inspect
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict, TypeVar, Union, get_args
@@ -402,15 +403,20 @@ def claims_of(load: Callable[[], object]) -> list[Claim]:
 
 
 def claim_named(text: str, known: Collection[str]) -> str:
-    """The name of the claim that is meant, where the paper's number of an equation is given; else
-    the text itself.
+    """The name that is meant; the paper's number of an equation stands for its claim.
 
-    >>> [claim_named(text, ["eq-37"]) for text in ("eq-37", "37", "(37)", "eq 37", "38")]
-    ['eq-37', 'eq-37', 'eq-37', 'eq-37', '38']
+    >>> [claim_named(text, ["eq-37"]) for text in ("eq-37", "37", "(37)", "eq 37")]
+    ['eq-37', 'eq-37', 'eq-37', 'eq-37']
+
+    Raises ClaimError, which proposes similar names, where none is.
     """
     number = re.fullmatch(r"(?:eq(?:uation)?\.?[ -]?)?\(?(\d+[a-z]?)\)?", text.strip())
-    name = f"eq-{number[1]}" if number else text
-    return name if text not in known and name in known else text
+    for name in (text, f"eq-{number[1]}" if number else text):
+        if name in known:
+            return name
+    similar = [name for name in known if text in name][:5] or get_close_matches(text, known, 3)
+    hint = f"did you mean {', '.join(similar)}?" if similar else "`juggleproof list` names them"
+    raise ClaimError(f"{text}: no such claim; {hint}")
 
 
 # -------------------------------------------------------------------------------------------------

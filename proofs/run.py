@@ -206,12 +206,10 @@ def _selected(claims: Sequence[Claim], only: Sequence[str]) -> Sequence[Claim]:
     if not only:
         return claims
     known = [claim.id for claim in claims]
-    wanted = [claim_named(text, known) for text in only]
-    missing = set(wanted) - set(known)
-    if missing:
-        raise ClaimError(
-            f"--only {sorted(missing)[0]}: no such claim; `juggleproof list` names them"
-        )
+    try:
+        wanted = [claim_named(text, known) for text in only]
+    except ClaimError as problem:
+        raise ClaimError(f"--only {problem}") from None
     return [claim for claim in claims if claim.id in wanted]
 
 

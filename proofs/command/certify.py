@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 import gc
 import os
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
+from time import monotonic
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
@@ -27,7 +29,7 @@ from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.ci import as_junit, markdown
 from juggleproof.proofs.reports.contents import as_json
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
-from juggleproof.proofs.run import Options, Progress, claims_of_files, no_progress, run, start, stop
+from juggleproof.proofs.run import Options, Progress, claims_of_files, run, start, stop
 from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
 
 # -------------------------------------------------------------------------------------------------
@@ -109,9 +111,11 @@ def _options(options: CertifyOptions) -> Options:
 
 @contextmanager
 def _progress(console: Console, total: int) -> Iterator[Progress]:
-    """Tells how far the run is, on a terminal only."""
+    """Shows how far the run is: as a bar on a terminal, else as a line on standard error now and
+    then.
+    """
     if not console.is_terminal:
-        yield no_progress
+        yield _lines_of_progress(total)
         return
     columns = (
         TextColumn("{task.description:24}"),
@@ -126,6 +130,22 @@ def _progress(console: Console, total: int) -> Iterator[Progress]:
             bar.update(task, advance=1, description=f"{claim.id} {judgement.verdict.word}")
 
         yield step
+
+
+PAUSE = 3.0  # seconds between two lines of progress
+
+
+def _lines_of_progress(total: int) -> Progress:
+    judged, due = 0, monotonic() + PAUSE
+
+    def step(claim: Claim, judgement: Judgement) -> None:
+        nonlocal judged, due
+        judged += 1
+        if monotonic() >= due:
+            due = monotonic() + PAUSE
+            print(f"{judged} of {total} claims judged", file=sys.stderr, flush=True)
+
+    return step
 
 
 def _accept(

@@ -23,7 +23,9 @@ def fault_of(path: Path) -> str:
             return "is a folder"
         if path.exists() and not path.is_file():  # a device or a pipe, which renaming would replace
             return "is no plain file"
-        folder = next(above for above in path.absolute().parents if above.exists())
+        folder = path.absolute().parent
+        if not folder.is_dir():
+            return f"cannot be written ({folder} is no folder; make it first)"
         with tempfile.NamedTemporaryFile(prefix=".", dir=folder):
             return ""
     except (OSError, ValueError) as error:
@@ -36,7 +38,6 @@ def written_aside(path: Path) -> Iterator[BinaryIO]:
     fails.  ClaimError for a full disk.
     """
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         handle, aside = tempfile.mkstemp(prefix=".", suffix=path.suffix + ".new", dir=path.parent)
         try:
             with os.fdopen(handle, "wb") as file:
