@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
@@ -29,22 +29,36 @@ def command(parsed: argparse.Namespace) -> int:
     return report(parsed.format, parsed.output)
 
 
-def report(wanted: str, folder: Path | None) -> int:
-    """Writes a report of this format into the folder and prints the paths; returns 1 where what was
-    made has faults that a reader would see.
+def report(wanted: Sequence[str], folder: Path | None) -> int:
+    """Writes a report of each of these formats into the folder and prints the paths; returns 1
+    where what was made has faults that a reader would see.
 
     Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
     library or program that is absent.
     """
-    if wanted not in FORMATS:
-        raise ClaimError(f"--format {wanted}: choose from {', '.join(FORMATS)}")
     place = folder or DEFAULT_FOLDER
+    refuse(wanted, place)
+    return write_reports(wanted, gather(), place)
+
+
+def refuse(wanted: Sequence[str], place: Path, option: str = "--format") -> None:
+    """Raises ClaimError, one line, for an unknown format, and for what is no folder."""
+    for one in wanted:
+        if one not in FORMATS:
+            raise ClaimError(f"{option} {one}: choose from {', '.join(FORMATS)}")
     _refuse_what_is_no_folder(place)
-    made, faults = FORMATS[wanted](gather(), place)
-    write_all(made, place)
-    for fault in faults:
-        print(f"juggleproof: {fault}", file=sys.stderr)
-    return 1 if faults else 0
+
+
+def write_reports(wanted: Sequence[str], contents: Contents, place: Path) -> int:
+    """Writes a report of each format and prints the paths; 1 where one has faults, else 0."""
+    faulty = 0
+    for one in dict.fromkeys(wanted):
+        made, faults = FORMATS[one](contents, place)
+        write_all(made, place)
+        for fault in faults:
+            print(f"juggleproof: {fault}", file=sys.stderr)
+            faulty = 1
+    return faulty
 
 
 def write_all(files: Files, place: Path) -> None:

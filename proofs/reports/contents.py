@@ -31,7 +31,7 @@ from juggleproof.proofs.register import (
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
-from juggleproof.proofs.run import Options, judge_stored
+from juggleproof.proofs.run import Options, Run, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
@@ -153,10 +153,15 @@ def gather(register: Path = PATH) -> Contents:
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
-    before, store = load_register(register), Store(DEFAULT)
+    before = load_register(register)
     done = judge_stored(paper_claims(), Options(DEFAULT))
-    judgements, checked = done.judgements, done.outcomes
-    settle_by_rules(judgements, checked, store.texts, done.claims)
+    settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, done.claims)
+    return contents_of(done, before)
+
+
+def contents_of(done: Run, before: Register) -> Contents:
+    """The contents of a report on a run over all claims of the paper, beside a register."""
+    store, judgements, checked = Store(done.store), done.judgements, done.outcomes
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(done.claims, judgements)}
     derived, entries = dict[str, Derivation](), list[Entry]()
@@ -310,6 +315,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
             one.claim.id,
             one.claim.section,
             one.claim.place,
+            table.source_of(one.claim),
             one.claim.says,
             one.claim.printed,
             one.claim.as_it_stands,
