@@ -61,4 +61,4 @@ $(VENV)/tools: $(VENV)/installed requirements-report.lock requirements-test.lock
 	touch $@
 
 clean:
-	rm -rf $(VENV) build .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info
+	rm -rf $(VENV) build .pytest_cache .mypy_cache .ruff_cache .hypothesis src/*.egg-info
