@@ -55,6 +55,7 @@ class CertifyOptions(argparse.Namespace):
     timings: Path | None
     report: list[str]
     output: Path | None
+    write_reports: Callable[[Contents], int] | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -69,7 +70,7 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     every claim holds), else 1.
     """
     refuse_unwritable(options)
-    write_reports = _reports(options)
+    _refuse_reports(options)
     before = None if options.files else load_register(register)
     console = Console(highlight=False)
     claims = claims_of_files(options.files) if options.files else paper_claims()
@@ -98,27 +99,17 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     if before is not None and accepts:
         _accept(results, before, options, register)
     write_outputs(options, results, done.seconds)
-    if write_reports is None:
+    if options.write_reports is None:
         return results.exit
-    return results.exit | write_reports(contents_of(done, load_register(register)))
+    return results.exit | options.write_reports(contents_of(done, load_register(register)))
 
 
-def _reports(options: CertifyOptions) -> Callable[[Contents], int] | None:
-    """What writes the reports that are asked for, None where none is.
-
-    Raises ClaimError, one line, for reports that cannot be made of this run.
-    """
+def _refuse_reports(options: CertifyOptions) -> None:
+    """Raises ClaimError, one line, for reports that cannot be made of this run."""
     if options.report and (options.files or options.only):
         raise ClaimError("--report: shows all claims of the paper; leave out FILE and --only")
-    if not options.report:
-        if options.output is not None:
-            raise ClaimError("-o: where reports go; name one with --report")
-        return None
-    from juggleproof.proofs.command import report  # which takes a second to load
-
-    place = options.output or report.DEFAULT_FOLDER
-    report.refuse(options.report, place, "--report")
-    return lambda contents: report.write_reports(options.report, contents, place)
+    if options.output is not None and not options.report:
+        raise ClaimError("-o: where reports go; name one with --report")
 
 
 def _options(options: CertifyOptions) -> Options:

@@ -310,6 +310,9 @@ def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command == "bound":
         # before numpy: the matrices are small, and sums in one order repeat
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if parsed.command == "certify":  # to load what makes reports takes a second
+        report = import_module(MODULES["report"]) if parsed.report else None
+        parsed.write_reports = report and report.writer(parsed.report, parsed.output)
     code: int = import_module(MODULES[parsed.command]).command(parsed)
     return code
 

@@ -36,29 +36,32 @@ def report(wanted: Sequence[str], folder: Path | None) -> int:
     Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
     library or program that is absent.
     """
-    place = folder or DEFAULT_FOLDER
-    refuse(wanted, place)
-    return write_reports(wanted, gather(), place)
+    return writer(wanted, folder, "--format")(gather())
 
 
-def refuse(wanted: Sequence[str], place: Path, option: str = "--format") -> None:
-    """Raises ClaimError, one line, for an unknown format, and for what is no folder."""
+def writer(
+    wanted: Sequence[str], folder: Path | None, option: str = "--report"
+) -> Callable[[Contents], int]:
+    """What does the same with contents in hand; an unknown format, and what is no folder, are
+    refused at once.
+    """
     for one in wanted:
         if one not in FORMATS:
             raise ClaimError(f"{option} {one}: choose from {', '.join(FORMATS)}")
+    place = folder or DEFAULT_FOLDER
     _refuse_what_is_no_folder(place)
 
+    def write(contents: Contents) -> int:
+        faulty = 0
+        for one in dict.fromkeys(wanted):
+            made, faults = FORMATS[one](contents, place)
+            write_all(made, place)
+            for fault in faults:
+                print(f"juggleproof: {fault}", file=sys.stderr)
+                faulty = 1
+        return faulty
 
-def write_reports(wanted: Sequence[str], contents: Contents, place: Path) -> int:
-    """Writes a report of each format and prints the paths; 1 where one has faults, else 0."""
-    faulty = 0
-    for one in dict.fromkeys(wanted):
-        made, faults = FORMATS[one](contents, place)
-        write_all(made, place)
-        for fault in faults:
-            print(f"juggleproof: {fault}", file=sys.stderr)
-            faulty = 1
-    return faulty
+    return write
 
 
 def write_all(files: Files, place: Path) -> None:

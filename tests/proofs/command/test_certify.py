@@ -160,6 +160,25 @@ def test_rejects_unknown_claim_and_route(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="the superuser can write everywhere")
+@pytest.mark.parametrize(
+    ("given", "reason"),
+    [
+        (("--report", "html", "FILE"), "leave out FILE and --only"),
+        (("--report", "html", "--only", "eq-1"), "leave out FILE and --only"),
+        (("-o", "reports"), "name one with --report"),
+        (("--report", "docx"), "choose from html"),
+        (("--report", "html", "-o", "FILE"), "not a folder"),
+    ],
+)
+def test_rejects_reports_that_cannot_be_made(
+    given: tuple[str, ...], reason: str, tmp_path: Path
+) -> None:
+    path = claim_file(tmp_path, "always(x < x + 1)")
+    done = run("certify", *(str(path) if one == "FILE" else one for one in given))
+    assert done.returncode == 2 and not done.stdout and reason in done.stderr
+    assert len(done.stderr.splitlines()) == 1 and [*tmp_path.iterdir()] == [path]
+
+
 def test_rejects_folder_that_cannot_be_written(tmp_path: Path) -> None:
     folder = tmp_path / "closed"
     folder.mkdir(mode=0o500)
