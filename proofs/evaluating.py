@@ -48,6 +48,18 @@ def value_at(text: str, point: Point) -> Fraction | None:
         return None
 
 
+def is_true_at(text: str, point: Point) -> bool | None:
+    """Whether a formula is true, or None where a name has no value, or zero divides.
+
+    >>> is_true_at("a > 0 and iff(a < 1, a^2 < a)", {"a": Fraction(1, 2)})
+    True
+    """
+    try:
+        return _is_true(checker.parse(text), point)
+    except (KeyError, ZeroDivisionError):
+        return None
+
+
 def numbers_at(text: str, point: Point) -> str:
     """A formula that is false at the point with its numbers in place: the first part that fails, or
     the two sides of what ought to be equivalent; nothing where they cannot be worked out.

@@ -175,7 +175,6 @@ class Judgement:
     follows: bool = False
     is_conclusion: bool = False
     roles: Roles = NO_ROLES
-    reused: int = 0
 
     def finding(self) -> Finding:
         """What a later run may try first: the sharp ranges, the correction and the votes."""

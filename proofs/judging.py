@@ -251,14 +251,13 @@ class Judge:
 
     def settle(self, statement: AnyStatement) -> str:
         """The outcome of one statement, by a stored certificate that is still valid or by a
-        search.
+        search; what was unknown is searched again, by this budget and from what is known now.
         """
         name, text = statement.name, statement.text()
         store = self.resources.store
         certificate: Certificate | None = store.certificate(name, text) if store else None
         outcome = self.stored_outcome(name, text, certificate)
-        self.judgement.reused += outcome != "rejected"
-        if certificate is None or outcome == "rejected":
+        if certificate is None or outcome in ("rejected", "unknown"):
             parsed = read(text, name)
             certificate = self.search(statement, parsed, confirm=False)
             outcome = self.check(parsed, certificate)
@@ -463,7 +462,6 @@ class Judge:
         judgement.outcomes.update(tried.outcomes)
         for name, text in tried.statements:
             judgement.votes[name] = self.votes(name, text, tried.outcomes[name])
-        judgement.reused += tried.reused
         return True
 
     def is_stored_certified(self, statement: AnyStatement) -> bool:
@@ -569,7 +567,6 @@ class Judge:
         if shown is None:
             return None
         self.record(name, text, certificate, "certified")
-        self.judgement.reused += 1
         return Sharp(shown, (name,))
 
     def new_sharp_range(

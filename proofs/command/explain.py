@@ -10,6 +10,7 @@ from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import derivations_of
 from juggleproof.proofs.reports.errata import counterexample
@@ -32,41 +33,33 @@ def command(parsed: argparse.Namespace) -> int:
     if of_theorem and parsed.id != "theorem":
         raise ClaimError(f"--{of_theorem[0]} goes with `explain theorem` only")
     if parsed.bounds:
-        if len(of_theorem) > 1 or parsed.premises:
+        if len(of_theorem) > 1 or parsed.premises or parsed.lines:
             raise ClaimError("--bounds stands alone; it has its own alphas and states")
         return explain_bounds()
     if of_theorem:
-        if len(of_theorem) < 2 or parsed.premises:
+        if len(of_theorem) < 2 or parsed.premises or parsed.lines:
             raise ClaimError(
                 "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
             )
         return explain_state(parsed.alpha, parsed.state)
-    return explain(parsed.id, with_premises=parsed.premises)
+    return explain(parsed.id, with_premises=parsed.premises, with_lines=parsed.lines)
 
 
-def explain(claim_id: str, with_premises: bool = False) -> int:
+def explain(claim_id: str, with_premises: bool = False, with_lines: bool = False) -> int:
     """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
-    sharp range, verdict; the tree of its rules.  Raises ClaimError for an unknown name.
+    sharp range, verdict; the tree of its rules.  Its place is one of the transcription where lines
+    are asked for.  Raises ClaimError for an unknown name.
     """
     claims = {claim.id: claim for claim in paper_claims()}
     claim_id = claim_named(claim_id, claims)
-    if claim_id not in claims:
-        similar = [name for name in claims if claim_id in name][:5]
-        raise ClaimError(
-            f"{claim_id}: no such claim"
-            + (
-                f"; did you mean {', '.join(similar)}?"
-                if similar
-                else "; `juggleproof list` names them"
-            )
-        )
     claim = claims[claim_id]
     body = claim.body()
     (judgement,) = judge_some([claim], [*claims.values()], DEFAULT)
-    print(f"{claim.id}   section {claim.section} {claim.place}")
+    place = f"section {claim.section} {claim.place}" if with_lines else place_of(claim)
+    print(f"{claim.id}   {place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for one in derivations_of(body):
+    for one in derivations_of(claim, judgement.correction):
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(body)}")
     for name, text in judgement.statements:

@@ -149,7 +149,7 @@ def build_parser() -> argparse.ArgumentParser:
 
     check = commands.add_parser("check", help="the bare checker over the stored certificates")
     check.add_argument("folder", nargs="?", type=Path, metavar="DIR")
-    commands.add_parser("list", help="the claims, with place and registered verdict")
+    listed = commands.add_parser("list", help="the claims, with place and registered verdict")
     explain = commands.add_parser("explain", help="one claim whole")
     explain.add_argument("id", metavar="ID")
     explain.add_argument(
@@ -157,6 +157,10 @@ def build_parser() -> argparse.ArgumentParser:
         action="store_true",
         help="the texts of the premises that the checker's map rules write",
     )
+    for command in (listed, explain):
+        command.add_argument(
+            "--lines", action="store_true", help="places as lines of the paper's transcription"
+        )
     explain.add_argument(
         "--alpha", metavar="A", help="with `theorem`: the restitution, exactly, such as 3/10"
     )

@@ -13,6 +13,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, write_file
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.claims import claim_named
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
@@ -28,17 +29,22 @@ def command(parsed: argparse.Namespace) -> int:
     if parsed.command == "export":
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "list":
-        return list_claims()
+        return list_claims(parsed.lines)
     print(errata.as_text())
     return 0
 
 
-def list_claims() -> int:
-    """One line a claim: id, place, registered verdict, what it says."""
+def list_claims(with_lines: bool = False) -> int:
+    """One line a claim: id, place, registered verdict, what it says; places are lines of the
+    transcription where these are asked for.
+    """
     register = load_register()
     for claim in paper_claims():
         verdict = register[claim.id]["verdict"] if claim.id in register else "not judged"
-        print(f"{claim.id:32} {claim.section + ' ' + claim.place:24} {verdict:12} {claim.says}")
+        place = place_of(claim).removeprefix("section ")
+        if with_lines:
+            place = f"{claim.section} {claim.place}"
+        print(f"{claim.id:32} {place:34} {verdict:12} {claim.says}")
     return 0
 
 
@@ -97,9 +103,6 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
     """
     by_id = {entry.claim.id: entry for entry in gather().entries}
     ids = [claim_named(wanted, by_id) for wanted in ids]
-    for wanted in ids:
-        if wanted not in by_id:
-            raise ClaimError(f"{wanted}: no such claim; `juggleproof list` names them")
     texts = {
         name: equation(by_id[name])
         for name in ids or [name for name, entry in by_id.items() if entry.claim.printed]
@@ -118,14 +121,13 @@ def _file_name(name: str) -> str:
 
 
 def _names(store: Store, ids: Sequence[str]) -> list[str]:
-    claims = {name.split("/")[0] for name in store.texts}
-    ids = [claim_named(wanted, claims) for wanted in ids]
+    claims = [claim.id for claim in paper_claims()] if ids else []
+    ids = [claim_named(wanted, [*claims, *store.texts]) for wanted in ids]
     names = [name for name in store.texts if not ids or name in ids or name.split("/")[0] in ids]
     for wanted in ids:
         if not any(wanted in (name, name.split("/")[0]) for name in names):
             raise ClaimError(
-                f"{wanted}: no stored statement of this name; `juggleproof certify` makes them,"
-                " `juggleproof list` names the claims"
+                f"{wanted}: no statement is stored for it; `juggleproof explain {wanted}` says why"
             )
     return names
 

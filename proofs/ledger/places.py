@@ -11,26 +11,36 @@ from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.ledger.ledger import Row, load_ledger
 
 COUNTED = {"sentence": "sentence", "display": "display", "tablerow": "row of the table"}
+FORMULAS = ("display", "inline")
 
 
 def place_of(claim: Claim) -> str:
     """The section, and the equation or what is counted from the last numbered one.
 
-    A sentence that a display interrupts counts as several, as it does in the ledger.
+    A sentence that a display interrupts counts as several, as it does in the ledger; headings do
+    not count.
     """
     own = not re.match(r"[A-Z0-9]", claim.section)
     section = claim.section if own else f"section {claim.section}"
     where = f"equation {claim.place}" if claim.place.startswith("(") else claim.place
     if claim.place.startswith("line"):
-        where = _counted(claim.id) or where
-    return ", ".join(part for part in (section, where) if part)
+        where = _counted(claim) or where
+    return ", ".join(part for part in (section, re.sub(r"(,| and) line \d+", "", where)) if part)
 
 
-def _counted(claim_id: str) -> str:
+def _counted(claim: Claim) -> str:
     rows = load_rows()
-    at = next((i for i, row in enumerate(rows) if claim_id in row.claims), None)
-    if at is None:
+    of_claim = [i for i, row in enumerate(rows) if claim.id in row.claims]
+    here = [i for i in of_claim if rows[i].section == claim.section]
+    line = int(re.findall(r"\d+", claim.place)[0])
+    above = [i for i in here if rows[i].line <= line and rows[i].kind not in FORMULAS]
+    if not of_claim:
         return ""
+    if above:  # the claim may be asserted before, where it is not its place
+        last = [i for i in above if rows[i].line == rows[above[-1]].line]
+        at = min(last, key=lambda i: is_heading(rows[i]))
+    else:
+        at = (here or of_claim)[0]
     while rows[at].kind not in COUNTED:  # an inline formula stands in the sentence before it
         at -= 1
     row = rows[at]
@@ -39,8 +49,17 @@ def _counted(claim_id: str) -> str:
     for i in before:
         if i in numbers():
             number, start = numbers()[i], i + 1
-    count = sum(rows[i].kind == row.kind for i in range(start, at + 1))
-    return f"{COUNTED[row.kind]} {count}" + (f" after {number}" if number else "")
+    alike = [one for one in rows[start : at + 1] if one.kind == row.kind and not is_heading(one)]
+    counted = f"{COUNTED[row.kind]} {len(alike)}" + (f" after {number}" if number else "")
+    counted = "heading" if is_heading(row) else counted
+    return counted if here else f"section {row.section}, {counted}"
+
+
+def is_heading(row: Row) -> bool:
+    """Whether it heads a section or a part of a table; the first sentence of a section does, also
+    where it has claims.
+    """
+    return row.reason == "heading" or row.key.endswith("-s01")
 
 
 @cache

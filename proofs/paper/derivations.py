@@ -15,12 +15,23 @@ from typing import NamedTuple, TypeVar, Union
 from sympy import Expr, ImmutableMatrix, MatrixBase
 
 from juggleproof import symbolic
-from juggleproof.certificates.language import ClaimError, Formula, Term, origins_in, real, term
-from juggleproof.proofs.claims import Body, assertions
+from juggleproof.certificates.language import (
+    AnyStatement,
+    ClaimError,
+    Formula,
+    Term,
+    origins_in,
+    real,
+    term,
+)
+from juggleproof.proofs.claims import Claim, assertions
+from juggleproof.proofs.correcting import corrected
 from juggleproof.proofs.encoding import from_sympy
+from juggleproof.proofs.judgement import Correction
 from juggleproof.proofs.paper.paper_form import paper_form
 from juggleproof.proofs.reading.values import Matrix, Vector
 
+RESULTS = ("Expr", "State", "ImmutableMatrix", "Extremum", "tuple[Expr, Expr]", "tuple[Expr, ...]")
 Rows = tuple[tuple[str, ...], ...]
 Derived = Union[Term, Vector, Matrix]
 Made = TypeVar("Made", Term, Formula, Vector, Matrix, Derived)
@@ -187,11 +198,11 @@ def derivation(origin: Origin) -> Derivation:
 
 @cache
 def made_from(name: str) -> tuple[str, ...]:
-    """The derivations without arguments that this one calls, itself or through functions that take
-    some, in the order of its code.
+    """The derivations that this one calls, itself or through functions that have to be given
+    arguments, in the order of its code.
 
     >>> made_from("E_max")
-    ('normal_energy_change', 'unscaling', 'collision_margin', 'period', 'normal_energy')
+    ('largest_kept_energy',)
     >>> made_from("total_energy")
     ('acceleration',)
     """
@@ -224,14 +235,11 @@ def _names_in(code: CodeType) -> Iterator[str]:
 
 
 def _is_derivation(function: Callable[..., object], name: str) -> bool:
-    """Whether it takes no arguments and comes to an expression, column or matrix."""
-    if name not in dir(symbolic) or inspect.signature(function).parameters:
+    """Whether it can be worked out as it is, and what it comes to has rows."""
+    parameters = inspect.signature(function).parameters.values()
+    if name not in dir(symbolic) or any(one.default is one.empty for one in parameters):
         return False
-    return inspect.unwrap(function).__annotations__.get("return") in (
-        "Expr",
-        "State",
-        "ImmutableMatrix",
-    )
+    return inspect.unwrap(function).__annotations__.get("return") in RESULTS
 
 
 def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
@@ -253,15 +261,23 @@ def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
     return list(ordered.values())
 
 
-def derivations_of(body: Body) -> list[Derivation]:
-    """The derived expressions that the statements of a body contain, each once, in the order in
-    which they stand there.
+def statements_of(claim: Claim, correction: Correction | None = None) -> list[AnyStatement]:
+    """The statements that a claim comes to, with those of its correction and of its remark."""
+    found = assertions(claim.body())
+    found += assertions(corrected(claim, correction)) if correction else []
+    beside = claim.shown_beside()
+    return [part for _, one in found for part in one.parts] + [*(beside.parts if beside else ())]
+
+
+def derivations_of(claim: Claim, correction: Correction | None = None) -> list[Derivation]:
+    """The derived expressions that the statements of a claim contain, those of its correction and
+    of its remark too, each once, in the order in which they stand there.
 
     >>> from juggleproof.proofs.claims import Assertion
     >>> from juggleproof.proofs.forms import always
-    >>> body = Assertion((always(derived("E_max") > 0),))
-    >>> [one.function for one in derivations_of(body)]
+    >>> claim = Claim("a", "", "", "says", lambda: Assertion((always(derived("E_max") > 0),)))
+    >>> [one.function for one in derivations_of(claim)]
     ['E_max']
     """
-    origins = origins_in([assertion.parts for _, assertion in assertions(body)])
+    origins = origins_in(statements_of(claim, correction))
     return [derivation(one) for one in dict.fromkeys(origins) if isinstance(one, Origin)]

@@ -206,7 +206,7 @@ def markdown(contents: Contents | Results) -> str:
                 *(
                     (
                         one.id,
-                        f"{one.section} {one.place}".strip(),
+                        one.locator.removeprefix("section "),
                         _verdict(one),
                         one.settled_by,
                         one.sharp,
@@ -420,8 +420,7 @@ def _erratum(one: Result) -> str:
 
 
 def _place(one: Result) -> str:
-    where = f"{one.section} {one.place}".strip()
-    return f" ({escaped(where)})" if where else ""
+    return f" ({escaped(one.locator)})" if one.locator else ""
 
 
 def _verdict(one: Result) -> str:

@@ -47,7 +47,7 @@ TOOLS = ("sympy", "mpmath", "z3-solver", "python-flint", "highspy")
 @dataclass(frozen=True)
 class Shown:
     """A statement as reports show it: the text that the checker reads, outcome, certificate as
-    stored, counterexample and its numbers, answers of the routes.
+    stored, counterexample with its numbers and in words, answers of the routes.
     """
 
     name: str
@@ -56,6 +56,7 @@ class Shown:
     certificate: object
     at: str
     numbers: str
+    words: str
     votes: Mapping[str, str]
 
 
@@ -82,7 +83,9 @@ class Entry:
     @property
     def fails(self) -> list[str]:
         """The counterexamples, each once."""
-        shown = (errata.with_numbers(one.at, one.numbers) for one in self.statements if one.at)
+        shown = (
+            errata.at_a_glance(one.at, one.numbers, one.words) for one in self.statements if one.at
+        )
         return list(dict.fromkeys(shown))
 
     @property
@@ -167,7 +170,7 @@ def contents_of(done: Run, before: Register) -> Contents:
     derived, entries = dict[str, Derivation](), list[Entry]()
     for claim, judgement in zip(done.claims, judgements):
         body = claim.body()
-        steps = derivations_of(body)
+        steps = derivations_of(claim, judgement.correction)
         derived.update((one.function, one) for one in behind(steps))
         entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading_of(body)))
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
@@ -256,6 +259,7 @@ def _shown(name: str, text: str, outcome: str, certificate: object, votes: Seque
         certificate,
         errata.counterexample(refuted) if refuted else "",
         errata.numbers_of(text, refuted),
+        errata.words_of(text, refuted),
         {vote.route: vote.answer for vote in votes},
     )
 
@@ -315,6 +319,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
             one.claim.id,
             one.claim.section,
             one.claim.place,
+            table.locator(one.claim),
             table.source_of(one.claim),
             one.claim.says,
             one.claim.printed,
@@ -387,6 +392,7 @@ def _claim(one: Result, change: Change | None) -> dict[str, Json]:
             "id",
             "section",
             "place",
+            "locator",
             "says",
             "printed",
             "as_it_stands",

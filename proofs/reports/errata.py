@@ -22,13 +22,15 @@ from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.register import Register, load_register, registered
+from juggleproof.proofs.reports.in_words import in_words
 from juggleproof.proofs.run import judge_some
 
 THEOREM = "theorem-in-units"  # the claim on which those of section 4 rest
 ERRORS = ("misprint", "false", "gap")
 HEAD = """\
 What the paper prints wrongly: the print, what is wrong with it, the correction, and exact \
-values at which it fails.
+values at which it fails,
+with what is so there in words.
   misprint  false as printed, certified with some marks of the print changed
   false     refuted; where a true assertion nearby is known, it stands beside
   gap       a step of the argument is refuted; the conclusion may stand by another route
@@ -36,8 +38,9 @@ alpha is the restitution, 0 < alpha < 1; r the table's launch speed, g gravity; 
 ball's height and velocity when the table is
 at its lowest; iff(a, b) means that a is true exactly if b is. What is said is told in our \
 words.
-`juggleproof explain ID` shows the line of the transcription, the other names, the derivation, \
-the statements and their certificates.
+`juggleproof explain ID` shows the other names, the derivation, the statements and their \
+certificates, and with --lines
+the line of the transcription.
 """
 GROUPS = {  # by weight, the heaviest first
     "proof": "Breaks the proof: what a section concludes rests on it, and stands by a repair",
@@ -227,10 +230,11 @@ def rows_of(
         rows.append(Row("correction", "none found"))
     if claim.remark:
         rows.append(Row("remark", told(claim.remark)))
-    return [
-        *rows,
-        *(Row("fails at", text, code=True) for text in _counterexamples(settled)),
-    ]
+    for one in _counterexamples(settled):
+        rows.append(Row("fails at", one.text, code=True))
+        if one.words:
+            rows.append(Row("in words", one.words))
+    return rows
 
 
 def entry_of(
@@ -247,7 +251,7 @@ def entry_of(
             _row(
                 row.title,
                 textwrap.fill(row.text, WIDTH, break_on_hyphens=False)
-                if row.title in ("said", "remark")
+                if row.title in ("said", "remark", "in words")
                 else row.text,
             )
             for row in rows
@@ -303,7 +307,7 @@ def three_lines_of(
 ) -> list[Line]:
     """The three lines of a claim on the first page."""
     wrong = what_is_wrong(register[claim.id], finding.get("sharp", {}), passages_of(claim))
-    fails = [_at_a_glance(text) for text in _counterexamples(settled)]
+    fails = [at_a_glance(one.values, one.numbers, one.words) for one in _counterexamples(settled)]
     return in_three_lines(claim, wrong, fails, finding.get("correction"))
 
 
@@ -325,15 +329,9 @@ def what_matters(claims: Sequence[Claim], group: Mapping[str, str]) -> list[Clai
     ]
 
 
-def _at_a_glance(counterexample: str) -> str:
-    """The values of a counterexample, and the numbers that disagree."""
-    values, _, numbers = counterexample.partition("\nin numbers: ")
-    return with_numbers(values.partition("\n")[0], numbers)
-
-
-def with_numbers(values: str, numbers: str) -> str:
-    """The values of a counterexample with the numbers that disagree there."""
-    return f"{values}: {numbers}" if numbers else values
+def at_a_glance(values: str, numbers: str, words: str) -> str:
+    """The values of a counterexample, the numbers that disagree there, and what is so in words."""
+    return " ".join([f"{values}: {numbers}." if numbers else f"{values}.", words]).rstrip()
 
 
 class Line(NamedTuple):
@@ -429,46 +427,74 @@ def counterexample(refutation: object) -> str:
     raise ClaimError("a refutation without values; `juggleproof certify --fresh` searches anew")
 
 
-def _counterexamples(settled: Sequence[Settled]) -> list[str]:
-    """The exact values of every refuted statement, with the part of the claim that fails there, and
-    what it says where that is short.
+class Fails(NamedTuple):
+    """Exact values at which a statement fails, with the part of the claim that it is; what it shows
+    where that is short, the numbers that disagree, and what is so there in words.
     """
-    goals = dict[str, tuple[str, str]]()
+
+    values: str
+    goal: str
+    numbers: str
+    words: str
+
+    @property
+    def text(self) -> str:
+        """The values, the goal and the numbers, each in a line."""
+        return (
+            self.values
+            + (f"\nfalse there: {self.goal}" if self.goal else "")
+            + (f"\nin numbers: {self.numbers}" if self.numbers else "")
+        )
+
+
+def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
+    """What is to be told of every refuted statement, each values once."""
+    fails = dict[str, Fails]()
     for name, text, certificate in settled:
         if certificate is not None and "refuted" in certificate:
             label = name.split("/")[1].removesuffix(".main")
-            values = counterexample(certificate["refuted"]) + (
-                "" if label == "main" else f"   [{label}]"
-            )
-            goals.setdefault(values, (goal_of(text), numbers_of(text, certificate["refuted"])))
-    return [
-        values
-        + (f"\nfalse there: {goal}" if goal else "")
-        + (f"\nin numbers: {numbers}" if numbers else "")
-        for values, (goal, numbers) in goals.items()
-    ]
+            refuted = certificate["refuted"]
+            values = counterexample(refuted) + ("" if label == "main" else f"   [{label}]")
+            one = Fails(values, goal_of(text), numbers_of(text, refuted), words_of(text, refuted))
+            fails.setdefault(values, one)
+    return [*fails.values()]
+
+
+def words_of(text: str, refutation: object) -> str:
+    """What is so at a rational counterexample, in a line of words; nothing at a root."""
+    point = point_of(text, refutation)
+    return "" if point is None else in_words(text, point)
 
 
 def numbers_of(text: str, refutation: object) -> str:
     """What the statement shows, with the numbers of a rational counterexample in place; nothing
     where there is a choice or a root, or where that is long.
     """
-    match refutation:
-        case [_, [] | (), {**terms}, *_]:
-            point = {str(name): Fraction(str(value)) for name, value in terms.items()}
-        case _:
-            return ""
+    point = point_of(text, refutation)
     lines = [line.partition(" ") for line in text.splitlines()]
-    for keyword, _, rest in lines:
-        name, _, value = rest.partition(" = ")
-        known = value_at(value, point) if keyword == "let" else None
-        if known is not None:
-            point[name] = known
-    if any(keyword == "exists" for keyword, _, _ in lines):
+    if point is None or any(keyword == "exists" for keyword, _, _ in lines):
         return ""
     shown = [formula for keyword, _, formula in lines if keyword == "show"]
     failing = [numbers for numbers in (numbers_at(one, point) for one in shown) if numbers]
     return failing[0] if failing and len(failing[0]) <= LONGEST_GOAL else ""
+
+
+def point_of(text: str, refutation: object) -> dict[str, Fraction] | None:
+    """The values at a rational counterexample, of abbreviations too; None where there is a choice
+    or a root.
+    """
+    match refutation:
+        case [_, [] | (), {**terms}, *_]:
+            point = {str(name): Fraction(str(value)) for name, value in terms.items()}
+        case _:
+            return None
+    for line in text.splitlines():
+        keyword, _, rest = line.partition(" ")
+        name, _, value = rest.partition(" = ")
+        known = value_at(value, point) if keyword == "let" else None
+        if known is not None:
+            point[name] = known
+    return point
 
 
 def goal_of(text: str) -> str:

@@ -61,6 +61,7 @@ class Statement:
     text: str
     at: str
     numbers: str
+    words: str
     false_there: str
     votes: str
     certificate: str
@@ -93,6 +94,7 @@ def statement(shown: Shown, whole: bool = False, shared: Sequence[Line] = ()) ->
         shown.text,
         markup.values(shown.at) if refuted and shown.at else "",
         shown.numbers,
+        shown.words,
         _false_there(shown.text) if refuted else "",
         votes,
         text if whole or len(text) <= LONGEST else "",
@@ -167,10 +169,10 @@ class ClaimView:
     @property
     def refuted(self) -> list[Statement]:
         """The refuted statements, each counterexample once."""
-        by_values: dict[str, Statement] = {}
+        by_values: dict[tuple[str, str], Statement] = {}
         for one in self.statements:
             if one.outcome == "refuted":
-                by_values.setdefault(one.at, one)
+                by_values.setdefault((one.at, one.words), one)
         return list(by_values.values())
 
     @property
@@ -329,7 +331,7 @@ def panels(rules: Sequence[Rule]) -> list[Panel]:
             rule.name.partition("/")[2],
             rule.kind,
             inspect.cleandoc(checker.orbit_rules()[rule.kind]),
-            statement(Shown(rule.name, rule.text, rule.outcome, None, "", "", {}), whole=True),
+            statement(Shown(rule.name, rule.text, rule.outcome, None, "", "", "", {}), whole=True),
             [statement(premise, whole=True) for premise in rule.premises],
             rule.rests_on,
             rule.uses,

@@ -64,7 +64,8 @@ def results() -> str:
         detail = f" (`{entry['detail']}`)" if "detail" in entry else ""
         sharp = f"`{entry['sharp']}`" if "sharp" in entry else "no alpha"
         lines.append(
-            f'| <a id="{claim.id}"></a>{claim.id} | {claim.section} {claim.place}'
+            f'| <a id="{claim.id}"></a>{claim.id}'
+            f" | {place_of(claim).removeprefix('section ')}"
             f" | {verdict}{detail} | {settled} | {sharp} |"
         )
     return "\n".join(lines)

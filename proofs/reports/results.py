@@ -26,6 +26,7 @@ from juggleproof.proofs.claims import (
     Simulated,
 )
 from juggleproof.proofs.judgement import Correction, Judgement
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.register import Change, Register, differences, registered
 from juggleproof.proofs.reports.errata import (
     counterexample,
@@ -89,6 +90,11 @@ NO_RANGE, NO_OWN_RANGE = NO_RANGES = ("no alpha", "none")
 def is_of_paper(claim: Claim) -> bool:
     """Whether a claim is the paper's, and not of one's own."""
     return claim.source.startswith("juggleproof.proofs.")
+
+
+def locator(claim: Claim) -> str:
+    """Where the claim stands, as a reader of the paper finds it; as it says, for one's own."""
+    return place_of(claim) if is_of_paper(claim) else f"{claim.section} {claim.place}".strip()
 
 
 def source_of(claim: Claim) -> tuple[str, int]:
@@ -156,7 +162,7 @@ def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple
     return [
         (
             claim.id,
-            f"{claim.section} {claim.place}".strip(),
+            locator(claim).removeprefix("section "),
             verdict_text(claim, judgement),
             settled_by(judgement),
             sharp_range(judgement, claim),
@@ -255,6 +261,7 @@ class Result:
     id: str
     section: str
     place: str
+    locator: str
     source: tuple[str, int]
     says: str
     printed: str
@@ -414,6 +421,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         claim.id,
         claim.section,
         claim.place,
+        locator(claim),
         source_of(claim),
         claim.says,
         claim.printed,

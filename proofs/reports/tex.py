@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import Contents, Entry
@@ -150,7 +151,9 @@ def _render(made: Environment, name: str, contents: Contents, values: Mapping[st
 def _counterexamples(entry: Entry) -> list[str]:
     """The counterexamples as they are set, each once."""
     shown = (
-        tex_words.values(one.at) + (f": {tex_words.prose(one.numbers)}" if one.numbers else "")
+        tex_words.values(one.at)
+        + (f": {tex_words.prose(one.numbers)}." if one.numbers else ".")
+        + (f" {tex_words.prose(one.words)}" if one.words else "")
         for one in entry.statements
         if one.at
     )
@@ -294,7 +297,7 @@ def equation(entry: Entry) -> str:
     tag = f"\\tag{{{tex_words.number(entry.claim)}}}" if tex_words.number(entry.claim) else ""
     head = [
         (
-            f"% {entry.claim.id}, {entry.claim.section} {entry.claim.place}: {entry.verdict_text};"
+            f"% {entry.claim.id}, {place_of(entry.claim)}: {entry.verdict_text};"
             f" as printed it holds {words_of(entry)}"
         ),
         *(

@@ -154,9 +154,35 @@ def test_rejects_absent_file(tmp_path: Path) -> None:
 
 def test_rejects_unknown_claim_and_route(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x < x + 1)")
-    assert "no such claim" in certify(path, "--only", "other").stderr
+    assert (
+        "--only other: no such claim; `juggleproof list`" in certify(path, "--only", "other").stderr
+    )
+    assert "did you mean mine?" in certify(path, "--only", "mien").stderr
     done = run("certify", str(path), "--routes", "magic")
     assert done.returncode == 2 and "choose from" in done.stderr
+
+
+def test_rejects_a_file_in_a_folder_that_is_not_there(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x < x + 1)")
+    done = certify(path, "--json", str(tmp_path / "absent" / "out.json"))
+    assert done.returncode == 2 and "absent is no folder; make it first" in done.stderr
+    assert [one.name for one in tmp_path.iterdir()] == ["mine.py"]
+
+
+def test_what_was_unknown_is_searched_again_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
+    assert certify(path, "--budget", "10").returncode == 1
+    assert certify(path).returncode == 0
+
+
+def test_progress_without_a_terminal_is_lines_on_standard_error_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = claim_file(tmp_path, "always(x < x + 1)")
+    assert certify(path).stderr == ""
+    monkeypatch.setattr("juggleproof.proofs.command.certify.PAUSE", 0.0)
+    done = certify(path)
+    assert done.stderr == "1 of 1 claims judged\n" and "judged" not in done.stdout
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="the superuser can write everywhere")

@@ -46,5 +46,5 @@ def test_export_of_the_whole_paper_writes_every_statement_holds(tmp_path: Path) 
 
 
 def test_rejects_export_of_an_unknown_name() -> None:
-    with pytest.raises(ClaimError, match="eq-999: no stored statement of this name"):
+    with pytest.raises(ClaimError, match="eq-999: no such claim; did you mean eq-9"):
         export_smt2(["eq-3", "eq-999"], None)

@@ -16,8 +16,10 @@ from sympy import Expr, MatrixBase, Symbol
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import Term
-from juggleproof.proofs.claims import assertions
+from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.paper.derivations import statements_of
+from juggleproof.proofs.run import findings_in
 
 NAMED = {"collide": "impact_map"}  # the impact of two states is a value of the derived impact map
 marks: list[str] = []
@@ -70,9 +72,10 @@ def main() -> None:
             if not name.startswith("_"):
                 setattr(symbolic, name, marking(name, function))
     count_marks_as_zero()
-    found = {}
+    found, findings = {}, findings_in(DEFAULT)
     for claim in paper_claims():
-        texts = [part.text() for _, one in assertions(claim.body()) for part in one.parts]
+        correction = findings.get(claim.id, {}).get("correction")
+        texts = [part.text() for part in statements_of(claim, correction)]
         numbers = re.findall(r"\bmark_(\d+)\b", "\n".join(texts))
         found[claim.id] = sorted({marks[int(number)] for number in numbers})
     print(json.dumps(found))

@@ -128,7 +128,7 @@ def test_a_claim_is_explained_by_the_papers_number_holds(
     number: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert explain.explain(number) == 0
-    assert capsys.readouterr().out.startswith("eq-37   section A.2 (37)\n")
+    assert capsys.readouterr().out.startswith("eq-37   section A.2, equation (37)\n")
 
 
 def test_rejects_a_claim_that_is_not_there_with_what_may_be_meant() -> None:

@@ -1,4 +1,6 @@
-"""The derivations that a claim lists are the derived expressions that its statements contain."""
+"""The derivations that a claim lists are the derived expressions that its statements contain, and
+each derivation names those that it calls.
+"""
 
 from __future__ import annotations
 
@@ -9,36 +11,87 @@ import sys
 from pathlib import Path
 
 from juggleproof.certificates.language import origins_in, reals, substitute
+from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.judgement import Correction
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import Origin, derivations_of, derived, derived_vector
+from juggleproof.proofs.paper.derivations import (
+    Origin,
+    derivations_of,
+    derived,
+    derived_vector,
+    made_from,
+    statements_of,
+)
+from juggleproof.proofs.run import findings_in
 
 ROOT = Path(__file__).resolve().parents[3]
 
 
-def listed() -> dict[str, list[str]]:
-    return {
-        claim.id: sorted(one.function for one in derivations_of(claim.body()))
-        for claim in paper_claims()
-    }
+def corrections() -> dict[str, Correction]:
+    """The corrections that are stored, by claim."""
+    found = findings_in(DEFAULT)
+    return {name: one["correction"] for name, one in found.items() if "correction" in one}
 
 
-def test_listed_derivations_are_the_ones_that_statements_contain_holds() -> None:
-    """For every claim; what a statement contains is found by marks, in a process of its own."""
+def output_of(module: str) -> dict[str, list[str]]:
+    """What the module prints in a process of its own, as JSON."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.proofs.paper.marked_derivations"],
+        [sys.executable, "-m", f"tests.proofs.paper.{module}"],
         cwd=ROOT,
         capture_output=True,
         text=True,
         check=True,
     )
-    contained, found = json.loads(done.stdout), listed()
-    assert sum(map(bool, found.values())) > 200
-    assert found == contained
+    found: dict[str, list[str]] = json.loads(done.stdout)
+    return found
+
+
+def test_listed_derivations_are_the_ones_that_statements_contain_holds() -> None:
+    """For every claim; what a statement contains is found by marks, in a process of its own."""
+    mended = corrections()
+    listed = {
+        claim.id: sorted(one.function for one in derivations_of(claim, mended.get(claim.id)))
+        for claim in paper_claims()
+    }
+    assert sum(map(bool, listed.values())) > 200
+    assert listed == output_of("marked_derivations")
+
+
+def test_derivations_are_of_the_statements_that_were_judged_holds() -> None:
+    """Of every claim all stored statements, but those of sharp ranges, which are found."""
+    mended, stored = corrections(), dict[str, set[str]]()
+    assert len(mended) > 20
+    for name, text in Store(DEFAULT).texts.items():
+        _, _, lines = text.partition("\n")
+        if not lines.startswith("sharp "):
+            stored.setdefault(name.split("/")[0], set()).add(lines)
+    for claim in paper_claims():
+        own = statements_of(claim, mended.get(claim.id))
+        assert {one.text().partition("\n")[2] for one in own} == stored.get(claim.id, set())
+
+
+def test_a_derivation_names_the_ones_that_it_calls_holds() -> None:
+    """For every derivation behind a claim; what is called is noted in a process of its own."""
+    called = output_of("called_derivations")
+    assert len(called) > 70 and sum(map(len, called.values())) > 100
+    assert {name: sorted(made_from(name)) for name in called} == called
+
+
+def test_corrections_and_remarks_are_derived_too_holds() -> None:
+    """The correction of s3.3-e1-closed has the time epsilon_1, and not xi_1; the remark of eq-30
+    speaks of the kinetic energy.
+    """
+    claims = {claim.id: claim for claim in paper_claims()}
+    closed, remarked = claims["s3.3-e1-closed"], claims["eq-30"]
+    before = {one.function for one in derivations_of(closed)}
+    after = {one.function for one in derivations_of(closed, corrections()[closed.id])}
+    assert after - before == {"epsilon_1"}
+    assert "relative_kinetic_energy" in {one.function for one in derivations_of(remarked)}
 
 
 def test_the_energy_gain_lists_what_it_states_holds() -> None:
     (claim,) = (claim for claim in paper_claims() if claim.id == "eq-37")
-    names = [one.function for one in derivations_of(claim.body())]
+    names = [one.function for one in derivations_of(claim)]
     assert names == ["total_energy", "f1", "largest_energy_change"]
 
 

@@ -10,7 +10,9 @@ import re
 import pytest
 
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.ledger.places import place_of
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.ledger.ledger import load_ledger
+from juggleproof.proofs.ledger.places import is_heading, place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
@@ -200,16 +202,66 @@ def test_rejects_that_the_theorem_survives_where_it_is_not_registered() -> None:
     [
         ("eq-38", "section A.3.1, equation (38)"),
         ("s4.3.2-p-not-R", "section 4.3.2, sentence 1 after (31)"),
-        ("s2.2.1-H", "section 2.2.1, sentence 2"),
+        ("s2.2.1-H", "section 2.2.1, sentence 1"),
+        ("s4.3.2-K-invariant", "section 4.3.2, sentence 3 after (32)"),
+        ("sA.3.1-not-on-R0", "section A.3.1, heading"),
+        ("prop-1", "section 4.2, Proposition 1"),
+        ("region-K", "inclusions, section 4.3.2, sentence 3 after (32)"),
         ("s4.3.1-DK1", "section 4.3.1, display 2 after (28)"),
         ("s4.2-note9-equal", "section 4.2, footnote 9"),
-        ("sB.7-T", "section B.7, row of the table 5"),
+        ("sB.7-T", "section B.7, row of the table 3"),
+        ("sB.7-tau-p", "section B.7, row of the table 6"),
         ("theorem", "theorem, normal form"),
     ],
 )
 def test_places_are_as_a_reader_finds_them_holds(name: str, place: str) -> None:
     (claim,) = [one for one in paper_claims() if one.id == name]
     assert place_of(claim) == place
+
+
+def test_a_counted_place_leads_back_to_the_claim_holds() -> None:
+    """Counted again from the heading, or from the equation that is named, in the ledger."""
+    counted = 0
+    for claim in paper_claims():
+        found = re.fullmatch(
+            r".*section ([\w.]+), (sentence|display|row of the table) (\d+)(?: after \((\d+)\))?",
+            place_of(claim),
+        )
+        if not found:
+            assert not re.search(r"line \d", place_of(claim))
+            continue
+        section, word, count, number = found.groups()
+        rows = [row for row in load_ledger() if row.section == section]
+        if number:
+            names = {f"eq-{number}", f"eq-{number}a", f"eq-{number}b"}
+            ends = [i for i, row in enumerate(rows) if names & {*row.claims} and "-d" in row.key]
+            rows = rows[ends[-1] + 1 :]
+        kind = {"row of the table": "tablerow"}.get(word, word)
+        asked = [i for i, row in enumerate(rows) if row.kind == kind and not is_heading(row)]
+        at = asked[int(count) - 1]
+        end = next((i for i in range(at + 1, len(rows)) if rows[i].kind != "inline"), len(rows))
+        assert claim.id in {name for row in rows[at:end] for name in row.claims}, claim.id
+        counted += 1
+    assert counted > 150
+
+
+def test_lines_of_the_transcription_are_told_where_asked_for_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    for arguments, place in [
+        (["explain", "s4.3.2-K-invariant"], "section 4.3.2, sentence 3 after (32)"),
+        (["explain", "s4.3.2-K-invariant", "--lines"], "section 4.3.2 line 565"),
+        (["list"], "4.3.2, sentence 3 after (32)"),
+        (["list", "--lines"], "4.3.2 line 565"),
+    ]:
+        assert run(arguments) == 0
+        (line,) = [
+            line
+            for line in capsys.readouterr().out.splitlines()
+            if line.startswith("s4.3.2-K-invariant ")
+        ]
+        assert line.partition(" ")[2].lstrip().startswith(place)
+        assert ("line 565" in line) == ("--lines" in arguments)
 
 
 @pytest.mark.parametrize(
@@ -227,6 +279,12 @@ def test_counterexamples_show_the_numbers_that_disagree_holds(
 ) -> None:
     (text,) = [group[name] for group in listing.values() if name in group]
     assert f"in numbers: {numbers}" in map(str.strip, text.splitlines())
+
+
+def test_every_counterexample_is_in_words_holds(listing: dict[str, dict[str, str]]) -> None:
+    for text in (text for group in listing.values() for text in group.values()):
+        rows = [line.split("  ")[2] for line in text.splitlines()[1:] if line[4] != " "]
+        assert rows.count("in words") == rows.count("fails at"), text
 
 
 def test_counterexamples_are_in_simple_rationals_holds() -> None:

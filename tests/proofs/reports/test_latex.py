@@ -126,6 +126,8 @@ def test_every_erratum_stands_with_its_verdict_and_its_counterexample_holds() ->
         block = blocks[entry.claim.id]
         assert f"{{{entry.verdict}}}" in block
         assert (entry.group in WRONG) == (r"\jugnote{Fails}{at " in block)
+        for one in entry.statements:
+            assert not one.at or one.words and tex_words.prose(one.words) in block
         assert (entry.group == "restored") == (r"\jugnote{Transcribed}" in block)
         assert bool(entry.claim.remark) == (r"\jugnote{Remark}" in block)
 

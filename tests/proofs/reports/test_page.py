@@ -13,6 +13,7 @@ from urllib.parse import unquote
 
 import pytest
 
+from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents
 from juggleproof.proofs.reports.page import build
 from tests.proofs.reports.browser import Element, NotNested, read_html
@@ -210,6 +211,21 @@ def test_errata_stand_first_and_whole_holds() -> None:
     ] == wanted_order
     wanted = {f"erratum-{entry.claim.id}" for entry in contents().entries if entry.group}
     assert wanted and {one.attributes["id"] for one in document().with_class("erratum")} == wanted
+
+
+def test_every_counterexample_is_in_words_holds() -> None:
+    """In the errata and beside the statement; a formula stands in the line as MathML."""
+    counted = 0
+    for entry in contents().entries:
+        for shown in (one for one in entry.statements if one.at):
+            line = markup.prose(shown.words)
+            places = [f'id="{shown.name}"', f'id="erratum-{entry.claim.id}"']
+            assert shown.words and all(
+                f"<p>{line}</p>" in text().partition(place)[2].partition("</article>")[0]
+                for place in places
+            ), shown.name
+            counted += 1
+    assert counted > 50
 
 
 def test_prints_are_drawn_where_they_are_told_holds() -> None:
