@@ -14,6 +14,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.reports.ci import badge, markdown
 from juggleproof.proofs.reports.contents import Contents, as_json, gather
+from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.page import FILE, build, pictures
 from juggleproof.proofs.reports.part import kept_results
@@ -21,6 +22,7 @@ from juggleproof.proofs.reports.tex import compiled, files
 from juggleproof.scenes.figures import TABLE
 
 DEFAULT_FOLDER = Path("juggleproof-report")
+LIBRARIES = {"html": "jinja2", "latex": "jinja2", "pdf": "jinja2", "figures": "matplotlib"}
 Files = Mapping[str, bytes]
 
 
@@ -42,12 +44,14 @@ def report(wanted: Sequence[str], folder: Path | None) -> int:
 def writer(
     wanted: Sequence[str], folder: Path | None, option: str = "--report"
 ) -> Callable[[Contents], int]:
-    """What does the same with contents in hand; an unknown format, and what is no folder, are
-    refused at once.
+    """What does the same with contents in hand; an unknown format, what is no folder, and what
+    lacks its library are refused at once.
     """
     for one in wanted:
         if one not in FORMATS:
             raise ClaimError(f"{option} {one}: choose from {', '.join(FORMATS)}")
+        if one in LIBRARIES:
+            needed(LIBRARIES[one])
     place = folder or DEFAULT_FOLDER
     _refuse_what_is_no_folder(place)
 

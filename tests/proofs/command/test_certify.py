@@ -185,7 +185,6 @@ def test_progress_without_a_terminal_is_lines_on_standard_error_holds(
     assert done.stderr == "1 of 1 claims judged\n" and "judged" not in done.stdout
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser can write everywhere")
 @pytest.mark.parametrize(
     ("given", "reason"),
     [
@@ -205,6 +204,7 @@ def test_rejects_reports_that_cannot_be_made(
     assert len(done.stderr.splitlines()) == 1 and [*tmp_path.iterdir()] == [path]
 
 
+@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser can write everywhere")
 def test_rejects_folder_that_cannot_be_written(tmp_path: Path) -> None:
     folder = tmp_path / "closed"
     folder.mkdir(mode=0o500)
