@@ -10,8 +10,7 @@ from difflib import SequenceMatcher
 from fractions import Fraction
 
 from juggleproof.certificates.language import ClaimError, Term, names_in, term
-from juggleproof.proofs.claims import Body, Claim, as_body, claims_beside
-from juggleproof.proofs.judgement import Correction
+from juggleproof.proofs.claims import Claim, claims_beside
 from juggleproof.proofs.reading.edits import one_mark_changes
 from juggleproof.proofs.reading.lexer import RELATIONS, PrintError, lex
 from juggleproof.proofs.reading.meaning import Printed
@@ -59,15 +58,6 @@ class Candidate:
                 if isinstance(part.tree, Chain) and part.tree.rest[0][0] == ":=":
                     known.update(Printed("", (part.tree.first,)).names)
         return [name for name in self.printed.names if not {name, with_any_index(name)} & known]
-
-
-def corrected(claim: Claim, correction: Correction) -> Body:
-    """What the claim asserts as corrected: its true assertion nearby, or what it says of the
-    corrected print.
-    """
-    if correction["kind"] == "nearby" and claim.true_nearby is not None:
-        return as_body(claim.true_nearby[1](), claim.id)
-    return claim.body(claim.read_print(correction["text"]))
 
 
 def with_any_index(name: str) -> str:

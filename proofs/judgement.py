@@ -9,11 +9,11 @@ from functools import cache
 from importlib.metadata import version
 from typing import TypedDict
 
-from juggleproof.certificates.language import NO_ROLES, Roles
+from juggleproof.certificates.language import NO_ROLES, AnyStatement, Roles
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import Store
 from juggleproof.certificates.votes.vote import ANSWERS, Vote
-from juggleproof.proofs.claims import Claim, Verdict
+from juggleproof.proofs.claims import Claim, Verdict, as_body, assertions
 
 ROUTES = ("exact", "z3", "boxes")
 DEFAULT_BUDGET = 2_000_000
@@ -187,3 +187,13 @@ class Judgement:
         if self.recorded:
             finding["votes"] = self.recorded
         return finding
+
+
+def statements_of(claim: Claim, correction: Correction | None = None) -> list[AnyStatement]:
+    """The statements that a claim comes to, with those of its correction and of its remark."""
+    found, beside = assertions(claim.body()), claim.shown_beside()
+    if correction and correction["kind"] == "nearby" and claim.true_nearby:
+        found += assertions(as_body(claim.true_nearby[1](), claim.id))
+    elif correction:
+        found += assertions(claim.body(claim.read_print(correction["text"])))
+    return [part for _, one in found for part in one.parts] + [*(beside.parts if beside else ())]

@@ -14,9 +14,9 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, load_register
-from juggleproof.proofs.reports.ci import failing, fails_at
+from juggleproof.proofs.reports.ci import NEITHER, failing, fails_at
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
-from juggleproof.proofs.run import Options, claims_of_files, refuse_duplicates, run
+from juggleproof.proofs.run import Options, claims_of_files, refuse_duplicates, run, store_of
 
 NAME = "juggleproof"
 
@@ -78,7 +78,7 @@ def _judged(files: Sequence[Path]) -> Results:
     as it is.
     """
     if files:
-        own = Options(files[0].with_suffix(".certificates"), jobs=1)
+        own = Options(store_of(files), jobs=1)
         done = run(claims_of_files(files), own)
         return results_of_run(done.claims, done.judgements, None, rejected=done.rejected)
     with tempfile.TemporaryDirectory() as folder:
@@ -114,7 +114,7 @@ class ClaimItem(pytest.Item):
     def hint(self) -> str:
         """The command that shows more of the claim."""
         return (
-            f"certify {' '.join(map(_short, self.of.files))} --only {self.name}"
+            f"explain {self.name} {' '.join(map(_short, self.of.files))}"
             if self.own
             else f"explain {self.name}"
         )
@@ -162,7 +162,7 @@ def faults(results: Results, name: str) -> list[str]:
     if one is None:
         return [*changed, "the claim is gone from the sources"]
     if one.is_open:
-        return [f"unknown: {one.detail or 'neither proved nor refuted'}", *changed]
+        return [f"unknown: {one.detail or NEITHER}", *changed, *fails_at(one)]
     if results.own:
         return [] if one.verdict == "holds" else failing(one).splitlines()
     return [*changed, *fails_at(one)] if changed else []

@@ -184,11 +184,12 @@ def judge_some(chosen: Sequence[Claim], claims: Sequence[Claim], folder: Path) -
         store=store,
         findings=findings_in(folder),
         lemmas=lemmas(claims, chosen),
-        checked=outcomes_of(folder, own),
+        checked=outcomes_of(folder, own) if own else {},
     )
     judgements = [judge(claim, resources) for claim in chosen]
     rules = [name for one in judgements for name in one.rests_on]
-    settle_by_rules(judgements, outcomes_of(folder, rules), store.texts, claims)
+    outcomes = outcomes_of(folder, rules) if rules else {}
+    settle_by_rules(judgements, outcomes, store.texts, claims)
     return judgements
 
 
@@ -311,6 +312,11 @@ def claims_of_file(path: Path) -> list[Claim]:
 def claims_of_files(paths: Sequence[Path]) -> list[Claim]:
     """The claims of Python files, in order."""
     return [claim for path in paths for claim in claims_of_file(path)]
+
+
+def store_of(paths: Sequence[Path]) -> Path:
+    """The folder of the certificates of such claims: beside the first file, with its name."""
+    return paths[0].with_suffix(".certificates")
 
 
 def _line_in(path: Path) -> int:

@@ -27,10 +27,10 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import PATH, Register, load_register, write_register
 from juggleproof.proofs.reports import pages, problems
 from juggleproof.proofs.reports import results as table
-from juggleproof.proofs.reports.ci import as_junit, markdown
+from juggleproof.proofs.reports.ci import as_junit, failing, markdown
 from juggleproof.proofs.reports.contents import Contents, as_json, contents_of
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
-from juggleproof.proofs.run import Options, Progress, claims_of_files, run, stop
+from juggleproof.proofs.run import Options, Progress, claims_of_files, run, stop, store_of
 from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
 
 # -------------------------------------------------------------------------------------------------
@@ -94,6 +94,12 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
         partial=bool(options.only),
         accepted=accepts,
     )
+    for one in results.claims if options.files else ():
+        if one.verdict != "holds":
+            print(f"\n{one.id}: {failing(one)}".replace("\n", "\n    ").replace("\n    ", "\n", 1))
+    if results.own and results.exit:
+        files = " ".join(str(path) for path in options.files)
+        print(f"\n`juggleproof explain ID {files}` shows a claim whole")
     for change in results.changes:
         print(f"{'accepted ' if accepts else 'differs from the register '} {change}")
     if before is not None and accepts:
@@ -113,7 +119,7 @@ def _refuse_reports(options: CertifyOptions) -> None:
 
 
 def _options(options: CertifyOptions) -> Options:
-    own = options.files[0].with_suffix(".certificates") if options.files else None
+    own = store_of(options.files) if options.files else None
     return Options(
         options.store or own or DEFAULT,
         tuple(options.routes.split(",")),

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Sequence
+from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
+from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import derivations_of
-from juggleproof.proofs.reports.errata import counterexample
+from juggleproof.proofs.reports.errata import counterexample, words_of
 from juggleproof.proofs.reports.results import reading_of, sharp_range
 from juggleproof.proofs.reports.tree import print_tree
-from juggleproof.proofs.run import judge_some
+from juggleproof.proofs.run import claims_of_files, judge_some, store_of
 
 NO_RANGE = "none: the claim has no range of alpha to settle"
 
@@ -30,8 +33,10 @@ def command(parsed: argparse.Namespace) -> int:
         for option in ("alpha", "state", "bounds")
         if getattr(parsed, option) not in (None, False)
     ]
-    if of_theorem and parsed.id != "theorem":
+    if of_theorem and (parsed.id != "theorem" or parsed.files):
         raise ClaimError(f"--{of_theorem[0]} goes with `explain theorem` only")
+    if parsed.lines and parsed.files:
+        raise ClaimError("--lines goes with the paper's claims only")
     if parsed.bounds:
         if len(of_theorem) > 1 or parsed.premises or parsed.lines:
             raise ClaimError("--bounds stands alone; it has its own alphas and states")
@@ -42,34 +47,40 @@ def command(parsed: argparse.Namespace) -> int:
                 "give --alpha and --state together, such as --alpha 3/10 --state x=1000,w=-41"
             )
         return explain_state(parsed.alpha, parsed.state)
-    return explain(parsed.id, with_premises=parsed.premises, with_lines=parsed.lines)
+    return explain(parsed.id, parsed.files, parsed.premises, parsed.lines)
 
 
-def explain(claim_id: str, with_premises: bool = False, with_lines: bool = False) -> int:
-    """One claim whole: print, derivation, reading, statements, certificates or counterexamples,
-    sharp range, verdict; the tree of its rules.  Its place is one of the transcription where lines
-    are asked for.  Raises ClaimError for an unknown name.
+def explain(
+    claim_id: str,
+    files: Sequence[Path] = (),
+    with_premises: bool = False,
+    with_lines: bool = False,
+) -> int:
+    """One claim whole, of the paper or of the files: print, derivation, reading, statements,
+    certificates or counterexamples, sharp range, verdict; the tree of its rules.  Its place is one
+    of the transcription where lines are asked for.  Raises ClaimError for an unknown name.
     """
-    claims = {claim.id: claim for claim in paper_claims()}
-    claim_id = claim_named(claim_id, claims)
-    claim = claims[claim_id]
-    body = claim.body()
-    (judgement,) = judge_some([claim], [*claims.values()], DEFAULT)
+    claims = {claim.id: claim for claim in (claims_of_files(files) if files else paper_claims())}
+    claim = claims[claim_named(claim_id, claims)]
+    store = store_of(files) if files else DEFAULT
+    (judgement,) = judge_some([claim], [*claims.values()], store)
     place = f"section {claim.section} {claim.place}" if with_lines else place_of(claim)
-    print(f"{claim.id}   {place}")
+    print(f"{claim.id}   {claim.where if files else place}")
     print(f"  {claim.says}")
     _print_of(claim)
-    for one in derivations_of(claim, judgement.correction):
+    for one in derivations_of(statements_of(claim, judgement.correction)):
         print(f"derived     {one.line}")
-    print(f"reading     {reading_of(body)}")
+    print(f"reading     {reading_of(claim.body())}")
     for name, text in judgement.statements:
-        _statement(text, judgement.outcomes[name], judgement.certificates[name])
+        outcome, certificate = judgement.outcomes[name], judgement.certificates[name]
+        _statement(text, outcome, certificate, of_paper=not files)
     sharp, verdict = sharp_range(judgement, claim), judgement.verdict
-    print(f"sharp range {sharp if judgement.sharp else NO_RANGE}")
+    if judgement.sharp or not files:
+        print(f"sharp range {sharp if judgement.sharp else NO_RANGE}")
     if judgement.correction:
         print(f"correction  {judgement.correction['text']}")
     print(f"verdict     {verdict.word}" + (f"; {verdict.detail}" if verdict.detail else ""))
-    print_tree(claim_id, judgement.rests_on, Store(DEFAULT), with_premises)
+    print_tree(claim.id, judgement.rests_on, Store(store), with_premises)
     return 0
 
 
@@ -83,16 +94,20 @@ def _print_of(claim: Claim) -> None:
         print(f"repeats     {claim.repeats}")
 
 
-def _statement(text: str, outcome: str, certificate: Certificate) -> None:
+def _statement(text: str, outcome: str, certificate: Certificate, of_paper: bool) -> None:
     print()
     for line in text.splitlines():
         print(f"    {line}")
     if outcome == "refuted":
-        print(f"    -> refuted at {counterexample(certificate['refuted'])}")
+        refuted = certificate["refuted"]
+        print(f"    -> refuted at {counterexample(refuted)}")
+        words = words_of(text, refuted, of_paper)
+        if words:
+            print(f"       {words}")
     elif outcome != "certified":
         print(f"    -> {outcome}: {certificate.get('unknown', 'the checker rejects it')}")
     else:
         shown = json.dumps(certificate["certified"], separators=(",", ":"))
-        if len(shown) >= 400:
+        if of_paper and len(shown) >= 400:
             shown = f"{shown[:400]}... ({len(shown)} characters)"
         print(f"    -> certified by {shown}")

@@ -153,10 +153,20 @@ def build_parser() -> argparse.ArgumentParser:
     explain = commands.add_parser("explain", help="one claim whole")
     explain.add_argument("id", metavar="ID")
     explain.add_argument(
+        "files",
+        nargs="*",
+        type=Path,
+        metavar="FILE",
+        help="with claims of your own (.py), of which it is one instead of the paper's",
+    )
+    explain.add_argument(
         "--premises",
         action="store_true",
         help="the texts of the premises that the checker's map rules write",
     )
+    listed.add_argument("--section", metavar="S", help="only of this section, such as 4.2 or A")
+    listed.add_argument("--verdict", metavar="V", help="only with this verdict, such as gap")
+    listed.add_argument("--json", action="store_true", help="as JSON, on standard output")
     for command in (listed, explain):
         command.add_argument(
             "--lines", action="store_true", help="places as lines of the paper's transcription"

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import pydoc
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -51,6 +53,19 @@ def written_aside(path: Path) -> Iterator[BinaryIO]:
         raise ClaimError(
             f"{path}: cannot be written ({error.strerror}); choose a folder that can be"
         ) from None
+
+
+# -------------------------------------------------------------------------------------------------
+# Long texts, by the user's pager where they do not fit on the terminal.
+
+
+def show(text: str) -> None:
+    """Prints the text; on a terminal that it does not fit by the pager, which PAGER names."""
+    fits = text.count("\n") < shutil.get_terminal_size().lines
+    if fits or not (sys.stdin.isatty() and sys.stdout.isatty()):
+        print(text.rstrip("\n"))
+    else:
+        pydoc.pager(text)
 
 
 # -------------------------------------------------------------------------------------------------

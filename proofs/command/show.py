@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
+
+from rich.console import Console
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq import PRELUDE, export
 from juggleproof.certificates.language import ClaimError
-from juggleproof.certificates.store import DEFAULT, Store, write_file
+from juggleproof.certificates.store import DEFAULT, Store, canonical, write_file
 from juggleproof.certificates.votes.smtlib import script
-from juggleproof.proofs.claims import claim_named
+from juggleproof.proofs.claims import VERDICTS, claim_named
+from juggleproof.proofs.command.outputs import show
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
 from juggleproof.proofs.reports.contents import gather
+from juggleproof.proofs.reports.tables import draw
 from juggleproof.proofs.reports.tex import equation
 
 # -------------------------------------------------------------------------------------------------
@@ -29,23 +33,67 @@ def command(parsed: argparse.Namespace) -> int:
     if parsed.command == "export":
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "list":
-        return list_claims(parsed.lines)
-    print(errata.as_text())
+        return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json)
+    show(errata.as_text())
     return 0
 
 
-def list_claims(with_lines: bool = False) -> int:
-    """One line a claim: id, place, registered verdict, what it says; places are lines of the
-    transcription where these are asked for.
+def list_claims(
+    section: str = "", verdict: str = "", with_lines: bool = False, as_json: bool = False
+) -> int:
+    """One line a claim: id, place, registered verdict, what it says; a table on a terminal.
+
+    Only the claims of a section, such as 4.2, or A with all below it, and of one verdict, where
+    these are asked for; places are lines of the transcription where these are.  Raises ClaimError
+    for a section or verdict that is none.
     """
+    everything = list(_listed(with_lines))
+    listed = [
+        one
+        for one in everything
+        if (not section or in_section(one["section"], section))
+        and (not verdict or one["verdict"] == verdict)
+    ]
+    if verdict and verdict not in VERDICTS:
+        raise ClaimError(f"--verdict {verdict}: choose from {', '.join(VERDICTS)}")
+    if section and not any(in_section(one["section"], section) for one in everything):
+        raise ClaimError(f"--section {section}: no claim is of it; `juggleproof list` shows all")
+    if as_json:
+        print(canonical([*listed]).decode(), end="")
+        return 0
+    heads = ("id", "place", "verdict", "says")
+    rows = [tuple(one[head] for head in heads) for one in listed]
+    if sys.stdout.isatty():
+        console = Console()
+        with console.capture() as captured:
+            draw(heads, rows, console)
+        show(captured.get())
+        return 0
+    for name, place, word, says in rows:
+        print(f"{name:32} {place:34} {word:12} {says}")
+    return 0
+
+
+def in_section(own: str, wanted: str) -> bool:
+    """Whether a section is the wanted one, or below it.
+
+    >>> in_section("A.3.2", "A"), in_section("4.2", "4.2"), in_section("4.2", "4.21")
+    (True, True, False)
+    """
+    return f"{own}.".startswith(f"{wanted}.")
+
+
+def _listed(with_lines: bool) -> Iterator[dict[str, str]]:
     register = load_register()
     for claim in paper_claims():
-        verdict = register[claim.id]["verdict"] if claim.id in register else "not judged"
-        place = place_of(claim).removeprefix("section ")
-        if with_lines:
-            place = f"{claim.section} {claim.place}"
-        print(f"{claim.id:32} {place:34} {verdict:12} {claim.says}")
-    return 0
+        place = f"{claim.section} {claim.place}" if with_lines else place_of(claim)
+        yield {
+            "id": claim.id,
+            "section": claim.section,
+            "place": place.removeprefix("section "),
+            "verdict": register[claim.id]["verdict"] if claim.id in register else "not judged",
+            "says": claim.says,
+        }
 
 
 # -------------------------------------------------------------------------------------------------

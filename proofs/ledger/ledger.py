@@ -61,7 +61,7 @@ UNPRINTED = {
     ),
     "theorem-ends": "the stability of e_K where its range begins, which 3.5.3 claims wrongly",
     "theorem-E-max": "the energy that orbits keep to, which (22) and what follows leave unsaid",
-    "theorem-sharper": "a bound nearer the worst case than the theorem's",
+    "theorem-sharper": "a bound that is smaller than the theorem's for great energies",
     "theorem-closed-form": (
         "the orbits in the trap, from which the second bound of the theorem follows"
     ),

@@ -36,6 +36,7 @@ from juggleproof.proofs.paper.names import (
     derived,
     derived_vector,
     energy,
+    exists_some,
     f1,
     f2,
     g,
@@ -73,7 +74,8 @@ from juggleproof.proofs.reading.values import Vector, scalar
 # Appendix A.1: the velocity that impacts can sustain, and the energy that goes with it.
 
 ball, ball_after, table, table_after = reals("ball ball_after table table_after")
-equilibrium, chi_dot, tau, mass = reals("equilibrium chi_dot tau mass")
+equilibrium, chi_dot, chi_dot_after = reals("equilibrium chi_dot chi_dot_after")
+tau, mass = reals("tau mass")
 VELOCITIES = PAPER.extended(
     {
         r"\dot\beta": ball,
@@ -91,12 +93,16 @@ def struck(before: Number, table_velocity: Number) -> Term:
 
 
 @claim("sA.1-max-velocity", "A.1", "line 630")
-def table_is_fastest_at_its_launch() -> Statement:
+def table_is_fastest_at_its_launch() -> list[Statement]:
     """Within a period the table's velocity is never above its launch velocity, and equal to it only
-    at the launch.
+    at the launch; so the energy that an impact adds is limited.
     """
     now = speed(table_at(t))
-    return always((now <= r) & iff(equal(now, r), equal(t, 0)), given=[t >= 0, t < T])
+    added = struck(ball, table) ** 2 / 2 - ball**2 / 2
+    return [
+        always((now <= r) & iff(equal(now, r), equal(t, 0)), given=[t >= 0, t < T]),
+        always(added <= derived("delta_E_max"), given=[ball < table, table <= r], label="limited"),
+    ]
 
 
 @claim(
@@ -129,14 +135,19 @@ def relative_velocity(printed: Printed) -> Statement:
     printed=r"\dot{\beta}' - \dot{\rho}' = -\alpha (\dot{\beta} - \dot{\rho})",
     as_it_stands=r"\dot{\beta}' = -\dot{\rho}' = -\alpha (\dot{\beta} - \dot{\rho})",
 )
-def restitution_turns_the_relative_velocity(printed: Printed) -> Statement:
-    """With a table that keeps its velocity, the relative velocity is turned and shrunk by alpha
-    exactly as the impact (3) has it.
+def restitution_turns_the_relative_velocity(printed: Printed) -> list[Statement]:
+    """The law (2), with the minus that it lacks, of the relative velocities before and after the
+    impact; with a table that keeps its velocity it is the impact (3).
     """
-    return always(
-        iff(printed.formula(VELOCITIES), equal(ball_after, struck(ball, table))),
-        given=[equal(table_after, table)],
-    )
+    law = equal(chi_dot_after, -alpha * chi_dot)
+    differences = [equal(chi_dot, ball - table), equal(chi_dot_after, ball_after - table_after)]
+    return [
+        always(iff(printed.formula(VELOCITIES), law), given=differences, label="by-2"),
+        always(
+            iff(printed.formula(VELOCITIES), equal(ball_after, struck(ball, table))),
+            given=[equal(table_after, table)],
+        ),
+    ]
 
 
 @claim("sA.1-high-mass", "A.1", "line 634", printed=r"\dot{\rho}' = \dot{\rho}")
@@ -187,9 +198,10 @@ def fastest_table_gives_most() -> list[Statement]:
     velocity.
     """
     slower, fastest = struck(ball, table), struck(ball, r)
+    later, falling = speed(table_at(t)), [t > 0, t < T, ball < speed(table_at(t))]
     return [
         always(slower < fastest, given=[table < r], label="velocity"),
-        always(slower**2 / 2 < fastest**2 / 2, given=[table < r, slower >= 0], label="energy"),
+        always(struck(ball, later) ** 2 / 2 < fastest**2 / 2, given=falling, label="energy"),
     ]
 
 
@@ -323,11 +335,12 @@ ON_EDGE = Vector((0, v))
 
 @claim("sA.2-upper-bound", "A.2", "line 652")
 def energy_change_is_bounded_above() -> list[Statement]:
-    """The energy change of an impact has an upper bound on H; impacts gain at bounded energies
-    only, and lose at all others.
+    """The energy change of an impact has an upper bound on H; some impacts gain, at bounded
+    energies only, and at all greater energies impacts lose.
     """
     return [
         always(change <= derived("delta_E_max"), given=[H(b)], label="bounded"),
+        exists_some(["beta", "v"], B1_PLUS(b), label="some-gain"),
         always(energy(b) <= derived("E_max"), given=[B1_PLUS(b)], label="few-gain"),
         always(B1_MINUS(b), given=[B1(b), energy(b) > derived("E_max")], label="most-lose"),
     ]

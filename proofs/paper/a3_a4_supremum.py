@@ -20,6 +20,7 @@ from juggleproof.proofs.paper.names import (
     PAPER,
     H,
     R,
+    alpha,
     always,
     as_region,
     at,
@@ -29,7 +30,6 @@ from juggleproof.proofs.paper.names import (
     derived,
     derived_vector,
     energy,
-    eps,
     exists_some,
     g,
     impact_energy_change,
@@ -44,21 +44,28 @@ from juggleproof.proofs.paper.names import (
 from juggleproof.proofs.paper.regions import (
     B1_OUTSIDE,
     BEYOND_R,
+    BOUNDED,
     CLOSED_B1,
     CORNER,
-    LEVEL,
+    LEFT,
+    NEAR,
     ON_R,
-    OUTSIDE,
     PRINTED_SUPREMUM,
     SUPREMAL,
+    WITHIN_DELTA,
     b_0,
     beta0,
     change,
     dE_sup,
+    delta,
+    edge,
+    is_boundary_of_R,
     least,
     not_supremal,
     not_supremal_above_the_ground,
     pieces,
+    room,
+    state_on_the_level,
     v0,
 )
 from juggleproof.proofs.paper.s4_2_proposition import OF_THE_LOSS, is_enough
@@ -78,7 +85,7 @@ from juggleproof.proofs.reading.values import Region, Value, Vector, scalar
 # -------------------------------------------------------------------------------------------------
 # Appendix A.3: how little an impact takes outside the region R, at least.
 
-lam, edge, height, h = reals("lam edge height h")
+lam, height, h = reals("lam height h")
 AT_CORNER = PAPER.at(parse_name(r"\overline b"), b_0).extended(
     {r"\overline b_s": b_0, r"\Delta E_{sup}": dE_sup}
 )
@@ -88,17 +95,16 @@ MULTIPLIED = with_slopes(PAPER, b_0).extended({r"\lambda": lam, r"\overline b_s"
 def is_least_bound(
     value: Term, region: Region, given: list[Formula]
 ) -> tuple[Statement, Statement]:
-    """The value bounds the energy change of the impacts from the region, and those above the corner
-    come as close to it as one likes.
+    """The value bounds the energy change of the impacts from the region, and above the corner that
+    falls from it steadily, so that it comes as close as one likes.
     """
     above = Vector((height, v0))
+    falls = equal(impact_energy_change(above), value - (1 + alpha) * g * height)
     return (
         always(change < value, given=[*given, region(b)], label="bound"),
-        exists_some(
-            ["height"],
-            impact_energy_change(above) > value - eps,
-            within=[region(above)],
-            given=[*given, eps > 0],
+        always(
+            region(above) & falls,
+            given=[*given, height > 0, g * height <= r**2],
             label="approached",
         ),
     )
@@ -123,7 +129,7 @@ def supremum_outside_the_region(printed: Printed) -> list[Statement]:
     return [always(in_a_period, given=given, label="bound"), approached]
 
 
-ON_THE_LEVEL = Vector(((LEVEL - v0**2 / 2) / g, v0))  # the state of this velocity on R(b) = 0
+ON_THE_LEVEL = state_on_the_level(v0)
 GRADIENTS = [
     [term(entry) for entry in at(derived_vector(name), ON_THE_LEVEL).entries]
     for name in ("energy_gradient", "region_gradient")
@@ -287,30 +293,25 @@ def supremum_is_not_on_the_boundary(printed: Printed) -> Statement:
         ),
     ),
 )
-def leftmost_states(printed: Printed) -> Statement:
+def leftmost_states(printed: Printed) -> list[Statement]:
     """The leftmost boundary of the impacts outside R is the edge of H, besides the arc of R(b) = 0,
     which A.3.1 considers.
 
     From any such state a move to the left at the same velocity ends there, and raises the energy
-    change.
+    change; to the left of the arc lies R.
     """
-    left = Vector((edge, v))
     edge_of_h = printed.formula(PAPER.extended({r"\overline\beta": edge}))
-    still_outside = at(derived("region_margin"), left) <= 0
-
-    return exists_some(
-        ["edge"],
-        conjunction(
-            [
-                edge_of_h | ON_R(left),
-                still_outside,
-                B1(left),
-                change <= impact_energy_change(left),
-            ]
+    still_outside = at(derived("region_margin"), LEFT) <= 0
+    raised = change <= impact_energy_change(LEFT)
+    return [
+        exists_some(
+            ["edge"],
+            conjunction([edge_of_h | ON_R(LEFT), still_outside, B1(LEFT), raised]),
+            within=[edge >= 0, edge <= beta],
+            given=[B1_OUTSIDE(b)],
         ),
-        within=[edge >= 0, edge <= beta],
-        given=[B1_OUTSIDE(b)],
-    )
+        always(R(LEFT), given=[ON_R(b), edge >= 0, edge < beta], label="left-of-the-arc"),
+    ]
 
 
 @claim("sA.3.2-concave", "A.3.2", "line 702", printed=r"\alpha^2 - 1 < 0 \\ 0 \le \alpha < 1")
@@ -428,19 +429,6 @@ def impacts_outside_take_more(printed: Printed) -> Statement:
 # -------------------------------------------------------------------------------------------------
 # Appendix A.4: where the supremum lies, and how many impacts lead into the region R.
 
-edge, delta, k, p, q = reals("edge delta k p q")
-LEFT = Vector((edge, v))  # a state beside b, at another height
-# The states near b: the height moves by at most delta r^2 / g and the velocity by at most delta r;
-# (k - 2) r bounds the velocity of b.
-NEAR = b + Vector((p, q))
-WITHIN_DELTA = [-(r**2) * delta <= g * p, g * p <= r**2 * delta, -r * delta <= q, q <= r * delta]
-BOUNDED = [-(k - 2) * r <= v, v <= (k - 2) * r]
-
-
-def room(*margins: Term) -> Formula:
-    """Moving by delta changes none of these margins of energy so much that it vanishes."""
-    return conjunction([k * r**2 * delta < margin for margin in margins])
-
 
 @claim("sA.4-distinct", "A.4", "line 716")
 def supremum_and_maximum_differ() -> Statement:
@@ -452,8 +440,8 @@ def supremum_and_maximum_differ() -> Statement:
 
 @claim("sA.4-leftmost", "A.4", "line 716", repeats="sA.3.2-leftmost")
 def supremum_is_at_the_left() -> list[Statement]:
-    """An impact outside R takes less from a lower state of the same velocity, still outside R, so
-    that the supremum is at the left.
+    """An impact outside R takes less from the leftmost state of the same velocity, on the edge of H
+    or on the arc of R(b) = 0, so that the supremum is at the left.
     """
     ground = Vector((0, v))
     return [
@@ -464,10 +452,10 @@ def supremum_is_at_the_left() -> list[Statement]:
         ),
         exists_some(
             ["edge"],
-            B1_OUTSIDE(LEFT) & (impact_energy_change(LEFT) > change),
+            conjunction([B1(LEFT), ON_R(LEFT), impact_energy_change(LEFT) > change]),
             within=[edge >= 0, edge < beta],
             given=[B1_OUTSIDE(b), ~BEYOND_R(ground)],
-            label="towards-the-arc",
+            label="down-to-the-arc",
         ),
     ]
 
@@ -511,28 +499,7 @@ def impacts_outside_are_open() -> list[Statement]:
 @claim("sA.4-boundary", "A.4", "line 716", printed=r"R(\overline{b}) = 0", as_it_stands=r"R(b) = 0")
 def boundary_of_the_region(printed: Printed) -> list[Statement]:
     """The boundary of R, as a set of states of H, is where R(b) = 0."""
-    on_it, margin = printed.formula(PAPER), term(at(derived("region_margin"), b))
-    inner, outer = [R(b), ~on_it, *BOUNDED], [OUTSIDE(b), *BOUNDED]
-    return [
-        always(R(b), given=[H(b), on_it], label="one-side"),
-        exists_some(
-            ["edge"],
-            OUTSIDE(LEFT),
-            within=[edge > beta, edge < beta + delta],
-            given=[H(b), on_it, delta > 0],
-            label="both-sides",
-        ),
-        exists_some(["delta"], room(margin), within=[delta > 0], given=inner, label="room-inside"),
-        exists_some(
-            ["delta"], room(-margin), within=[delta > 0], given=outer, label="room-outside"
-        ),
-        always(
-            R(NEAR),
-            given=[R(b), *BOUNDED, *WITHIN_DELTA, delta < 1, room(margin), H(NEAR)],
-            label="inside",
-        ),
-        always(~R(NEAR), given=[*outer, *WITHIN_DELTA, room(-margin)], label="outside"),
-    ]
+    return is_boundary_of_R(printed.formula(PAPER))
 
 
 @claim(
@@ -555,10 +522,13 @@ def supremum_is_not_on_the_boundary_of_the_region() -> Statement:
     as_it_stands=r"\overline{b} = 0",
     repeats="sA.3.2-corner",
 )
-def supremum_is_on_the_edge_and_negative(printed: Printed) -> Statement:
+def supremum_is_on_the_edge_and_negative(printed: Printed) -> list[Statement]:
     """The supremum belongs to a state on the edge of H, and is negative."""
     there = [CLOSED_B1(b_0), ON_R(b_0), printed.formula(PAPER.extended({r"\overline\beta": beta0}))]
-    return always(conjunction([least < 0, change < least]), given=[*there, B1_OUTSIDE(b)])
+    return [
+        always(least < 0, given=there, label="negative"),
+        *is_least_bound(least, B1_OUTSIDE, there),
+    ]
 
 
 @claim("sA.4-each-impact", "A.4", "line 718")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from juggleproof.certificates.language import Statement, different, equal, iff, reals, term
+from juggleproof.certificates.language import Statement, different, equal, iff, reals
 from juggleproof.proofs.claims import Argument, Assertion, Following
 from juggleproof.proofs.paper.names import (
+    B1,
     B1_ZERO,
     B2,
     PAPER,
@@ -24,7 +25,6 @@ from juggleproof.proofs.paper.names import (
     energy,
     eps,
     equals,
-    exists_some,
     f1,
     f2,
     flight,
@@ -43,7 +43,7 @@ from juggleproof.proofs.paper.names import (
     value_of,
     vector,
 )
-from juggleproof.proofs.paper.regions import ATTRACTION, pieces
+from juggleproof.proofs.paper.regions import ATTRACTION, is_boundary_of_R, pieces, v0
 from juggleproof.proofs.paper.states import (
     CORNER_WITHOUT_A_TIME,
     LANDS,
@@ -63,6 +63,7 @@ from juggleproof.proofs.paper.states import (
     next_bounce,
     offset_with,
     strikes_from,
+    strikes_from_region,
     tells_b1,
     tells_b2,
 )
@@ -200,11 +201,16 @@ def b1_by_time_to_collision(printed: Printed) -> Statement:
 
 
 @claim("sB.2-B2-atleast", "B.2", "line 756", repeats="s2.2.1-B2-no-strike")
-def b2_strikes_in_a_period_at_least() -> Statement:
-    """From no state of B2 does the ball strike the table, meeting it while they approach each
-    other, in less than one period.
+def b2_strikes_in_a_period_at_least() -> list[Statement]:
+    """From the states of B2, and no others in H, the ball does not strike the table, meeting it
+    while they approach each other, in less than one period; later it does, having to come down.
     """
-    return b2_is_where_it_does_not()
+    below = height(ball_at(t)) < 0
+    return [
+        b2_is_where_it_does_not(),
+        *strikes_from_region(H(b) & ~B2(b)),
+        always(below, given=[H(b), t >= T, r * t > beta + v * T], label="comes-down"),
+    ]
 
 
 @claim(
@@ -232,11 +238,15 @@ def b2_by_time_to_collision(printed: Printed) -> Statement:
     repeats="s2.2.1-dB2",
     remark=CORNER_WITHOUT_A_TIME,
 )
-def line_between_the_regions(printed: Printed) -> Statement:
+def line_between_the_regions(printed: Printed) -> list[Statement]:
     """The line between B1 and B2, where the ball meets the table as the period ends, holds the
-    states whose time is one period, wherever it is defined.
+    states whose time is one period, wherever it is defined; at each height B1 is what is slower.
     """
-    return line_of_equal_times(printed.set_predicate(PAPER, r"\partial\mathcal{B}_2")(b))
+    beside, line = Vector((beta, v0)), [H(b), meet(T)]
+    return [
+        line_of_equal_times(printed.set_predicate(PAPER, r"\partial\mathcal{B}_2")(b)),
+        always(iff(B1(beside), v0 < v) & iff(B2(beside), v0 >= v), given=line, label="between"),
+    ]
 
 
 @claim(
@@ -262,7 +272,7 @@ def line_by_its_height(printed: Printed) -> Statement:
 # Appendices B.3 to B.6: the maps, the fixed point, the zero energy change boundary and the boundary
 # of R, summed up.
 
-u, y, lift, tau, greatest, gain, margin = reals("u y lift tau greatest gain margin")
+u, y, tau, greatest, gain, margin = reals("u y tau greatest gain margin")
 
 
 @claim(
@@ -385,18 +395,12 @@ def states_without_energy_change_again(printed: Printed) -> list[Statement]:
     return same_set(region(b), B1_ZERO(b), given=[different(v, r)])
 
 
-@claim("sB.6-boundary", "B.6", "line 807", printed=r"R(\overline{b}) = 0")
+@claim("sB.6-boundary", "B.6", "line 807", printed=r"R(\overline{b}) = 0", repeats="sA.4-boundary")
 def boundary_of_the_region(printed: Printed) -> list[Statement]:
     """The states of R next to which in H, however near, lie states outside R, are those at which
     the function R vanishes.
     """
-    vanishes, higher = printed.formula(PAPER), b + Vector((lift, term(0)))
-    return [
-        always(~R(higher), given=[R(b), vanishes, lift > 0], label="on-the-boundary"),
-        exists_some(
-            ["lift"], R(higher), within=[lift > 0], given=[R(b), ~vanishes], label="inside-above"
-        ),
-    ]
+    return is_boundary_of_R(printed.formula(PAPER))
 
 
 @claim(

@@ -24,10 +24,7 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Claim, assertions
-from juggleproof.proofs.correcting import corrected
 from juggleproof.proofs.encoding import from_sympy
-from juggleproof.proofs.judgement import Correction
 from juggleproof.proofs.paper.paper_form import paper_form
 from juggleproof.proofs.reading.values import Matrix, Vector
 
@@ -261,23 +258,13 @@ def behind(derivations: Sequence[Derivation]) -> list[Derivation]:
     return list(ordered.values())
 
 
-def statements_of(claim: Claim, correction: Correction | None = None) -> list[AnyStatement]:
-    """The statements that a claim comes to, with those of its correction and of its remark."""
-    found = assertions(claim.body())
-    found += assertions(corrected(claim, correction)) if correction else []
-    beside = claim.shown_beside()
-    return [part for _, one in found for part in one.parts] + [*(beside.parts if beside else ())]
+def derivations_of(statements: Sequence[AnyStatement]) -> list[Derivation]:
+    """The derived expressions that the statements contain, each once, in the order in which they
+    stand there.
 
-
-def derivations_of(claim: Claim, correction: Correction | None = None) -> list[Derivation]:
-    """The derived expressions that the statements of a claim contain, those of its correction and
-    of its remark too, each once, in the order in which they stand there.
-
-    >>> from juggleproof.proofs.claims import Assertion
     >>> from juggleproof.proofs.forms import always
-    >>> claim = Claim("a", "", "", "says", lambda: Assertion((always(derived("E_max") > 0),)))
-    >>> [one.function for one in derivations_of(claim)]
+    >>> [one.function for one in derivations_of([always(derived("E_max") > 0)])]
     ['E_max']
     """
-    origins = origins_in(statements_of(claim, correction))
-    return [derivation(one) for one in dict.fromkeys(origins) if isinstance(one, Origin)]
+    origins = dict.fromkeys(origins_in([*statements]))
+    return [derivation(one) for one in origins if isinstance(one, Origin)]

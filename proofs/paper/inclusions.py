@@ -35,10 +35,11 @@ from juggleproof.proofs.paper.names import (
     impact_energy_change,
     is_supremum,
     r,
+    s,
     speed,
     v,
 )
-from juggleproof.proofs.paper.regions import B1_OUTSIDE, OUTSIDE
+from juggleproof.proofs.paper.regions import B1_OUTSIDE, OUTSIDE, state_on_the_level
 from juggleproof.proofs.paper.states import (
     RANGE_21,
     c,
@@ -177,11 +178,17 @@ def states_of_the_region_near_e_1_lie_in_b1() -> list[Statement]:
     """The states of R whose velocity is near that of e_1 lie in B1: exactly those slower than where
     R leaves B1 are sure to.
     """
-    edge = on_the_line(c)
+    leaves, highest = [leaves_R_at(c)], state_on_the_level(v)
     return [
-        always(B1(b), given=[leaves_R_at(c), R(b), v < c], in_range=RANGE_21, label="slower"),
-        always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=RANGE_21, label="e_1-is-slower"),
-        always(B2(edge) & R(edge), given=[leaves_R_at(c)], in_range=RANGE_21, label="no-further"),
+        always(leaves_R_at((2 - s / (1 - alpha)) * r), in_range=RANGE_21, label="leaves"),
+        always(B1(b), given=[*leaves, R(b), v < c], in_range=RANGE_21, label="slower"),
+        always(speed(e_1) < c, given=leaves, in_range=RANGE_21, label="e_1-is-slower"),
+        always(
+            (B2 & R)(highest),
+            given=[*leaves, R(b), v >= c],
+            in_range=RANGE_21,
+            label="no-further",
+        ),
     ]
 
 

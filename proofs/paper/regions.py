@@ -1,5 +1,5 @@
 """Outside the region R: the states there, how long they may fly, and what an impact takes from them
-(sections 4.2 and A.3).
+(sections 4.2 and A.3); and the boundary of R.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from juggleproof.proofs.paper.names import (
     STANDING,
     H,
     R,
+    T,
     always,
     at,
     b,
@@ -34,13 +35,17 @@ from juggleproof.proofs.paper.names import (
     derived,
     derived_vector,
     energy,
+    exists_some,
     f1,
+    g,
     height,
     impact_energy_change,
+    meet,
     r,
     speed,
     t,
     table_at,
+    v,
     value_of,
 )
 from juggleproof.proofs.reading import tree
@@ -48,7 +53,10 @@ from juggleproof.proofs.reading.evaluation import Environment
 from juggleproof.proofs.reading.meaning import Printed
 from juggleproof.proofs.reading.values import Region, Vector, scalar
 
-beta0, v0, u, tau_w, dE_sup, n, m, j = reals("beta0 v0 u tau_w dE_sup n m j")
+beta0, v0, u, tau_w, dE_sup, n, m, j, tau, launch = reals(
+    "beta0 v0 u tau_w dE_sup n m j tau launch"
+)
+edge, delta, k, p, q = reals("edge delta k p q")
 b_0 = Vector((beta0, v0))
 WITH_INTEGERS = replace(
     STANDING,
@@ -86,6 +94,11 @@ worst_wait: Term = at(
 )  # the flight from the ground up and back that has all the energy of b_0
 
 
+def state_on_the_level(velocity: Term) -> Vector:
+    """The state of this velocity on R(b) = 0."""
+    return Vector(((LEVEL - velocity**2 / 2) / g, velocity))
+
+
 def pieces(printed: Printed, count: int) -> tuple[Printed, ...]:
     """The parts of a print that has to have this many."""
     if len(printed.parts) != count:
@@ -119,6 +132,24 @@ def grounded_after(wait: Term, state: Vector, given: list[Formula], label: str) 
     return always_counting(
         height(ball_at(t, state)) <= 0, given=[H(state), *given, t >= wait], label=label
     )
+
+
+def struck_by(wait: Term, state: Vector, given: list[Formula]) -> list[Statement]:
+    """A ball of this state that nothing has struck until the last launch of the table within the
+    wait strikes it by the end of the wait: it approaches, so that they meet, and by then.
+    """
+    ball = ball_at(launch, state)
+    there = [H(state), *given, launch >= 0, wait < launch + T]
+    met = equal(height(ball_at(tau, state)), height(table_at(tau - launch)))
+    return [
+        always_counting(speed(ball) < r, given=there, label="approaches"),
+        exists_counting(["tau"], meet(tau), given=[v < r], label="meets"),
+        always_counting(
+            (launch <= tau) & (tau <= wait),
+            given=[H(state), *given, wait < launch + T, H(ball), met],
+            label="by-then",
+        ),
+    ]
 
 
 def floor_of(value: Term) -> Formula:
@@ -188,4 +219,49 @@ def _square_brackets(node: object) -> list[tree.Group]:
         group
         for name in node.__dataclass_fields__
         for group in _square_brackets(getattr(node, name))
+    ]
+
+
+# -------------------------------------------------------------------------------------------------
+# The boundary of R, as a set of states of H: where it is that states inside and outside of R lie as
+# near as one likes.
+
+LEFT = Vector((edge, v))  # a state beside b, at another height
+# The states near b: the height moves by at most delta r^2 / g and the velocity by at most delta r;
+# (k - 2) r bounds the velocity of b.
+NEAR = b + Vector((p, q))
+WITHIN_DELTA = [-(r**2) * delta <= g * p, g * p <= r**2 * delta, -r * delta <= q, q <= r * delta]
+BOUNDED = [-(k - 2) * r <= v, v <= (k - 2) * r]
+
+
+def room(*margins: Term) -> Formula:
+    """Moving by delta changes none of these margins of energy so much that it vanishes."""
+    return conjunction([k * r**2 * delta < margin for margin in margins])
+
+
+def is_boundary_of_R(on_it: Formula) -> list[Statement]:
+    """The states of this formula, and no others of H, have states of R and others as near as one
+    likes.
+    """
+    margin = term(at(derived("region_margin"), b))
+    inner, outer = [R(b), ~on_it, *BOUNDED], [OUTSIDE(b), *BOUNDED]
+    return [
+        always(R(b), given=[H(b), on_it], label="one-side"),
+        exists_some(
+            ["edge"],
+            OUTSIDE(LEFT),
+            within=[edge > beta, edge < beta + delta],
+            given=[H(b), on_it, delta > 0],
+            label="both-sides",
+        ),
+        exists_some(["delta"], room(margin), within=[delta > 0], given=inner, label="room-inside"),
+        exists_some(
+            ["delta"], room(-margin), within=[delta > 0], given=outer, label="room-outside"
+        ),
+        always(
+            R(NEAR),
+            given=[R(b), *BOUNDED, *WITHIN_DELTA, delta < 1, room(margin), H(NEAR)],
+            label="inside",
+        ),
+        always(~R(NEAR), given=[*outer, *WITHIN_DELTA, room(-margin)], label="outside"),
     ]

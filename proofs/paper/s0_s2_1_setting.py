@@ -15,10 +15,11 @@ from juggleproof.certificates.language import (
     reals,
 )
 from juggleproof.proofs import forms
-from juggleproof.proofs.claims import Following, NotFormalised, Simulated
+from juggleproof.proofs.claims import Following, NotFormalised, Remark, Simulated
 from juggleproof.proofs.paper.names import alpha, always, claim, g
 from juggleproof.proofs.paper.states import STABILITY
 from juggleproof.proofs.simulations.figures import Onset, figures
+from juggleproof.symbolic import MODES
 
 
 @claim("s0-all-starts", "abstract", "title and line 3")
@@ -32,8 +33,9 @@ def a_vibration_without_feedback_brings_every_ball_to_one_orbit() -> Following:
 # -------------------------------------------------------------------------------------------------
 # Section 2.1: what can be decided of the part.
 
-om, acc, x, y = reals("omega acc x y")
+om, acc, x, y, mass, c_x, c_y = reals("omega acc x y mass c_x c_y")
 half_short, half_long = reals("h k")
+kinetic = real("kinetic")
 c, s, c_2, s_2 = reals("m p n q")  # cosine and sine of the angle of a block
 UNIT, UNIT_2 = equal(c**2 + s**2, 1), equal(c_2**2 + s_2**2, 1)
 PAST = half_long * s - half_short * c  # 0 where the centre is above the corner, theta = atan(h/k)
@@ -45,57 +47,75 @@ def height_of_centre(cosine: Term, sine: Term) -> Term:
 
 
 @claim("s2.1-rotating-table", "2.1", "footnote 2", parameters=())
-def parts_away_from_the_centre_of_a_turning_table_are_accelerated_otherwise() -> Statement:
-    """Where a table turns, or begins to, each place away from its centre has another acceleration
-    than the centre.
+def parts_away_from_the_centre_of_a_turning_table_need_another_force() -> Statement:
+    """Where a table turns about an axis through its centre, or begins to, a part that it carries
+    off that axis experiences another force than one of the same mass at the centre.
 
-    The place (x, y) is in the plane of the turning; its velocity is the turning rate times its
-    distance, across.
+    The place (x, y) is in the plane across the axis; the force is the mass times the acceleration,
+    which at the centre is any.
     """
-    along, across = -(om**2) * x - acc * y, acc * x - om**2 * y
+    along, across = mass * (c_x - om**2 * x - acc * y), mass * (c_y + acc * x - om**2 * y)
     return forms.always(
-        different(along, 0) | different(across, 0),
-        given=[different(om, 0) | different(acc, 0), different(x, 0) | different(y, 0)],
+        different(along, mass * c_x) | different(across, mass * c_y),
+        given=[mass > 0, different(om, 0) | different(acc, 0), different(x, 0) | different(y, 0)],
     )
 
 
-@claim("s2.1-fall-sides", "2.1", "line 70", parameters=())
+@claim(
+    "s2.1-fall-sides",
+    "2.1",
+    "line 70",
+    parameters=(),
+    remark=Remark(
+        "That the energy of a block never rises is assumed; no impact of a corner raises it. That a"
+        " block comes to rest is simulated, and not shown.",
+        by=(*(f"part-{mode}-energy" for mode in MODES), "s2.1-fall"),
+    ),
+)
 def a_block_let_go_never_passes_the_angle_at_which_its_centre_is_highest() -> list[Statement]:
     """A block that is let go with a corner on a still table, where its centre is not above that
-    corner, never passes through the angle at which it is; upright and lying, its centre is lowest.
+    corner, and whose energy never rises, never passes through an angle at which its centre is above
+    a corner; upright and lying, its centre is lowest.
 
-    It is parted at tan(theta) = h/k, the half sides, which is 1/2 for 2 x 4 cm.  Its energy never
-    rises, in flight as at impacts, and the centre is at least as high as above the lowest corner.
+    It is parted at tan(theta) = h/k, the half sides, which is 1/2 for 2 x 4 cm.  The centre is at
+    least as high as above each corner.
     """
-    highest = half_short**2 + half_long**2
+    start, highest = height_of_centre(c, s), half_short**2 + half_long**2
+
+    def never_passed(across: Term, label: str) -> Statement:
+        """The angle at which the centre is above, or below, the corner that is so far across."""
+        above_corner = half_long * c_2 + across * s_2
+        return forms.always(
+            different(half_long * s_2, across * c_2),
+            given=[
+                UNIT,
+                different(PAST, 0),
+                y <= start,
+                UNIT_2,
+                y >= above_corner,
+                y >= -above_corner,
+            ],
+            label=label,
+        )
+
     return [
         forms.always(
-            (height_of_centre(c, s) ** 2 <= highest)
-            & iff(equal(height_of_centre(c, s) ** 2, highest), equal(PAST, 0)),
+            (start**2 <= highest) & iff(equal(start**2, highest), equal(PAST, 0)),
             given=[UNIT],
             label="highest",
         ),
         forms.always(
-            different(half_long * s_2 - half_short * c_2, 0),
-            given=[
-                UNIT,
-                different(PAST, 0),
-                y <= height_of_centre(c, s),
-                half_short > 0,
-                half_long > 0,
-                UNIT_2,
-                c_2 >= 0,
-                y >= height_of_centre(c_2, s_2),
-            ],
-            label="never-passed",
+            y <= start, given=[g > 0, kinetic >= 0, kinetic + g * y <= g * start], label="no-higher"
         ),
+        never_passed(half_short, "never-passed"),
+        never_passed(-half_short, "never-passed-on-the-other-side"),
         forms.always(
-            height_of_centre(c, s) > half_long,
+            start > half_long,
             given=[half_long > 0, UNIT, c > 0, s > 0, PAST < 0],
             label="upright",
         ),
         forms.always(
-            height_of_centre(c, s) > half_short,
+            start > half_short,
             given=[half_short > 0, UNIT, c > 0, s > 0, PAST > 0],
             label="lying",
         ),

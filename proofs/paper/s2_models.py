@@ -158,11 +158,16 @@ def b2_does_not_strike_within_a_period() -> Statement:
 
 
 @claim("s2.2.1-dB2", "2.2.1", "line 125", printed=r"\tau_c = T", remark=CORNER_WITHOUT_A_TIME)
-def line_between_b1_and_b2(printed: Printed) -> Statement:
+def line_between_b1_and_b2(printed: Printed) -> list[Statement]:
     """The line between B1 and B2, where the ball meets the table as the period ends, is where the
-    time to collision is one period, wherever it is defined.
+    time to collision is one period, wherever it is defined. Of the states of any height, those
+    slower than that of the line are B1, and the others B2.
     """
-    return line_of_equal_times(printed.formula(PAPER))
+    parted = iff(B1(b), v < u) & iff(B2(b), v >= u)
+    return [
+        line_of_equal_times(printed.formula(PAPER)),
+        always(parted, given=[H(b), meet(T, Vector((beta, u)))], label="between"),
+    ]
 
 
 @claim("s2.2.1-dB2-in-B2", "2.2.1", "lines 125 and 137")
@@ -529,7 +534,7 @@ def next_state_by_impact_and_flight() -> list[Statement]:
     ]
 
 
-@claim("s2.3-any-effect", "2.3", "line 207")
+@claim("s2.3-any-effect", "2.3", "line 206")
 def every_effect_of_the_table_is_a_control() -> Statement:
     """Whatever velocity an impact leaves the ball with, and however long it then flies, some table
     velocity u_2 has that effect, so that the pair of both describes it.

@@ -25,7 +25,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
-from juggleproof.proofs.claims import Argument, Assertion, Reading, Readings
+from juggleproof.proofs.claims import Argument, Assertion, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
     B2,
@@ -507,22 +507,32 @@ def eigenvalues_of_the_composites_lie_in_the_unit_circle() -> Statement:
     )
 
 
-@claim("s3.5.3-stable-inside", "3.5.3", "line 424", parameters=("alpha", "K"))
+@claim(
+    "s3.5.3-stable-inside",
+    "3.5.3",
+    "line 424",
+    parameters=("alpha", "K"),
+    remark=Remark(
+        "(20) includes the left end. There the fixed point is on the edge of H, and not stable.",
+        by=("s3.5.3-locally-stable", "theorem-ends"),
+    ),
+)
 def fixed_points_are_stable_inside_their_range() -> list[Statement]:
-    """Where the fixed point lies above the edge of H, every small box around it has the same impact
-    and flights, and comes back.
+    """Where the fixed point lies above the edge of H, for alpha above the left end of its range
+    (20), every small box around it has the same impact and flights, and comes back (1 + alpha)/2 as
+    large.
 
-    So the fixed point is stable there.
+    So the fixed point is stable there, and attracts the states near it.
     """
     center, middle = derived_vector("impact_fixed_point"), b_0
     edge, largest = term(center.component(1)), term(middle.component(1))
 
-    def in_box(state: Vector, around: Vector) -> Formula:
+    def in_box(state: Vector, around: Vector, box: Term) -> Formula:
         up, ahead = (term(entry) for entry in state - around)
-        return within(size, up) & within((1 - alpha) * size, alpha * K * T * ahead)
+        return within(box, up) & within((1 - alpha) * box, 2 * alpha * K * T * ahead)
 
     def corner_at_most_on_the_line(around: Vector, box: Term) -> Formula:
-        corner = around + Vector((box, (1 - alpha) * box / (alpha * K * T)))
+        corner = around + Vector((box, (1 - alpha) * box / (2 * alpha * K * T)))
         return term(at(derived("collision_margin"), corner)) >= 0
 
     return [
@@ -535,12 +545,16 @@ def fixed_points_are_stable_inside_their_range() -> list[Statement]:
         always_integer(corner_at_most_on_the_line(center, edge), label="corner"),
         always_integer(
             B1(b),
-            given=[size <= largest, in_box(b, middle), corner_at_most_on_the_line(middle, largest)],
+            given=[
+                size <= largest,
+                in_box(b, middle, size),
+                corner_at_most_on_the_line(middle, largest),
+            ],
             label="impact",
         ),
         always_integer(
-            in_box(cycle(K), center) & H(cycle(K)),
-            given=[size <= edge, in_box(b, center)],
+            in_box(cycle(K), center, (1 + alpha) / 2 * size) & H(cycle(K)),
+            given=[size <= edge, in_box(b, center, size)],
             label="comes-back",
         ),
         always_integer(

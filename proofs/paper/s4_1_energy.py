@@ -14,12 +14,14 @@ from juggleproof.certificates.language import (
     real,
     term,
 )
-from juggleproof.proofs.claims import Remark
+from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark
 from juggleproof.proofs.paper.names import (
     B1,
+    B1_ZERO,
     B2,
     PAPER,
     H,
+    K,
     after_impact,
     always,
     at,
@@ -29,6 +31,7 @@ from juggleproof.proofs.paper.names import (
     claim,
     collision_time,
     derived,
+    e_1,
     energy,
     exists_some,
     f1,
@@ -43,12 +46,15 @@ from juggleproof.proofs.paper.names import (
     t,
     v,
 )
-from juggleproof.proofs.paper.regions import pieces
+from juggleproof.proofs.paper.regions import LEVEL, pieces
 from juggleproof.proofs.paper.states import (
     BOTH_BOUNDS,
     NOT_LOSING,
+    STABILITY,
     UNKNOWN,
     E_max,
+    always_integer,
+    cycle,
     dE_max,
     keeps_energy,
     place,
@@ -65,11 +71,15 @@ def speed_of_no_change() -> Term:
     "s4.1-every-B1-changes",
     "4.1",
     "line 432",
-    remark=Remark("On B1^0 that change is zero.", by=("s4.1-partition",)),
+    remark=Remark(
+        "The print says every state of B1. On B1^0, which the next sentence takes out, the change"
+        " is zero.",
+        by=("s4.1-partition",),
+    ),
 )
 def impacts_change_the_energy() -> list[Statement]:
-    """What the energy changes by in a period from a state of B1 comes from the impact alone; from
-    the other states of H it does not change.
+    """From a state of B1, but for those of B1^0, the energy changes in a period, and by the impact
+    alone; from the other states of H it does not change.
     """
     gained = energy(f1(b)) - energy(b)
     before, after = speed(ball_at(t)), speed(after_impact(t))
@@ -79,6 +89,7 @@ def impacts_change_the_energy() -> list[Statement]:
             given=[B1(b), strikes_at(t)],
             label="at-the-impact",
         ),
+        always(different(gained, 0), given=[B1(b), ~B1_ZERO(b)], label="changes"),
         always(equal(energy(f2(b)), energy(b)), given=[B2(b)], label="nowhere-else"),
     ]
 
@@ -164,27 +175,42 @@ def greatest_energy_that_is_kept(printed: Printed) -> list[Statement]:
     "s4.1-Emax-maintain",
     "4.1",
     "line 447",
+    parameters=("alpha", "K"),
     remark=Remark(
-        "It is kept over one impact, and not for ever: the next impact comes as the table is"
-        " launched again just for alpha = (K - 1)/(K + 1), K a whole number. No orbit of less"
-        " energy exceeds it.",
+        "The next impact comes as the table is launched again just for alpha = (K - 1)/(K + 1), K a"
+        " whole number. No orbit of less energy than E_max exceeds it.",
         by=("sA.1-in-step", "theorem-E-max"),
     ),
 )
-def table_maintains_that_energy_at_most() -> list[Statement]:
+def table_maintains_that_energy_at_most() -> Readings:
     """An impact from a state of more energy than E_max loses energy; some state of the energy E_max
-    keeps it over one impact.
+    keeps it over one impact; or for ever, and so over the next impact too, which comes after K
+    periods and before K + 1.
     """
     greatest = derived("E_max")
-    return [
-        always(energy(f1(b)) < energy(b), given=[B1(b), energy(b) > greatest], label="not-more"),
-        exists_some(
-            ["beta", "v"],
-            keeps_energy(b),
-            within=[B1(b), equal(energy(b), greatest)],
-            label="as-much",
-        ),
-    ]
+    at_most = always(
+        energy(f1(b)) < energy(b), given=[B1(b), energy(b) > greatest], label="not-more"
+    )
+    keeps = [B1(b), equal(energy(b), greatest), keeps_energy(b)]
+    as_much = exists_some(["beta", "v"], keeps[2], within=keeps[:2], label="as-much")
+    periods = derived("subharmonic_bound")  # of the flight after that impact
+    again = always_integer(
+        keeps_energy(cycle(K)),
+        given=[*keeps, K <= periods, periods < K + 1],
+        label="at-the-next-impact",
+    )
+    return Readings(
+        {
+            "over-one-impact": Reading(
+                Assertion((at_most, as_much)),
+                "section 4.1 takes E_max as the greatest energy at which an impact does not lose",
+            ),
+            "for-ever": Reading(
+                Assertion((again,)),
+                "A.1 seeks the energy that can be sustained, of a velocity in equilibrium",
+            ),
+        }
+    )
 
 
 @claim(
@@ -237,11 +263,25 @@ def sum_of_both_bounds(printed: Printed) -> Statement:
 
 
 @claim("s4.1-conservative", "4.1", "line 455")
-def level_is_not_reached_by_gaining() -> Statement:
-    """The level of R is on the safe side: an impact that does not lose energy ends strictly below
-    it.
+def smaller_region_attracts_too() -> Following:
+    """R is larger than need be: its states of energy at most E_max, which is below the level of R,
+    are mapped to such states, and attract every orbit.
+
+    Every orbit tends to e_1, which has less energy than that.
     """
-    return always(energy(f1(b)) < derived("E_max") + derived("delta_E_max"), given=[NOT_LOSING(b)])
+    little = derived("E_max")
+    given = [energy(b) <= little]
+    return Following(
+        STABILITY,
+        Assertion(
+            (
+                always(energy(f1(b)) <= little, given=[B1(b), *given], label="with-impact"),
+                always(energy(f2(b)) <= little, given=[B2(b), *given], label="without-impact"),
+                always(little < LEVEL, label="smaller"),
+                always(energy(e_1) < little, label="e_1-inside"),
+            )
+        ),
+    )
 
 
 @claim(

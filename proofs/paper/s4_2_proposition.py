@@ -4,22 +4,23 @@ sentence of its proof.
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from juggleproof.certificates.language import Formula, Statement, different, equal, real, term
 from juggleproof.proofs.claims import Assertion, Following, Reading, Readings, Remark, Simulated
 from juggleproof.proofs.paper.names import (
     B1,
     B1_MINUS,
     B1_PLUS,
+    B1_ZERO,
     B2,
+    PAPER,
     H,
     R,
     T,
-    alpha,
     always,
+    as_region,
     b,
     ball_at,
+    beta,
     claim,
     derived,
     energy,
@@ -27,10 +28,12 @@ from juggleproof.proofs.paper.names import (
     f2,
     height,
     impact_energy_change,
+    is_maximum,
     only_at,
     r,
     t,
     v,
+    value_of,
 )
 from juggleproof.proofs.paper.regions import (
     ATTRACTION,
@@ -51,24 +54,28 @@ from juggleproof.proofs.paper.regions import (
     lands,
     m,
     n,
+    pieces,
     strikes_in_period,
+    struck_by,
+    tau,
     tau_w,
     v0,
     with_rounding,
     worst_wait,
 )
+from juggleproof.proofs.paper.states import place
 from juggleproof.proofs.reading.meaning import Printed
-from juggleproof.proofs.reading.values import Vector
+from juggleproof.proofs.reading.values import scalar
 from juggleproof.proofs.simulations.figures import HEIGHTS, SPEEDS, figures
 
-tau, t_R = real("tau"), real("t_R")
+t_R = real("t_R")
 
 
-def stays(in_range: list[Formula] | None = None) -> Assertion:
+def stays() -> Assertion:
     """f maps R into itself, on both of its branches."""
     return Assertion(
         (
-            always(R(f1(b)), given=[R(b), B1(b)], in_range=in_range, label="with-impact"),
+            always(R(f1(b)), given=[R(b), B1(b)], label="with-impact"),
             always(R(f2(b)), given=[R(b), B2(b)], label="without-impact"),
         )
     )
@@ -84,8 +91,10 @@ def loses_outside() -> tuple[Statement, Statement]:
 
 @claim("prop-1", "4.2", "Proposition 1, line 476")
 def region_attracts_and_is_invariant() -> Following:
-    """For alpha below 1/3 every orbit is attracted to R, and R is mapped into itself."""
-    return Following(ATTRACTION, beside=stays([alpha > 0, alpha < Fraction(1, 3)]))
+    """For alpha below 1/3, and beyond, every orbit is attracted to R, and R is mapped into
+    itself.
+    """
+    return Following(ATTRACTION, beside=stays())
 
 
 @claim("prop-1-outside-in-B1minus", "4.2", "line 478")
@@ -155,12 +164,13 @@ def finite_states_arrive_in_finite_time() -> Following:
 
 @claim("eq-25", "4.2", "(25)", printed=r"\tau_w := \frac{2}{\gamma} \sqrt{2E(\overline{b}_0)}.")
 def worst_time_to_impact(printed: Printed) -> list[Statement]:
-    """No ball of this energy is above the ground longer than tau_w, and one thrown up from the
-    ground is as long as that.
+    """A ball of this energy strikes the table within tau_w, after which it would be on or below the
+    ground, and one thrown up from the ground is above it as long as that.
     """
     defined = printed.formula(NAMED)
     above = height(ball_at(t, b_0))
     return [
+        *struck_by(tau_w, b_0, [defined]),
         grounded_after(tau_w, b_0, [defined], "no-longer"),
         always_counting(
             above > 0, given=[equal(beta0, 0), v0 > 0, defined, t > 0, t < tau_w], label="as-long"
@@ -222,12 +232,12 @@ def less_energy_makes_flights_shorter() -> Statement:
 
 @claim("s4.2-max-time", "4.2", "line 484")
 def longest_time_between_impacts() -> list[Statement]:
-    """While an orbit is outside R its energy does not rise, and no ball of that energy or less
-    stays up longer than tau_w.
+    """While an orbit is outside R its energy does not rise, and a ball of that energy or less
+    strikes the table within tau_w of any moment, as of its last impact.
     """
     return [
         *loses_outside(),
-        grounded_after(worst_wait, b, [energy(b) <= energy(b_0)], "lands-by-then"),
+        *struck_by(worst_wait, b, [energy(b) <= energy(b_0)]),
     ]
 
 
@@ -390,38 +400,51 @@ def orbits_do_not_leave_the_region() -> Assertion:
     "s4.2-highest-B1plus",
     "4.2",
     "line 494",
+    printed=r"\mathcal{B}_1^+ \cup \mathcal{B}_1^0, \quad E_{max}",
+    as_it_stands=r"\ell_1 \ell_1, \quad \ell_1 \text{ region is } \ell_2 \text{ region is } \ell_2",
+    repeats="s4.1-Emax",
     remark=Remark(
-        "It is the least bound; no state whose impact gains energy has as much.",
-        lambda: always(
-            different(energy(b), derived("E_max")), given=[B1_PLUS(b)], label="not-attained"
-        ),
+        "The transcription has lost the names of the region and of the energy. They are restored"
+        " as section 4.1 has them; on B1^+ alone E_max is not attained.",
+        lambda: always(energy(b) < derived("E_max"), given=[B1_PLUS(b)], label="not-attained"),
+        by=("s4.1-Emax",),
     ),
 )
-def greatest_energy_that_can_gain() -> list[Statement]:
-    """E_max is the least bound of the energies of the states whose impact gains energy.
-
-    A ball that comes down to the ground with less energy than that gains.
-    """
-    greatest, coming_down = derived("E_max"), Vector((0, v))
-    return [
-        always(energy(b) < greatest, given=[B1_PLUS(b)], label="bound"),
-        always(
-            B1_PLUS(coming_down),
-            given=[v < 0, energy(coming_down) < greatest],
-            label="all-below",
-        ),
-    ]
+def greatest_energy_that_can_gain(printed: Printed) -> list[Statement]:
+    """E_max is the greatest energy of the states whose impact gains or keeps energy."""
+    where, greatest = pieces(printed, 2)
+    parts = {r"\mathcal{B}_1^+": B1_PLUS, r"\mathcal{B}_1^0": B1_ZERO}
+    return is_maximum(
+        term(scalar(value_of(greatest, PAPER))),
+        energy(b),
+        {"beta": beta, "v": v},
+        at=place("largest_kept_energy"),
+        on=as_region(value_of(where, PAPER.extended(parts)))(b),
+    )
 
 
-@claim("s4.2-adding", "4.2", "line 494")
-def greatest_gain_does_not_lead_out() -> list[Statement]:
+@claim(
+    "s4.2-adding",
+    "4.2",
+    "line 494",
+    printed=r"\Delta E_{max}, \quad \mathcal{R}",
+    as_it_stands=r"\ell_2 + \ell_2, \quad \ell_3",
+    remark=Remark(
+        "The transcription has lost both names. They are restored as the greatest gain of section"
+        " 4.1, and the region that the sentences before and after speak of.",
+        by=("s4.1-DEmax-on-H",),
+    ),
+)
+def greatest_gain_does_not_lead_out(printed: Printed) -> list[Statement]:
     """The greatest gain, on top of the greatest energy at which an impact gains, does not lead out
     of R.
     """
-    kept, gain = derived("E_max"), derived("delta_E_max")
+    what, where = pieces(printed, 2)
+    kept, gain = derived("E_max"), term(scalar(value_of(what, PAPER)))
+    inside = as_region(value_of(where, PAPER))
     return [
         always(impact_energy_change(b) <= gain, given=[B1_PLUS(b)], label="gain"),
-        always(R(f1(b)), given=[B1(b), energy(b) <= kept], label="stays"),
+        always(inside(f1(b)), given=[B1(b), energy(b) <= kept], label="stays"),
         always(kept + gain <= LEVEL, label="level"),
     ]
 

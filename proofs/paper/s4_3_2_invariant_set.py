@@ -35,11 +35,12 @@ from juggleproof.proofs.paper.names import (
     f1,
     f2,
     height,
+    meet,
     next_states,
     r,
+    s,
     speed,
     v,
-    vector,
 )
 from juggleproof.proofs.paper.states import (
     AROUND_E1,
@@ -83,7 +84,7 @@ def line_between_b1_and_b2(printed: Printed) -> Statement:
     """The states that would meet the table just at its next bounce are those of this line, with the
     height as its parameter.
     """
-    return always(iff(JUST_AT_THE_BOUNCE, printed.formula(PAPER)), given=[different(v, r)])
+    return always(iff(meet(T), printed.formula(PAPER)))
 
 
 def is_just_as_fast() -> Formula:
@@ -181,13 +182,31 @@ def states_near_e_1_in_kinetic_energy_are_in_b1() -> Readings:
     )
 
 
-@claim("s4.3.2-f1-applies", "4.3.2", "line 559", repeats="s4.3.2-near-in-B1")
-def map_of_an_impact_applies_there() -> Statement:
+@claim(
+    "s4.3.2-f1-applies",
+    "4.3.2",
+    "line 559",
+    repeats="s4.3.2-near-in-B1",
+    remark=Remark(
+        "Near is said of K, the kinetic energy of the motion relative to e_1, as (28) defines it;"
+        " of the kinetic energy of the ball itself this fails.",
+        by=("s4.3.2-near-in-B1",),
+    ),
+)
+def map_of_an_impact_applies_there() -> list[Statement]:
     """f is f1, for they lie in B1, at the states of R whose velocity is nearer to that of e_1 than
-    where R leaves B1.
+    where R leaves B1; there is such a velocity, and e_1 is slower than that.
     """
+    edge = 2 * r - s * r / (1 - alpha)
     near = from_e_1(b) < from_e_1(on_the_line(c))
-    return always(B1(b), given=[leaves_R_at(c), R(b), near], in_range=RANGE_21)
+    return [
+        always(B1(b), given=[leaves_R_at(c), R(b), near], in_range=RANGE_21),
+        always(
+            equals(next_image, f1(b)), given=[B1(b), next_states(b, next_image)], label="f-is-f1"
+        ),
+        always(leaves_R_at(edge), label="R-leaves-B1"),
+        always(speed(e_1) < c, given=[leaves_R_at(c)], in_range=RANGE_21, label="e_1-is-slower"),
+    ]
 
 
 @claim(
@@ -361,11 +380,14 @@ y_pair = Vector((y1, y2))
 )
 def map_on_the_band_is_linear(printed: Printed) -> list[Statement]:
     """On the band f is f1, which is linear in the differences to e_1."""
-    agrees = always(printed.formula(AROUND_E1), given=[next_states(b, next_image)], label="agrees")
 
+    def step(difference: Vector) -> Vector:
+        return f1(e_1 + difference) - e_1
+
+    agrees = always(printed.formula(AROUND_E1), given=[next_states(b, next_image)], label="agrees")
     mixed = z.scaled(p) + y_pair.scaled(q)
-    combined = vector(relative_step(z)).scaled(p) + vector(relative_step(y_pair)).scaled(q)
-    return [agrees, always(equals(vector(relative_step(mixed)), combined), label="linear")]
+    combined = step(z).scaled(p) + step(y_pair).scaled(q)
+    return [agrees, always(equals(step(mixed), combined), label="linear")]
 
 
 @claim("s4.4-e1-attracts-K", "4.4", "line 569")

@@ -10,6 +10,7 @@ from itertools import combinations
 
 from juggleproof.certificates.language import (
     Formula,
+    Number,
     Statement,
     Term,
     conjunction,
@@ -21,6 +22,7 @@ from juggleproof.certificates.language import (
     substitute,
     term,
 )
+from juggleproof.proofs.claims import Remark
 from juggleproof.proofs.forms import always, exists_some
 from juggleproof.proofs.part.corner import (
     APPROACH,
@@ -328,18 +330,23 @@ def sliding_back_in_restitution_gains_no_energy() -> Statement:
 FRICTION_HOLDS = (B3 <= mu * B1) & (-B3 <= mu * B1)  # mu >= |B3|/B1
 
 
+def modes_cover() -> Statement:
+    """Every impact meets the conditions of one of the five modes."""
+    return always(
+        disjunction([conjunction(conditions_of(mode)) for mode in MODES]),
+        given=[B1 > 0, FRICTION],
+        label="cover",
+        vocabulary=words(),
+    )
+
+
 @claim("part-modes-cover", "part", "the modes", parameters=())
 def every_impact_is_of_one_of_the_modes() -> list[Statement]:
     """Every impact meets the conditions of one of the five modes, and a corner that stops sticks
     exactly where mu >= |B3|/B1.
     """
     return [
-        always(
-            disjunction([conjunction(conditions_of(mode)) for mode in MODES]),
-            given=[B1 > 0, FRICTION],
-            label="cover",
-            vocabulary=words(),
-        ),
+        modes_cover(),
         always(
             iff(BACK <= 0, FRICTION_HOLDS),
             given=[DIRECTION, STOPPING >= 0],
@@ -483,29 +490,44 @@ def numbers_of_the_corner() -> dict[str, Term]:
     return {name: term(value_of(value, CORNER)) for name, value in COEFFICIENTS.items()}
 
 
-@claim("s2.1-five-modes", "2.1", "line 81", parameters=())
+@claim(
+    "s2.1-five-modes",
+    "2.1",
+    "line 81",
+    parameters=(),
+    remark=Remark(
+        "That [32] has these five modes, by Coulomb's friction and Poisson's restitution, is taken"
+        " over from there and not shown.",
+    ),
+)
 def five_modes_that_differ_and_depend_on_the_motion() -> list[Statement]:
-    """Each of the five modes is that of some impact, at a corner of the 1 by 2 rectangle, that no
-    other mode describes; and with the same e and mu there are two, by the motion alone.
+    """Every impact is of one of five modes, and each of them is that of some impact, at a corner of
+    the 1 by 2 rectangle, that no other mode describes; with the same motion there are two, by e and
+    mu alone, and with the same e and mu there are two, by the motion alone.
     """
     impact = [DIRECTION, SLIDES, NO_JAM, APPROACH, FRICTION, *RESTITUTION]
-    names, again = ["sigma", "e", "mu", "S0", "C0"], real("S1")
+    names = ["sigma", "e", "mu", "S0", "C0"]
     words_here = words("", **numbers_of_the_corner())
-    sticks = [
-        substitute(one, {"S0": again}) for one in (SLIDES, is_only("sticking-in-compression"))
-    ]
+
+    def two_modes(changed: dict[str, Number], label: str) -> Statement:
+        """One impact slides all along; the other, with these values changed, sticks."""
+        sticks = [*impact, is_only("sticking-in-compression")]
+        return exists_some(
+            [*names, *(str(value) for value in changed.values())],
+            conjunction([is_only("sliding"), *(substitute(one, changed) for one in sticks)]),
+            within=impact,
+            label=label,
+            vocabulary=words_here,
+        )
+
     return [
+        modes_cover(),
         *(
             exists_some(names, is_only(mode), within=impact, label=mode, vocabulary=words_here)
             for mode in MODES
         ),
-        exists_some(
-            [*names, "S1"],
-            conjunction([is_only("sliding"), *sticks]),
-            within=impact,
-            label="by-the-motion",
-            vocabulary=words_here,
-        ),
+        two_modes({"e": real("d"), "mu": real("mu_2")}, "by-the-parameters"),
+        two_modes({"sigma": real("sigma_2"), "S0": real("S1"), "C0": real("C1")}, "by-the-motion"),
     ]
 
 

@@ -155,14 +155,16 @@ def _failure(one: Result, change: Change | None, results: Results) -> tuple[str,
         else f"{'new' if change.before is None else 'changed'} since the register: {change}"
     )
     if one.is_open:
-        return "error", "unknown: " + (one.detail or "neither proved nor refuted") + (
-            f"; {changed}" if changed else ""
-        )
+        detail = "; ".join(part for part in (one.detail, changed) if part)
+        return "error", "\n".join([f"unknown: {detail or NEITHER}", *fails_at(one)])
     if results.own and one.verdict != "holds":
         return "failure", failing(one)
     if changed and not results.accepted:
         return "failure", "\n".join([changed, *fails_at(one)])
     return "", ""
+
+
+NEITHER = "neither proved nor refuted"
 
 
 def verdict_line(one: Result) -> str:
@@ -176,8 +178,16 @@ def failing(one: Result) -> str:
 
 
 def fails_at(one: Result) -> list[str]:
-    """One line for each refuted statement, with the counterexample."""
-    return [f"{stated.name} fails at {stated.at}" for stated in one.statements if stated.at]
+    """One line for each refuted statement, with the counterexample, and for each open one with the
+    reason.
+    """
+    return [
+        f"{stated.name} fails at {stated.at}" + (f": {stated.words}" if stated.words else "")
+        if stated.at
+        else f"{stated.name} is open: {stated.words or stated.outcome}"
+        for stated in one.statements
+        if stated.outcome != "certified"
+    ]
 
 
 # -------------------------------------------------------------------------------------------------

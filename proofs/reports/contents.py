@@ -16,7 +16,7 @@ from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.proofs.claims import VERDICTS, Claim
-from juggleproof.proofs.judgement import Correction, Judgement
+from juggleproof.proofs.judgement import Correction, Judgement, statements_of
 from juggleproof.proofs.judging import settle_by_rules
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import Derivation, behind, derivations_of
@@ -170,7 +170,7 @@ def contents_of(done: Run, before: Register) -> Contents:
     derived, entries = dict[str, Derivation](), list[Entry]()
     for claim, judgement in zip(done.claims, judgements):
         body = claim.body()
-        steps = derivations_of(claim, judgement.correction)
+        steps = derivations_of(statements_of(claim, judgement.correction))
         derived.update((one.function, one) for one in behind(steps))
         entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading_of(body)))
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
@@ -341,6 +341,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
                     shown.outcome,
                     dict(shown.votes),
                     table.where(shown.outcome, shown.at),
+                    shown.words,
                 )
                 for shown in one.statements
             ),

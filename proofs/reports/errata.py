@@ -194,7 +194,7 @@ def rows_of(
     settled: Sequence[Settled],
 ) -> list[Row]:
     """One entry: a heading with place and verdict, then what is said, the print, what is wrong, the
-    correction, exact counterexamples.
+    correction, exact counterexamples and what is so there.
     """
     entry = register[claim.id]
     heading = f"{claim.id}, {place_of(claim)}: {entry['verdict']}"
@@ -448,7 +448,7 @@ class Fails(NamedTuple):
 
 
 def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
-    """What is to be told of every refuted statement, each values once."""
+    """Where the refuted statements fail, each values once."""
     fails = dict[str, Fails]()
     for name, text, certificate in settled:
         if certificate is not None and "refuted" in certificate:
@@ -460,10 +460,10 @@ def _counterexamples(settled: Sequence[Settled]) -> list[Fails]:
     return [*fails.values()]
 
 
-def words_of(text: str, refutation: object) -> str:
+def words_of(text: str, refutation: object, of_paper: bool = True) -> str:
     """What is so at a rational counterexample, in a line of words; nothing at a root."""
     point = point_of(text, refutation)
-    return "" if point is None else in_words(text, point)
+    return "" if point is None else in_words(text, point, of_paper)
 
 
 def numbers_of(text: str, refutation: object) -> str:

@@ -8,7 +8,7 @@ that a line says: it draws no conclusion.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
@@ -86,7 +86,7 @@ SIDES = {
     **dict.fromkeys(
         ("s4.2-count/floor.losses-cover", "eq-26/floor.losses-cover")
         + ("sA.4-count/floor.losses-cover",),
-        ("", "the energy at the edge of R and n least losses"),
+        ("", "the energy at the edge of R plus n least losses"),
     ),
     "sA.3-sup/bound": ("the energy change of b in the period", ""),
     "s4.3.2-K-invariant/boundary-is-enough.main": ("the value of the map at y", ""),
@@ -179,6 +179,7 @@ class Failure:
     point: Point
     premises: tuple[Formula, ...]
     goals: tuple[Formula, ...]
+    nouns: Mapping[str, str]  # empty where the statement is not about ball and table
 
     @cached_property
     def states(self) -> dict[str, tuple[Fraction, Fraction]]:
@@ -186,7 +187,7 @@ class Failure:
         return {
             letter: (self.point[height], self.point[speed])
             for letter, (height, speed) in STATES.items()
-            if {height, speed} <= {*self.point}
+            if self.nouns and {height, speed} <= {*self.point}
         }
 
     @cached_property
@@ -199,6 +200,8 @@ class Failure:
     def times(self) -> dict[str, Named]:
         """What the premises say of times: when ball and table meet, or one is on the ground."""
         known = dict[str, Named]()
+        if not self.nouns:
+            return known
         for atom in (one for premise in self.premises for one in parts_of(premise)):
             node, other = map(call_of, atom.sides) if atom.op == "=" else (None, None)
             if not isinstance(node, ast.Call) or name_of(node) != "F_beta":
@@ -252,7 +255,7 @@ class Failure:
         for atom in (one for premise in self.premises for one in parts_of(premise)):
             if atom.op in RELATIONS:
                 one, two = (self.named(side).noun for side in atom.sides)
-                if one == two and one in NOUNS.values():
+                if one == two and one in self.nouns.values():
                     yield self.compared(*atom.sides)
 
     # ---------------------------------------------------------------------------------------------
@@ -296,7 +299,8 @@ class Failure:
         ]
         values = [self.value(left), self.value(right)]
         node = call_of(left)
-        if isinstance(node, ast.Call) and (name_of(node), str(right)) == ("collision_margin", "0"):
+        collides = (name_of(node), str(right)) == ("collision_margin", "0")
+        if self.nouns and isinstance(node, ast.Call) and collides:
             return self.impact(node.args, values[0])
         if not names_in(left):
             named, values = named[::-1], values[::-1]
@@ -340,14 +344,14 @@ class Failure:
         name = name_of(node)
         if name in self.times:
             return self.times[name]
-        if isinstance(node, ast.Call) and name in NOUNS:
+        if isinstance(node, ast.Call) and name in self.nouns:
             called = self.applied(name, node.args)
             if called:
                 return called
-        elif node and name in NOUNS:
+        elif node and name in self.nouns:
             of = self.of_state([node]) if name in LETTERS else ("", "")
             if of is not None:
-                return Named(NOUNS[name], *of)
+                return Named(self.nouns[name], *of)
         return Named(otherwise or str(part))
 
     def applied(self, name: str, args: Sequence[ast.expr]) -> Named | None:
@@ -427,18 +431,18 @@ def meeting(height: Fraction, speed: Fraction, launch: Fraction, gravity: Fracti
     return f"{met} the period ends, at time {period}"
 
 
-def in_words(text: str, point: Point) -> str:
-    """What is so at a point with rational values at which a statement of the paper's system fails;
-    nothing where that cannot be worked out.
+def in_words(text: str, point: Point, of_paper: bool = True) -> str:
+    """What is so at a point with rational values at which a statement fails, of the paper's system
+    with what its terms are called; nothing where that cannot be worked out.
     """
     lines = [line.partition(" ")[::2] for line in text.splitlines()]
     premises, goals = (
         tuple(formula_of(checker.parse(one)) for word, one in lines if word == keyword)
         for keyword in ("given", "show")
     )
-    failure = Failure(lines[0][1], point, premises, goals)
+    failure = Failure(lines[0][1], point, premises, goals, NOUNS if of_paper else {})
     chosen = next((one for word, one in lines if word == "exists"), "")
-    for letter, pair in STATES.items():  # a state that is chosen, by its letter
+    for letter, pair in STATES.items() if of_paper else ():  # a state that is chosen, by its letter
         chosen = chosen.replace(" ".join(pair), letter)
     try:
         what = f"no choice of {chosen.replace(' ', ' and ')} meets all that is asserted"

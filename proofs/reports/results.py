@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rich.console import Console
-from rich.table import Table
+from rich.table import Column, Table
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import Store
@@ -34,6 +34,7 @@ from juggleproof.proofs.reports.errata import (
     passages_of,
     told,
     what_is_wrong,
+    words_of,
 )
 from juggleproof.proofs.reports.tables import plain
 from juggleproof.proofs.reports.tree import theorem_line
@@ -162,7 +163,7 @@ def rows(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> list[tuple
     return [
         (
             claim.id,
-            locator(claim).removeprefix("section "),
+            locator(claim).removeprefix("section ") or claim.where,
             verdict_text(claim, judgement),
             settled_by(judgement),
             sharp_range(judgement, claim),
@@ -177,7 +178,7 @@ def draw(claims: Sequence[Claim], judgements: Sequence[Judgement], console: Cons
     if not console.is_terminal:
         print(plain([columns, *rows(claims, judgements)]))
         return
-    table = Table(*columns, header_style="bold")
+    table = Table(Column(columns[0], no_wrap=True), *columns[1:], header_style="bold")
     for row, judgement in zip(rows(claims, judgements), judgements):
         colour = COLOURS[judgement.verdict.word]
         table.add_row(
@@ -241,8 +242,8 @@ NO_VALUES = "every value: the negation is certified"
 
 @dataclass(frozen=True)
 class Stated:
-    """A statement of a claim: the text that the checker reads, its outcome, the votes by route, and
-    where it fails.
+    """A statement of a claim: the text that the checker reads, its outcome, the votes by route,
+    where it fails, and what is so there in words; of an open one these say why it is open.
     """
 
     name: str
@@ -250,6 +251,7 @@ class Stated:
     outcome: str
     votes: Mapping[str, str]
     at: str = ""
+    words: str = ""
 
 
 @dataclass(frozen=True)
@@ -407,6 +409,12 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         certificate = judged.certificates[name]
         return counterexample(certificate["refuted"]) if judged.outcomes[name] == "refuted" else ""
 
+    def words(name: str, text: str) -> str:
+        certificate = judged.certificates[name]
+        if judged.outcomes[name] == "refuted":
+            return words_of(text, certificate["refuted"], is_of_paper(claim))
+        return certificate.get("unknown") or ""
+
     statements = tuple(
         Stated(
             name,
@@ -414,6 +422,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
             judged.outcomes[name],
             {vote.route: vote.answer for vote in judged.votes.get(name, ())},
             where(judged.outcomes[name], at(name)),
+            words(name, text),
         )
         for name, text in judged.statements
     )

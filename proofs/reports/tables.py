@@ -35,9 +35,9 @@ def draw(heads: Sequence[str], rows: Sequence[Sequence[str]], console: Console) 
     if not console.is_terminal:
         print(plain([heads, *rows]))
         return
-    from rich.table import Table
+    from rich.table import Column, Table
 
-    table = Table(*heads, header_style="bold")
+    table = Table(Column(heads[0], no_wrap=True), *heads[1:], header_style="bold")
     for row in rows:
         table.add_row(*(cell.replace("[", r"\[") for cell in row))
     console.print(table)

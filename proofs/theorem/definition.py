@@ -354,7 +354,7 @@ class Setting:
 
     parameters: tuple[Term, ...]
     positive: tuple[Formula, ...]
-    state: tuple[Term, Term]
+    state: tuple[Term, ...]
     space: Formula
     pieces: tuple[tuple[Formula, Vector], ...]
     fixed: Vector

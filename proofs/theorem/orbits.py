@@ -45,15 +45,18 @@ from juggleproof.proofs.paper.names import (
     x,
 )
 from juggleproof.proofs.paper.names import always as always_real
+from juggleproof.proofs.paper.names import exists_some as exists_real
 from juggleproof.proofs.paper.regions import LEVEL, PRINTED_SUPREMUM
 from juggleproof.proofs.reading.meaning import read
 from juggleproof.proofs.reading.values import Vector, scalar
 from juggleproof.proofs.theorem.definition import (
     AT_IMPACTS,
+    BELOW_A_THIRD,
     FIXED,
     IMPACT,
     LEMMA,
     NORMAL,
+    PIECES,
     SPACE,
     SPEED,
     TO_THE_POINT,
@@ -189,9 +192,12 @@ def moves(state: State, impacts: int = MAX_IMPACTS) -> Iterator[Move]:
 # A flight begins with an impact at the state (x, w) and lasts K periods, to the impact at (x', w').
 # Since x' >= 0, a long flight needs a high closing speed, and leaves a low one: the next flight
 # lasts J periods with J - 1 <= alpha (K + 1). For alpha < 1/3 flights grow shorter until all last
-# one period. The closing speeds at the impacts approach that of e_1 by the factor kappa = alpha (1
-# + 3 alpha)/(1 - alpha) at least, which is less than 1 exactly for alpha < 1/3: so the relative
-# kinetic energy falls from impact to impact, which the paper claims of every period.
+# one period. That is certified of f with a count: k is the number of periods that the flight has
+# lasted when this one ends, and `most` a bound of its length; an impact after k periods makes it
+# 1 + alpha (k + 1) for the next flight. The space has what is known of w and x then. The closing
+# speeds at the impacts approach that of e_1 by the factor kappa = alpha (1 + 3 alpha)/(1 - alpha)
+# at least, which is less than 1 exactly for alpha < 1/3: so the relative kinetic energy falls from
+# impact to impact, which the paper claims of every period.
 
 HERE = Vector((x, w))
 K, J, n, d = reals("K J n d")
@@ -223,6 +229,20 @@ AFTER = next_impact(K)
 x_after, w_after = (term(entry) for entry in AFTER)
 IN_FLIGHT = [x >= 0, x_after >= 0]  # the next impact is above the table
 
+k, most = reals("k most")
+STRUCK, FLOWN = PIECES
+COUNTING = replace(
+    NORMAL,
+    state=(x, w, k, most),
+    space=conjunction([SPACE, k >= 1, k <= most, w >= 2 * k + 1 - most, x + k * w <= k * (k + 1)]),
+    pieces=(
+        (STRUCK[0], Vector((*STRUCK[1].entries, 1, 1 + alpha * (k + 1)))),
+        (FLOWN[0], Vector((*FLOWN[1].entries, k + 1, most))),
+    ),
+)
+TO_ONE_PERIOD = Descent(2 * most / (1 - 3 * alpha) - k, (IMPACT & (most < 2),))
+BELOW = BELOW_A_THIRD & (1 - 3 * alpha > 0)  # for what is divided by
+
 
 @claim("theorem-flights", "theorem", "argument B")
 def flights_grow_shorter_below_a_third() -> list[AnyStatement]:
@@ -250,6 +270,9 @@ def flights_grow_shorter_below_a_third() -> list[AnyStatement]:
             in_range=[alpha > 0, 3 * alpha < 1],
             label="shorter",
         ),
+        exists_real(["k", "most"], COUNTING.space, given=[x >= 0], label="counted"),
+        the_map("counting", COUNTING),
+        descends("until-one", "theorem-flights/counting", COUNTING, BELOW, TO_ONE_PERIOD),
     ]
 
 
@@ -361,6 +384,7 @@ def orbits_of_little_energy_keep_to_it() -> list[AnyStatement]:
 
 W, after = reals("W after")
 FACTOR = (1 + alpha) * W / (2 * ((1 - alpha) * W - 2))
+LEAST_FACTOR = (1 + alpha) / (2 * (1 - alpha))
 LITTLE = 4 * x + (w - 1) ** 2 <= (W - 1) ** 2
 RANK_THERE = (
     5 * (W - 1) / 2
@@ -383,9 +407,9 @@ USES = Hints(
     "sharper bounds",
     hints={"uses": (LEMMA, LOSES), "premises": {"falls-1": USES}},
 )
-def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
+def a_smaller_rank_leads_to_little_energy() -> list[AnyStatement]:
     """For every W > 2/(1 - alpha) an orbit has u <= W - 1 from some period on, no later than a rank
-    tells that nears the worst case as W grows.
+    tells whose factor of u falls to (1 + alpha)/(2 (1 - alpha)) as W grows.
     """
     high = [W > 2, u >= W - 1, u >= w - 1, after <= 1 + alpha * w]
     return [
@@ -403,6 +427,11 @@ def orbits_lose_energy_about_as_fast_as_the_worst() -> list[AnyStatement]:
             given=[W >= 1, u**2 <= (W - 1) ** 2, -u <= w - 1],
             label="rank-there",
             vocabulary=STANDING,
+        ),
+        always_real(
+            equal(FACTOR, LEAST_FACTOR + (1 + alpha) / ((1 - alpha) * ((1 - alpha) * W - 2))),
+            given=WITH_W.positive,
+            label="factor",
         ),
     ]
 
@@ -461,9 +490,9 @@ def orbits_in_the_trap_in_closed_form() -> list[AnyStatement]:
 #
 # The bracket, (E - E_max - Delta E_max)/(-Delta E_sup), is at most n where u^2 <= 2 (level + n
 # loss), u^2 being twice the energy. With the derived loss, rounded up, it counts enough impacts.
-# With the printed loss it does exactly where `ENOUGH` holds, alpha <= 0.3645..: an impact from the
-# ground with bracket 1 then leads into R, and one with more loses as much as is counted. Beyond,
-# such an impact leaves the ball outside of R, in all readings of time: its flight before took m > u
+# With the printed loss it does exactly where `ENOUGH` holds, alpha <= 0.3645..: an impact that
+# leaves the ball outside of R then takes as much as is counted. Beyond, an impact on the ground
+# with bracket 1 leaves the ball outside of R, in all readings of time: its flight before took m > u
 # - 1 periods, the next impact comes a period later at the earliest, and u < m + 1 is all of (26).
 
 m, n = reals("m n")
@@ -494,9 +523,7 @@ MARGIN = (
 TOO_MUCH = 4 * alpha * s > (1 - alpha) * (
     1 + alpha
 )  # where the printed loss is above the derived one
-CORNER = s / (1 - alpha)  # the u of the border of R
 GROUND = Vector((0, 1 + u))  # the ball comes down to the ground with u
-AFTER_GROUND = alpha * u + 1 + alpha  # the u after the impact there
 AFTER_IMPACT = derived_vector("normal_f1")
 
 
@@ -523,46 +550,35 @@ def printed_loss_counts_too_few_impacts() -> list[AnyStatement]:
     """The bracket of (26), rounded up, counts enough impacts with the loss that A.3.2 prints just
     for alpha up to 0.3645.., an algebraic number.
 
+    Up to there an impact that leaves the ball outside R takes that loss at least; beyond, a ball on
+    the ground, for which one impact is counted, is outside R after it.
+
     Of the states sampled once a period (26) is too early for every alpha and either loss: u < m + 1
     periods are counted, and m + 1 are needed.
     """
-    speed, struck = (
-        SPEED[1],
-        Vector(
-            tuple(at_state(term(entry), GROUND) for entry in derived_vector("normal_f1").entries)
-        ),
-    )
-    outside, one = u > CORNER, u**2 <= 2 * (LEVEL_OF_R + PRINTED_LOSS)
-    most = u**2 >= 2 * (LEVEL_OF_R + PRINTED_LOSS)
+    speed = SPEED[1]
+    after = at_state(speed, AFTER_IMPACT)
+    one = equal(u**2, 2 * (LEVEL_OF_R + PRINTED_LOSS))
+    little = s / (1 - alpha) + alpha * (1 - alpha) / 4  # a u just outside of R
     margin = written(MARGIN)
     slope = written([k * c for k, c in enumerate(MARGIN)][1:])
     in_flight = [u > 0, m <= u, u < m + 1, m >= 1]
     return [
         always_counted(iff(PRINTED_LOSS > TRUE_LOSS, TOO_MUCH), label="differs"),
         always_counted(
-            at_state(speed, AFTER_IMPACT) <= (alpha * u + 1 + alpha) ** 2,
-            given=[x >= 0, IMPACT, u >= 0, equal(u**2, speed)],
-            label="impact",
-        ),
-        always_counted(AFTER_GROUND <= CORNER, given=[u >= 0, one, ENOUGH], label="one-is-enough"),
-        always_counted(
-            u**2 - AFTER_GROUND**2 >= 2 * PRINTED_LOSS,
-            given=[outside, most, ENOUGH],
-            label="more-lose-as-counted",
+            speed - after >= 2 * PRINTED_LOSS,
+            given=[x >= 0, IMPACT, after > 2 * LEVEL_OF_R, ENOUGH],
+            label="each-loses-as-counted",
         ),
         always_counted(
-            at_state(IMPACT, GROUND)
-            & equal(at_state(speed, GROUND), u**2)
-            & equal(at_state(speed, struck), AFTER_GROUND**2),
-            given=[u > 0],
-            label="on-the-ground",
-        ),
-        always_counted(
-            AFTER_GROUND > CORNER, given=[u > 0, most, ~ENOUGH], label="one-is-not-enough"
+            at_state(IMPACT & equal(speed, u**2) & (after > 2 * LEVEL_OF_R), GROUND),
+            given=[u > 0, one, ~ENOUGH],
+            label="one-is-not-enough",
         ),
         always_counted(
             at_state(SPACE & ~IMPACT, before_the_ground(m))
-            & equals(flown_for(m, before_the_ground(m)), GROUND),
+            & equals(flown_for(m, before_the_ground(m)), GROUND)
+            & at_state(IMPACT, GROUND),
             given=in_flight,
             label="flight",
         ),
@@ -571,11 +587,20 @@ def printed_loss_counts_too_few_impacts() -> list[AnyStatement]:
             given=[*in_flight, n >= 1, n <= m],
             label="in-flight-between",
         ),
-        always_counted(equal(CORNER**2, 2 * LEVEL_OF_R), label="corner"),
+        always_counted(
+            equal(at_state(speed, before_the_ground(n)), u**2), label="energy-in-flight"
+        ),
+        *(
+            always_counted(
+                (little**2 > 2 * LEVEL_OF_R) & (little**2 < 2 * (LEVEL_OF_R + loss)),
+                label=f"one-is-counted-{which}",
+            )
+            for which, loss in (("derived", TRUE_LOSS), ("printed", PRINTED_LOSS))
+        ),
         always_counted(iff(ENOUGH, margin >= 0), label="enough-by-alpha"),
         always_counted(slope < 0, given=[5 * alpha >= 1], label="falls-there"),
-        always_counted(ENOUGH, given=[1000 * alpha <= 364], label="enough-up-to"),
-        always_counted(~ENOUGH, given=[1000 * alpha >= 365], label="not-enough-from"),
+        always_counted(ENOUGH, given=[10000 * alpha <= 3645], label="enough-up-to"),
+        always_counted(~ENOUGH, given=[10000 * alpha >= 3646], label="not-enough-from"),
         always_counted(
             iff(TOO_MUCH, 32 * alpha**2 > (1 - alpha) ** 2 * (1 + alpha)), label="differs-by-alpha"
         ),

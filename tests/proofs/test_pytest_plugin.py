@@ -52,8 +52,8 @@ def test_false_claim_of_a_file_fails_with_counterexample_and_hint_holds(
     result.stdout.fnmatch_lines(
         [
             "juggleproof::above FAILED*",
-            "above/main fails at x = 1",
-            "`juggleproof certify mine.py --only above` tells more",
+            "above/main fails at x = 1: *",
+            "`juggleproof explain above mine.py` tells more",
             "FAILED juggleproof::above - false",
         ]
     )

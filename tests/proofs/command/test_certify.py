@@ -175,6 +175,38 @@ def test_what_was_unknown_is_searched_again_holds(tmp_path: Path) -> None:
     assert certify(path).returncode == 0
 
 
+def test_counterexample_is_shown_with_both_sides_evaluated_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 4, given=[x > 0, y > 0])")
+    words = "x*y is 1, more than (x^2 + y^2)/4, 1/2."
+    done = certify(path)
+    assert done.returncode == 1 and f"fails at x = 1, y = 1: {words}" in done.stdout
+    assert f"`juggleproof explain ID {path}` shows a claim whole" in done.stdout
+    one = run("explain", "mine", str(path))
+    assert one.returncode == 0 and words in one.stdout and "mine.py:" in one.stdout
+
+
+def test_names_of_the_paper_mean_nothing_in_claims_of_ones_own_holds(tmp_path: Path) -> None:
+    more = "beta, v, r, g = reals('beta v r g')\n"
+    body = "always(beta * g + v**2 / 2 <= r, given=[r > 0, beta >= 0, g > 0])"
+    done = certify(claim_file(tmp_path, body, more=more))
+    assert done.returncode == 1 and "beta*g + v^2/2 is" in done.stdout
+    assert not any(noun in done.stdout for noun in ("ball", "energy", "height"))
+
+
+def test_certificate_of_a_claim_of_ones_own_is_shown_whole_holds(tmp_path: Path) -> None:
+    path = claim_file(tmp_path, "always(x**2 + 1 >= 2 * x)")
+    for _ in range(2):  # before and after there is a store
+        done = run("explain", "mine", str(path))
+        assert done.returncode == 0 and '-> certified by ["proof",[],["psatz"' in done.stdout
+        assert "verdict     holds" in done.stdout
+        certify(path)
+
+
+def test_why_a_claim_is_open_is_shown_holds(tmp_path: Path) -> None:
+    done = certify(claim_file(tmp_path, "always(x * y <= x**2 + y**2)"), "--budget", "10")
+    assert done.returncode == 1 and "mine/main is open: the budget" in done.stdout
+
+
 def test_progress_without_a_terminal_is_lines_on_standard_error_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

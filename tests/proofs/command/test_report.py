@@ -54,7 +54,7 @@ def test_missing_library_is_named_and_nothing_written_holds(
         raise ImportError(name)
 
     monkeypatch.setattr(report, "gather", contents)
-    monkeypatch.setattr(page, "pictures", lambda contents: ())
+    monkeypatch.setattr(report, "pictures", lambda contents: ())
     monkeypatch.setattr(extras, "import_module", absent)
     assert "jinja2 is needed for this report" in fault(
         capsys, "--format", "html", "-o", str(tmp_path / "there")

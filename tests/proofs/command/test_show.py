@@ -1,16 +1,24 @@
-"""`juggleproof export smt2`: one statement, one claim, several, or the whole paper; a solver reads
-what is written in one go.
+"""`juggleproof list` with its options, and `export smt2`: one statement, one claim, several, or the
+whole paper; a solver reads what is written in one go.
 """
 
 from __future__ import annotations
 
+import io
+import json
 from pathlib import Path
 
 import pytest
+from rich.cells import cell_len
+from rich.console import Console
+from rich.text import Text
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.command.show import export_smt2
+from juggleproof.proofs.command.show import export_smt2, list_claims
+from juggleproof.proofs.paper import paper_claims
+from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports.tables import draw
 
 
 def heads(text: str) -> list[str]:
@@ -48,3 +56,37 @@ def test_export_of_the_whole_paper_writes_every_statement_holds(tmp_path: Path) 
 def test_rejects_export_of_an_unknown_name() -> None:
     with pytest.raises(ClaimError, match="eq-999: no such claim; did you mean eq-9"):
         export_smt2(["eq-3", "eq-999"], None)
+
+
+def test_claims_of_a_section_and_a_verdict_are_listed_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert list_claims("A", "gap", as_json=True) == 0
+    listed = json.loads(capsys.readouterr().out)
+    register = load_register()
+    assert {one["id"] for one in listed} == {
+        claim.id
+        for claim in paper_claims()
+        if claim.section.startswith("A") and register[claim.id]["verdict"] == "gap"
+    }
+    assert list_claims("A", "gap") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == [one["id"] for one in listed]
+
+
+@pytest.mark.parametrize(
+    ("section", "verdict", "reason"),
+    [("9", "", "--section 9: no claim is of it"), ("", "wrong", "choose from holds, misprint")],
+)
+def test_rejects_a_section_or_verdict_that_is_none(section: str, verdict: str, reason: str) -> None:
+    with pytest.raises(ClaimError, match=reason):
+        list_claims(section, verdict)
+
+
+def test_a_narrow_table_keeps_ids_whole_holds() -> None:
+    out = io.StringIO()
+    name = "part-sticking-in-restitution-energy"
+    rows = [(name, "A.3.2, sentence 12 after (38)", "holds", "word " * 40)]
+    draw(("id", "place", "verdict", "says"), rows, Console(file=out, width=80, force_terminal=True))
+    assert name in out.getvalue() and "word" in out.getvalue()
+    assert all(cell_len(Text.from_ansi(line).plain) <= 80 for line in out.getvalue().splitlines())

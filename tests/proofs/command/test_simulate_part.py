@@ -66,6 +66,7 @@ def test_table_is_told_with_what_it_assumes_holds(
     for name in ("table.csv", "table.npz"):
         for jobs in "12":
             path = tmp_path / jobs / name
+            path.parent.mkdir(exist_ok=True)
             assert run([*SMALL, "--check", "--jobs", jobs, "-o", str(path)]) == 0
             written[jobs, name] = path.read_bytes()
         assert written["1", name] == written["2", name]

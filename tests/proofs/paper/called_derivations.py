@@ -17,8 +17,9 @@ from sympy import Expr, MatrixBase
 
 from juggleproof import symbolic
 from juggleproof.certificates.language import origins_in
+from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import Origin, statements_of
+from juggleproof.proofs.paper.derivations import Origin
 
 calls: dict[str, set[str]] = {}
 working: list[str] = []

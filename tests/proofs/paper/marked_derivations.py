@@ -17,8 +17,8 @@ from sympy import Expr, MatrixBase, Symbol
 from juggleproof import symbolic
 from juggleproof.certificates.language import Term
 from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.paper import paper_claims
-from juggleproof.proofs.paper.derivations import statements_of
 from juggleproof.proofs.run import findings_in
 
 NAMED = {"collide": "impact_map"}  # the impact of two states is a value of the derived impact map

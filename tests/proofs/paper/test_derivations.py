@@ -12,7 +12,7 @@ from pathlib import Path
 
 from juggleproof.certificates.language import origins_in, reals, substitute
 from juggleproof.certificates.store import DEFAULT, Store
-from juggleproof.proofs.judgement import Correction
+from juggleproof.proofs.judgement import Correction, statements_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import (
     Origin,
@@ -20,7 +20,6 @@ from juggleproof.proofs.paper.derivations import (
     derived,
     derived_vector,
     made_from,
-    statements_of,
 )
 from juggleproof.proofs.run import findings_in
 
@@ -50,7 +49,9 @@ def test_listed_derivations_are_the_ones_that_statements_contain_holds() -> None
     """For every claim; what a statement contains is found by marks, in a process of its own."""
     mended = corrections()
     listed = {
-        claim.id: sorted(one.function for one in derivations_of(claim, mended.get(claim.id)))
+        claim.id: sorted(
+            one.function for one in derivations_of(statements_of(claim, mended.get(claim.id)))
+        )
         for claim in paper_claims()
     }
     assert sum(map(bool, listed.values())) > 200
@@ -83,15 +84,18 @@ def test_corrections_and_remarks_are_derived_too_holds() -> None:
     """
     claims = {claim.id: claim for claim in paper_claims()}
     closed, remarked = claims["s3.3-e1-closed"], claims["eq-30"]
-    before = {one.function for one in derivations_of(closed)}
-    after = {one.function for one in derivations_of(closed, corrections()[closed.id])}
+    mended = derivations_of(statements_of(closed, corrections()[closed.id]))
+    before = {one.function for one in derivations_of(statements_of(closed))}
+    after = {one.function for one in mended}
     assert after - before == {"epsilon_1"}
-    assert "relative_kinetic_energy" in {one.function for one in derivations_of(remarked)}
+    assert "relative_kinetic_energy" in {
+        one.function for one in derivations_of(statements_of(remarked))
+    }
 
 
 def test_the_energy_gain_lists_what_it_states_holds() -> None:
     (claim,) = (claim for claim in paper_claims() if claim.id == "eq-37")
-    names = [one.function for one in derivations_of(claim)]
+    names = [one.function for one in derivations_of(statements_of(claim))]
     assert names == ["total_energy", "f1", "largest_energy_change"]
 
 

@@ -51,9 +51,23 @@ def remark(claim_id: str) -> Remark:
 def test_s4_1_Emax_maintain_says_one_impact_and_points_to_what_follows_it_holds() -> None:
     assert "over one impact" in claims()["s4.1-Emax-maintain"].says
     assert "sA.1-in-step" in remark("s4.1-Emax-maintain").by
+    assert REGISTER["s4.1-Emax-maintain"] == {
+        "verdict": "ambiguous",
+        "detail": "over-one-impact: holds; for-ever: false",
+        "sharp": "over-one-impact: 0 < alpha < 1;"
+        " for-ever: alpha = (K - 1)/(K + 1) for a whole number K",
+    }
+    assert outcome("s4.1-Emax-maintain/for-ever.at-the-next-impact") == "refuted"
     step = REGISTER["sA.1-in-step"]
     assert step["verdict"] == "gap" and step["detail"].startswith("step in-step is false")
     assert step["sharp"] == "in-step: alpha = (K - 1)/(K + 1) for a whole number K"
+
+
+@pytest.mark.parametrize("claim_id", ["s4.2-highest-B1plus", "s4.2-adding"])
+def test_lost_names_are_told_as_restored_holds(claim_id: str) -> None:
+    claim = claims()[claim_id]
+    assert r"\ell" in claim.as_it_stands and r"\ell" not in claim.printed
+    assert "lost" in remark(claim_id).text and "section 4.1" in remark(claim_id).text
 
 
 def test_eq_38_is_refuted_by_the_corner_holds() -> None:

@@ -31,7 +31,8 @@ from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, contents, own, paper, 
 # The JUnit report counts rightly, has the usual attributes only, and skips nothing.
 
 ROOT = Path(__file__).resolve().parents[3]
-# What the schema that Jenkins publishes, and others follow, allows of what is used here.
+# What the schema that Jenkins publishes, and others follow, allows of what is used here; and `file`
+# and `line`, as pytest's older form has them, which others read.
 ATTRIBUTES = {
     "testsuites": {"name", "time", "tests", "failures", "disabled", "errors"},
     "testsuite": {
