@@ -31,7 +31,7 @@ from juggleproof.proofs.register import (
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
-from juggleproof.proofs.run import Options, judge_some, judge_stored
+from juggleproof.proofs.run import Options, Run, judge_some, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
@@ -156,10 +156,15 @@ def gather(register: Path = PATH) -> Contents:
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
-    before, store = load_register(register), Store(DEFAULT)
+    before = load_register(register)
     done = judge_stored(paper_claims(), Options(DEFAULT))
-    judgements, checked = done.judgements, done.outcomes
-    settle_by_rules(judgements, checked, store.texts, done.claims)
+    settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, done.claims)
+    return contents_of(done, before)
+
+
+def contents_of(done: Run, before: Register) -> Contents:
+    """The contents of a report on a run over all claims of the paper, beside a register."""
+    store, judgements, checked = Store(done.store), done.judgements, done.outcomes
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
     by_id = _judged(done.claims, judgements)
     entries = _entries(done.claims, judgements, by_id, store)
@@ -337,6 +342,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
             one.claim.section,
             one.claim.place,
             table.locator(one.claim),
+            table.source_of(one.claim),
             one.claim.says,
             one.claim.printed,
             one.claim.as_it_stands,

@@ -118,7 +118,7 @@ def table_one(
     if horizon == 0:
         raise SceneError("horizon = 0 s leaves no time to settle in")
     if not COMPILED:
-        raise SceneError("table I is computed by numba; install it with pip install -e '.[part]'")
+        raise SceneError("table I is computed by numba; install it with pip install numba")
     jobs: list[Job] = []
     angles = jittered(ensembles, seed)
     for frequency, amplitude, _ in PAPER:

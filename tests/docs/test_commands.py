@@ -46,7 +46,7 @@ ELSEWHERE = {
     **{
         f"juggleproof report --format {form} -o DIR": (
             ".ci/run",
-            "for format in html latex markdown json badge figures pdf;",
+            f"--format {form} ",
         )
         for form in ("html", "latex", "markdown", "json", "figures", "pdf")
     },
@@ -91,7 +91,9 @@ def run(command: str, page: Path, folder: Path) -> subprocess.CompletedProcess[s
     """The command, in a folder with the files that the page shows and a copy of the store."""
     for block in [*blocks(ROOT / "docs/your-own.md"), *blocks(page)]:
         if block.title:
-            (folder / block.title).write_text(block.text, encoding="utf-8")
+            path = folder / block.title
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(block.text, encoding="utf-8")
     first, *rest = shlex.split(command)
     paper = rest[:1] == ["certify"] and not (len(rest) > 1 and "." in rest[1])
     if paper:  # what is judged here must not write into the store
