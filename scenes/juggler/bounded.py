@@ -83,6 +83,9 @@ class Bounded:
     def __neg__(self) -> Bounded:
         return Bounded(-self.v, self.e)
 
+    def __abs__(self) -> Bounded:
+        return Bounded(abs(self.v), self.e)
+
     def __sub__(self, other: Bounded | int | Floats) -> Bounded:
         two = _bounded(other)
         z = self.v - two.v
