@@ -49,9 +49,9 @@ def bifurcation(alphas: Sequence[Fraction], setting: Scene, units: str, path: Pa
         ("undecided", [UNDECIDED]),
     ]:
         here = np.isin(found.which, places)
-        at = [alpha for alpha, some in zip(alphas, here.any(axis=1)) if some]
-        if at:
-            rows.append((name, str(here.sum()), str(at[0]), str(at[-1])))
+        at = np.flatnonzero(here.any(axis=1))
+        if len(at):
+            rows.append((name, str(here.sum()), str(alphas[at[0]]), str(alphas[at[-1]])))
     draw(("tends to", "orbits", "from alpha", "to alpha"), rows, Console(highlight=False))
     return _written(picture.bifurcation(setting, found, units), path)
 

@@ -49,7 +49,7 @@ from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 
 Floats: TypeAlias = NDArray[np.float64]  # of any shape, () for a single number
 Booleans: TypeAlias = NDArray[np.bool_]
-Places: TypeAlias = Booleans | slice
+Places: TypeAlias = Booleans | NDArray[np.int64] | slice
 U = 2.0**-53
 UP, TINY = 1 + 2.0**-49, 2.0**-1065
 EXACT: Floats = np.array(0.0)  # the bound of what is not rounded

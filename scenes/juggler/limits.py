@@ -2,17 +2,17 @@
 
 Let an orbit be at a state z, just before an impact, and let e be the state that comes back with the
 word of its last flights.  As long as the orbit keeps to that word, j impacts and N periods later it
-differs from the orbit of e by (-alpha)^j (p - N q, q), where (p, q) = z - e: the matrix of an impact
-and n further periods is -alpha ((1, -n - 1), (0, 1)).  With K the longest flight of the word,
-N <= j K and j alpha^j <= alpha + alpha^2 + .. = alpha/(1 - alpha), so that the entries of the
+differs from the orbit of e by (-alpha)^j (p - N q, q), where (p, q) = z - e: the matrix of an
+impact and n further periods is -alpha ((1, -n - 1), (0, 1)).  With K the longest flight of the
+word, N <= j K and j alpha^j <= alpha + alpha^2 + .. = alpha/(1 - alpha), so that the entries of the
 difference never exceed
 
     P = |p| + K alpha/(1 - alpha) |q|  and  Q = |q|,
 
 nor w - x changes by more than P + Q before an impact, and alpha (P + (n + 2) Q) n periods after
 one.  Where the orbit of e meets the conditions of its word with that much to spare, z keeps to the
-word for ever, and tends to the orbit of e.  This is decided in float64 with bounds; for states whose
-branch floats cannot tell, such as those on x = w, in exact rationals.
+word for ever, and tends to the orbit of e.  This is decided in float64 with bounds; for states
+whose branch floats cannot tell, such as those on x = w, in exact rationals.
 """
 
 from __future__ import annotations
@@ -53,7 +53,9 @@ class Room(NamedTuple, Generic[F]):
     flies: list[tuple[F, F]]
 
 
-def room(alpha: F, x: F, w: F, word: Sequence[F], longest: F, zero: F) -> Room[F]:
+def room(
+    alpha: F, x: F, w: F, word: Sequence[F] | Sequence[int], longest: F | int, zero: F
+) -> Room[F]:
     """The room of the orbit from this state, just before the impact that begins the word: it keeps
     to the word for ever, where at impacts it is > 0 and in flights >= 0.
 
@@ -89,7 +91,7 @@ def repeats(flights: NDArray[np.int64], m: int) -> Booleans:
     [[True, True], [False, False], [True, False]]
     """
     word = flights[:, -m:]
-    found = flights[:, -1] == flights[:, -1 - m]
+    found: Booleans = flights[:, -1] == flights[:, -1 - m]
     found[found] = (word[found] == flights[found, -2 * m : -m]).all(axis=1)
     for part in range(1, m // 2 + 1):
         if m % part == 0 and found.any():
@@ -247,7 +249,9 @@ class _Chunk:
             some, flights = rows[again], last[again, -m:]
             word = [Bounded(one, EXACT) for one in flights.T.astype(np.float64)]
             held = room(
-                *(part.at(some) for part in (self.alpha, self.x, self.w)),
+                self.alpha.at(some),
+                self.x.at(some),
+                self.w.at(some),
                 word,
                 Bounded(flights.max(axis=1).astype(np.float64), EXACT),
                 Bounded(np.array(0.0), EXACT),

@@ -9,11 +9,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
+from typing import TypeVar
 
+from flint import fmpq
 from sympy import Expr, Poly, Rational, cancel, factor_list, fraction, refine_root
 from sympy import intervals as isolating
 
 from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.bounded import Bounded
 from juggleproof.scenes.juggler.exact import flight, impact, strikes
 from juggleproof.scenes.juggler.given import Number, brief, counted, formulas, restitution
 from juggleproof.symbolic import normal_f1, normal_flight_power, normal_margin, solution_of
@@ -191,6 +194,7 @@ def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Ra
 # K has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one
 # that is not longer.  So for one alpha and one number of impacts the search is complete.
 
+F = TypeVar("F", Fraction, float, Bounded, fmpq)  # numbers that divide
 Word = tuple[int, ...]
 Place = tuple[Fraction, Fraction]
 LONGEST_WORD, LONGEST_FLIGHT, MOST_WORDS = 12, 10**6, 10**5
@@ -262,7 +266,7 @@ def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
     return Orbit(lengths, at, tuple(impacts), not edge)
 
 
-def returning_state(at: N, word: Sequence[N | int], zero: N) -> tuple[N, N]:
+def returning_state(at: F, word: Sequence[F] | Sequence[int], zero: F) -> tuple[F, F]:
     """The only state that the word's affine map keeps, by the images of three states; 0 is of the
     kind of alpha.
 
@@ -271,7 +275,7 @@ def returning_state(at: N, word: Sequence[N | int], zero: N) -> tuple[N, N]:
     """
     map_, one = formulas(), zero + 1
 
-    def image(place: tuple[N, N]) -> tuple[N, N]:
+    def image(place: tuple[F, F]) -> tuple[F, F]:
         for periods in word:
             place = map_.flight(*map_.impact(at, *place), periods - 1)
         return place

@@ -252,8 +252,8 @@ def how(found: Limits) -> str:
     """How the limits were found, in one line."""
     undecided = int((found.which == UNDECIDED).sum())
     return (
-        f"{found.which.size} orbits in float64 with proved bounds, {found.exact} of them also in exact"
-        f" rationals; undecided: {undecided}"
+        f"{found.which.size} orbits in float64 with proved bounds, {found.exact} of them also in"
+        f" exact rationals; undecided: {undecided}"
     )
 
 
@@ -345,9 +345,10 @@ def _bifurcation(scene: Scene, found: Limits, units: str) -> Figure:
         row = int(speed / top * ROWS)
         image[max(row - THICK // 2, 0) : row + THICK // 2, column] = _opaque(colours[place])
     up = (0.0, top)
-    if units == "physical":
-        up = tuple(float(formulas().unscaled(0, w, scene.r, scene.g)[1]) for w in map(Fraction, up))
-        image, up = image[::-1], (up[1], up[0])
+    if units == "physical":  # v = r (1 - w) runs the other way
+        r, g = float(scene.r), float(scene.g)
+        low, high = (formulas().unscaled(0.0, w, r, g)[1] for w in (top, 0.0))
+        image, up = image[::-1], (low, high)
     step = (found.alphas[-1] - found.alphas[0]) / (len(found.alphas) - 1) / 2
     across = float(found.alphas[0] - step), float(found.alphas[-1] + step)
     starts = scene.starts.count
