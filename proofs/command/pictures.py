@@ -37,7 +37,8 @@ def basin(setting: Scene, units: str, path: Path) -> int:
 
 
 def bifurcation(alphas: Sequence[Fraction], setting: Scene, units: str, path: Path) -> int:
-    """What the orbits of the starts tend to at each alpha."""
+    """What the orbits of the starts tend to at each alpha; SceneError for fewer than two."""
+    picture.refuse_one(alphas)
     found = _followed(alphas, setting)
     print(f"{len(alphas)} alpha, from {alphas[0]} to {alphas[-1]}: {picture.how(found)}")
     equal = sorted((word, k) for k, word in enumerate(found.words) if len(word) == 1)
