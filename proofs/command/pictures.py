@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
-import numpy as np
 from rich.console import Console
 
 from juggleproof.proofs.command.outputs import clear, progress, written_aside
@@ -26,7 +24,7 @@ def basin(setting: Scene, units: str, path: Path) -> int:
     """The basins of the periodic orbits, over a grid."""
     picture.grid_of(setting)
     found = _followed([setting.alpha], setting)
-    counts = Counter(found.which.ravel().tolist())
+    counts = found.counts()
     rows = [
         (_called(found, place), str(count), picture.percent(count, counts.total()))
         for place, count in sorted(counts.items(), key=lambda one: (-one[1], one[0]))
@@ -49,10 +47,9 @@ def bifurcation(alphas: Sequence[Fraction], setting: Scene, units: str, path: Pa
         (f"unequal flights, {len(unequal)} words", unequal),
         ("undecided", [UNDECIDED]),
     ]:
-        here = np.isin(found.which, places)
-        at = np.flatnonzero(here.any(axis=1))
-        if len(at):
-            rows.append((name, str(here.sum()), str(alphas[at[0]]), str(alphas[at[-1]])))
+        span = found.span(places)
+        if span is not None:
+            rows.append((name, *map(str, span)))
     draw(("tends to", "orbits", "from alpha", "to alpha"), rows, Console(highlight=False))
     return _written(picture.bifurcation(setting, found, units), path)
 

@@ -17,7 +17,8 @@ whose branch floats cannot tell, such as those on x = w, in exact rationals.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Generic, NamedTuple, TypeVar
@@ -30,7 +31,6 @@ from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.bounded import EXACT, Booleans, Bounded, certain_flights
 from juggleproof.scenes.juggler.exact import Exact, as_fraction, lifted
 from juggleproof.scenes.juggler.given import formulas, nearest
-from juggleproof.scenes.juggler.orbits import Report
 from juggleproof.scenes.juggler.periodic import Place, Word, returning_state
 from juggleproof.scenes.juggler.starts import Starts
 from juggleproof.scenes.juggler.track import certain_flight
@@ -41,6 +41,7 @@ from juggleproof.scenes.juggler.track import certain_flight
 F = TypeVar("F", Bounded, fmpq)  # numbers: floats with bounds, or python-flint's rationals
 LONGEST = 128  # flights of a word
 UNDECIDED = -1
+Report = Callable[[int, int], None]  # how many orbits are done, of how many
 
 
 class Room(NamedTuple, Generic[F]):
@@ -136,6 +137,18 @@ class Limits:
         if name not in self.words:
             self.words.append(name)
         return self.words.index(name)
+
+    def counts(self) -> Counter[int]:
+        """How many orbits tend to each place; -1: undecided."""
+        return Counter(self.which.ravel().tolist())
+
+    def span(self, places: Sequence[int]) -> tuple[int, Fraction, Fraction] | None:
+        """How many orbits tend to one of these places, and the first and the last alpha at which
+        any does; None where none does.
+        """
+        here = np.isin(self.which, places)
+        at = np.flatnonzero(here.any(axis=1))
+        return (int(here.sum()), self.alphas[at[0]], self.alphas[at[-1]]) if len(at) else None
 
 
 def limits(alphas: Iterable[Fraction], starts: Starts, report: Report | None = None) -> Limits:

@@ -16,7 +16,6 @@ from sympy import Expr, Poly, Rational, cancel, factor_list, fraction, refine_ro
 from sympy import intervals as isolating
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.bounded import Bounded
 from juggleproof.scenes.juggler.exact import flight, impact, strikes
 from juggleproof.scenes.juggler.given import Number, brief, counted, formulas, restitution
 from juggleproof.symbolic import normal_f1, normal_flight_power, normal_margin, solution_of
@@ -194,7 +193,8 @@ def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Ra
 # K has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one
 # that is not longer.  So for one alpha and one number of impacts the search is complete.
 
-F = TypeVar("F", Fraction, float, Bounded, fmpq)  # numbers that divide
+# numbers that divide; python-flint has no types, so that floats with bounds are of its kind here
+F = TypeVar("F", Fraction, float, fmpq)
 Word = tuple[int, ...]
 Place = tuple[Fraction, Fraction]
 LONGEST_WORD, LONGEST_FLIGHT, MOST_WORDS = 12, 10**6, 10**5

@@ -222,7 +222,7 @@ def _basin(scene: Scene, grid: Grid, found: Limits, units: str) -> Figure:
         image, low, high = image[::-1], (low[0], high[1]), (high[0], low[1])
     half = [(b - a) / (count - 1) / 2 for a, b, count in zip(low, high, shape)]
     across, up = ((a - step, b + step) for a, b, step in zip(low, high, half))
-    counts = Counter(found.which.ravel().tolist())
+    counts = found.counts()
     colours, keys = palette(found.words, counts)
     plane = _plane(
         (520, 400),
@@ -336,7 +336,7 @@ def speeds(alpha: Fraction, word: Word) -> list[float]:
 
 
 def _bifurcation(scene: Scene, found: Limits, units: str) -> Figure:
-    colours, keys = palette(found.words, Counter(found.which.ravel().tolist()), ())
+    colours, keys = palette(found.words, found.counts(), ())
     points = [
         (column, place, speed)
         for column, row in enumerate(found.which)
