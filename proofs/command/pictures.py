@@ -11,6 +11,7 @@ from rich.console import Console
 from juggleproof.proofs.command.outputs import clear, progress, written_aside
 from juggleproof.proofs.reports.tables import draw
 from juggleproof.scenes.juggler import picture
+from juggleproof.scenes.juggler.given import brief
 from juggleproof.scenes.juggler.limits import UNDECIDED, Limits, limits
 from juggleproof.scenes.juggler.starts import Scene
 
@@ -29,7 +30,7 @@ def basin(setting: Scene, units: str, path: Path) -> int:
         (_called(found, place), str(count), picture.percent(count, counts.total()))
         for place, count in sorted(counts.items(), key=lambda one: (-one[1], one[0]))
     ]
-    print(f"alpha = {setting.alpha}: {picture.how(found)}")
+    print(f"alpha = {brief(setting.alpha)}: {picture.how(found)}")
     draw(("tends to", "states", "share"), rows, Console(highlight=False))
     return _written(picture.basin(setting, found, units), path)
 
@@ -38,7 +39,9 @@ def bifurcation(alphas: Sequence[Fraction], setting: Scene, units: str, path: Pa
     """What the orbits of the starts tend to at each alpha; SceneError for fewer than two."""
     picture.refuse_one(alphas)
     found = _followed(alphas, setting)
-    print(f"{len(alphas)} alpha, from {alphas[0]} to {alphas[-1]}: {picture.how(found)}")
+    print(
+        f"{len(alphas)} alpha, from {brief(alphas[0])} to {brief(alphas[-1])}: {picture.how(found)}"
+    )
     equal = sorted((word, k) for k, word in enumerate(found.words) if len(word) == 1)
     unequal = [k for k, word in enumerate(found.words) if len(word) > 1]
     rows = []
@@ -49,7 +52,7 @@ def bifurcation(alphas: Sequence[Fraction], setting: Scene, units: str, path: Pa
     ]:
         span = found.span(places)
         if span is not None:
-            rows.append((name, *map(str, span)))
+            rows.append((name, *map(brief, span)))
     draw(("tends to", "orbits", "from alpha", "to alpha"), rows, Console(highlight=False))
     return _written(picture.bifurcation(setting, found, units), path)
 

@@ -356,6 +356,14 @@ def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
     return 49 * count + ROUND_MEMORY + (32 * count * (steps + 1) if keep else 0)
 
 
+def refuse_flushing() -> None:
+    """SceneError on a processor whose floats have no gradual underflow."""
+    if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
+        raise SceneError(
+            "this processor is set to flush small floats to 0, under which no bound holds"
+        )
+
+
 def follow_fast(
     scene: Scene,
     goal: Goal,
@@ -366,10 +374,7 @@ def follow_fast(
     """Follows all orbits of the scene, chunk by chunk, in place; SceneError on a processor whose
     floats have no gradual underflow.
     """
-    if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
-        raise SceneError(
-            "this processor is set to flush small floats to 0, under which no bound holds"
-        )
+    refuse_flushing()
     count = scene.starts.count
     fixed = [Bounded.of(part) for part in formulas().fixed(scene.alpha)]
     with np.errstate(all="ignore"):

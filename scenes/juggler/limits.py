@@ -28,7 +28,14 @@ from flint import fmpq
 from numpy.typing import NDArray
 
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.bounded import EXACT, Booleans, Bounded, certain_flights
+from juggleproof.scenes.juggler.bounded import (
+    EXACT,
+    MOST_PERIODS,
+    Booleans,
+    Bounded,
+    certain_flights,
+    refuse_flushing,
+)
 from juggleproof.scenes.juggler.exact import Exact, as_fraction, lifted
 from juggleproof.scenes.juggler.given import formulas, nearest
 from juggleproof.scenes.juggler.periodic import Place, Word, returning_state
@@ -166,6 +173,7 @@ def limits(alphas: Iterable[Fraction], starts: Starts, report: Report | None = N
             f"{starts.count} starts at {len(found)} alpha are outside 1 .. {MOST_STATES} orbits;"
             " give fewer"
         )
+    refuse_flushing()
     result = Limits(found, np.full((len(found), starts.count), UNDECIDED))
     numbers = np.array([nearest(alpha) for alpha in found]).T
     x, w, error_x, error_w = starts.block(0, starts.count)
@@ -211,8 +219,8 @@ class _Chunk:
                 break
             self._round(count in TESTS)
             if report is not None and count % 64 == 0:
-                total = self.found.which.size
-                report(int(self.at[0]) if len(self.at) else total, total)
+                which = self.found.which
+                report(int(np.count_nonzero(which != UNDECIDED)), which.size)
         return self.unsure
 
     def _round(self, test: bool) -> None:
@@ -269,7 +277,9 @@ class _Chunk:
                 Bounded(flights.max(axis=1).astype(np.float64), EXACT),
                 Bounded(np.array(0.0), EXACT),
             )
-            sure = np.all([one.is_positive() for one in held.strikes], axis=0)
+            sure = flights.max(axis=1) < MOST_PERIODS  # which are whole floats
+            for one in held.strikes:
+                sure &= one.is_positive()
             for one, pair in zip(flights.T, held.flies):
                 sure &= (one == 1) | (pair[0].is_positive() & pair[1].is_positive())
             known[some[sure]] = True

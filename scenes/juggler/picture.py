@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from math import ceil, floor, log10
+from math import ceil, floor, inf, log10
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -19,7 +19,7 @@ from juggleproof.scenes.figures.arcs import straight
 from juggleproof.scenes.figures.drawing import Plane, Sides, blank, style, svg, ticks
 from juggleproof.scenes.figures.look import B1, B2, BAND, GAIN, INK, KEPT, LOSS, R
 from juggleproof.scenes.figures.ours import CLOSING, HEIGHT
-from juggleproof.scenes.juggler.given import formulas
+from juggleproof.scenes.juggler.given import brief, formulas
 from juggleproof.scenes.juggler.limits import UNDECIDED, Limits
 from juggleproof.scenes.juggler.orbits import heights
 from juggleproof.scenes.juggler.periodic import Word, exists_for, returning_state
@@ -65,6 +65,12 @@ def _plane(
     """A plane in a new figure of this size in points, so much of it left free at the right and at
     the bottom; a title of two lines.
     """
+    for low, high in (across, up):
+        if not 1e-9 * max(abs(low), abs(high)) < high - low < inf:
+            raise SceneError(
+                f"from {low:g} to {high:g} cannot be drawn; give ends that are further apart, or"
+                " nearer to 0"
+            )
     width, height = size
     box = (
         LEFT / width,
@@ -123,10 +129,23 @@ def _shown(word: Word) -> str:
     return f"$e_{{{word[0]}}}$" if len(word) == 1 else name(word)
 
 
+def _setting(scene: Scene, units: str) -> str:
+    """The restitution, and in physical units launch speed and gravity."""
+    text = rf"$\alpha = ${brief(scene.alpha)}"
+    if units == "physical":
+        text += rf", $\dot\rho_0 = ${brief(scene.r)}, $\gamma = ${brief(scene.g)}"
+    return text
+
+
 def _on_white(draw: Callable[[], Figure], slug: str) -> bytes:
-    """The picture as SVG, on white, so that it can be read on a dark page."""
-    with style(**{"figure.facecolor": "white", "savefig.facecolor": "white"}):
-        figure = draw()
+    """The picture as SVG, on white, so that it can be read on a dark page; SceneError for what is
+    beyond the floats.
+    """
+    with style():
+        try:
+            figure = draw()
+        except OverflowError:
+            raise SceneError("numbers beyond 10^308 cannot be drawn; give smaller ones") from None
     figure.set_facecolor("white")
     return svg(figure, slug)
 
@@ -163,7 +182,7 @@ def _orbit(scene: Scene, periods: int, units: str) -> Figure:
         (0, last),
         (-0.02 * top, top),
         (
-            rf"Ball and table over {periods} periods at $\alpha = {scene.alpha}$",
+            f"Ball and table over {periods} periods at {_setting(scene, units)}",
             "heights from exact rational states; dots: the samples, when the table is lowest",
         ),
     )
@@ -229,7 +248,7 @@ def _basin(scene: Scene, grid: Grid, found: Limits, units: str) -> Figure:
         130,
         across,
         up,
-        (rf"What the orbit of each state tends to, at $\alpha = {scene.alpha}$", how(found)),
+        (f"What the orbit of each state tends to, at {_setting(scene, units)}", how(found)),
     )
     tinted = np.array(
         [[255 - 0.75 * (255 - 255 * part) for part in to_rgb(one)] for one in colours]

@@ -280,6 +280,10 @@ WRONG = {
         ["--boundary", "9", "--picture", "bifurcation", "-o", "b.svg"],
         "--boundary depends on alpha; give --state, --grid or --random",
     ),
+    "beyond the floats": (
+        ["--alpha", "1/3", "--state", "x=10^400,w=0", *PICTURE],
+        "numbers beyond 10^308 cannot be drawn; give smaller ones",
+    ),
     "many periods": ([*START, *PICTURE, "--steps", "50"], "give from 1 to 40"),
     "many balls": (
         ["--alpha", "1/3", "--random", "9", *PICTURE],

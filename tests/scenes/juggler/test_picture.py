@@ -106,5 +106,8 @@ def test_rejects_what_makes_no_picture() -> None:
         picture.orbit(scene(HALF, grid((0, 1, 4), (0, 1, 4))), 5, "normal")
     with pytest.raises(SceneError, match="give --grid"):
         picture.basin(one, limits([HALF], one.starts), "normal")
+    narrow = scene(HALF, grid((1, 1 + Fraction(1, 10**20), 3), (0, 1, 3)))
+    with pytest.raises(SceneError, match="from 1 to 1 cannot be drawn; give ends that are further"):
+        picture.basin(narrow, limits([HALF], narrow.starts), "normal")
     with pytest.raises(SceneError, match="give --alpha FROM:TO:COUNT"):
         picture.bifurcation(one, limits([HALF], one.starts), "normal")
