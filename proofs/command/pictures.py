@@ -36,8 +36,7 @@ def basin(setting: Scene, units: str, path: Path) -> int:
 
 
 def bifurcation(alphas: Sequence[Fraction], setting: Scene, units: str, path: Path) -> int:
-    """What the orbits of the starts tend to at each alpha; SceneError for fewer than two."""
-    picture.refuse_one(alphas)
+    """What the orbits of the starts tend to at each alpha, at least two."""
     found = _followed(alphas, setting)
     print(
         f"{len(alphas)} alpha, from {brief(alphas[0])} to {brief(alphas[-1])}: {picture.how(found)}"

@@ -15,7 +15,7 @@ from juggleproof.proofs.command.outputs import clear, fault_of, progress, writte
 from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.tables import components, exact
 from juggleproof.scenes.errors import SceneError
-from juggleproof.scenes.juggler.given import restitution
+from juggleproof.scenes.juggler.given import counted, restitution
 from juggleproof.scenes.juggler.orbits import Orbits, prepare
 from juggleproof.scenes.juggler.starts import (
     Axis,
@@ -297,6 +297,7 @@ PICTURES: dict[str, dict[str, str | int]] = {
     "basin": {"grid": "x=0:8:400,w=-6:6:400"},
     "bifurcation": {"random": 100, "alpha": "1/400:399/400:399"},
 }
+MOST_ALPHAS = 2000  # columns of a picture
 _OR = "orbit, basin or bifurcation"
 # what only tables have, with the value that an option has which is not given
 OF_TABLES = {
@@ -328,14 +329,16 @@ def _picture(options: JugglerOptions, wanted: str) -> int:
 
     given = any(getattr(options, name) is not None for name in STARTS)
     for name, value in PICTURES[wanted].items():
-        if options.alpha is None if name == "alpha" else not given:
+        if getattr(options, name) is None and (name == "alpha" or not given):
             setattr(options, name, value)
     if options.alpha is None:
         raise ClaimError(NO_ALPHA)
     if wanted == "bifurcation":
         if options.boundary is not None:
             raise ClaimError("--boundary depends on alpha; give --state, --grid or --random")
-        alphas = [*axis(*_axis(options.alpha, "--alpha", 3), "alpha")]
+        low, high, count = _axis(options.alpha, "--alpha", 3)
+        counted(count, "the number of alpha", 2, MOST_ALPHAS)
+        alphas = [*axis(low, high, count, "alpha")]
         setting = scene(alphas[0], starts(options, alphas[0]), *_units(options))
         restitution(alphas[-1])
         return pictures.bifurcation(alphas, setting, units, path)

@@ -51,7 +51,7 @@ UNDECIDED = -1
 Report = Callable[[int, int], None]  # how many orbits are done, of how many
 
 
-class Room(NamedTuple, Generic[F]):
+class Slack(NamedTuple, Generic[F]):
     """What an orbit and all that follows it have to spare: at each impact of its word, and in the
     first and in the last period of the flight after it; the latter two mean nothing where the
     flight is of one period.
@@ -61,14 +61,14 @@ class Room(NamedTuple, Generic[F]):
     flies: list[tuple[F, F]]
 
 
-def room(
+def slack(
     alpha: F, x: F, w: F, word: Sequence[F] | Sequence[int], longest: F | int, zero: F
-) -> Room[F]:
-    """The room of the orbit from this state, just before the impact that begins the word: it keeps
+) -> Slack[F]:
+    """The least slack of the orbit from this state, just before the impact that begins the word: it keeps
     to the word for ever, where at impacts it is > 0 and in flights >= 0.
 
     >>> half, two = fmpq(1, 2), fmpq(2)
-    >>> held = room(half, fmpq(4, 9), fmpq(8, 3), [two], two, fmpq(0))
+    >>> held = slack(half, fmpq(4, 9), fmpq(8, 3), [two], two, fmpq(0))
     >>> str(held.strikes[0]), [str(one) for one in held.flies[0]]
     ('20/9', ['4/9', '4/9'])
     """
@@ -76,7 +76,7 @@ def room(
     here = returning_state(alpha, word, zero)
     q = abs(w - here[1])
     p = abs(x - here[0]) + longest * alpha / (1 - alpha) * q
-    found: Room[F] = Room([], [])
+    found: Slack[F] = Slack([], [])
     for periods in word:
         found.strikes.append(map_.margin(*here) - p - q)
         struck = map_.impact(alpha, *here)
@@ -269,7 +269,7 @@ class _Chunk:
                 continue
             some, flights = rows[again], last[again, -m:]
             word = [Bounded(one, EXACT) for one in flights.T.astype(np.float64)]
-            held = room(
+            held = slack(
                 self.alpha.at(some),
                 self.x.at(some),
                 self.w.at(some),
@@ -308,7 +308,7 @@ def _exactly(found: Limits, at: int, start: Place) -> Place | None:
             for m in range(1, len(flights) // 2 + 1):
                 word = flights[-m:]
                 if repeats(np.array([flights]), m)[0] and _keeps(
-                    room(alpha, *here, word, max(word), fmpq(0)), word
+                    slack(alpha, *here, word, max(word), fmpq(0)), word
                 ):
                     found.which.flat[at] = found.place(tuple(word))
                     return None
@@ -316,7 +316,7 @@ def _exactly(found: Limits, at: int, start: Place) -> Place | None:
     return as_fraction(here[0]), as_fraction(here[1])
 
 
-def _keeps(held: Room[fmpq], word: Sequence[int]) -> bool:
+def _keeps(held: Slack[fmpq], word: Sequence[int]) -> bool:
     return min(held.strikes) > 0 and all(
         periods == 1 or min(pair) >= 0 for periods, pair in zip(word, held.flies)
     )

@@ -326,17 +326,12 @@ ROWS, THICK = 480, 4  # of the image, and of a point
 SHARES = 60.0  # the height of the panel below, in points
 
 
-def refuse_one(alphas: Sequence[Fraction]) -> None:
-    """SceneError for fewer than two alpha."""
-    if len(alphas) < 2:
-        raise SceneError("one alpha makes no picture; give --alpha FROM:TO:COUNT")
-
-
 def bifurcation(scene: Scene, found: Limits, units: str) -> bytes:
     """Closing speeds at the impacts of the orbits that any start tends to, against alpha, and below
     the share of the starts, as SVG; SceneError for fewer than two alpha.
     """
-    refuse_one(found.alphas)
+    if len(found.alphas) < 2:
+        raise SceneError("one alpha makes no picture; give two at least")
     return _on_white(lambda: _bifurcation(scene, found, units), "bifurcation")
 
 

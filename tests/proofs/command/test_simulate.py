@@ -270,7 +270,7 @@ WRONG = {
     ),
     "bifurcation of one alpha": (
         ["--alpha", "1/3:1/2:1", "--picture", "bifurcation", "-o", "b.svg"],
-        "one alpha makes no picture; give --alpha FROM:TO:COUNT",
+        "the number of alpha = 1 is not a whole number from 2 to 2000",
     ),
     "bifurcation beyond 1": (
         ["--alpha", "1/3:2:5", "--picture", "bifurcation", "-o", "b.svg"],

@@ -67,7 +67,7 @@ def test_matrix_of_an_impact_and_its_flight_is_the_derived_holds() -> None:
     periods=st.integers(1, 4),
     away=st.tuples(*[st.fractions(-1, 1, max_denominator=50)] * 2),
 )
-def test_an_orbit_with_room_keeps_to_its_word_holds(
+def test_an_orbit_with_slack_keeps_to_its_word_holds(
     number: Fraction, periods: int, away: tuple[Fraction, Fraction]
 ) -> None:
     here = orbit_of((periods,), number)
@@ -77,16 +77,16 @@ def test_an_orbit_with_room_keeps_to_its_word_holds(
     if not 0 <= state[0] < state[1]:
         return
     at, *place = (fmpq(part.numerator, part.denominator) for part in (number, *state))
-    held = limits.room(at, *place, [periods], periods, fmpq(0))
+    held = limits.slack(at, *place, [periods], periods, fmpq(0))
     keeps = held.strikes[0] > 0 and (periods == 1 or min(held.flies[0]) >= 0)
     flights = flights_of(number, impact(number, state[0], state[1]), 30)
     assert not keeps or flights == [periods] * 30
 
 
-def test_room_is_found_beside_an_orbit_and_not_far_from_it_holds() -> None:
+def test_slack_is_found_beside_an_orbit_and_not_far_from_it_holds() -> None:
     at = fmpq(1, 2)
-    assert min(limits.room(at, fmpq(1, 2), fmpq(8, 3), [2], 2, fmpq(0)).flies[0]) > 0
-    assert min(limits.room(at, fmpq(0), fmpq(1), [2], 2, fmpq(0)).flies[0]) < 0
+    assert min(limits.slack(at, fmpq(1, 2), fmpq(8, 3), [2], 2, fmpq(0)).flies[0]) > 0
+    assert min(limits.slack(at, fmpq(0), fmpq(1), [2], 2, fmpq(0)).flies[0]) < 0
 
 
 def test_an_orbit_that_has_not_settled_is_undecided_holds(monkeypatch: pytest.MonkeyPatch) -> None:

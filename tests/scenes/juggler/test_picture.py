@@ -109,5 +109,5 @@ def test_rejects_what_makes_no_picture() -> None:
     narrow = scene(HALF, grid((1, 1 + Fraction(1, 10**20), 3), (0, 1, 3)))
     with pytest.raises(SceneError, match="from 1 to 1 cannot be drawn; give ends that are further"):
         picture.basin(narrow, limits([HALF], narrow.starts), "normal")
-    with pytest.raises(SceneError, match="give --alpha FROM:TO:COUNT"):
+    with pytest.raises(SceneError, match="one alpha makes no picture; give two at least"):
         picture.bifurcation(one, limits([HALF], one.starts), "normal")
