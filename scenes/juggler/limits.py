@@ -64,8 +64,8 @@ class Slack(NamedTuple, Generic[F]):
 def slack(
     alpha: F, x: F, w: F, word: Sequence[F] | Sequence[int], longest: F | int, zero: F
 ) -> Slack[F]:
-    """The least slack of the orbit from this state, just before the impact that begins the word: it keeps
-    to the word for ever, where at impacts it is > 0 and in flights >= 0.
+    """The least slack of the orbit from this state, just before the impact that begins the word: it
+    keeps to the word for ever, where the slack is > 0 at impacts and >= 0 in flights.
 
     >>> half, two = fmpq(1, 2), fmpq(2)
     >>> held = slack(half, fmpq(4, 9), fmpq(8, 3), [two], two, fmpq(0))
