@@ -43,10 +43,11 @@ docs: $(VENV)/tools
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-docs.lock
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 
-# README's picture: the figure of the report, on white, so that it can be read on a dark page.
+# The pictures of README and of docs; the figure of the report on white, so that it can be read on a dark page.
 figure: $(VENV)/tools
 	$(BIN)/juggleproof report --format figures -o build > /dev/null
 	sed '0,/fill: none/s//fill: #ffffff/' build/figures/fig-trap.svg > docs/img/fig-trap.svg
+	$(BIN)/juggleproof simulate juggler --picture bifurcation -o docs/img/bifurcation.svg
 
 # What certifying needs, and no more.
 $(VENV)/installed: pyproject.toml requirements.lock

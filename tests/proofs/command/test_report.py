@@ -52,9 +52,7 @@ def test_several_formats_are_made_from_claims_judged_once_holds(
     assert run(["report", *given]) == 0 and len(judged) == 1
     names = ["juggleproof.json", "juggleproof-badge.json", "juggleproof.md"]
     assert capsys.readouterr().out.splitlines() == [str(tmp_path / name) for name in names]
-    assert "--format word: choose from" in fault(
-        capsys, "--format", "json", "--format", "word"
-    )
+    assert "--format word: choose from" in fault(capsys, "--format", "json", "--format", "word")
 
 
 def test_rejects_a_folder_that_cannot_be_made(
