@@ -181,6 +181,44 @@ def differences(printed: str, mended: str) -> list[str]:
     return found
 
 
+# What a change says to a reader of the print, who counts no columns: the corrected formula shows
+# where.
+NOTES = (
+    (r"(?:(dot|bar): put over|(prime): put after) (\S+)", r"\1\2 restored on \3"),
+    (r"index: (\S+) put after (\S+)", r"index \1 restored after \2"),
+    (r"index: (\S+) to (\S+)", r"index \1 replaced by \2"),
+    (r"sign: turned", "sign turned"),
+    (r"sign: minus put", "minus sign restored"),
+    (r"exponent: brought down", "exponent brought down to the line"),
+    (r"exponent: (\S+) put", r"exponent \1 restored"),
+    (r"half: put|\\frac\{1\}\{2\} added", "half restored"),
+    (r"half: (\S+) dropped", r"factor \1 dropped"),
+    (r"(dot|bar|prime|index|exponent|half): dropped", r"\1 dropped"),
+    (r"swap: (\S+) and (\S+)", r"\1 and \2 exchanged"),
+    (r"_\{?(\w+)\}? (added|dropped)", r"index \1 \2"),
+    (r"\^\{?(\w+)\}? (added|dropped)", r"exponent \1 \2"),
+    (r"- (added|dropped)", r"minus sign \1"),
+    (r"(?:(?:letter|strictness): )?(\S+) to (\S+)", r"\1 replaced by \2"),
+)
+
+
+def note_of(change: str) -> str:
+    r"""A candidate's change, in the words of mathematics.
+
+    >>> note_of("half: put at column 18"), note_of("marks: H to B; _1 added")
+    ('half restored', 'H replaced by B; index 1 added')
+    >>> note_of("swap: y and x at columns 4 and 7"), note_of("a true assertion nearby")
+    ('y and x exchanged', 'a true assertion nearby')
+    """
+
+    def noted(part: str) -> str:
+        matches = ((re.fullmatch(pattern, part), words) for pattern, words in NOTES)
+        return next((match.expand(words) for match, words in matches if match), part)
+
+    marks = re.sub(r" at columns? \d+( and \d+)?$", "", change).removeprefix("marks: ")
+    return "; ".join(map(noted, marks.split("; ")))
+
+
 def _printed_right(claim: Claim) -> Value | None:
     """The printed right-hand side in the names of the claim's vocabulary, where those suffice to
     read it.

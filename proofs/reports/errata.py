@@ -16,6 +16,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Argument, Claim, Readings, Remark, stated_texts
+from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.evaluating import numbers_at, value_at
 from juggleproof.proofs.judgement import Correction, Finding
 from juggleproof.proofs.ledger.places import place_of
@@ -224,7 +225,7 @@ def rows_of(
     correction = finding.get("correction")
     if correction:
         rows.append(Row("correction", correction["text"], latex=is_latex(correction)))
-        change = correction["change"]
+        change = note_of(correction["change"])
         rows.append(Row("", change, code="\\" in change or "=" in change))
     elif entry["verdict"] in ("misprint", "false"):
         rows.append(Row("correction", "none found"))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from html import escape
 
-from juggleproof.proofs.reports.latex import glyph, latex_of
+from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.mathml import mathml
 from juggleproof.proofs.reports.words import WORDS, parts_of, pieces
 
@@ -83,15 +83,14 @@ def shown(text: str, longest: int) -> str:
     return formula(text) if len(text) <= longest else f"<code>{escape(text, quote=False)}</code>"
 
 
+MARK = re.compile(r"(\\[A-Za-z]+(?:\{[^{}]*\})*(?:_\w)?|\b[A-Za-z]\b|[<>])")
+
+
 def change(text: str) -> str:
-    """What a correction changes: LaTeX commands in it as what they stand for; as code where several
-    marks change, which need not be formulas.
-    """
-    if text.startswith("marks: "):
-        return f"marks: <code>{escape(text.removeprefix('marks: '), quote=False)}</code>"
+    """What a correction changes: the letters and signs in it as formulas."""
     return "".join(
-        mathml(part) if part.startswith("\\") else escape(part, quote=False)
-        for part in re.split(r"(\\[A-Za-z]+)", text)
+        mathml(part) if i % 2 else escape(part, quote=False)
+        for i, part in enumerate(MARK.split(text))
     )
 
 
@@ -110,14 +109,14 @@ def ranged(sentence: str) -> str:
     """
     shown, at = "", 0
     for match in RANGE.finditer(sentence):
-        shown += escape(sentence[at : match.start()], quote=False)
+        shown += prose(sentence[at : match.start()])
         kind, text, at = str(match.lastgroup), str(match.group(match.lastgroup or 0)), match.end()
         if kind == "point":
             name, _, value = text.partition(" = ")
             shown += f"{mathml(glyph(name))} = {value}"
         else:
             shown += f"a root of {polynomial(text)}" if kind == "polynomial" else formula(text)
-    return shown + escape(sentence[at:], quote=False)
+    return shown + prose(sentence[at:])
 
 
 def polynomial(text: str) -> str:
@@ -274,6 +273,83 @@ def chained(parts: Sequence[str]) -> list[str]:
         else:
             chain.append(part)
     return chain
+
+
+# -------------------------------------------------------------------------------------------------
+# What the letters of a statement stand for.
+
+LETTERS = {  # names in statements that the notation lacks -> what they stand for
+    "beta0": "height of the ball in another state, b_0",
+    "v0": "velocity of the ball in b_0",
+    "beta1": "height of the ball in a third state",
+    "v1": "velocity of the ball in that state",
+    "z1": "height of the ball less that of e_1",
+    "z2": "velocity of the ball less that of e_1",
+    "rho": "height of the table",
+    "chi": "height of the ball above the table",
+    "chi_dot": "velocity of the ball relative to the table",
+    "chi_after": "height of the ball above the table after the impact",
+    "chi_dot_after": "velocity of the ball relative to the table after the impact",
+    "flown": "time since the launch",
+    "lam": "Lagrange's multiplier",
+    "mu": "coefficient of friction",
+    "sigma": "direction of sliding, 1 or -1",
+    "S0": "sliding velocity of the corner before the impact",
+    "C0": "velocity of the corner towards the table before the impact",
+    "B1": "what an impulse along the table adds to the sliding velocity",
+    "B2": "what an impulse upwards adds to the upward velocity",
+    "B3": "what either impulse takes from the other velocity",
+    "e": "restitution of the part",
+    "J": "moment of inertia of the part, over its mass",
+    "x_c": "place of the corner along the table, from the centre of mass",
+    "y_c": "height of the corner, from the centre of mass",
+    "c_x": "velocity of the centre of mass along the table",
+    "c_y": "upward velocity of the centre of mass",
+    "omega": "turning rate",
+    "P_x": "impulse along the table",
+    "P_y": "impulse upwards",
+    "dE_dbeta": "slope of Delta_1 E with the height",
+    "dE_dv": "slope of Delta_1 E with the velocity",
+    "dR_dbeta": "slope of R(b) with the height",
+    "dR_dv": "slope of R(b) with the velocity",
+}
+WHOLE = ("whole number", "whole numbers")  # of one letter, and of several
+ANY = ("any number that meets what is given", "any numbers that meet what is given")
+
+
+def letters_of(texts: Sequence[str], with_notation: bool = True) -> list[tuple[str, str]]:
+    """Each letter of the statements with its meaning; those without one are whole numbers, or any
+    numbers, for which the statement holds or fails.
+    """
+    lines = [line.partition(" ")[::2] for text in texts for line in text.splitlines()]
+    listed = {
+        keyword: {name: 0 for word, names in lines if word == keyword for name in names.split()}
+        for keyword in ("forall", "exists", "over", "state", "integer")
+    }
+    names = {name: 0 for some in listed.values() for name in some}
+    notation = {name for name, _, meaning in NOTATION if meaning and is_meant(name, names)}
+    whole = [name for name in listed["integer"] if name not in notation]
+    known = letters([name for name in names if name not in whole], with_notation)
+    free = [name for name in names if name not in {*LETTERS, *notation, *whole}]
+    for some, meanings in ((whole, WHOLE), (free, ANY)):
+        if some:
+            known.append((mathml(", ".join(map(glyph, some))), meanings[len(some) > 1]))
+    return known
+
+
+def letters(names: Collection[str], with_notation: bool = True) -> list[tuple[str, str]]:
+    """Those of the names that have a meaning throughout, as markup, with it."""
+    notation = {name: meaning for name, _, meaning in NOTATION if with_notation and meaning}
+    return [
+        (mathml(glyph(name)), meaning)
+        for name, meaning in {**notation, **LETTERS}.items()
+        if name in names and is_meant(name, names)
+    ]
+
+
+def is_meant(name: str, names: Collection[str]) -> bool:
+    """Whether a name stands for what the notation says: x, w and u do so together only."""
+    return name not in ("x", "w", "u") or {"x", "w"} <= set(names)
 
 
 # -------------------------------------------------------------------------------------------------

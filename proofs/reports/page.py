@@ -5,6 +5,8 @@ from __future__ import annotations
 import inspect
 import json
 import re
+import zlib
+from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -12,6 +14,7 @@ from pathlib import Path
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
+from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown
@@ -21,7 +24,9 @@ from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.markup import Chip, Node, picture
 from juggleproof.proofs.reports.mathml import mathml
+from juggleproof.proofs.reports.opening import PROOF, motion, opening
 from juggleproof.proofs.reports.part import HEADS, Results
+from juggleproof.proofs.reports.tex_words import SYMBOLS
 from juggleproof.scenes.figures.look import inline_svg
 
 # -------------------------------------------------------------------------------------------------
@@ -157,6 +162,7 @@ class ClaimView:
     why: str
     sharp: str
     steps: Sequence[tuple[str, str]]  # title, anchor
+    letters: Sequence[tuple[str, str]]
     shared: Sequence[markup.Row]
     statements: Sequence[Statement]
     note: str
@@ -176,6 +182,11 @@ class ClaimView:
         return list(by_values.values())
 
     @property
+    def own_letters(self) -> list[tuple[str, str]]:
+        """The letters of the first counterexample that the notation lacks."""
+        return markup.letters_of([one.text for one in self.refuted[:1]], with_notation=False)
+
+    @property
     def outcomes(self) -> str:
         """How many statements came to which outcome."""
         counts = {
@@ -190,7 +201,7 @@ def view_of(entry: Entry) -> ClaimView:
     claim, corrected, change = entry.claim, "", ""
     shared = shared_lines(entry.statements)
     if entry.correction:
-        text, change = entry.correction["text"], entry.correction["change"]
+        text, change = entry.correction["text"], note_of(entry.correction["change"])
         latex = is_latex(entry.correction)
         corrected = mathml(text, block=True) if latex else markup.prose(text)
     return ClaimView(
@@ -206,6 +217,7 @@ def view_of(entry: Entry) -> ClaimView:
         why=entry.why_restored,
         sharp="" if entry.sharp == "no alpha" else markup.ranged(entry.sharp),
         steps=[(markup.prose(step.title), anchor(step.function)) for step in entry.steps],
+        letters=markup.letters_of([one.text for one in entry.statements]),
         shared=_rows(shared),
         statements=[statement(one, shared=shared) for one in entry.statements],
         note=entry.verdict_text.partition(" (")[2].removesuffix(")"),
@@ -214,13 +226,15 @@ def view_of(entry: Entry) -> ClaimView:
 
 @dataclass(frozen=True)
 class Derived:
-    """A derived expression: its anchor, what it is, its entries as markup, and what it is made
-    from.
+    """A derived expression: its anchor, what it is, its equation as markup, its entries as text,
+    and what it is made from.
     """
 
     anchor: str
     title: str
     shown: str
+    text: str
+    letters: Sequence[tuple[str, str]]
     uses: Sequence[tuple[str, str]]
 
 
@@ -231,7 +245,9 @@ def derivations(contents: Contents) -> list[Derived]:
         Derived(
             anchor(one.function),
             titles[one.function],
-            rows(one.rows),
+            equation(one.function, one.rows),
+            one.line.rpartition(f"{one.sentence} ")[2],
+            markup.letters(re.findall(r"[A-Za-z]\w*", str(one.rows))),
             [(titles[name], anchor(name)) for name in one.uses if name in titles],
         )
         for one in contents.derivations
@@ -247,17 +263,23 @@ def anchor(function: str) -> str:
     return "derived-" + "-".join(re.findall(r"\w+", function))
 
 
-def rows(entries: Sequence[Sequence[str]]) -> str:
-    """A derived expression, column or matrix as markup."""
+def equation(function: str, entries: Sequence[Sequence[str]]) -> str:
+    """A derived expression, column or matrix as markup, with the paper's name for it on the left,
+    or else the name of its function.
+    """
+    name, _, arguments = function.partition("(")
+    words = rf"\text{{{name.replace('_', ' ')}}}"
+    given = rf"(\text{{{arguments[:-1]}}})" if arguments else ""
+    left = SYMBOLS.get(function, words + given)
     if len(entries) == 1 and len(entries[0]) == 1:
-        return markup.formula(entries[0][0], block=True)
+        return mathml(f"{left} = {latex_of(entries[0][0])}", block=True)
 
     lines = (
         r" \\ ".join(" & ".join(map(latex_of, row)) for row in entries)
         if len(entries) > 1
         else r" \\ ".join(map(latex_of, entries[0]))
     )
-    return mathml(rf"\begin{{bmatrix}} {lines} \end{{bmatrix}}", block=True)
+    return mathml(rf"{left} = \begin{{bmatrix}} {lines} \end{{bmatrix}}", block=True)
 
 
 def _rows(lines: Sequence[Line]) -> list[markup.Row]:
@@ -373,11 +395,17 @@ def tree(rules: Sequence[Rule], outcomes: Mapping[str, str]) -> str:
 
 
 # -------------------------------------------------------------------------------------------------
-# The report as one HTML page: nothing is fetched, formulas are MathML, pictures are SVG, and what
-# moves is a few lines of script.
+# The report as one HTML page: nothing is fetched, formulas are MathML, pictures are SVG.
+#
+# What stands in the page is the theorem with its proof, the errata, and everything else as a list.
+# The parts behind the list are data in the page, compressed, that a script puts in their places
+# when they are opened: as elements they would be ten times all the rest.
 
 TEMPLATES = Path(__file__).parent / "templates"
 FILE = "juggleproof.html"
+# functions of `symbolic` whose formulas stand before the errata, R(b) first
+NAMED = ("region_margin", "total_energy", "E_max", "delta_E_max", "relative_kinetic_energy")
+TRAP = "fig-trap"  # the figure that the written proof shows
 
 
 @dataclass(frozen=True)
@@ -387,6 +415,7 @@ class Picture:
     slug: str
     title: str
     caption: str
+    alt: str
     svg: str
 
 
@@ -394,19 +423,22 @@ def pictures(contents: Contents) -> list[Picture]:
     """The report's figures."""
     return [
         Picture(
-            one.slug, one.title, one.caption, inline_svg(one.data, one.slug, one.title, one.alt)
+            one.slug,
+            one.title,
+            one.caption,
+            one.alt,
+            inline_svg(one.data, one.slug, one.title, one.alt),
         )
         for one in saved(contents)
     ]
 
 
-def scene_picture(scene: Results | None) -> str:
-    """Figure 2 as it stands in the page; empty where it was not drawn."""
+def scene_picture(scene: Results | None) -> list[Picture]:
+    """Figure 2 as it stands in the page; none where it was not drawn."""
     if scene is None or not scene.figure:
-        return ""
-    return inline_svg(
-        scene.figure["svg"], scene.figure["slug"], scene.figure["title"], scene.figure["alt"]
-    )
+        return []
+    slug, title, caption, alt = (scene.figure[key] for key in ("slug", "title", "caption", "alt"))
+    return [Picture(slug, title, caption, alt, inline_svg(scene.figure["svg"], slug, title, alt))]
 
 
 def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | None = None) -> bytes:
@@ -427,35 +459,81 @@ def build(contents: Contents, drawn: Sequence[Picture] = (), scene: Results | No
     environment.filters["markup"] = markupsafe.Markup
     environment.filters["text"] = lambda text: markupsafe.Markup(escape(text, quote=False))
     environment.filters["prose"] = lambda text: markupsafe.Markup(markup.prose(text))
+    macros = environment.get_template("parts.html.j2").module
+
+    def drawn_by(macro: str, *arguments: object) -> str:
+        return str(getattr(macros, macro)(*arguments))
+
     text: str = environment.get_template("page.html.j2").render(
-        **_shown(contents, drawn, scene, markupsafe.Markup)
+        **_shown(contents, drawn, scene, markupsafe.Markup, drawn_by)
     )
     return (text.rstrip() + "\n").encode()
 
 
+def packed(parts: Mapping[str, str]) -> str:
+    """Named parts of the page, and apart from them their formulas, each once, as JSON that is
+    compressed (RFC 1950) and in base 64: a formula's place in a part is its number after #.
+    """
+    formulas = dict[str, int]()
+    numbered = {
+        name: re.sub(
+            r"<math.*?</math>|#",
+            lambda one: f"#{formulas.setdefault(one.group(), len(formulas))};",
+            part.strip(),
+        )
+        for name, part in parts.items()
+    }
+    data = json.dumps({"parts": numbered, "formulas": [*formulas]}, ensure_ascii=False)
+    return b64encode(zlib.compress(data.encode(), 9)).decode("ascii")
+
+
 def _shown(
-    contents: Contents, drawn: Sequence[Picture], scene: Results | None, raw: Callable[[str], str]
+    contents: Contents,
+    drawn: Sequence[Picture],
+    scene: Results | None,
+    raw: Callable[[str], str],
+    part: Callable[..., str],
 ) -> dict[str, object]:
-    by_section = sections(contents)
+    by_section, rules = sections(contents), panels(contents.rules)
+    groups, behind = errata(by_section), derivations(contents)
     outcomes = {one.name: one.outcome for entry in contents.entries for one in entry.statements}
+    linked = {*outcomes, *(entry.claim.id for entry in contents.entries)}
+    trap = [one for one in drawn if one.slug == TRAP]
+    folded = [one for one in drawn if one.slug != TRAP]
+    parts = {
+        **{one.id: part("claim", one, linked) for _, found in by_section for one in found},
+        **{
+            f"erratum-{one.id}": part("erratum", one)
+            for *_, found in groups
+            for one in found
+            if one.refuted
+        },
+        **{f"rule-{one.name}": part("rule", one, linked) for one in rules},
+        **{one.anchor: part("derived", one) for one in behind},
+        **{f"figure-{one.slug}": part("figure", one) for one in [*folded, *scene_picture(scene)]},
+    }
     headline, *further = [
         line.strip().rstrip(";") for line in contents.theorem.removeprefix("theorem: ").splitlines()
     ] or [""]
     return {
         "contents": contents,
         "sections": by_section,
-        "errata": errata(by_section),
+        "errata": groups,
         "first_title": FIRST,
         "theorem_stands": markup.prose(contents.theorem_stands),
         "first_page": [(view_of(entry), three) for entry, three in contents.first_page()],
         "mathml": mathml,
-        "panels": panels(contents.rules),
-        "derivations": derivations(contents),
+        "panels": rules,
+        "derivations": behind,
+        "named": [one for name in NAMED for one in behind if one.anchor == anchor(name)],
         "tree": tree(contents.rules, outcomes),
-        "drawn": drawn,
+        "drawn": folded,
+        "trap": next(iter(trap), None),
+        "motion": motion(),
+        "opening": opening(contents),
+        "proof_claim": PROOF,
         "scene": scene,
         "scene_heads": HEADS,
-        "scene_picture": raw(scene_picture(scene)),
         "impact_law": [
             entry.verdict for entry in contents.entries if entry.claim.section == "part"
         ],
@@ -467,7 +545,8 @@ def _shown(
         "notation": [
             (mathml(glyph(name)), name, meaning) for name, _, meaning in NOTATION if meaning
         ],
-        "linked": {*outcomes, *(entry.claim.id for entry in contents.entries)},
+        "linked": linked,
+        "parts": packed(parts),
         "style": raw((TEMPLATES / "style.css").read_text(encoding="utf-8")),
         "script": raw((TEMPLATES / "page.js").read_text(encoding="utf-8")),
     }

@@ -95,7 +95,7 @@ LETTERS = {
 WORD = re.compile(
     r"""
     \(-alpha\)\^n | Delta_[12]\ E | Delta\ E_(?:max|sup) | Delta\ E\b | B1\^[0+\-](?!\w) | R\(b\)
-  | '[a-z]+\b | A_-(?:xi|epsilon) | [A-Za-z]\w*(?:-\w+)+
+  | '[a-z]+\b | A_-(?:xi|epsilon) | [A-Za-z]\w*(?:\.\w+)*(?:-\w+)+
   | [A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?(?:\^[A-Za-z0-9]+)?
   | \d+(?:/\d+)? | <=|>=|=|<|>|\+|-|\*|/|\^|\(|\)|, | \S
 """,

@@ -8,15 +8,41 @@
   const texts = new Map();
   let timer = 0;
 
+  // The parts of the page that stand in it as data: JSON, compressed, in base 64, with the formulas by number. Without them the page is a list.
+  let parts = null;
+  let formulas = [];
+  const unpacked = async () => {
+    const bytes = Uint8Array.from(atob(document.getElementById("parts").textContent), (sign) => sign.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    ({ parts, formulas } = JSON.parse(await new Response(stream).text()));
+  };
+
+  // Puts parts in their places within an element.
+  const fill = (element) => {
+    for (const place of parts ? element.querySelectorAll("[data-part]") : []) {
+      place.outerHTML = parts[place.dataset.part].replace(/#(\d+);/g, (_, number) => formulas[number]);
+    }
+  };
+
   const plain = (text) => text.toLowerCase().replace(/\s+/g, " ");
 
   // What a search looks through: all words of a claim, and the LaTeX of its formulas, which is their alternative text.
   const textOf = (claim) => {
     if (!texts.has(claim)) {
-      const formulas = [...claim.querySelectorAll("math")].map((math) => math.getAttribute("alttext") || "");
-      texts.set(claim, plain(claim.textContent + " " + formulas.join(" ")));
+      const whole = document.createElement("template");
+      whole.innerHTML = claim.outerHTML;
+      fill(whole.content);
+      const formulas = [...whole.content.querySelectorAll("math")].map((math) => math.getAttribute("alttext") || "");
+      texts.set(claim, plain(whole.content.textContent + " " + formulas.join(" ")));
     }
     return texts.get(claim);
+  };
+
+  const unfold = (place) => {
+    for (let box = place.closest("details"); box; box = box.parentElement.closest("details")) {
+      fill(box);
+      box.open = true;
+    }
   };
 
   const wanted = () => ({
@@ -74,10 +100,12 @@
     }
     let name = hash.slice(1);
     try { name = decodeURIComponent(name); } catch { /* taken as it stands */ }
-    const place = name && document.getElementById(name);
+    let place = name && document.getElementById(name);
     if (!place) return;
     if (name === "claims" || place.closest("[hidden]")) choose("");
-    for (let box = place.closest("details"); box; box = box.parentElement.closest("details")) box.open = true;
+    unfold(place.matches(".claim") ? place.querySelector("details") : place);
+    place = document.getElementById(name); // what was a line of the list is whole now
+    unfold(place);
     place.scrollIntoView();
     if (place.tabIndex === -1 && !place.matches("a, button, input")) {
       if (!place.hasAttribute("tabindex")) place.setAttribute("tabindex", "-1");
@@ -91,6 +119,16 @@
     const box = picture.parentElement;
     box.scrollLeft += top.left + top.width / 2 - box.getBoundingClientRect().left - box.clientWidth / 2;
   }
+
+  // What moves can be stopped.
+  const motion = document.getElementById("motion");
+  const pause = document.getElementById("pause");
+  pause.addEventListener("click", () => {
+    if (motion.animationsPaused()) motion.unpauseAnimations();
+    else motion.pauseAnimations();
+    pause.textContent = motion.animationsPaused() ? "Go on" : "Pause";
+  });
+  pause.hidden = false;
 
   form.hidden = false;
   form.addEventListener("submit", (event) => event.preventDefault());
@@ -112,6 +150,7 @@
   const folded = [];
   addEventListener("beforeprint", () => {
     for (const box of document.querySelectorAll("details.in-print:not([open])")) {
+      fill(box);
       box.open = true;
       folded.push(box);
     }
@@ -120,5 +159,10 @@
     while (folded.length) folded.pop().open = false;
   });
 
-  if (location.hash) follow();
+  const start = () => {
+    document.addEventListener("toggle", (event) => { if (event.target.open) fill(event.target); }, true);
+    for (const box of document.querySelectorAll("details[open]")) fill(box);
+    if (location.hash) follow();
+  };
+  unpacked().then(() => document.documentElement.classList.add("whole"), () => {}).then(start);
 })();

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
+import zlib
+from base64 import b64decode
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -87,6 +90,31 @@ def read_html(text: str) -> Element:
     if len(reader.open) != 1:
         raise NotNested(f"{reader.open[-1].tag} of line {reader.open[-1].line} is never closed")
     return reader.root
+
+
+def parts_of(document: Element) -> dict[str, str]:
+    """The parts of a page that stand in it as data, by name."""
+    packed = next(one for one in document.all("script") if one.attributes.get("id") == "parts")
+    data = json.loads(zlib.decompress(b64decode(packed.text())))
+    return {
+        name: re.sub(r"#(\d+);", lambda number: data["formulas"][int(number[1])], part)
+        for name, part in data["parts"].items()
+    }
+
+
+def read_whole(text: str) -> Element:
+    """The document with each part in its place, as the page's script puts it there; KeyError where
+    one lacks.
+    """
+    document = read_html(text)
+    parts = parts_of(document)
+    for element in [document, *document.all()]:
+        for at, child in enumerate(element.children):
+            if isinstance(child, Element) and "data-part" in child.attributes:
+                part = read_html(parts[child.attributes["data-part"]])
+                part.tag = "div"
+                element.children[at] = part
+    return document
 
 
 # -------------------------------------------------------------------------------------------------

@@ -15,8 +15,10 @@ import pytest
 
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents
-from juggleproof.proofs.reports.page import build
-from tests.proofs.reports.browser import Element, NotNested, read_html
+from juggleproof.proofs.reports.latex import glyph
+from juggleproof.proofs.reports.opening import PROOF
+from juggleproof.proofs.reports.page import VERDICTS, build
+from tests.proofs.reports.browser import Element, NotNested, parts_of, read_html, read_whole
 from tests.proofs.reports.runs import contents, drawn, page
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -29,6 +31,13 @@ def text() -> str:
 
 @cache
 def document() -> Element:
+    """The page with everything that it holds in its place."""
+    return read_whole(text())
+
+
+@cache
+def static() -> Element:
+    """The page as it is without a script, and until something is opened."""
     return read_html(text())
 
 
@@ -52,8 +61,10 @@ def test_rejects_elements_that_are_not_nested(defect: str) -> None:
 
 
 def test_ids_are_unique_and_links_have_targets_holds() -> None:
-    ids = [one.attributes["id"] for one in document().all() if "id" in one.attributes]
-    assert len(ids) == len(set(ids))
+    for page_read in (static(), document()):
+        ids = [one.attributes["id"] for one in page_read.all() if "id" in one.attributes]
+        assert len(ids) == len(set(ids))
+    ids = [one.attributes["id"] for one in static().all() if "id" in one.attributes]
     links = [one.attributes["href"] for one in document().all("a")]
     assert len(links) > 1000
     for link in links:
@@ -61,7 +72,7 @@ def test_ids_are_unique_and_links_have_targets_holds() -> None:
         assert link.startswith("#?") or unquote(link[1:]) in ids, link
     named = [
         name
-        for one in document().all()
+        for one in static().all()
         for key in ("aria-labelledby", "aria-describedby", "for")
         for name in one.attributes.get(key, "").split()
     ]
@@ -103,7 +114,8 @@ def test_nothing_is_fetched_holds() -> None:
 
 
 def test_every_claim_statement_and_rule_has_its_place_holds() -> None:
-    ids = {one.attributes["id"] for one in document().all() if "id" in one.attributes}
+    """So that every link leads somewhere, with a script or without."""
+    ids = {one.attributes["id"] for one in static().all() if "id" in one.attributes}
     for entry in contents().entries:
         assert entry.claim.id in ids
         assert {shown.name for shown in entry.statements} <= ids
@@ -128,7 +140,7 @@ def test_verdicts_are_those_of_the_contents_holds() -> None:
         assert article.attributes["data-section"] == entry.claim.section
     for word, count in contents().verdicts.items():
         assert f"{word} {count}" in [
-            spaced(item) for item in next(document().with_class("tally")).all("li")
+            spaced(item) for item in next(document().with_class("tally")).all("a")
         ]
 
 
@@ -192,10 +204,11 @@ def test_certificates_of_the_theorem_are_whole_holds() -> None:
         assert shown[0] == premise.text and json.loads(shown[1]) == premise.certificate
 
 
-def test_errata_stand_first_and_whole_holds() -> None:
+def test_theorem_stands_first_and_errata_before_the_rest_holds() -> None:
     wanted_order = [
-        "errata",
+        "what-moves",
         "the-theorem",
+        "errata",
         "figures",
         "part-scene",
         "claims",
@@ -215,15 +228,15 @@ def test_errata_stand_first_and_whole_holds() -> None:
 
 def test_every_counterexample_is_in_words_holds() -> None:
     """In the errata and beside the statement; a formula stands in the line as MathML."""
-    counted = 0
+    counted, parts = 0, parts_of(static())
     for entry in contents().entries:
         for shown in (one for one in entry.statements if one.at):
             line = markup.prose(shown.words)
-            places = [f'id="{shown.name}"', f'id="erratum-{entry.claim.id}"']
-            assert shown.words and all(
-                f"<p>{line}</p>" in text().partition(place)[2].partition("</article>")[0]
-                for place in places
-            ), shown.name
+            places = [
+                parts[entry.claim.id].partition(f'id="{shown.name}"')[2],
+                parts[f"erratum-{entry.claim.id}"],
+            ]
+            assert shown.words and all(f"<p>{line}</p>" in one for one in places), shown.name
             counted += 1
     assert counted > 50
 
@@ -277,7 +290,132 @@ def test_readers_who_do_not_see_are_told_what_things_are_holds() -> None:
 
 
 def test_page_is_small_holds() -> None:
-    assert len(page()) < 4_000_000
+    assert len(page()) < 1_000_000
+    assert sum(1 for _ in static().all()) < 25_000
+
+
+def test_every_part_has_its_place_holds() -> None:
+    places = [
+        one.attributes["data-part"] for one in static().all() if "data-part" in one.attributes
+    ]
+    assert sorted(places) == sorted(parts_of(static()))
+    for one in static().all("details"):
+        inside = [child for child in one.all() if "data-part" in child.attributes]
+        assert len(inside) == 1 and spaced(inside[0])
+
+
+def test_list_without_a_script_says_each_outcome_holds() -> None:
+    for entry in contents().entries:
+        article = next(
+            one for one in static().with_class("claim") if one.attributes["id"] == entry.claim.id
+        )
+        listed = [
+            (one.attributes["id"], next(one.all("b")).text())
+            for one in article.all("li")
+            if "id" in one.attributes
+        ]
+        assert listed == [(shown.name, shown.outcome) for shown in entry.statements]
+
+
+def test_legend_of_verdicts_stands_above_all_else_holds() -> None:
+    header = next(static().all("header"))
+    meanings = [spaced(one) for one in header.with_class("meaning")]
+    assert meanings == [meaning for _, meaning in VERDICTS.values()]
+    assert len(list(static().with_class("tally"))) == 1
+
+
+def test_map_and_theorem_are_those_of_the_statements_holds() -> None:
+    opening = by_id("what-moves")
+    drawn = [one.attributes["alttext"] for one in opening.all("math")]
+    for piece in (
+        r"(\alpha w - \alpha x, 2 - \alpha w) & \text{if } x < w",
+        r"(x - w, w + 2) & \text{if } w \le x",
+    ):
+        assert any(piece in one for one in drawn)
+    assert r"\left(\frac{2\alpha}{(1 + \alpha)^2}, \frac{2}{1 + \alpha}\right)" in drawn
+    assert contents().theorem.split(": ")[1] in spaced(next(opening.with_class("headline"))).lower()
+
+
+def test_each_line_of_the_proof_leads_to_its_certificate_holds() -> None:
+    cited = list(by_id("the-theorem").with_class("cite"))
+    proof = contents().entry(PROOF)
+    assert {one.attributes["href"] for one in cited} == {f"#{one.name}" for one in proof.statements}
+    assert {one.attributes["class"] for one in cited} == {"cite certified"}
+    for one, shown in [(one, by_id(one.attributes["href"][1:])) for one in cited]:
+        assert next(shown.all("b")).text() == "certified", one.text()
+
+
+def test_line_of_the_proof_that_is_not_certified_says_so_holds() -> None:
+    proof = contents().entry(PROOF)
+    lost = replace(proof.statements[3], outcome="unknown")
+    broken = replace(proof, statements=(*proof.statements[:3], lost, *proof.statements[4:]))
+    entries = tuple(broken if one is proof else one for one in contents().entries)
+    found = page_of(replace(contents(), entries=entries))
+    cited = [one for one in found.with_class("cite") if one.attributes["href"] == f"#{lost.name}"]
+    assert [one.text() for one in cited] == [
+        f"{lost.name.partition('/')[2]}: not certified, unknown"
+    ]
+    assert "Not every line is certified" in spaced(
+        next(one for one in found.all("section") if one.attributes["id"] == "the-theorem")
+    )
+    assert "Not every line is certified" not in spaced(by_id("the-theorem"))
+
+
+def test_what_moves_is_still_where_no_motion_is_wanted_holds() -> None:
+    style = "".join(one.text() for one in static().all("style"))
+    still = re.findall(r"@media \(prefers-reduced-motion: reduce\) \{(.*)\}", style)
+    assert len(still) == 1 and ".moving" in still[0] and "display: none" in still[0]
+    moving = next(by_id("motion").with_class("moving"))
+    assert len(list(by_id("motion").all("animatetransform"))) == len(
+        list(moving.all("animatetransform"))
+    ) == 3  # fmt: skip
+    times = next(by_id("motion").with_class("ball")).attributes["points"].split()
+    assert len(times) == 241 and times[0] == "120.0,144.9"
+
+
+def test_derived_formulas_have_left_sides_holds() -> None:
+    derived = list(document().with_class("derived"))
+    assert len(derived) == len(contents().derivations)
+    for one in derived:
+        shown = next(next(one.with_class("formula")).all("math")).attributes["alttext"]
+        assert re.match(r"\S.* = \S", shown), shown
+
+
+def test_notes_of_corrections_count_no_columns_holds() -> None:
+    assert "column" not in spaced(by_id("errata"))
+    notes = {
+        entry.claim.id: spaced(
+            next(
+                next(by_id(f"erratum-{entry.claim.id}").with_class("corrected")).with_class("aside")
+            )
+        )
+        for entry in contents().entries
+        if entry.correction and entry.group
+    }
+    assert notes["s2.2.1-H"] == "> replaced by ≥"
+    assert notes["sB.1-period"] == "index 0 added; half restored"
+
+
+def test_each_letter_of_a_statement_has_a_meaning_holds() -> None:
+    for entry in contents().entries:
+        if not entry.statements:
+            continue
+        article = next(
+            one for one in document().with_class("claim") if one.attributes["id"] == entry.claim.id
+        )
+        meant = {
+            name
+            for one in article.all("div")
+            if [spaced(term) for term in one.all("dt")] == ["letters"]
+            for math in one.all("math")
+            for name in math.attributes["alttext"].split(", ")
+        }
+        for shown in entry.statements:
+            listed = re.findall(
+                r"^(?:forall|exists|integer|over|state) (.*)$", shown.text, re.MULTILINE
+            )
+            wanted = {glyph(name) for names in listed for name in names.split()}
+            assert wanted <= meant, (shown.name, wanted - meant)
 
 
 def test_page_is_the_same_from_run_to_run_holds() -> None:
@@ -288,7 +426,7 @@ def test_page_is_the_same_from_run_to_run_holds() -> None:
 
 
 def page_of(changed: Contents) -> Element:
-    return read_html(build(changed).decode("utf-8"))
+    return read_whole(build(changed).decode("utf-8"))
 
 
 def test_words_of_claims_are_escaped_holds() -> None:
@@ -308,7 +446,8 @@ def test_words_of_claims_are_escaped_holds() -> None:
             changes=(hostile,),
         )
     )
-    assert len(list(found.all("script"))) == 1 and len(list(found.all("style"))) == 1
+    assert [one.attributes.get("id") for one in found.all("script")] == ["parts", None]
+    assert len(list(found.all("style"))) == 1
     assert hostile in [one.text() for one in found.all("code")]
 
 
@@ -339,7 +478,7 @@ def test_premise_that_is_not_certified_is_told_by_word_and_mark_holds() -> None:
         premises=(replace(rule.premises[0], outcome="rejected"), *rule.premises[1:]),
     )
     found = page_of(replace(contents(), rules=(broken, *contents().rules[1:])))
-    picture = next(one for one in found.all("svg"))
+    picture = next(found.with_class("tree"))
     labels = [one.attributes["aria-label"] for one in picture.all("a")]
     assert f"premise {rule.premises[0].name.rpartition('.')[2]} of {rule.name}; rejected" in labels
     assert sum(one.text().startswith("✓") for one in picture.all("text")) == len(labels) - 2

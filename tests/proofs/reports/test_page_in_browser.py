@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.proofs.reports.browser import chromium, contrast, read_html, requests, resize, scheme
+from tests.proofs.reports.browser import chromium, contrast, read_whole, requests, resize, scheme
 from tests.proofs.reports.runs import page, page_of_some, some_contents
 
 if TYPE_CHECKING:
@@ -38,9 +38,11 @@ def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[WebDriver
 def shows(driver: WebDriver, path: Path) -> Load:
     """What loads a page anew at a place and returns the driver."""
 
-    def at(place: str = "") -> WebDriver:
+    def at(place: str = "", scripted: bool = True) -> WebDriver:
         driver.get("about:blank")
         driver.get(path.as_uri() + place)
+        if scripted:
+            wait_for(driver, "return document.documentElement.classList.contains('whole')")
         return driver
 
     resize(driver, 1280)
@@ -101,7 +103,7 @@ def with_verdict(*words: str) -> set[str]:
 
 @cache
 def words_of_claims() -> dict[str, str]:
-    articles = read_html(page_of_some().decode("utf-8")).with_class("claim")
+    articles = read_whole(page_of_some().decode("utf-8")).with_class("claim")
     return {
         one.attributes["id"]: " ".join(
             (one.text() + " " + " ".join(m.attributes["alttext"] for m in one.all("math")))
@@ -422,11 +424,50 @@ def test_page_prints_with_derivation_and_rules_open_holds(show: Load, tmp_path: 
     assert not driver.execute_script("return document.querySelectorAll('details[open]').length")
 
 
-def test_page_is_whole_without_a_script_holds(show: Load) -> None:
+def test_claim_opens_to_its_statements_and_certificates_holds(show_whole: Load) -> None:
+    driver = show_whole()
+    before = driver.execute_script("return document.getElementsByTagName('*').length")
+    assert before < 25_000
+    box = find(driver, "[id='eq-37'] details")
+    assert not find_all(driver, "[id='eq-37'] pre")
+    driver.execute_script("arguments[0].scrollIntoView()", box)
+    find(driver, "[id='eq-37'] summary").click()
+    wait_for(driver, "return arguments[0].querySelectorAll('.statement pre').length > 0", box)
+    drawn = driver.execute_script(
+        "return [...arguments[0].querySelectorAll('math')].filter("
+        "(one) => one.getBoundingClientRect().width > 0).length",
+        box,
+    )
+    assert drawn > 5 and not find_all(driver, "[id='eq-37'] [data-part]")
+
+
+def test_what_moves_moves_until_it_is_paused_holds(show: Load) -> None:
+    driver = show()
+    place = (
+        "return document.querySelector('#motion .moving .body').getBoundingClientRect().top"
+        " + scrollY"
+    )
+    first = driver.execute_script(place)
+    wait_for(driver, f"return ({place.removeprefix('return ')}) !== {first}")
+    named(driver, "pause").click()
+    assert driver.execute_script("return document.getElementById('motion').animationsPaused()")
+    assert driver.execute_script(place) == driver.execute_script(place)
+
+
+def test_what_moves_stands_still_where_no_motion_is_wanted_holds(show: Load) -> None:
+    driver = show()
+    wanted = {"name": "prefers-reduced-motion", "value": "reduce"}
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": [wanted]})
+    for name, displayed in ((".still .body", True), (".moving .body", False)):
+        assert find(driver, f"#motion {name}").is_displayed() == displayed
+    assert not named(driver, "pause").is_displayed()
+
+
+def test_page_is_a_list_without_a_script_holds(show: Load) -> None:
     driver = show()
     driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     try:
-        driver = show("#eq-37/bound")
+        driver = show("#eq-37/bound", scripted=False)
         assert not named(driver, "filter").is_displayed()
         assert named(driver, "eq-37").is_displayed() and named(driver, "eq-37/bound").is_displayed()
         assert len(find_all(driver, "article.claim")) == len(some_contents().entries)

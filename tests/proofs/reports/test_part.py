@@ -16,7 +16,7 @@ from juggleproof.proofs.reports import part
 from juggleproof.proofs.reports.contents import Entry
 from juggleproof.proofs.reports.page import build
 from juggleproof.proofs.reports.part import HEADS, Results, kept_results
-from tests.proofs.reports.browser import Element, read_html
+from tests.proofs.reports.browser import Element, read_html, read_whole
 from tests.proofs.reports.runs import contents
 
 SVG = (
@@ -45,7 +45,7 @@ MADE = Results(
 
 
 def section_of(scene: Results | None) -> Element:
-    page = read_html(
+    page = read_whole(
         build(replace(contents(), entries=few(), rules=(), derivations=()), (), scene).decode(
             "utf-8"
         )
