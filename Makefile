@@ -11,10 +11,10 @@ SHARE ?= 1
 certify: $(VENV)/installed
 	$(BIN)/juggleproof certify
 
-test: $(VENV)/installed
+test: $(VENV)/tools
 	$(BIN)/python -m pytest -n 2 --dist loadfile
 
-lint: $(VENV)/installed
+lint: $(VENV)/tools
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
@@ -39,20 +39,27 @@ build/coq-store/Prelude.vo: build/coq-store/Prelude.v
 	cd build/coq-store && coqc -q -Q . Store Prelude.v
 
 # The pages of docs as a site in build/site; a broken link is an error.
-docs: $(VENV)/installed
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock -r requirements-docs.lock
+docs: $(VENV)/tools
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-docs.lock
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 
-# README's picture: the figure of the report, on white, so that it can be read on a dark page.
-figure: $(VENV)/installed
+# The pictures of README and of docs; the figure of the report on white, so that it can be read on a dark page.
+figure: $(VENV)/tools
 	$(BIN)/juggleproof report --format figures -o build > /dev/null
 	sed '0,/fill: none/s//fill: #ffffff/' build/figures/fig-trap.svg > docs/img/fig-trap.svg
+	$(BIN)/juggleproof simulate juggler --picture bifurcation -o docs/img/bifurcation.svg
 
+# What certifying needs, and no more.
 $(VENV)/installed: pyproject.toml requirements.lock
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	touch $@
 
+# What the suite, lint and types need beside it: the tools of tests, of reports and of the part.
+$(VENV)/tools: $(VENV)/installed requirements-report.lock requirements-test.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-test.lock
+	touch $@
+
 clean:
-	rm -rf $(VENV) build .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info
+	rm -rf $(VENV) build .pytest_cache .mypy_cache .ruff_cache .hypothesis src/*.egg-info

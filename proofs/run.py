@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.util
 import json
 import os
-import signal
 import sys
 import textwrap
 import threading
@@ -29,7 +28,7 @@ from juggleproof.certificates.store import (
     write_file,
     write_store,
 )
-from juggleproof.proofs.checked import Checked, Reading, outcomes_of
+from juggleproof.proofs.checked import Checked, Reading, as_child, outcomes_of
 from juggleproof.proofs.claims import (
     Claim,
     FixedBody,
@@ -341,11 +340,6 @@ _alone = (
 )  # the checker counts its work in one place: threads of one process take turns
 
 
-def start() -> None:
-    """A process of our own pool leaves interruptions to the one that started it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 def spread(
     work: Callable[[Item], Result],
     items: Sequence[Item],
@@ -459,7 +453,7 @@ def judge_all(
     everything = range(len(claims))
     if jobs <= 1 or len(claims) == 1:
         return [judgement for judgement, _ in spread(_judge_one, everything, None, take)], seconds
-    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=start) as pool:
+    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=as_child) as pool:
         try:
             return [
                 judgement for judgement, _ in spread(_judge_one, everything, pool, take)

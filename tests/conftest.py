@@ -1,11 +1,13 @@
 """The suite neither reads nor writes the user's kept figures, unless a test asks for a folder of
 its own; kernels are compiled once for all tests; Ctrl-C is heard, also where the shell that started
-the suite ignores it.
+the suite ignores it; no property fails because the machine is busy.
 """
 
 import os
 import signal
 from pathlib import Path
+
+from hypothesis import HealthCheck, settings
 
 os.environ["JUGGLEPROOF_CACHE"] = "off"
 os.environ.setdefault(
@@ -13,4 +15,6 @@ os.environ.setdefault(
 )
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+settings.register_profile("suite", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("suite")
 pytest_plugins = ["pytester"]

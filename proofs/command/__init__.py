@@ -12,5 +12,6 @@ report            `report`
 simulate_options  what `simulate` takes
 simulate          `simulate juggler`
 orbit_tables      the tables that it prints
+pictures          the pictures that it draws
 simulate_part     `simulate part`
 """

@@ -6,7 +6,7 @@ import argparse
 import gc
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
@@ -19,6 +19,7 @@ from rich.progress import Progress as Bar
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, canonical, write_file
+from juggleproof.proofs.checked import as_child
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.command.outputs import fault_of
 from juggleproof.proofs.judgement import DEFAULT_BUDGET, Judgement
@@ -27,9 +28,9 @@ from juggleproof.proofs.register import PATH, Register, load_register, write_reg
 from juggleproof.proofs.reports import pages, problems
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.ci import as_junit, failing, markdown
-from juggleproof.proofs.reports.contents import as_json
+from juggleproof.proofs.reports.contents import Contents, as_json, contents_of
 from juggleproof.proofs.reports.results import Results, results_of_run, theorem_of_run
-from juggleproof.proofs.run import Options, Progress, claims_of_files, run, start, stop, store_of
+from juggleproof.proofs.run import Options, Progress, claims_of_files, run, stop, store_of
 from juggleproof.proofs.smtlib.answering import BUDGET, Answered, answer_files
 
 # -------------------------------------------------------------------------------------------------
@@ -52,6 +53,9 @@ class CertifyOptions(argparse.Namespace):
     junit: Path | None
     markdown: Path | None
     timings: Path | None
+    report: list[str]
+    output: Path | None
+    write_reports: Callable[[Contents], int] | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -66,6 +70,7 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     every claim holds), else 1.
     """
     refuse_unwritable(options)
+    _refuse_reports(options)
     before = None if options.files else load_register(register)
     console = Console(highlight=False)
     claims = claims_of_files(options.files) if options.files else paper_claims()
@@ -100,7 +105,17 @@ def certify(options: CertifyOptions, register: Path = PATH) -> int:
     if before is not None and accepts:
         _accept(results, before, options, register)
     write_outputs(options, results, done.seconds)
-    return results.exit
+    if options.write_reports is None:
+        return results.exit
+    return results.exit | options.write_reports(contents_of(done, load_register(register)))
+
+
+def _refuse_reports(options: CertifyOptions) -> None:
+    """Raises ClaimError, one line, for reports that cannot be made of this run."""
+    if options.report and (options.files or options.only):
+        raise ClaimError("--report: shows all claims of the paper; leave out FILE and --only")
+    if options.output is not None and not options.report:
+        raise ClaimError("-o: where reports go; name one with --report")
 
 
 def _options(options: CertifyOptions) -> Options:
@@ -201,14 +216,14 @@ def _asked(options: CertifyOptions) -> dict[str, Path]:
 def write_outputs(options: CertifyOptions, results: Results, seconds: Mapping[str, float]) -> None:
     """Writes each file that was asked for."""
     for option, path in _asked(options).items():
-        write_file(path, _content(option, results, seconds))
+        write_file(path, _content(option, results, seconds if options.timings else {}))
 
 
 def _content(option: str, results: Results, seconds: Mapping[str, float]) -> bytes:
     if option == "json":
         return as_json(results)
     if option == "junit":
-        return as_junit(results)
+        return as_junit(results, seconds)
     if option == "markdown":
         return markdown(results).encode()
     return "".join(f"{seconds[one.id]:9.3f}  {one.id}\n" for one in results.claims).encode()
@@ -219,7 +234,7 @@ def _content(option: str, results: Results, seconds: Mapping[str, float]) -> byt
 # each.
 
 SUFFIX = ".smt2"
-NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings")
+NOT_FOR_SCRIPTS = ("only", "accept", "junit", "markdown", "timings", "report", "output")
 
 
 def are_scripts(files: Sequence[Path]) -> bool:
@@ -264,7 +279,7 @@ def _answered(options: CertifyOptions) -> list[Answered]:
     budget = options.budget or BUDGET
     if jobs == 1:
         return answer_files(options.files, budget=budget, store=options.store, fresh=options.fresh)
-    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=start) as pool:
+    with ProcessPoolExecutor(jobs, mp_context=get_context("fork"), initializer=as_child) as pool:
         try:
             return answer_files(
                 options.files,

@@ -27,6 +27,7 @@ MODULES = {
     "simulate": "juggleproof.proofs.command.simulate",
     "bench": "juggleproof.proofs.command.bound",
 }
+FORMATS = "html, latex, pdf, markdown, json, badge or figures"
 
 
 class _Parser(argparse.ArgumentParser):
@@ -126,7 +127,24 @@ def build_parser() -> argparse.ArgumentParser:
         help="write a summary as Markdown, such as a CI job shows",
     )
     certify.add_argument(
-        "--timings", type=Path, metavar="F", help="write the seconds that each claim took"
+        "--timings",
+        type=Path,
+        metavar="F",
+        help="write the seconds that each claim took, into the JUnit report too",
+    )
+    certify.add_argument(
+        "--report",
+        action="append",
+        default=[],
+        metavar="F",
+        help=f"also write a report on the paper: {FORMATS} (may be given several times)",
+    )
+    certify.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="where reports go (default: juggleproof-report)",
     )
 
     check = commands.add_parser("check", help="the bare checker over the stored certificates")
@@ -213,8 +231,9 @@ def build_parser() -> argparse.ArgumentParser:
     report.add_argument(
         "--format",
         required=True,
+        action="append",
         metavar="F",
-        help="html, latex, pdf, markdown, json, badge or figures",
+        help=f"{FORMATS} (may be given several times)",
     )
     report.add_argument(
         "-o",
@@ -305,6 +324,9 @@ def _dispatch(parsed: argparse.Namespace) -> int:
     if parsed.command == "bound":
         # before numpy: the matrices are small, and sums in one order repeat
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if parsed.command == "certify":  # to load what makes reports takes a second
+        report = import_module(MODULES["report"]) if parsed.report else None
+        parsed.write_reports = report and report.writer(parsed.report, parsed.output)
     code: int = import_module(MODULES[parsed.command]).command(parsed)
     return code
 

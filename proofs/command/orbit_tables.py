@@ -53,7 +53,7 @@ def _draw(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
 
 
 def rounded(value: Value) -> str:
-    """A number, rounded to 12 digits."""
+    """A number, rounded to 12 digits where it is longer."""
     if (
         isinstance(value, Fraction)
         and max(value.numerator.bit_length(), value.denominator.bit_length()) <= SHORT_BITS
@@ -66,6 +66,20 @@ def rounded(value: Value) -> str:
         if not hasattr(value, "context")
         else str(value.context.nstr(value, DIGITS))
     )
+
+
+def _number(value: Value) -> str:
+    """A number; an exact one as the fraction that it is, or rounded behind a ~ where it is long."""
+    if not isinstance(value, Fraction):
+        return rounded(value)
+    bits = max(value.numerator.bit_length(), value.denominator.bit_length())
+    text = str(value) if bits < 4 * LONG_TEXT else ""
+    return text if 0 < len(text) <= LONG_TEXT else f"~{rounded(value)}"
+
+
+def _print_rounded(rows: Sequence[Sequence[str]]) -> None:
+    if any(cell.startswith("~") for row in rows for cell in row):
+        print(f"~: rounded to {DIGITS} digits from an exact number of more than {LONG_TEXT} signs")
 
 
 def rounded_error(error: Error | None) -> str:
@@ -103,6 +117,7 @@ def orbits(run: Orbits, units: str) -> None:
         if len(rows) >= MOST_ROWS:
             break
     _draw(heads, rows[:MOST_ROWS])
+    _print_rounded(rows[:MOST_ROWS])
     if len(rows) > MOST_ROWS or run.followed > MOST_ROWS:
         print(f"the first {MOST_ROWS} rows; --output F.csv or F.npz writes all")
     _print_ends(run)
@@ -114,8 +129,8 @@ def _line(row: Row, last: bool) -> tuple[str, ...]:
     return (
         str(row.start),
         *counts,
-        rounded(row.x),
-        rounded(row.w),
+        _number(row.x),
+        _number(row.w),
         error,
         MARKS[row.end] if last else "",
     )
@@ -155,8 +170,10 @@ def times(setting: Scene, low: Number, high: Number, count: int) -> int:
         setting,
         list(axis(low, high, counted(count, "the number of times", 1, MOST_TIMES), "times")),
     )
-    print(f"alpha = {_short(setting.alpha)}; exact heights, shown rounded to {DIGITS} digits")
-    _draw(("time", "ball", "table"), [tuple(map(rounded, one)) for one in samples])
+    print(f"alpha = {_short(setting.alpha)}; exact heights")
+    rows = [tuple(map(_number, one)) for one in samples]
+    _draw(("time", "ball", "table"), rows)
+    _print_rounded(rows)
     return 0
 
 
@@ -184,12 +201,13 @@ def words(alpha: Fraction, longest: int, flight: int | None) -> int:
                 ",".join(map(str, one.word)),
                 name,
                 str(sum(one.word)),
-                *map(rounded, one.impacts[0]),
-                rounded(one.radius),
+                *map(_number, one.impacts[0]),
+                _number(one.radius),
                 verdict,
             )
         )
     _draw(("word", "", "periods", "x at impact", "w at impact", "spectral radius", ""), rows)
+    _print_rounded(rows)
     return 0
 
 
@@ -226,13 +244,9 @@ def word(wanted: tuple[int, ...], alpha: Fraction | None = None) -> int:
             f"at alpha = {_short(at.alpha)}, exactly;"
             f" {'attracts near states' if at.attracts else 'a state lies on x = w'}"
         )
-        _draw(
-            ("impact", "x", "w"),
-            [
-                (str(k + 1), *(_fraction(part) for part in place))
-                for k, place in enumerate(at.impacts)
-            ],
-        )
+        rows = [(str(k + 1), *map(_number, place)) for k, place in enumerate(at.impacts)]
+        _draw(("impact", "x", "w"), rows)
+        _print_rounded(rows)
     return 0
 
 
@@ -240,15 +254,6 @@ def _formula(expression: Expr) -> str:
     """A rational function of alpha."""
     text = str(factor(expression)).replace("**", "^")
     return text if len(text) <= LONG_TEXT else "a long formula; --alpha gives the numbers"
-
-
-def _fraction(value: Fraction) -> str:
-    text = (
-        str(value)
-        if max(value.numerator.bit_length(), value.denominator.bit_length()) < 3 * LONG_TEXT
-        else ""
-    )
-    return text if 0 < len(text) <= LONG_TEXT else rounded(value)
 
 
 def hard_cases() -> int:

@@ -7,13 +7,14 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
 from juggleproof.proofs.reports.ci import badge, markdown
 from juggleproof.proofs.reports.contents import Contents, as_json, gather
+from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.page import FILE, build, pictures
 from juggleproof.proofs.reports.part import kept_results
@@ -21,30 +22,50 @@ from juggleproof.proofs.reports.tex import compiled, files
 from juggleproof.scenes.figures import TABLE
 
 DEFAULT_FOLDER = Path("juggleproof-report")
+LIBRARIES = {"html": "jinja2", "latex": "jinja2", "pdf": "jinja2", "figures": "matplotlib"}
 Files = Mapping[str, bytes]
 
 
 def command(parsed: argparse.Namespace) -> int:
-    """Writes the report that is asked for; returns the exit code."""
+    """Writes the reports that are asked for; returns the exit code."""
     return report(parsed.format, parsed.output)
 
 
-def report(wanted: str, folder: Path | None) -> int:
-    """Writes a report of this format into the folder and prints the paths; returns 1 where what was
-    made has faults that a reader would see.
+def report(wanted: Sequence[str], folder: Path | None) -> int:
+    """Writes a report of each of these formats into the folder and prints the paths; returns 1
+    where what was made has faults that a reader would see.
 
     Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
     library or program that is absent.
     """
-    if wanted not in FORMATS:
-        raise ClaimError(f"--format {wanted}: choose from {', '.join(FORMATS)}")
+    return writer(wanted, folder, "--format")(gather())
+
+
+def writer(
+    wanted: Sequence[str], folder: Path | None, option: str = "--report"
+) -> Callable[[Contents], int]:
+    """What does the same with contents in hand; an unknown format, what is no folder, and what
+    lacks its library are refused at once.
+    """
+    for one in wanted:
+        if one not in FORMATS:
+            raise ClaimError(f"{option} {one}: choose from {', '.join(FORMATS)}")
+        if one in LIBRARIES:
+            needed(LIBRARIES[one])
     place = folder or DEFAULT_FOLDER
     _refuse_what_is_no_folder(place)
-    made, faults = FORMATS[wanted](gather(), place)
-    write_all(made, place)
-    for fault in faults:
-        print(f"juggleproof: {fault}", file=sys.stderr)
-    return 1 if faults else 0
+
+    def write(contents: Contents) -> int:
+        faulty = 0
+        for one in dict.fromkeys(wanted):
+            made, faults = FORMATS[one](contents, place)
+            write_all(made, place)
+            for fault in faults:
+                print(f"juggleproof: {fault}", file=sys.stderr)
+                faulty = 1
+        return faulty
+
+    return write
 
 
 def write_all(files: Files, place: Path) -> None:
@@ -115,7 +136,7 @@ def _can_draw() -> bool:
     if importlib.util.find_spec("matplotlib") is not None:
         return True
     print(
-        "juggleproof: matplotlib is absent, so figures are left out; pip install -e '.[report]'"
+        "juggleproof: matplotlib is absent, so figures are left out; pip install matplotlib"
         " brings it",
         file=sys.stderr,
     )

@@ -20,7 +20,7 @@ from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports import errata
-from juggleproof.proofs.reports.contents import gather
+from juggleproof.proofs.reports.contents import entries_of
 from juggleproof.proofs.reports.tables import draw
 from juggleproof.proofs.reports.tex import equation
 
@@ -149,12 +149,10 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
 
     Raises ClaimError for a name that no claim bears, or one without a printed formula.
     """
-    by_id = {entry.claim.id: entry for entry in gather().entries}
-    ids = [claim_named(wanted, by_id) for wanted in ids]
-    texts = {
-        name: equation(by_id[name])
-        for name in ids or [name for name, entry in by_id.items() if entry.claim.printed]
-    }
+    by_id = {claim.id: claim for claim in paper_claims()}
+    named = [by_id[claim_named(wanted, by_id)] for wanted in ids]
+    chosen = named or [one for one in by_id.values() if one.printed]
+    texts = {entry.claim.id: equation(entry) for entry in entries_of(chosen)}
     for name, text in texts.items():
         if folder:
             write_file(folder / f"{name}.tex", text.encode())

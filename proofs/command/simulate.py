@@ -1,10 +1,10 @@
-"""`juggleproof simulate juggler`: orbits of a scene, as a table or a file, with their error."""
+"""`juggleproof simulate juggler`: orbits of a scene, as a table, a file or a picture."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import BinaryIO
@@ -15,11 +15,13 @@ from juggleproof.proofs.command.outputs import clear, fault_of, progress, writte
 from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.tables import components, exact
 from juggleproof.scenes.errors import SceneError
+from juggleproof.scenes.juggler.given import counted, restitution
 from juggleproof.scenes.juggler.orbits import Orbits, prepare
 from juggleproof.scenes.juggler.starts import (
     Axis,
     Scene,
     Starts,
+    axis,
     boundary,
     grid,
     listed,
@@ -29,11 +31,12 @@ from juggleproof.scenes.juggler.starts import (
     random,
     scene,
 )
-from juggleproof.scenes.juggler.tables import NAMES, as_arrays, as_csv, as_npz
+from juggleproof.scenes.juggler.tables import NAMES, as_csv, as_npz
 
 NORMAL, PHYSICAL = NAMES["normal"], NAMES["physical"]
-FORMATS = (".csv", ".npz", ".svg")
+FORMATS = (".csv", ".npz")
 STEPS, IMPACTS_TO_TRAP = 20, 1000
+NO_ALPHA = "--alpha is missing; give the restitution, such as --alpha 3/10"
 Writer = Callable[[Orbits, BinaryIO], None]
 STARTS = ("state", "grid", "boundary", "random")
 LISTS: dict[str, tuple[str, ...]] = {
@@ -41,6 +44,7 @@ LISTS: dict[str, tuple[str, ...]] = {
     "words": ("alpha",),
     "word": ("alpha",),
     "times": ("alpha", *STARTS),
+    "picture": ("alpha", *STARTS, "output"),
 }  # and what each takes
 
 
@@ -70,6 +74,7 @@ class JugglerOptions(argparse.Namespace):
     flight: int | None
     word: str | None
     hard_cases: bool
+    picture: str | None
 
 
 def command(parsed: argparse.Namespace) -> int:
@@ -82,6 +87,10 @@ def command(parsed: argparse.Namespace) -> int:
         )
     except SceneError as problem:
         raise ClaimError(str(problem)) from None
+    except KeyboardInterrupt:
+        clear()
+        print("juggleproof: interrupted; no file was written", file=sys.stderr)
+        return 130
 
 
 def _part(parsed: argparse.Namespace) -> int:
@@ -103,8 +112,10 @@ def juggler(options: JugglerOptions) -> int:
         return orbit_tables.word(
             flights, None if options.alpha is None else exact(options.alpha, "alpha")
         )
+    if options.picture is not None:
+        return _picture(options, options.picture)
     if options.alpha is None:
-        raise ClaimError("--alpha is missing; give the restitution, such as --alpha 3/10")
+        raise ClaimError(NO_ALPHA)
     alpha = exact(options.alpha, "alpha")
     if options.words:
         return orbit_tables.words(alpha, options.longest, options.flight)
@@ -116,8 +127,8 @@ def juggler(options: JugglerOptions) -> int:
 
 
 def _refuse_what_does_not_go_together(options: JugglerOptions) -> None:
-    """Raises ClaimError for two lists at once, and for options that a list would leave out in
-    silence.
+    """Raises ClaimError for two lists at once, a picture being one, and for options that a list
+    would leave out in silence.
     """
     lists = [name for name in LISTS if getattr(options, name) not in (None, False)]
     if not lists:
@@ -251,26 +262,88 @@ def _follow(options: JugglerOptions, setting: Scene) -> int:
 
 def _writer(options: JugglerOptions) -> Writer | None:
     """How the file is made, its name and place being checked before the run."""
-    units = options.units
-    if units not in orbit_tables.UNITS:
-        raise ClaimError(f"--units {units[:40]}: choose from {', '.join(orbit_tables.UNITS)}")
+    units = _checked_units(options)
     path = options.output
     if path is None:
         return None
-    if path.suffix not in FORMATS:
-        raise ClaimError(f"--output {path}: the name is to end in one of {', '.join(FORMATS)}")
-    fault = fault_of(path)
-    if fault:
-        raise ClaimError(f"--output {path}: {fault}; name another file")
     if path.suffix == ".svg":
-        needed("matplotlib")
-        return _picture
+        raise ClaimError(f"--output {path} is a picture; say which by --picture {_OR}")
+    _refuse_unwritable(path, FORMATS)
     write = as_csv if path.suffix == ".csv" else as_npz
     return lambda orbits, file: write(orbits, file, units)
 
 
-def _picture(orbits: Orbits, file: BinaryIO) -> None:
-    """Writes a picture: of one start against time, of several in the plane."""
-    from juggleproof.scenes.juggler.picture import of_many, of_one
+def _checked_units(options: JugglerOptions) -> str:
+    units = options.units
+    if units not in orbit_tables.UNITS:
+        raise ClaimError(f"--units {units[:40]}: choose from {', '.join(orbit_tables.UNITS)}")
+    return units
 
-    file.write(of_one(orbits) if len(orbits) == 1 else of_many(as_arrays(orbits)))
+
+def _refuse_unwritable(path: Path, suffixes: Sequence[str]) -> None:
+    if path.suffix not in suffixes:
+        raise ClaimError(f"--output {path}: the name is to end in {' or '.join(suffixes)}")
+    fault = fault_of(path)
+    if fault:
+        raise ClaimError(f"--output {path}: {fault}; name another file")
+
+
+# -------------------------------------------------------------------------------------------------
+# Pictures.
+
+# the starts and the alpha of a picture for which none are given
+PICTURES: dict[str, dict[str, str | int]] = {
+    "orbit": {},
+    "basin": {"grid": "x=0:8:400,w=-6:6:400"},
+    "bifurcation": {"random": 100, "alpha": "1/400:399/400:399"},
+}
+MOST_ALPHAS = 2000  # columns of a picture
+_OR = "orbit, basin or bifurcation"
+# what only tables have, with the value that an option has which is not given
+OF_TABLES = {
+    "arithmetic": "exact",
+    "precision": None,
+    "impacts": False,
+    "until_trap": False,
+    "keep": False,
+}
+
+
+def _picture(options: JugglerOptions, wanted: str) -> int:
+    """Draws a picture; raises ClaimError for options that it would leave out in silence."""
+    if wanted not in PICTURES:
+        raise ClaimError(f"--picture {wanted[:40]!r}: choose from {_OR}")
+    others = OF_TABLES if wanted == "orbit" else {**OF_TABLES, "steps": None}
+    for name, absent in others.items():
+        if getattr(options, name) != absent:
+            raise ClaimError(
+                f"--picture {wanted} and --{name.replace('_', '-')} do not go together; leave one"
+                " of them out"
+            )
+    units, path = _checked_units(options), options.output
+    if path is None:
+        raise ClaimError(f"--picture {wanted} needs a file; give -o F.svg")
+    _refuse_unwritable(path, (".svg",))
+    needed("matplotlib", "picture")
+    from juggleproof.proofs.command import pictures
+
+    given = any(getattr(options, name) is not None for name in STARTS)
+    for name, value in PICTURES[wanted].items():
+        if getattr(options, name) is None and (name == "alpha" or not given):
+            setattr(options, name, value)
+    if options.alpha is None:
+        raise ClaimError(NO_ALPHA)
+    if wanted == "bifurcation":
+        if options.boundary is not None:
+            raise ClaimError("--boundary depends on alpha; give --state, --grid or --random")
+        low, high, count = _axis(options.alpha, "--alpha", 3)
+        counted(count, "the number of alpha", 2, MOST_ALPHAS)
+        alphas = [*axis(low, high, count, "alpha")]
+        setting = scene(alphas[0], starts(options, alphas[0]), *_units(options))
+        restitution(alphas[-1])
+        return pictures.bifurcation(alphas, setting, units, path)
+    alpha = exact(options.alpha, "alpha")
+    setting = scene(alpha, starts(options, alpha), *_units(options))
+    if wanted == "basin":
+        return pictures.basin(setting, units, path)
+    return pictures.orbit(setting, STEPS if options.steps is None else options.steps, units, path)

@@ -27,7 +27,7 @@ def _add_juggler(scenes: Commands) -> None:
     juggler = scenes.add_parser(
         "juggler", help="the ball on the bouncing table: orbits of the paper's map f"
     )
-    juggler.add_argument("--alpha", metavar="A", help="the restitution, exactly, such as 3/10")
+    juggler.add_argument("--alpha", metavar="A", help="the restitution, such as 3/10")
     juggler.add_argument(
         "--r", default="1", metavar="R", help="launch speed of the table (default: 1)"
     )
@@ -97,7 +97,21 @@ def _add_juggler(scenes: Commands) -> None:
         metavar="U",
         help="normal (x, w) or physical (beta, v); default: normal",
     )
-    out.add_argument("-o", "--output", type=Path, metavar="F", help="F.csv, F.npz or F.svg")
+    out.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="F",
+        help="F.csv or F.npz; with --picture F.svg",
+    )
+    out.add_argument(
+        "--picture",
+        metavar="P",
+        help=(
+            "orbit (ball and table against time), basin (what each state of a grid tends to) or"
+            " bifurcation (what orbits tend to as alpha grows, --alpha FROM:TO:COUNT)"
+        ),
+    )
     words = juggler.add_argument_group("periodic orbits and hard cases")
     words.add_argument(
         "--words",

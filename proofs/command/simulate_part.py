@@ -23,6 +23,8 @@ from juggleproof.scenes.part.layout import ANGLES
 from juggleproof.scenes.part.onsets import (
     AMPLITUDES,
     FACES,
+    PAPER,
+    Interrupted,
     Point,
     Table,
     as_csv,
@@ -156,19 +158,27 @@ def _vibration(text: str) -> tuple[float, float]:
 
 
 def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> int:
-    computed = table_one(
-        setting,
-        ensembles=options.ensembles,
-        horizon=_number(options.horizon, "horizon"),
-        seed=options.seed,
-        peak=AMPLITUDES[options.amplitudes],
-        executor=executor,
-        report=progress(),
-    )
-    clear()
-    keep_results(
-        setting, computed, options.amplitudes, options.seed
-    )  # before anything is printed, to a reader who may not stay
+    interrupted = False
+    try:
+        computed = table_one(
+            setting,
+            ensembles=options.ensembles,
+            horizon=_number(options.horizon, "horizon"),
+            seed=options.seed,
+            peak=AMPLITUDES[options.amplitudes],
+            executor=executor,
+            report=progress(),
+        )
+        clear()
+        # before anything is printed, to a reader who may not stay
+        keep_results(setting, computed, options.amplitudes, options.seed)
+    except Interrupted as stop:
+        clear()
+        computed, interrupted = stop.table, True
+        print(
+            f"juggleproof: interrupted; {len(computed.rows)} of {len(PAPER)} rows are done",
+            file=sys.stderr,
+        )
     part_tables.table(
         computed, setting, options.amplitudes, options.e is None and options.mu is None
     )
@@ -178,9 +188,8 @@ def _table(options: PartOptions, setting: Scene, executor: Executor | None) -> i
         print(
             f"{options.output}: {len(computed.rows)} rows of {options.ensembles} ensembles written"
         )
-    if not options.check:
-        return 0
-    return 1 if part_tables.violations(computed.run, setting) else 0
+    broken = options.check and part_tables.violations(computed.run, setting)
+    return 130 if interrupted else int(broken)
 
 
 def _writer(path: Path) -> Callable[[Table, BinaryIO], None]:

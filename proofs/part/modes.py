@@ -526,7 +526,7 @@ def five_modes_that_differ_and_depend_on_the_motion() -> list[Statement]:
             exists_some(names, is_only(mode), within=impact, label=mode, vocabulary=words_here)
             for mode in MODES
         ),
-        two_modes({"e": real("d"), "mu": real("mu_2")}, "by-the-parameters"),
+        two_modes({"e": real("restitution_2"), "mu": real("friction_2")}, "by-the-parameters"),
         two_modes({"sigma": real("sigma_2"), "S0": real("S1"), "C0": real("C1")}, "by-the-motion"),
     ]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Mapping
+from pathlib import PurePath
 from xml.etree import ElementTree
 
 from juggleproof.proofs.register import FIELDS, Change
@@ -64,30 +65,29 @@ def message_of(results: Results) -> tuple[str, str]:
 # error.
 
 
-def as_junit(contents: Contents | Results) -> bytes:
-    """The report as XML, without times."""
+def as_junit(contents: Contents | Results, seconds: Mapping[str, float] | None = None) -> bytes:
+    """The report as XML: each claim with its file and line, its class named for the file; `time`
+    only where the seconds of the claims are given, by id.
+    """
     results = results_of(contents)
     changes = results.change_of()
     suite = ElementTree.Element("testsuite")
     for one in results.claims:
+        file, line = one.source
         _case(
             suite,
-            (
-                f"own.{one.section}"
-                if results.own and one.section
-                else "own"
-                if results.own
-                else f"paper.{one.section}"
-            ),
+            class_name(file),
             one.id,
             *_failure(one, changes.get(one.id), results),
             out=verdict_line(one),
+            more={"file": file, "line": str(line)}
+            | ({"time": f"{seconds[one.id]:.3f}"} if seconds else {}),
         )
     judged = {one.id for one in results.claims}
     for gone in (change for change in results.changes if change.claim not in judged):
         _case(
             suite,
-            "paper.gone",
+            "proofs.register",
             gone.claim,
             "" if results.accepted else "failure",
             f"the claim is gone from the sources; {gone}",
@@ -101,24 +101,41 @@ def as_junit(contents: Contents | Results) -> bytes:
         "errors": len(suite.findall("testcase/error")),
         "skipped": 0,
     }
-    root = ElementTree.Element(
-        "testsuites",
-        {
-            "name": "juggleproof",
-            **{name: str(count) for name, count in counted.items() if name != "skipped"},
-        },
-    )
-    suite.attrib = {"name": "juggleproof", **{name: str(count) for name, count in counted.items()}}
+    attributes = {"name": "juggleproof"} | {name: str(n) for name, n in counted.items()}
+    if seconds:
+        attributes["time"] = f"{sum(seconds.values()):.3f}"
+    suite.attrib = attributes
+    root = ElementTree.Element("testsuites", attributes)
+    del root.attrib["skipped"]
     root.append(suite)
     ElementTree.indent(root)
     text: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
     return text + b"\n"
 
 
+def class_name(file: str) -> str:
+    """The class of a file's claims: its path with dots, its name where it is elsewhere.
+
+    >>> class_name("claims/mine.py"), class_name("/tmp/mine.py")
+    ('claims.mine', 'mine')
+    """
+    path = PurePath(file).with_suffix("")
+    return path.name if path.is_absolute() else ".".join(path.parts)
+
+
 def _case(
-    suite: ElementTree.Element, classname: str, name: str, kind: str, message: str, out: str = ""
+    suite: ElementTree.Element,
+    classname: str,
+    name: str,
+    kind: str,
+    message: str,
+    out: str = "",
+    more: Mapping[str, str] | None = None,
 ) -> None:
-    case = ElementTree.SubElement(suite, "testcase", classname=classname, name=writable(name))
+    attributes = {"classname": classname, "name": name, **(more or {})}
+    case = ElementTree.SubElement(
+        suite, "testcase", {name: writable(text) for name, text in attributes.items()}
+    )
     if kind:
         lines = writable(message).splitlines()
         ElementTree.SubElement(

@@ -31,7 +31,7 @@ from juggleproof.proofs.register import (
 from juggleproof.proofs.reports import errata, tree
 from juggleproof.proofs.reports import results as table
 from juggleproof.proofs.reports.results import Result, Results, reading_of
-from juggleproof.proofs.run import Options, judge_stored
+from juggleproof.proofs.run import Options, Run, judge_some, judge_stored
 from juggleproof.proofs.theorem import THEOREM
 
 # -------------------------------------------------------------------------------------------------
@@ -156,21 +156,22 @@ def gather(register: Path = PATH) -> Contents:
 
     Raises ClaimError, one line, where the store holds no certificates, or the register is none.
     """
-    before, store = load_register(register), Store(DEFAULT)
+    before = load_register(register)
     done = judge_stored(paper_claims(), Options(DEFAULT))
-    judgements, checked = done.judgements, done.outcomes
-    settle_by_rules(judgements, checked, store.texts, done.claims)
+    settle_by_rules(done.judgements, done.outcomes, Store(DEFAULT).texts, done.claims)
+    return contents_of(done, before)
+
+
+def contents_of(done: Run, before: Register) -> Contents:
+    """The contents of a report on a run over all claims of the paper, beside a register."""
+    store, judgements, checked = Store(done.store), done.judgements, done.outcomes
     votes = {name: cast for one in judgements for name, cast in one.votes.items()}
-    by_id = {claim.id: entry(claim, judgement) for claim, judgement in zip(done.claims, judgements)}
-    derived, entries = dict[str, Derivation](), list[Entry]()
-    for claim, judgement in zip(done.claims, judgements):
-        body = claim.body()
-        steps = derivations_of(statements_of(claim, judgement.correction))
-        derived.update((one.function, one) for one in behind(steps))
-        entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading_of(body)))
+    by_id = _judged(done.claims, judgements)
+    entries = _entries(done.claims, judgements, by_id, store)
+    derived = {one.function: one for entry in entries for one in behind(entry.steps)}
     outcomes = Counter(outcome for one in judgements for outcome in one.outcomes.values())
     return Contents(
-        tuple(entries),
+        entries,
         {word: sum(one.verdict.word == word for one in judgements) for word in VERDICTS},
         dict(outcomes),
         tuple(table.summary(judgements).splitlines()[2:]),
@@ -180,6 +181,32 @@ def gather(register: Path = PATH) -> Contents:
         tuple(changes(before, by_id, partial=False)),
         tool_versions(),
     )
+
+
+def entries_of(claims: Sequence[Claim]) -> tuple[Entry, ...]:
+    """The entries of some of the paper's claims, which alone are judged, by certificates alone; how
+    much an error weighs depends on the registered verdicts of the others.
+
+    Raises ClaimError, one line, where the store holds no certificates, or the register is none.
+    """
+    judgements = judge_some(claims, paper_claims(), DEFAULT)
+    by_id = {**load_register(), **_judged(claims, judgements)}
+    return _entries(claims, judgements, by_id, Store(DEFAULT))
+
+
+def _judged(claims: Sequence[Claim], judgements: Sequence[Judgement]) -> Register:
+    return {claim.id: entry(claim, judgement) for claim, judgement in zip(claims, judgements)}
+
+
+def _entries(
+    claims: Sequence[Claim], judgements: Sequence[Judgement], by_id: Register, store: Store
+) -> tuple[Entry, ...]:
+    entries = list[Entry]()
+    for claim, judgement in zip(claims, judgements):
+        steps = derivations_of(statements_of(claim, judgement.correction))
+        reading = reading_of(claim.body())
+        entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading))
+    return tuple(entries)
 
 
 def tool_versions() -> dict[str, str]:
@@ -315,6 +342,7 @@ def results_of(contents: Contents | Results, register: Register | None = None) -
             one.claim.section,
             one.claim.place,
             table.locator(one.claim),
+            table.source_of(one.claim),
             one.claim.says,
             one.claim.printed,
             one.claim.as_it_stands,

@@ -7,6 +7,9 @@ from types import ModuleType
 
 from juggleproof.certificates.language import ClaimError
 
+# What pip installs, in a checkout and beside a wheel alike; as in pyproject.toml.
+EXTRAS = {"report": "jinja2 matplotlib latex2mathml", "part": "numba"}
+
 
 def needed(module: str, purpose: str = "report", extra: str = "report") -> ModuleType:
     """The module, imported; raises ClaimError, one line that says how to install it, where it is
@@ -17,5 +20,5 @@ def needed(module: str, purpose: str = "report", extra: str = "report") -> Modul
     except ImportError:
         raise ClaimError(
             f"{module.partition('.')[0]} is needed for this {purpose}; install it with pip install"
-            f" -e '.[{extra}]'"
+            f" {EXTRAS[extra]}"
         ) from None

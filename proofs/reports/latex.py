@@ -485,12 +485,14 @@ def narrow(latex: str) -> str:
 
 
 def with_macros(latex: str) -> str:
-    r"""The same LaTeX with the notation macros.
+    r"""The same LaTeX with the notation macros, and words apart from the formulas beside them.
 
     >>> with_macros(r"\gamma\overline{\beta} + \frac{1}{2} \dot{\overline{\beta}}^2")
     '\\juggravity\\jugheight + \\frac{1}{2} \\jugspeed^2'
+    >>> with_macros(r"a = b \text{so that} c = d")
+    'a = b \\text{ so that } c = d'
     """
-    shown = narrow(latex)
+    shown = re.sub(r"(?<!^)\\text\{ ?([^{}]*?) ?\}(?!$)", r"\\text{ \1 }", narrow(latex))
     for name, _, pattern in MACROS:
         set_as = partial(_macro, f"\\{PREFIX}{name}")
         shown = re.sub(pattern + r"(\s*)(?=(.?))", set_as, shown, flags=re.DOTALL)

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from rich.console import Console
 from rich.table import Column, Table
@@ -95,6 +96,17 @@ def is_of_paper(claim: Claim) -> bool:
 def locator(claim: Claim) -> str:
     """Where the claim stands, as a reader of the paper finds it; as it says, for one's own."""
     return place_of(claim) if is_of_paper(claim) else f"{claim.section} {claim.place}".strip()
+
+
+def source_of(claim: Claim) -> tuple[str, int]:
+    """File and line of a claim: of the paper's in this project's tree, wherever that is; of one's
+    own relative to the working directory where it is below it.
+    """
+    file, _, line = claim.where.rpartition(":")
+    path = Path(file).absolute()
+    tree = Path(__file__).parents[2]
+    shown = path.relative_to(tree).as_posix() if path.is_relative_to(tree) else file
+    return shown, int(line)
 
 
 def sharp_range(judgement: Judgement, claim: Claim | None = None) -> str:
@@ -245,13 +257,14 @@ class Stated:
 @dataclass(frozen=True)
 class Result:
     """A claim as it was judged; `wrong` and `group` show what is not simply true, as `errata`
-    does.
+    does; `source` is the file and line that it stands in.
     """
 
     id: str
     section: str
     place: str
     locator: str
+    source: tuple[str, int]
     says: str
     printed: str
     as_it_stands: str
@@ -418,6 +431,7 @@ def _result(claim: Claim, judged: Judgement) -> Result:
         claim.section,
         claim.place,
         locator(claim),
+        source_of(claim),
         claim.says,
         claim.printed,
         claim.as_it_stands,

@@ -51,28 +51,25 @@ MAX_BITS = 12000  # of a number that is read
 _WHOLE = r"(\d{1,1000})(?:\^(\d{1,5}))?"
 _EXACT = re.compile(rf"(-?){_WHOLE}(?:/{_WHOLE})?", re.ASCII)
 _DECIMAL = re.compile(
-    r"-?(\d{1,30}\.?\d{0,30}|\.\d{1,30})(e[+-]?\d{1,2})?", re.ASCII | re.IGNORECASE
+    r"-?(\d{1,30}\.?\d{0,30}|\.\d{1,30})(e[+-]?\d{1,3})?", re.ASCII | re.IGNORECASE
 )
 
 
 def exact(text: str, name: str) -> Fraction:
-    """The number that is written as p, p/q or p^k, such as -41, 3/10 or 10^300.
+    """The number that is written as p, p/q, p^k or a decimal, such as -41, 3/10, 10^300 or 9.81,
+    which is 981/100 exactly.
 
-    >>> exact("-3/10", "x"), exact("2^5", "x")
-    (Fraction(-3, 10), Fraction(32, 1))
+    >>> exact("-3/10", "x"), exact("2^5", "x"), exact("9.81", "g")
+    (Fraction(-3, 10), Fraction(32, 1), Fraction(981, 100))
 
     Raises ClaimError, one line that names the form, for anything else.
     """
     text = text.strip()
+    if _DECIMAL.fullmatch(text):
+        return Fraction(text)
     match = _EXACT.fullmatch(text)
     if not match:
-        if _DECIMAL.fullmatch(text):
-            raise ClaimError(
-                f"{name} = {text} is a rounded number; write it exactly, as {Fraction(text)}"
-            )
-        raise ClaimError(
-            f"{name} = {text[:40]!r} is no number; write it exactly, as 3/10, -41 or 10^300"
-        )
+        raise ClaimError(f"{name} = {text[:40]!r} is no number; write it as 3/10, 0.3 or 10^300")
     sign, top, top_power, bottom, bottom_power = match.groups()
     return (-1 if sign else 1) * Fraction(
         _power(top, top_power, name), _power(bottom or "1", bottom_power, name, zero=False)

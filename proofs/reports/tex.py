@@ -19,6 +19,7 @@ from juggleproof.proofs.reports.contents import Contents, Entry
 from juggleproof.proofs.reports.errata import FIRST, GROUPS
 from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.latex import MACROS, NOTATION, latex_of, with_macros
+from juggleproof.proofs.reports.tex_words import APPENDICES
 from juggleproof.proofs.reports.words import parts_of
 
 if TYPE_CHECKING:
@@ -29,23 +30,19 @@ if TYPE_CHECKING:
 # templates that hold no formula of the paper.
 
 TEMPLATES = Path(__file__).parent / "templates"
-APPENDICES = {
-    "A": "Maximal and supremal points",
-    "B": "Handy equations, definitions, and parameterizations",
-}
 SECTIONS = {
     "A.1": "Maximum sustainable energy",
     "A.2": "Maximum energy change",
-    "A.3": r"Supremum $\Delta E$ outside $\jugR$",
-    "A.3.1": r"The boundary $R(\jugstate) = 0$",
-    "A.3.2": r"Finding $\Delta E_{\sup}$",
-    "A.4": r"Number of impacts to enter $\jugR$",
+    "A.3": r"Supremum \texorpdfstring{$\Delta E$}{of Delta E} outside \texorpdfstring{$\jugR$}{R}",
+    "A.3.1": r"The boundary \texorpdfstring{$R(\jugstate) = 0$}{R(b) = 0}",
+    "A.3.2": r"Finding \texorpdfstring{$\Delta E_{\sup}$}{the supremum}",
+    "A.4": r"Number of impacts to enter \texorpdfstring{$\jugR$}{R}",
     "B.1": "Time to collision",
     "B.2": "Important regions",
     "B.3": "System dynamics",
     "B.4": "Fixed point",
     "B.5": "Zero energy change boundary",
-    "B.6": r"Boundary of $\jugR$",
+    "B.6": r"Boundary of \texorpdfstring{$\jugR$}{R}",
     "B.7": "Table of notation",
 }
 BESIDE = (
@@ -75,7 +72,8 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
         "notation": {
             "notation": [
                 (latex, tex_words.prose(meaning)) for _, latex, meaning in NOTATION if meaning
-            ]
+            ],
+            "names": tex_words.names(),
         },
     }
     texts = {name: _render(made, name, contents, values) for name, values in fragments.items()}
@@ -85,7 +83,7 @@ def files(contents: Contents, figures: Sequence[tuple[str, str, str]] = ()) -> d
         )
     if figures:
         captions = [
-            (slug, tex_words.plain(title), tex_words.prose(text)) for slug, title, text in figures
+            (slug, tex_words.prose(title), tex_words.prose(text)) for slug, title, text in figures
         ]
         texts["figures"] = _render(made, "figures", contents, {"figures": captions})
     values = {
@@ -277,33 +275,43 @@ def _theorem(contents: Contents) -> dict[str, object]:
 
 
 def equation(entry: Entry) -> str:
-    """One claim's equation with its label, as a fragment of its own: the correction where the print
-    is false, else the print.
+    """One claim's equation with its label, as a fragment of its own, which says what its symbols
+    mean: the correction where the print is false, else the print.
 
-    Raises ClaimError where the paper prints no formula for the claim.
+    Raises ClaimError where the paper prints no formula for the claim, or where a symbol has no
+    meaning.
     """
     if not entry.claim.printed:
         raise ClaimError(
             f"{entry.claim.id} has no printed formula; `juggleproof explain {entry.claim.id}` shows"
             " its statements"
         )
-    body = tex_words.correction(entry) if entry.correction else entry.claim.printed
+    number, printed = tex_words.number(entry.claim), tex_words.without_stop(entry.claim.printed)
+    body = tex_words.correction(entry) if entry.correction else printed
+    # a correction that names the print by its number is to stand alone
+    body = body.replace(rf"\text{{({number}) or }}", rf"{printed} \text{{ or }}")
     rows = [with_macros(tex_words.without_stop(row)) for row in tex_words.lines(body)]
     shown = (
         rows[0]
         if len(rows) == 1
         else "\\begin{gathered}\n" + " \\\\\n".join(rows) + "\n\\end{gathered}"
     )
-    tag = f"\\tag{{{tex_words.number(entry.claim)}}}" if tex_words.number(entry.claim) else ""
+    tag = f"\\tag{{{number}}}" if number else ""
     head = [
-        (
-            f"% {entry.claim.id}, {place_of(entry.claim)}: {entry.verdict_text};"
-            f" as printed it holds {words_of(entry)}"
-        ),
+        f"% {entry.claim.id}, {place_of(entry.claim)}: {entry.verdict_text}",
+        *([f"% holds as printed: {entry.sharp}"] if entry.sharp != "no alpha" else []),
         *(
-            [f"% corrected; printed was: {' '.join(entry.claim.printed.split())}"]
+            [
+                f"% {'true instead' if entry.correction['kind'] == 'nearby' else 'corrected'};"
+                f" printed was: {' '.join(entry.claim.printed.split())}"
+            ]
             if entry.correction
             else []
+        ),
+        "% where",
+        *(
+            f"%   {symbol}: {meaning}"
+            for symbol, meaning in tex_words.symbols(body, entry.claim.section)
         ),
     ]
     numbered = "equation" if not tag else "equation*"
@@ -324,11 +332,6 @@ def equation(entry: Entry) -> str:
         )
         + "\n"
     )
-
-
-def words_of(entry: Entry) -> str:
-    """The sharp range in plain words."""
-    return "for all the parameters that it names" if entry.sharp == "no alpha" else entry.sharp
 
 
 # -------------------------------------------------------------------------------------------------

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from itertools import starmap
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
 from juggleproof.proofs.ledger.places import place_of
+from juggleproof.proofs.ledger.remarks import NAMES, PROSE, meanings, names_of
 from juggleproof.proofs.paper.derivations import Derivation
+from juggleproof.proofs.reading.meaning import read
+from juggleproof.proofs.reading.tree import Operator, Tree, spelled
 from juggleproof.proofs.reports.contents import Entry
-from juggleproof.proofs.reports.errata import is_latex
-from juggleproof.proofs.reports.latex import latex_of, with_macros
+from juggleproof.proofs.reports.errata import WRONG, is_latex
+from juggleproof.proofs.reports.latex import NOTATION, latex_of, narrow, with_macros
 from juggleproof.proofs.reports.words import pieces
 
 SPECIAL = {
@@ -32,6 +37,7 @@ SPECIAL = {
     '"': "''",
     "`": "'",
 }
+CLAIM_IDS = re.compile(r"\b((?:s[\dAB][\w.]*|prop-\d|eq)-\w[\w-]*|theorem-\w[\w-]*(?:/[\w.-]*\w)?)")
 # What a derived expression is called in the paper, where it has a name there.
 SYMBOLS = {
     "f1": r"\bar f_1(\bar b)",
@@ -45,6 +51,12 @@ SYMBOLS = {
     "energy_change_1": r"\Delta_1 E(\bar b)",
     "energy_change_2": r"\Delta_2 E(\bar b)",
     "collision_time": r"\tau_c(\bar b)",
+    "acceleration": r"\ddot\chi",
+    "gap": r"\beta(t) - \rho(t)",
+    "time_after_collision": r"\bar{\tau}_c(\bar b)",
+    "relative_kinetic_energy": "K(z)",
+    "energy_gradient": r"D\Delta_1 E(\bar b)",
+    "region_gradient": r"DR(\bar b)",
     "xi_1": r"\xi_1",
     "epsilon_1": r"\epsilon_1",
     "launch_state": "r_0",
@@ -62,6 +74,12 @@ SYMBOLS = {
 }
 
 
+APPENDICES = {
+    "A": "Maximal and supremal points",
+    "B": "Handy equations, definitions, and parameterizations",
+}
+
+
 def plain(text: str) -> str:
     r"""Text with what is special to LaTeX written out.
 
@@ -75,22 +93,33 @@ def code(text: str) -> str:
     r"""A text of marks in typewriter face, which may be broken after each sign.
 
     >>> code("a_1+b")
-    '\\texttt{a\\_\\penalty0 1+\\penalty0 b}'
+    '\\texttt{a\\_\\penalty0{}1+\\penalty0{}b}'
     """
-    signs = (plain(sign) + (r"\penalty0 " if sign in "_^+-=(){}," else "") for sign in text)
+    signs = (plain(sign) + (r"\penalty0{}" if sign in "_^+-=(){},/" else "") for sign in text)
     return rf"\texttt{{{''.join(signs)}}}"
 
 
 def prose(text: str) -> str:
-    r"""A sentence, its formulas set.
+    r"""A sentence, its formulas set, and the names of claims in typewriter face.
 
-    >>> prose("The maximum of Delta_1 E on H.")
-    'The maximum of $\\Delta_1 E$ on $\\jugH$.'
+    >>> prose("The maximum of Delta_1 E on H. (eq-37)")
+    'The maximum of $\\Delta_1 E$ on $\\jugH$. (\\texttt{eq-\\penalty0{}37})'
     """
+    between = CLAIM_IDS.split(text)
     return "".join(
-        f"${with_macros(content)}$" if kind == "math" else plain(content)
-        for kind, content in pieces(text)
+        code(part) if place % 2 else "".join(starmap(_set, pieces(part)))
+        for place, part in enumerate(between)
     )
+
+
+def _set(kind: str, content: str) -> str:
+    return f"${with_macros(content)}$" if kind == "math" else plain(content).replace("!=", r"$\ne$")
+
+
+def why(entry: Entry) -> str:
+    """What keeps the transcription from being judged; words with commands of LaTeX are code."""
+    text = re.sub(r"column \d+: ", "", entry.why_restored)
+    return " ".join(code(one) if "\\" in one or "_" in one else plain(one) for one in text.split())
 
 
 def lines(latex: str) -> list[str]:
@@ -176,9 +205,93 @@ def entries(one: Derivation) -> str:
     return r"\begin{bmatrix}" + r" \\ ".join(" & ".join(row) for row in shown) + r"\end{bmatrix}"
 
 
+def in_errata(entry: Entry) -> bool:
+    """Whether the display of the claim stands among the errata, and not in an appendix."""
+    return entry.group in WRONG or bool(entry.group) and entry.claim.section[:1] not in APPENDICES
+
+
 def symbol(one: Derivation) -> str:
     """The paper's name for what is derived, or nothing."""
     return with_macros(SYMBOLS.get(one.function, ""))
+
+
+# -------------------------------------------------------------------------------------------------
+# The symbols of prints, with what the ledger of names says of them.
+
+OPERATORS = {
+    r"\Delta": "the change from one sampled state to the next",
+    r"\Delta_1": "the change over a period with an impact",
+    r"\Delta_2": "the change over a period without one",
+    "D": "the derivative, by the variable in the subscript",
+    r"\partial": "before a region: its boundary",
+}
+
+
+def symbols(latex: str, section: str) -> list[tuple[str, str]]:
+    r"""The symbols of a print, or of its correction, and what they mean in this section of the
+    paper, else in the others.
+
+    >>> symbols(r"\tau_p < T \text{ or } \alpha = 1", "3.1")  # doctest: +NORMALIZE_WHITESPACE
+    [('\\tau_{p}', 'the time since the period began'), ('T', 'the period of the table'),
+     ('\\alpha', 'the coefficient of restitution')]
+
+    Raises ClaimError where the ledger has no meaning of one.
+    """
+    found = dict[str, str]()
+    for row in re.split(r"\\text\{[^{}]*\}", latex):
+        for part in read(row).parts if row.strip() else ():
+            found |= {sign: OPERATORS[sign] for sign in _operators(part.tree)}
+            found |= {name: _meaning(name, section) for name in names_of(part.tree)}
+    return [(narrow(name), meaning) for name, meaning in found.items()]
+
+
+def _meaning(name: str, section: str) -> str:
+    rows = [row for row in meanings() if row.name == name]
+    for at in (section, section + PROSE):
+        here = [row.meaning for row in rows if at in row.sections]
+        if here:
+            return "; or ".join(here)
+    if not rows:
+        raise ClaimError(
+            f"{NAMES.name}: no meaning of {name}; add one for section {section}{PROSE}"
+        )
+    return rows[0].meaning
+
+
+def _operators(tree: object) -> Iterator[str]:
+    if isinstance(tree, tuple):
+        for one in tree:
+            yield from _operators(one)
+    elif isinstance(tree, Tree):
+        if isinstance(tree, Operator):
+            numbered = tree.sign == r"\Delta" and tree.subscripts
+            yield tree.sign + (f"_{spelled(tree.subscripts[0])}" if numbered else "")
+        for field in tree.__dataclass_fields__:
+            yield from _operators(getattr(tree, field))
+
+
+def names() -> list[tuple[str, str, str]]:
+    """The names of prints with their meanings and, for a name with several, the sections of each;
+    without those of the notation of statements.
+    """
+    rows = [row for row in meanings() if any(not one.endswith(PROSE) for one in row.sections)]
+    count = Counter(row.name for row in rows)
+    known = {_bare(latex) for _, latex, meaning in NOTATION if meaning}
+    return [
+        (
+            with_macros(row.name.replace("...", r"\ldots")),
+            prose(row.meaning),
+            ", ".join(one for one in row.sections if not one.endswith(PROSE))
+            if count[row.name] > 1
+            else "",
+        )
+        for row in rows
+        if count[row.name] > 1 or _bare(row.name) not in known
+    ]
+
+
+def _bare(latex: str) -> str:
+    return re.sub(r"[{} ]|\\(?=max)", "", narrow(latex))
 
 
 def key(name: str) -> str:
@@ -278,6 +391,7 @@ __all__ = [
     "formula",
     "heading",
     "holds",
+    "in_errata",
     "inline",
     "key",
     "number",
@@ -286,4 +400,5 @@ __all__ = [
     "settled",
     "symbol",
     "values",
+    "why",
 ]

@@ -161,7 +161,7 @@ def _is_name(word: str) -> bool:
         or word in REGIONS
         or word in GLYPHS
         or word in LETTERS
-        or bool(re.fullmatch(r"[a-z]\d", word))
+        or bool(re.fullmatch(r"(?:[a-z]|beta)\d", word))
     )
 
 

@@ -14,6 +14,7 @@ In reading order:
     bounded   orbits in Arb balls, and in float64 with proved bounds
     orbits    the orbits of a scene, and the motion between samples
     periodic  periodic orbits
+    limits    the periodic orbits that orbits tend to
     tables    tables and hard cases
     picture   pictures of orbits
 

@@ -49,7 +49,7 @@ from juggleproof.scenes.juggler.track import Sample, Stop, Track, advance, begin
 
 Floats: TypeAlias = NDArray[np.float64]  # of any shape, () for a single number
 Booleans: TypeAlias = NDArray[np.bool_]
-Places: TypeAlias = Booleans | slice
+Places: TypeAlias = Booleans | NDArray[np.int64] | slice
 U = 2.0**-53
 UP, TINY = 1 + 2.0**-49, 2.0**-1065
 EXACT: Floats = np.array(0.0)  # the bound of what is not rounded
@@ -82,6 +82,9 @@ class Bounded:
 
     def __neg__(self) -> Bounded:
         return Bounded(-self.v, self.e)
+
+    def __abs__(self) -> Bounded:
+        return Bounded(abs(self.v), self.e)
 
     def __sub__(self, other: Bounded | int | Floats) -> Bounded:
         two = _bounded(other)
@@ -353,6 +356,14 @@ def bytes_needed(count: int, steps: int, keep: bool = False) -> int:
     return 49 * count + ROUND_MEMORY + (32 * count * (steps + 1) if keep else 0)
 
 
+def refuse_flushing() -> None:
+    """SceneError on a processor whose floats have no gradual underflow."""
+    if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
+        raise SceneError(
+            "this processor is set to flush small floats to 0, under which no bound holds"
+        )
+
+
 def follow_fast(
     scene: Scene,
     goal: Goal,
@@ -363,10 +374,7 @@ def follow_fast(
     """Follows all orbits of the scene, chunk by chunk, in place; SceneError on a processor whose
     floats have no gradual underflow.
     """
-    if float(np.float64(2.0**-1074) * np.float64(1.0)) == 0:
-        raise SceneError(
-            "this processor is set to flush small floats to 0, under which no bound holds"
-        )
+    refuse_flushing()
     count = scene.starts.count
     fixed = [Bounded.of(part) for part in formulas().fixed(scene.alpha)]
     with np.errstate(all="ignore"):

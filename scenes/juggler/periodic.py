@@ -9,13 +9,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
+from typing import TypeVar
 
+from flint import fmpq
 from sympy import Expr, Poly, Rational, cancel, factor_list, fraction, refine_root
 from sympy import intervals as isolating
 
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.exact import flight, impact, strikes
-from juggleproof.scenes.juggler.given import Number, brief, counted, restitution
+from juggleproof.scenes.juggler.given import Number, brief, counted, formulas, restitution
 from juggleproof.symbolic import normal_f1, normal_flight_power, normal_margin, solution_of
 from juggleproof.symbolic.algebra import K, alpha, w, x
 
@@ -191,6 +193,8 @@ def where(nonnegative: Sequence[Expr], positive: Sequence[Expr] = ()) -> list[Ra
 # K has K' - 1 <= alpha (K + 1) (claim `theorem-flights`), and the longest of a word follows one
 # that is not longer.  So for one alpha and one number of impacts the search is complete.
 
+# numbers that divide; python-flint has no types, so that floats with bounds are of its kind here
+F = TypeVar("F", Fraction, float, fmpq)
 Word = tuple[int, ...]
 Place = tuple[Fraction, Fraction]
 LONGEST_WORD, LONGEST_FLIGHT, MOST_WORDS = 12, 10**6, 10**5
@@ -244,7 +248,7 @@ def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
     (True, False)
     """
     at, lengths = restitution(alpha), valid_word(word)
-    start = _returning_state(at, lengths)
+    start = returning_state(at, lengths, Fraction(0))
     impacts, edge, place = [], False, start
     for periods in lengths:
         if place[0] < 0 or not strikes(*place):
@@ -262,15 +266,20 @@ def orbit_of(word: Sequence[int], alpha: Number) -> Orbit | None:
     return Orbit(lengths, at, tuple(impacts), not edge)
 
 
-def _returning_state(at: Fraction, word: Word) -> Place:
-    """The only state that the word's affine map keeps, by the images of three states."""
+def returning_state(at: F, word: Sequence[F] | Sequence[int], zero: F) -> tuple[F, F]:
+    """The only state that the word's affine map keeps, by the images of three states; 0 is of the
+    kind of alpha.
 
-    def image(place: Place) -> Place:
+    >>> returning_state(Fraction(1, 2), (2,), Fraction(0))
+    (Fraction(4, 9), Fraction(8, 3))
+    """
+    map_, one = formulas(), zero + 1
+
+    def image(place: tuple[F, F]) -> tuple[F, F]:
         for periods in word:
-            place = _onwards(at, place, periods)
+            place = map_.flight(*map_.impact(at, *place), periods - 1)
         return place
 
-    zero, one = Fraction(0), Fraction(1)
     (c, d), (a, _), (b, e) = (image(place) for place in ((zero, zero), (one, zero), (zero, one)))
     # x' = a x + b w + c, w' = e w + d: closing speeds do not depend on heights
     a, b, e = a - c, b - c, e - d

@@ -128,16 +128,19 @@ def run_jobs(
     jobs: Sequence[J],
     executor: Executor | None,
     report: Callable[[int, int], None] | None = None,
+    done: list[R] | None = None,
 ) -> list[R]:
     """The work done on each job, in the order given; `report` is called with how many are done, and
-    of how many.
+    of how many.  A list `done` is filled, and holds what was done where the run is interrupted.
     """
+    done = [] if done is None else done
     if len(jobs) == 1 and executor is None:
-        return [work(jobs[0])]
+        done.append(work(jobs[0]))
+        return done
     if executor is None:
         with ThreadPoolExecutor(os.cpu_count()) as threads:
-            return run_jobs(work, jobs, threads, report)
-    futures, done = [executor.submit(work, job) for job in jobs], []
+            return run_jobs(work, jobs, threads, report, done)
+    futures = [executor.submit(work, job) for job in jobs]
     try:
         for future in futures:
             done.append(future.result())

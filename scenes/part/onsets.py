@@ -81,7 +81,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """The six rows, and the runs that they come from."""
+    """The six rows, or those that are done, and the runs that they come from."""
 
     rows: tuple[Row, ...]
     run: Run
@@ -112,13 +112,14 @@ def table_one(
 
     `peak` is how much of a printed amplitude is the amplitude: 1, or 1/2 where prints are from peak
     to peak.  `report` is called with how many ensembles are done, and of how many.
-    SceneError for numbers out of range, and without numba.
+    SceneError for numbers out of range, and without numba; `Interrupted`, with the rows that are
+    done, where it is interrupted.
     """
     refuse_long(setting, horizon, "horizon")
     if horizon == 0:
         raise SceneError("horizon = 0 s leaves no time to settle in")
     if not COMPILED:
-        raise SceneError("table I is computed by numba; install it with pip install -e '.[part]'")
+        raise SceneError("table I is computed by numba; install it with pip install numba")
     jobs: list[Job] = []
     angles = jittered(ensembles, seed)
     for frequency, amplitude, _ in PAPER:
@@ -127,12 +128,31 @@ def table_one(
         jobs += [
             (p, standing(shaken, row), horizon, fresh_notes(ANGLES, horizon / 2)) for row in angles
         ]
-    done = run_jobs(advanced, jobs, executor, report)
+    done: list[tuple[Array, Array]] = []
+    try:
+        run_jobs(advanced, jobs, executor, report, done)
+    except KeyboardInterrupt:
+        if len(done) < ensembles:
+            raise
+        raise Interrupted(_table(done, ensembles, horizon)) from None
+    return _table(done, ensembles, horizon)
+
+
+class Interrupted(KeyboardInterrupt):
+    """An interrupted run; `table` has the rows all of whose ensembles were done by then."""
+
+    def __init__(self, table: Table) -> None:
+        self.table = table
+
+
+def _table(done: Sequence[tuple[Array, Array]], ensembles: int, horizon: float) -> Table:
+    """The rows of `PAPER` that are done."""
+    count = len(done) // ensembles
     rows = tuple(
         row_of(row, [notes for _, notes in done[k * ensembles : (k + 1) * ensembles]], horizon)
-        for k, row in enumerate(PAPER)
+        for k, row in enumerate(PAPER[:count])
     )
-    return Table(rows, joined(done))
+    return Table(rows, joined(done[: count * ensembles]))
 
 
 def row_of(row: tuple[float, float, float | None], notes: list[Array], horizon: float) -> Row:

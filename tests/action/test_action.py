@@ -19,102 +19,8 @@ import yaml
 from juggleproof.certificates.store import DEFAULT
 from juggleproof.proofs.claims import VERDICTS
 from juggleproof.proofs.register import load_register
+from tests.action.runner import ACTION, ROOT, SCRIPTS, Runner
 from tests.proofs.reports.runs import FALSE, HOLDS, file_with
-
-# -------------------------------------------------------------------------------------------------
-# A folder that looks to a script of the action as a runner of GitHub does.
-
-ROOT = Path(__file__).resolve().parents[2]
-ACTION = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
-SCRIPTS = [step for step in ACTION["runs"]["steps"] if "run" in step]
-
-
-class Runner:
-    """A folder that looks to a script as a runner of GitHub does; network and installation are
-    stood in for.
-    """
-
-    def __init__(self, folder: Path) -> None:
-        self.temp, self.work, self.tools = (
-            folder / "temp dir",
-            folder / "work dir",
-            folder / "tools",
-        )
-        for one in (self.temp, self.work, self.tools):
-            one.mkdir()
-        self.calls, self.output, self.summary = (
-            folder / "calls",
-            folder / "output",
-            folder / "summary",
-        )
-        self.venv = self.temp / "juggleproof-venv" / "bin"
-        self.output.touch()
-        self.summary.touch()
-
-    def tool(self, name: str, script: str, folder: Path | None = None) -> None:
-        path = (folder or self.tools) / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(f"#!/bin/bash\n{script}\n", encoding="utf-8")
-        path.chmod(0o755)
-
-    def recorded(self, name: str, more: str = "") -> str:
-        return f"printf '%s\\n' \"{name} $*\" >> '{self.calls}'\n{more}"
-
-    def installed(self) -> None:
-        """The command as it would be after the installation, from this tree."""
-        self.tool("python", f"exec '{sys.executable}' \"$@\"", self.venv)
-        self.tool(
-            "juggleproof",
-            f"PYTHONPATH='{ROOT}' exec '{sys.executable}' -P -m"
-            ' juggleproof.proofs.command.main "$@"',
-            self.venv,
-        )
-
-    def run(
-        self, name: str, path: str = "/usr/bin:/bin", **environment: str
-    ) -> subprocess.CompletedProcess[str]:
-        step = next(step for step in SCRIPTS if step["name"] == name)
-        given = {
-            key: ACTION["inputs"].get(key.lower(), {}).get("default", "")
-            for key in step.get("env", {})
-        }
-        script = self.work.parent / "script.sh"
-        script.write_text(step["run"], encoding="utf-8")
-        of_github = {
-            "RUNNER_TEMP": self.temp,
-            "GITHUB_OUTPUT": self.output,
-            "GITHUB_STEP_SUMMARY": self.summary,
-            "GITHUB_ACTION_PATH": ROOT,
-            "HOME": self.work,
-        }
-        return subprocess.run(
-            ["bash", "--noprofile", "--norc", "-e", "-o", "pipefail", str(script)],
-            cwd=self.work,
-            capture_output=True,
-            text=True,
-            timeout=240,
-            check=False,
-            env={
-                **given,
-                "JUGGLEPROOF_CACHE": "off",
-                "PATH": f"{self.tools}:{path}",
-                **{name: str(value) for name, value in of_github.items()},
-                **environment,
-            },
-        )
-
-    def outputs(self) -> dict[str, str]:
-        return dict(
-            line.split("=", 1) for line in self.output.read_text(encoding="utf-8").splitlines()
-        )
-
-    def called(self) -> list[str]:
-        return self.calls.read_text(encoding="utf-8").splitlines() if self.calls.exists() else []
-
-
-# -------------------------------------------------------------------------------------------------
-# The action is safe for forks, and its shell steps do what they say, here with a made up
-# environment of GitHub.
 
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 PINNED = r"[\w.\-]+/[\w.\-/]+@(v\d+|[0-9a-f]{40})"
@@ -128,7 +34,7 @@ FORBIDDEN = (
     "GITHUB_TOKEN",
     "actions/cache",
 )
-EXPRESSIONS = r"inputs\.[\w\-]+|steps\.certify\.outputs\.\w+|runner\.temp"
+EXPRESSIONS = r"inputs\.[\w\-]+|steps\.(certify|tex)\.outputs\.\w+|runner\.temp"
 
 
 def names() -> list[str]:
@@ -187,6 +93,7 @@ def test_workflow_may_only_read_holds(path: Path) -> None:
     assert workflow["permissions"] == {"contents": "read"}
     assert set(workflow[True]) == {"push", "pull_request"}  # YAML 1.1 reads the key `on` as true
     for job in workflow["jobs"].values():
+        assert job["strategy"]["matrix"]["python"] == ["3.11", "3.12", "3.13"]
         assert "permissions" not in job and job["timeout-minutes"] <= 60
         for step in job["steps"]:
             assert "run" not in step
@@ -198,7 +105,10 @@ def runner(tmp_path: Path) -> Runner:
     return Runner(tmp_path)
 
 
-def test_installation_takes_the_lock_only_holds(runner: Runner) -> None:
+@pytest.mark.parametrize(
+    ("files", "lock"), [("", "requirements-report.lock"), ("mine.py", "requirements.lock")]
+)
+def test_installation_takes_the_lock_only_holds(files: str, lock: str, runner: Runner) -> None:
     runner.tool("of-the-venv", runner.recorded("venv python"))
     runner.tool(
         "python",
@@ -206,12 +116,12 @@ def test_installation_takes_the_lock_only_holds(runner: Runner) -> None:
             "python", f'mkdir -p "$3/bin" && cp "{runner.tools}/of-the-venv" "$3/bin/python"'
         ),
     )
-    done = runner.run("Install from the lock")
+    done = runner.run("Install from the lock", FILES=files)
     assert done.returncode == 0, done.stderr
-    made, lock, own = runner.called()
+    made, installed, own = runner.called()
     assert made == f"python -m venv {runner.temp / 'juggleproof-venv'}"
     assert (
-        lock.endswith(f"--requirement {ROOT}/requirements.lock")
+        installed.endswith(f"--requirement {ROOT}/{lock}")
         and "--no-deps --no-build-isolation" in own
     )
 
@@ -233,6 +143,7 @@ def test_false_claim_of_ones_own_fails_and_is_in_the_summary_holds(runner: Runne
         "juggleproof.json",
         "juggleproof.xml",
         "juggleproof.md",
+        "timings.txt",
         "certify.txt",
         "problem.txt",
     }
@@ -269,46 +180,40 @@ def test_rejects_input_that_is_no_file_or_number(
     assert runner.run("Result", STATUS="2").returncode == 2
 
 
-def test_report_is_made_in_every_format_holds(runner: Runner) -> None:
+def certified(runner: Runner, **given: str) -> list[str]:
+    """The options of the one call of the command that the steps make."""
     runner.tool("juggleproof", runner.recorded("juggleproof"), runner.venv)
-    runner.tool("latexmk", "")
-    done = runner.run("Report on the paper", STATUS="1", FORMATS=" html  badge ")
+    done = runner.run("Certify", **given)
     assert done.returncode == 0, done.stderr
-    assert runner.called() == [
-        f"juggleproof report --format {name} --output {runner.temp / 'juggleproof'}"
-        for name in ("html", "badge", "pdf")
-    ]
+    (call,) = runner.called()
+    return call.split()
 
 
-@pytest.mark.parametrize(
-    "given", [{"FILES": "mine.py", "STATUS": "0"}, {"STATUS": "2"}, {"STATUS": "130"}]
-)
-def test_no_report_is_made_of_ones_own_file_or_after_bad_input_holds(
-    given: dict[str, str], runner: Runner
-) -> None:
-    runner.tool("juggleproof", runner.recorded("juggleproof"), runner.venv)
-    assert runner.run("Report on the paper", **given).returncode == 0 and not runner.called()
+def test_one_call_certifies_and_makes_every_report_holds(runner: Runner) -> None:
+    options = certified(runner, FORMATS=" html  badge ", PDF="true")
+    assert options[:2] == ["juggleproof", "certify"]
+    reports = [one for one in options if one.startswith("--report")]
+    assert reports == ["--report=html", "--report=badge", "--report=pdf"]
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        {"FORMATS": "html docx"},
-        {"FORMATS": "$(touch hacked)"},
-        {"FORMATS": "-o"},
-        {"PDF": "yes"},
-        {"PDF": ""},
-    ],
-)
-def test_rejects_format(given: dict[str, str], runner: Runner) -> None:
-    runner.tool("juggleproof", runner.recorded("juggleproof"), runner.venv)
-    done = runner.run("Report on the paper", STATUS="0", **given)
-    assert (
-        done.returncode == 2
-        and len(done.stderr.splitlines()) == 1
-        and not runner.called()
-        and not (runner.work / "hacked").exists()
-    )
+def test_no_report_is_made_of_ones_own_file_holds(runner: Runner) -> None:
+    options = certified(runner, FILES="mine.py", FORMATS="html", PDF="false")
+    assert not [one for one in options if one.startswith("--report")] and options[-1] == "mine.py"
+
+
+@pytest.mark.parametrize("given", ["html docx", "$(touch hacked)", "-o", "--accept"])
+def test_rejects_format(given: str, runner: Runner) -> None:
+    runner.installed()
+    done = runner.run("Certify", FORMATS=given, PDF="false")
+    assert done.returncode == 0 and len(done.stderr.splitlines()) == 1
+    assert runner.outputs() == {"exit": "2"} and not (runner.work / "hacked").exists()
+    assert "choose from html" in runner.summary.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("given", ["yes", ""])
+def test_rejects_pdf_that_is_neither_true_nor_false(given: str, runner: Runner) -> None:
+    done = runner.run("TeX for the PDF", PDF=given)
+    assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
 
 
 def bare_path(runner: Runner) -> str:
@@ -321,35 +226,28 @@ def bare_path(runner: Runner) -> str:
 
 
 def test_tex_is_installed_where_latexmk_is_absent_holds(runner: Runner) -> None:
-    runner.tool("juggleproof", runner.recorded("juggleproof"), runner.venv)
     runner.tool("apt-get", runner.recorded("apt-get"))
     runner.tool("sudo", runner.recorded("sudo", 'shift; "$@"'))
     runner.tool("id", "echo 1000")
-    done = runner.run("Report on the paper", path=bare_path(runner), STATUS="0", FORMATS="")
+    done = runner.run("TeX for the PDF", path=bare_path(runner), PDF="true")
     assert done.returncode == 0, done.stderr
     calls = runner.called()
-    assert calls[0].startswith("sudo --non-interactive apt-get update") and calls[1].startswith(
-        "apt-get update"
-    )
-    assert (
-        calls[3].startswith("apt-get install")
-        and "latexmk" in calls[3]
-        and calls[4].startswith("juggleproof report --format pdf")
-    )
+    assert calls[0].startswith("sudo --non-interactive apt-get update")
+    assert calls[1].startswith("apt-get update")
+    assert calls[3].startswith("apt-get install") and "latexmk" in calls[3]
+    assert runner.outputs() == {"pdf": "true"}
+
+
+def test_no_tex_is_installed_for_files_of_ones_own_holds(runner: Runner) -> None:
+    runner.tool("apt-get", runner.recorded("apt-get"))
+    done = runner.run("TeX for the PDF", path=bare_path(runner), PDF="true", FILES="mine.py")
+    assert done.returncode == 0 and runner.outputs() == {"pdf": "false"} and not runner.called()
 
 
 def test_pdf_is_left_out_and_said_so_where_it_cannot_be_made_holds(runner: Runner) -> None:
-    runner.tool("juggleproof", runner.recorded("juggleproof"), runner.venv)
-    done = runner.run("Report on the paper", path=bare_path(runner), STATUS="0", FORMATS="html")
+    done = runner.run("TeX for the PDF", path=bare_path(runner), PDF="true")
     assert done.returncode == 0 and "::warning::the PDF is left out" in done.stdout
-    assert [call.split()[3] for call in runner.called()] == ["html"]
-    assert (
-        runner.run(
-            "Report on the paper", path="/usr/bin:/bin", STATUS="0", FORMATS="html", PDF="false"
-        ).returncode
-        == 0
-    )
-    assert [call.split()[3] for call in runner.called()] == ["html", "html"]
+    assert runner.outputs() == {"pdf": "false"}
 
 
 def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_path: Path) -> None:
@@ -365,7 +263,7 @@ def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_pa
         f' "$command" --store \'{tmp_path / "store"}\' "$@"',
         runner.venv,
     )
-    done = runner.run("Certify", PATH=os.environ["PATH"])
+    done = runner.run("Certify", PATH=os.environ["PATH"], PDF="false")
     assert done.returncode == 0, done.stderr
     assert (runner.outputs()["exit"], runner.outputs()["theorem"]) == ("0", "proved")
     open_claims = [one for one in load_register().values() if one["verdict"] == "unknown"]
@@ -374,9 +272,6 @@ def test_paper_is_certified_from_a_copy_of_the_tree_holds(runner: Runner, tmp_pa
     assert counts["unknown"] == len(open_claims)
     summary = runner.summary.read_text(encoding="utf-8")
     assert summary.startswith("# The theorem is proved\n") and "No change." in summary
-    assert (
-        json.loads((runner.temp / "juggleproof" / "juggleproof.json").read_text(encoding="utf-8"))[
-            "exit"
-        ]
-        == 0
-    )
+    made = runner.temp / "juggleproof"
+    assert json.loads((made / "juggleproof.json").read_text(encoding="utf-8"))["exit"] == 0
+    assert {"juggleproof.html", "juggleproof-badge.json"} <= {one.name for one in made.iterdir()}

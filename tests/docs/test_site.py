@@ -1,4 +1,4 @@
-"""The site, and the picture of README.md."""
+"""The site, and the pictures of README.md and of the pages."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports.figures import what_the_trap_shows
 from tests.docs.pages import PAGES, ROOT, code, text_of
 from tests.proofs.reports.browser import chromium, requests, resize, scheme
@@ -76,7 +77,7 @@ def test_pages_fit_a_phone_and_follow_the_readers_colours_holds(site: Path) -> N
 
 
 # -------------------------------------------------------------------------------------------------
-# The picture of README.md is the one that the program draws, on white.
+# The pictures of README.md and of the pages are those that the program draws.
 
 
 def test_the_trap_is_what_the_program_draws_holds() -> None:
@@ -89,3 +90,11 @@ def test_the_trap_is_what_the_program_draws_holds() -> None:
     on_white = drawn.replace("fill: none", "fill: #ffffff", 1)
     committed = (ROOT / f"docs/img/{slug}.svg").read_text(encoding="utf-8")
     assert committed == on_white, "run `make figure`"
+
+
+def test_what_orbits_tend_to_is_what_the_program_draws_holds(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    drawn = tmp_path / "bifurcation.svg"
+    assert run(["simulate", "juggler", "--picture", "bifurcation", "-o", str(drawn)]) == 0
+    committed = ROOT / "docs/img/bifurcation.svg"
+    assert committed.read_bytes() == drawn.read_bytes(), "run `make figure`"

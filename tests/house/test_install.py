@@ -1,5 +1,6 @@
-"""What is installed is one import name: from a wheel and from an editable install, the command, the
-API and the pytest plugin work beside a project that has folders named as ours.
+"""What is installed is one import name: from a wheel and from an editable install, with what
+certifying needs and no more, the command, the API and the pytest plugin work beside a project that
+has folders named as ours.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ from juggleproof.proofs.command.main import build_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("benchmarks", "certificates", "proofs", "scenes", "symbolic")
-DEPENDENCIES = "flint, highspy, mpmath, numpy, pytest, rich, setuptools, sympy, z3"
+NEEDED = [line.partition("==")[0] for line in (ROOT / "requirements.lock").read_text().split()]
+FOR_PYTEST = ["pytest", "iniconfig", "packaging", "pluggy"]
+EXTRAS = ("jinja2", "matplotlib", "numba", "latex2mathml", "hypothesis", "mypy", "selenium")
 PYTHONS = ("3.11", "3.12", "3.13")
 RUNNING = ".".join(map(str, sys.version_info[:2]))
 CLAIM = """
@@ -45,10 +48,15 @@ def test_the_project_has_its_own_folders():
 """
 API = """
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 import juggleproof
-from juggleproof.proofs import always, claim, reals
-from juggleproof.proofs.api import certify
+assert not [name for name in sys.modules if name.startswith("juggleproof.")]
+assert {"certify", "run_part"} <= set(dir(juggleproof))
+from juggleproof import *
+assert enclose_minimum("x^2 - x", {"x": (0, 1)}, width=0).low.denominator == 4
+assert orbit(scene("3/10", point(1000, -41)), "exact", until_trap=True).row(0).end == "trap"
+assert not [name for name in sys.argv[2:] if find_spec(name)], "more than certifying needs"
 assert Path(juggleproof.__file__).parents[0].parent == Path(sys.argv[1]), juggleproof.__file__
 assert [(one.name, one.answer) for one in certify(Path("mine.py"))] == [("squares", "holds")]
 """
@@ -89,7 +97,7 @@ def ran(*command: object, cwd: Path, env: Mapping[str, str] | None = None) -> st
 def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A copy of what is installed, so that building leaves nothing in the checkout."""
     folder = tmp_path_factory.mktemp("checkout")
-    for name in (*FOLDERS, "juggleproof"):
+    for name in (*FOLDERS, "juggleproof", "src"):
         shutil.copytree(
             ROOT / name,
             folder / name,
@@ -113,27 +121,40 @@ def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
+PARTS = """
+import sys
+from importlib.metadata import distribution
+for name in sys.argv[1:]:
+    one = distribution(name)
+    for top in {file.parts[0] for file in one.files} - {"..", "__pycache__"}:
+        print(one.locate_file(top))
+"""  # the files and folders in site-packages of the distributions that are named
+
+
 def interpreter(version: str) -> str:
     """A Python of this version that has what certifying needs."""
     found = sys.executable if version == RUNNING else shutil.which(f"python{version}")
-    code = f"import sys, {DEPENDENCIES}; print(*sys.version_info[:2], sep='.')"
-    done = found and subprocess.run([found, "-I", "-c", code], capture_output=True, text=True)
-    if not done or done.stdout.strip() != version:
-        pytest.skip(f"there is no python{version} that has {DEPENDENCIES}")
+    code = f"import sys; print(*sys.version_info[:2], sep='.'){PARTS}"
+    needed = [*NEEDED, *FOR_PYTEST]
+    done = found and subprocess.run(
+        [found, "-I", "-c", code, *needed], capture_output=True, text=True
+    )
+    if not done or done.returncode or done.stdout.split()[0] != version:
+        pytest.skip(f"there is no python{version} that has {', '.join(needed)}")
     assert found
     return found
 
 
 def environment(python: str, folder: Path) -> tuple[Path, Path]:
-    """A new virtual environment that sees what `python` has installed, but not what is editable
-    there: (its bin, its site-packages).
+    """A new virtual environment with what certifying needs, and pytest, of what `python` has, and
+    with nothing else: (its bin, its site-packages).
     """
-    code = "import sysconfig; print(sysconfig.get_path('purelib'))"
-    there = ran(python, "-c", code, cwd=folder).strip()
     ran(python, "-m", "venv", "--without-pip", folder / "venv", cwd=folder)
     bin = folder / "venv" / "bin"
+    code = "import sysconfig; print(sysconfig.get_path('purelib'))"
     site = Path(ran(bin / "python", "-c", code, cwd=folder).strip())
-    (site / "dependencies.pth").write_text(there + "\n", encoding="utf-8")
+    for part in ran(python, "-c", PARTS, *NEEDED, *FOR_PYTEST, cwd=folder).splitlines():
+        (site / Path(part).name).symlink_to(part)
     return bin, site
 
 
@@ -149,8 +170,8 @@ def place(
     folder = tmp_path_factory.mktemp("installed")
     bin, site = environment(python, folder)
     what = ("--editable", checkout) if editable else (wheel,)
-    pip(bin / "python", "install", "--no-index", *what, cwd=folder)
-    return Place(bin, checkout if editable else site)
+    pip(python, "--python", bin / "python", "install", "--no-index", *what, cwd=folder)
+    return Place(bin, checkout / "src" if editable else site)
 
 
 @pytest.fixture
@@ -190,7 +211,25 @@ def test_rejects_a_question_for_the_version_where_nothing_is_installed(
 
 
 def test_the_api_beside_a_project_holds(place: Place, project: Path) -> None:
-    ran(place.bin / "python", "-c", API, place.home, cwd=project)
+    ran(place.bin / "python", "-c", API, place.home, *EXTRAS, cwd=project)
+
+
+TYPED = """
+from juggleproof import certify, run_part
+
+reveal_type(certify)
+reveal_type(run_part)
+"""
+
+
+def test_types_beside_a_project_hold(place: Place, project: Path) -> None:
+    (project / "typed.py").write_text(TYPED, encoding="utf-8")
+    python = place.bin / "python"
+    options = ("--strict", "--cache-dir", os.devnull, "--python-executable", python)
+    seen = ran(sys.executable, "-m", "mypy", *options, "typed.py", cwd=project)
+    types = [line.partition("Revealed type is ")[2] for line in seen.splitlines()[:2]]
+    assert types[0].startswith('"def (what: ') and "list[juggleproof.proofs.api.Result]" in types[0]
+    assert types[1].startswith('"def (setting: juggleproof.scenes.part.setting.Scene')
 
 
 def test_pytest_beside_a_project_holds(place: Place, project: Path) -> None:

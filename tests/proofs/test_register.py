@@ -122,6 +122,21 @@ def test_changed_verdict_fails_and_is_shown_before_and_after_everywhere_holds(
     )
 
 
+def test_reports_of_a_run_are_what_it_writes_holds(
+    with_register: Callable[[str | Register], Certify], tmp_path: Path
+) -> None:
+    given = ["--report=json", "--report=badge", f"--output={tmp_path / 'reports'}"]
+    times = [f"--timings={tmp_path / 'out.timings'}"]
+    assert with_register(load_register())(*outputs(tmp_path), *given, *times) == 0
+    made = {path.name: path for path in (tmp_path / "reports").iterdir()}
+    assert set(made) == {"juggleproof.json", "juggleproof-badge.json"}
+    assert made["juggleproof.json"].read_bytes() == (tmp_path / "out.json").read_bytes()
+    suite = ElementTree.parse(tmp_path / "out.junit").getroot()[0]
+    seconds = dict(line.split()[::-1] for line in (tmp_path / "out.timings").open())
+    cases = [case for case in suite if case.get("line")]
+    assert {case.attrib["name"]: case.attrib["time"] for case in cases} == seconds
+
+
 def test_selection_leaves_other_claims_of_the_register_alone_holds(
     with_register: Callable[[str | Register], Certify],
     tmp_path: Path,

@@ -217,6 +217,25 @@ def test_progress_without_a_terminal_is_lines_on_standard_error_holds(
     assert done.stderr == "1 of 1 claims judged\n" and "judged" not in done.stdout
 
 
+@pytest.mark.parametrize(
+    ("given", "reason"),
+    [
+        (("--report", "html", "FILE"), "leave out FILE and --only"),
+        (("--report", "html", "--only", "eq-1"), "leave out FILE and --only"),
+        (("-o", "reports"), "name one with --report"),
+        (("--report", "docx"), "choose from html"),
+        (("--report", "html", "-o", "FILE"), "not a folder"),
+    ],
+)
+def test_rejects_reports_that_cannot_be_made(
+    given: tuple[str, ...], reason: str, tmp_path: Path
+) -> None:
+    path = claim_file(tmp_path, "always(x < x + 1)")
+    done = run("certify", *(str(path) if one == "FILE" else one for one in given))
+    assert done.returncode == 2 and not done.stdout and reason in done.stderr
+    assert len(done.stderr.splitlines()) == 1 and [*tmp_path.iterdir()] == [path]
+
+
 @pytest.mark.skipif(os.geteuid() == 0, reason="the superuser can write everywhere")
 def test_rejects_folder_that_cannot_be_written(tmp_path: Path) -> None:
     folder = tmp_path / "closed"
@@ -282,36 +301,71 @@ def test_rejects_tampered_certificate(tmp_path: Path) -> None:
         )
 
 
+SLOW = """
+import os, time
+from pathlib import Path
+
+for name in ("slow", "slower"):
+
+    @claim(name)
+    def slow():
+        "Slow."
+        Path(__file__).with_name(f"{os.getpid()}.judges").touch()
+        time.sleep(600)
+        return always(x < x + 1)
+"""
+
+
+def at_work(path: Path) -> tuple[subprocess.Popen[str], list[int]]:
+    """`certify` of a file with two slow claims added, and its two processes, when both judge one;
+    Ctrl-C is heard also where the shell that started the suite ignores it.
+    """
+    path.write_text(path.read_text(encoding="utf-8") + SLOW, encoding="utf-8")
+    heard = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    command = "from juggleproof.proofs.command.main import run; raise SystemExit(run())"
+    process = subprocess.Popen(
+        [sys.executable, "-c", f"{heard}; {command}", "certify", str(path), "--jobs", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        start_new_session=True,
+    )
+    while len(judging := list(path.parent.glob("*.judges"))) < 2:
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.1)
+    return process, [int(one.stem) for one in judging]
+
+
+def is_there(process: int) -> bool:
+    """Whether a process runs; one that has ended and is not yet fetched does not."""
+    try:
+        status = Path(f"/proc/{process}/stat").read_text(encoding="ascii")
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return status.rpartition(") ")[2][0] not in "ZX"
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_killing_leaves_no_process_behind_holds(tmp_path: Path) -> None:
+    process, judging = at_work(claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)"))
+    assert all(map(is_there, judging))
+    process.kill()
+    process.wait()
+    ends = time.monotonic() + 120
+    while any(map(is_there, judging)) and time.monotonic() < ends:
+        time.sleep(0.1)
+    assert not any(map(is_there, judging))
+
+
 def test_interrupt_leaves_the_store_as_it_was_holds(tmp_path: Path) -> None:
     path = claim_file(tmp_path, "always(x * y <= (x**2 + y**2) / 2)")
     certify(path)
     folder = tmp_path / "mine.certificates"
     before = {file.name: file.read_bytes() for file in folder.iterdir()}
-    slow = (
-        "\nimport time\n@claim('slow')\ndef slow():\n    '''Slow.'''\n    time.sleep(60)\n   "
-        " return always(x < x + 1)\n"
-    )
-    path.write_text(path.read_text(encoding="utf-8") + slow, encoding="utf-8")
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    process = subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "juggleproof.proofs.command.main",
-            "certify",
-            str(path),
-            "--jobs",
-            "2",
-        ],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=environment,
-        start_new_session=True,
-    )
-    time.sleep(4)
+    process, _ = at_work(path)
     process.send_signal(signal.SIGINT)
-    _, error = process.communicate(timeout=30)
+    _, error = process.communicate(timeout=120)
     assert process.returncode == 130 and "interrupted" in error and "Traceback" not in error
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
 

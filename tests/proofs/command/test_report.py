@@ -13,6 +13,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command import report
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.reports import extras, page
+from juggleproof.proofs.reports.contents import Contents
 from tests.proofs.reports.runs import contents
 
 pytestmark = pytest.mark.usefixtures("kept_records")
@@ -35,6 +36,23 @@ def test_page_is_written_and_its_path_printed_holds(
     assert [one.name for one in path.parent.iterdir()] == [
         path.name
     ] and path.read_bytes().startswith(b"<!DOCTYPE html>")
+
+
+def test_several_formats_are_made_from_claims_judged_once_holds(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judged = list[Contents]()
+
+    def gathered() -> Contents:
+        judged.append(contents())
+        return judged[-1]
+
+    monkeypatch.setattr(report, "gather", gathered)
+    given = ["--format", "json", "--format", "badge", "--format", "markdown", "-o", str(tmp_path)]
+    assert run(["report", *given]) == 0 and len(judged) == 1
+    names = ["juggleproof.json", "juggleproof-badge.json", "juggleproof.md"]
+    assert capsys.readouterr().out.splitlines() == [str(tmp_path / name) for name in names]
+    assert "--format word: choose from" in fault(capsys, "--format", "json", "--format", "word")
 
 
 def test_rejects_a_folder_that_cannot_be_made(

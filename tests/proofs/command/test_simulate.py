@@ -17,6 +17,7 @@ import pytest
 
 from juggleproof.proofs.command import simulate
 from juggleproof.proofs.command.main import run
+from juggleproof.scenes.juggler import orbit, point, scene
 from juggleproof.scenes.juggler.bounded import CHUNK
 
 START = ["--alpha", "1/3", "--state", "x=1,w=2"]
@@ -28,7 +29,7 @@ def output(capsys: pytest.CaptureFixture[str], *arguments: str, code: int = 0) -
 
 
 def test_known_orbits_hold(capsys: pytest.CaptureFixture[str]) -> None:
-    assert "87       3        0.081  0.335  0      in the trap" in output(
+    assert "87       3        81/1000  67/200  0      in the trap" in output(
         capsys, "--alpha", "3/10", "--state", "x=1000,w=-41", "--until-trap"
     )
     edge = output(
@@ -57,9 +58,28 @@ def test_known_orbits_hold(capsys: pytest.CaptureFixture[str]) -> None:
         "--units",
         "physical",
     )
-    assert "beta" in physical and "0.8" in physical
+    assert "beta" in physical and "4/5" in physical
     assert output(capsys, *START, "--impacts", "--keep", "--steps", "3").count("\n") == 6
-    assert "0.875" in output(capsys, "--alpha", "1/3", "--state", "x=0,w=3", "--times", "0:2:5")
+    assert "7/8" in output(capsys, "--alpha", "1/3", "--state", "x=0,w=3", "--times", "0:2:5")
+
+
+def test_decimals_are_exact_and_so_is_what_an_exact_orbit_prints_holds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    start = ["--state", "beta=2,v=-1", "--g", "9.81", "--units", "physical", "--keep"]
+    assert (
+        output(capsys, "--alpha", "0.3", *start, "--steps", "2").splitlines()[3:]
+        == output(capsys, "--alpha", "3/10", *start, "--g", "981/100", "--steps", "2").splitlines()[
+            3:
+        ]
+    )
+    kept = output(capsys, "--alpha", "1/3", "--state", "x=1,w=2", "--keep", "--steps", "25")
+    printed = [line.split()[3:5] for line in kept.splitlines()[2:]]
+    rows = orbit(scene("1/3", point(1, 2)), steps=25, keep=True).history(0)
+    assert printed == [[str(row.x), str(row.w)] for row in rows] and len(printed) == 26
+    long = output(capsys, "--alpha", "3/10", "--state", "x=1,w=2", "--steps", "60")
+    assert "~0.355029585799  ~1.53846153846" in long
+    assert "~: rounded to 12 digits from an exact number of more than 100 signs\n" in long
 
 
 def test_words_hold(capsys: pytest.CaptureFixture[str]) -> None:
@@ -144,26 +164,63 @@ def test_files_hold_what_the_table_says(
 
 def test_pictures_are_written_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
-    for name, start in (
-        ("one", START),
-        ("many", ["--alpha", "1/3", "--random", "200", "--arithmetic", "fast"]),
-        (
-            "edge",
-            ["--alpha", "1/3", "--state", "x=0,w=3", "--state", "x=1,w=2", "--arithmetic", "fast"],
-        ),
+    grid = ["--grid", "x=0:3:20,w=-2:4:20"]
+    for name, start, printed in (
+        ("orbit", [*START, "--steps", "7"], "orbit.svg: written\n"),
+        ("orbit", ["--alpha", "0.5", "--state", "beta=1,v=1", "--g", "9.81"], "orbit.svg"),
+        ("basin", ["--alpha", "1/2", *grid], "alpha = 1/2: 400 orbits in float64"),
+        ("basin", ["--alpha", "1/2", *grid, "--units", "physical"], "e_2"),
+        ("bifurcation", ["--alpha", "1/5:3/5:5", *grid], "e_2"),
+        ("bifurcation", [*START[2:], "--alpha", "1/5:3/5:5", "--units", "physical"], "e_1"),
     ):
         path = tmp_path / f"{name}.svg"
-        output(capsys, *start, "-o", str(path))
+        wanted = [*start, "--picture", name, "-o", str(path)]
+        assert printed in output(capsys, *wanted)
         first = path.read_bytes()
-        output(capsys, *start, "-o", str(path))
-        assert first == path.read_bytes() and first.startswith(b"<?xml") and b"<svg" in first
-    assert b"undecided" in first
+        output(capsys, *wanted)
+        assert first == path.read_bytes() and len(first) < 150_000
+        assert (b"data:image/png" in first) == (name != "orbit") and b"<svg" in first
 
 
+def test_bifurcation_tells_from_which_alpha_on_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    told = output(
+        capsys,
+        *["--picture", "bifurcation", "--alpha", "1/60:1/2:30", "--grid", "x=0:4:12,w=-2:4:12"],
+        *["-o", str(tmp_path / "b.svg")],
+    ).splitlines()
+    assert told[0].startswith("30 alpha, from 1/60 to 1/2: 4320 orbits in float64 with proved")
+    assert told[0].endswith("undecided: 0")
+    lines = {line.split()[0]: line.split()[2:] for line in told[2:]}
+    assert lines["e_1"] == ["1/60", "1/2"] and Fraction(lines["e_2"][0]) > Fraction(1, 3)
+    assert Fraction(lines["e_2"][0]) < Fraction(2, 5) and lines["e_2"][1] == "1/2"
+
+
+def test_an_interrupted_picture_is_not_written_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    from juggleproof.proofs.command import pictures
+
+    def report(done: int, of: int) -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(5)  # in which the signal comes
+
+    monkeypatch.setattr(pictures, "progress", lambda: report)
+    path = tmp_path / "basin.svg"
+    wanted = ["--alpha", "1/2", "--picture", "basin", "-o", str(path)]
+    assert run(["simulate", "juggler", *wanted]) == 130
+    assert capsys.readouterr().err == "juggleproof: interrupted; no file was written\n"
+    assert not path.exists()
+
+
+PICTURE = ["--picture", "orbit", "-o", "orbit.svg"]
 WRONG = {
     "no alpha": (["--state", "x=0,w=3"], "--alpha is missing"),
     "alpha": (["--alpha", "2", "--state", "x=0,w=3"], "alpha = 2 is not between 0 and 1"),
-    "rounded": (["--alpha", "0.3", "--state", "x=0,w=3"], "write it exactly, as 3/10"),
+    "no number": (["--alpha", "0.3.1", "--state", "x=0,w=3"], "is no number; write it as 3/10"),
     "no start": (["--alpha", "1/3"], "no start is given"),
     "two starts": ([*START, "--random", "5"], "--state and --random do not go together"),
     "below": (["--alpha", "1/3", "--state", "x=-1,w=3"], "below the table"),
@@ -173,7 +230,65 @@ WRONG = {
     "arithmetic": ([*START, "--arithmetic", "float"], "'float' is not one of"),
     "precision": ([*START, "--arithmetic", "mp", "--precision", "1"], "precision = 1"),
     "units": ([*START, "--units", "feet"], "choose from normal, physical"),
-    "format": ([*START, "-o", "orbit.txt"], "end in one of .csv, .npz, .svg"),
+    "format": ([*START, "-o", "orbit.txt"], "end in .csv or .npz"),
+    "picture of what": (
+        [*START, "-o", "orbit.svg"],
+        "orbit.svg is a picture; say which by --picture orbit, basin or bifurcation",
+    ),
+    "no such picture": (
+        [*START, "--picture", "dots", "-o", "orbit.svg"],
+        "--picture 'dots': choose from orbit, basin or bifurcation",
+    ),
+    "picture without a file": ([*START, "--picture", "orbit"], "needs a file; give -o F.svg"),
+    "picture in a table": (
+        [*START, "--picture", "orbit", "-o", "orbit.csv"],
+        "orbit.csv: the name is to end in .svg",
+    ),
+    "picture and arithmetic": (
+        [*START, *PICTURE, "--arithmetic", "fast"],
+        "--picture orbit and --arithmetic do not go together",
+    ),
+    "picture and keep": ([*START, *PICTURE, "--keep"], "and --keep do not go together"),
+    "basin and steps": (
+        ["--alpha", "1/2", "--picture", "basin", "-o", "b.svg", "--steps", "3"],
+        "--picture basin and --steps do not go together",
+    ),
+    "picture and words": ([*PICTURE, "--words"], "do not go together"),
+    "picture without alpha": (PICTURE, "--alpha is missing"),
+    "picture without a start": ([*PICTURE, "--alpha", "1/2"], "no start is given"),
+    "basin of a state": (
+        [*START, "--picture", "basin", "-o", "b.svg"],
+        "a grid of at least 2 by 2 states; give --grid",
+    ),
+    "too many orbits": (
+        ["--alpha", "1/2", "--grid", "x=0:1:3000,w=0:1:3000", "--picture", "basin", "-o", "b.svg"],
+        "outside 1 .. 4000000 orbits; give fewer",
+    ),
+    "bifurcation at one alpha": (
+        [*START, "--picture", "bifurcation", "-o", "b.svg"],
+        "--alpha: '1/3' is not FROM:TO:COUNT",
+    ),
+    "bifurcation of one alpha": (
+        ["--alpha", "1/3:1/2:1", "--picture", "bifurcation", "-o", "b.svg"],
+        "the number of alpha = 1 is not a whole number from 2 to 2000",
+    ),
+    "bifurcation beyond 1": (
+        ["--alpha", "1/3:2:5", "--picture", "bifurcation", "-o", "b.svg"],
+        "alpha = 2 is not between 0 and 1",
+    ),
+    "bifurcation of a boundary": (
+        ["--boundary", "9", "--picture", "bifurcation", "-o", "b.svg"],
+        "--boundary depends on alpha; give --state, --grid or --random",
+    ),
+    "beyond the floats": (
+        ["--alpha", "1/3", "--state", "x=10^400,w=0", *PICTURE],
+        "numbers beyond 10^308 cannot be drawn; give smaller ones",
+    ),
+    "many periods": ([*START, *PICTURE, "--steps", "50"], "give from 1 to 40"),
+    "many balls": (
+        ["--alpha", "1/3", "--random", "9", *PICTURE],
+        "9 starts cannot be drawn; give 6 at most",
+    ),
     "folder": ([*START, "-o", "/proc/none/orbit.csv"], "name another file"),
     "grid": (["--alpha", "1/3", "--grid", "x=0:1,w=0:1:2"], "FROM:TO:COUNT"),
     "grid names": (["--alpha", "1/3", "--grid", "x=0:1:2"], "has not x and w"),

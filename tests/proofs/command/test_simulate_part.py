@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import csv
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -165,3 +167,60 @@ def test_pictures_are_written_holds(
     assert (tmp_path / name).read_bytes().startswith(
         begins
     ) and "written" in capsys.readouterr().out
+
+
+# Runs the command in a child that hears Ctrl-C, whatever the shell does, and gets it after so many
+# reports.
+CHILD = """
+import os, signal, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from juggleproof.proofs.command import simulate_part
+from juggleproof.proofs.command.main import run
+calls = []
+def report(*_):
+    calls.append(_)
+    if len(calls) == int(sys.argv[1]):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(20)
+simulate_part.progress = lambda: report
+line = simulate_part.part_tables.point  # of a sweep
+simulate_part.part_tables.point = lambda one: report() or line(one)
+sys.exit(run(sys.argv[2:]))
+"""
+
+
+def interrupted(after: int, *options: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", CHILD, str(after), *SMALL, *options],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_an_interrupted_table_keeps_the_rows_that_are_done_holds(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    whole = tmp_path / "whole.csv"
+    assert run([*SMALL, "-o", str(whole)]) == 0
+    done = interrupted(5, "-o", str(path))  # of 6 rows of 2 ensembles
+    assert done.returncode == 130, done.stderr
+    assert done.stderr == "juggleproof: interrupted; 2 of 6 rows are done\n"
+    assert f"{path}: 2 rows of 2 ensembles written" in done.stdout
+    assert "15 Hz 4 mm" in done.stdout and "30 Hz" not in done.stdout
+    assert path.read_text().splitlines() == whole.read_text().splitlines()[:5]
+
+
+def test_an_interrupt_before_the_first_row_writes_nothing_holds(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    done = interrupted(1, "-o", str(path))
+    assert done.returncode == 130 and not done.stdout and not path.exists()
+    assert done.stderr == "juggleproof: interrupted; no file was written\n"
+
+
+def test_an_interrupted_sweep_keeps_the_points_that_are_done_holds(tmp_path: Path) -> None:
+    path = tmp_path / "sweep.json"
+    done = interrupted(3, "--sweep", "e=0.6:0.8:2,mu=0:0.5:2", "-o", str(path))
+    assert done.returncode == 130
+    assert done.stderr == "juggleproof: interrupted; 3 points are done\n"
+    assert f"{path}: 3 points written" in done.stdout and "least misfit" in done.stdout
+    assert [point["mu"] for point in json.loads(path.read_text())["points"]] == [0.0, 0.5, 0.0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -29,7 +30,9 @@ from tests.proofs.reports.runs import FALSE, HOLDS, OPEN, contents, own, paper, 
 # -------------------------------------------------------------------------------------------------
 # The JUnit report counts rightly, has the usual attributes only, and skips nothing.
 
-# What the schema that Jenkins publishes, and others follow, allows of what is used here.
+ROOT = Path(__file__).resolve().parents[3]
+# What the schema that Jenkins publishes, and others follow, allows of what is used here; and `file`
+# and `line`, as pytest's older form has them, which others read.
 ATTRIBUTES = {
     "testsuites": {"name", "time", "tests", "failures", "disabled", "errors"},
     "testsuite": {
@@ -45,7 +48,7 @@ ATTRIBUTES = {
         "id",
         "package",
     },
-    "testcase": {"name", "classname", "assertions", "time", "status"},
+    "testcase": {"name", "classname", "file", "line", "assertions", "time", "status"},
     "failure": {"type", "message"},
     "error": {"type", "message"},
     "system-out": set(),
@@ -57,9 +60,9 @@ INSIDE = {
 }
 
 
-def read(results: Results) -> ElementTree.Element:
-    content = as_junit(results)
-    assert content == as_junit(results) and content.startswith(b"<?xml")
+def read(results: Results, seconds: Mapping[str, float] | None = None) -> ElementTree.Element:
+    content = as_junit(results, seconds)
+    assert content == as_junit(results, seconds) and content.startswith(b"<?xml")
     root = ElementTree.fromstring(content)
     assert root.tag == "testsuites"
     for node in root.iter():
@@ -127,7 +130,8 @@ def test_change_is_a_failure_with_before_and_after_holds() -> None:
 def test_unknown_is_an_error_holds(tmp_path: Path) -> None:
     suite = read(own(tmp_path, OPEN))
     assert messages(suite, "error") == {
-        "open": "unknown: neither proved nor refuted"
+        "open": "unknown: neither proved nor refuted; open/main is open: no proof of the premise"
+        " stays-1 was found"
     } and not messages(suite, "failure")
 
 
@@ -136,7 +140,32 @@ def test_false_claim_of_ones_own_is_a_failure_holds(tmp_path: Path) -> None:
     assert set(messages(suite, "failure")) == {"above", "negative-square"} and not messages(
         suite, "error"
     )
-    assert messages(suite, "failure")["above"] == "false; above/main fails at x = 1"
+    assert messages(suite, "failure")["above"] == (
+        "false; above/main fails at x = 1: x^2 and x are both 1."
+    )
+
+
+def test_case_names_file_and_line_and_its_class_is_the_file_holds(tmp_path: Path) -> None:
+    for case in read(paper()):
+        text = (ROOT / case.attrib["file"]).read_text(encoding="utf-8")
+        begins = text.splitlines()[int(case.attrib["line"]) - 1]
+        assert "@" in begins or "def " in begins or "lambda" in begins, begins
+        assert case.attrib["classname"].replace(".", "/") + ".py" == case.attrib["file"]
+    suite = read(own(tmp_path, FALSE))
+    assert [case.attrib["file"] for case in suite] == [str(tmp_path / "mine.py")] * 3
+    lines = (tmp_path / "mine.py").read_text(encoding="utf-8").splitlines()
+    for case in suite:
+        assert lines[int(case.attrib["line"]) - 1] == f"@claim({case.attrib['name']!r})"
+        assert case.attrib["classname"] == "mine"
+
+
+def test_times_stand_only_where_they_are_asked_for_holds(tmp_path: Path) -> None:
+    results = own(tmp_path, FALSE)
+    assert "time" not in read(results).attrib and b"time=" not in as_junit(results)
+    seconds = {"squares": 0.25, "above": 1.5, "negative-square": 0.0004}
+    suite = read(results, seconds)
+    times = [case.attrib["time"] for case in suite]
+    assert times == ["0.250", "1.500", "0.000"] and suite.attrib["time"] == "1.750"
 
 
 def test_true_claims_of_ones_own_pass_holds(tmp_path: Path) -> None:

@@ -97,7 +97,7 @@ def test_report_writes_what_a_run_would_holds(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.setattr(report, "gather", contents)
-    assert report.report(wanted, tmp_path / "new") == 0
+    assert report.report([wanted], tmp_path / "new") == 0
     assert [path.name for path in (tmp_path / "new").iterdir()] == [name] and (
         tmp_path / "new" / name
     ).read_bytes() == build(paper())

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -14,15 +15,19 @@ import pytest
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.command import report, show
+from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.command import report
 from juggleproof.proofs.command.main import run
+from juggleproof.proofs.judgement import Judgement
 from juggleproof.proofs.reading.meaning import read
+from juggleproof.proofs.reports import contents as gathered
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import gather
 from juggleproof.proofs.reports.errata import WRONG
 from juggleproof.proofs.reports.latex import latex_of, narrow, with_macros, without_macros
 from juggleproof.proofs.reports.tex import compiled, complaints, equation, files
 from juggleproof.proofs.reports.words import formulas_of
+from juggleproof.proofs.run import judge_some
 from tests.proofs.reports.comparison import differences
 from tests.proofs.reports.runs import contents
 
@@ -146,11 +151,29 @@ def test_labels_are_unique_and_every_reference_has_one_holds() -> None:
         prefix + name
         for prefix, name in re.findall(r"\\jugclaim(?:\[([^]]*)\])?\{[^{}]*\}\{([^{}]*)\}", text)
     ]
-    labels += re.findall(r"\\jugitem\{D\d+\}\{([^{}]*)\}", text) + re.findall(
-        r"\\label\{jug:([^{}#]*)\}", text
-    )
+    labels += re.findall(r"\\jugitem\{D\d+\}\{([^{}]*)\}", text)
+    labels += re.findall(r"\\jugsection\{\w+\}\{([^{}]*)\}", text)
     assert len(labels) > 150 and len(set(labels)) == len(labels)
-    assert set(re.findall(r"\\ref\{jug:([^{}]*)\}", text)) <= set(labels)
+    references = set(re.findall(r"\\(?:page)?ref\{jug:([^{}#]*)\}", text))
+    assert len(references) > 100 and references <= set(labels)
+
+
+def test_every_display_stands_once_holds() -> None:
+    """The print of a claim, and what is derived."""
+    printed = [entry for entry in contents().entries if entry.claim.printed]
+    places = [made()[name] for name in ("appendix-a.tex", "appendix-b.tex", "errata.tex")]
+    blocks = [
+        (re.findall(r"^\{[^{}]*\}\{([^{}]*)\}", block)[0], block)
+        for text in places
+        for block in re.split(r"\\jugclaim(?:\[errata:\])?(?=\{)", text)[1:]
+    ]
+    shown = [name for name, block in blocks if r"\jugdisplay" in block or r"\jugsides" in block]
+    wanted = [one.claim.id for one in printed if one.group or one.claim.section[0] in "AB"]
+    assert len(wanted) > 100 and sorted(shown) == sorted(wanted)
+    for one in contents().derivations:
+        label = f"{{derived:{tex_words.key(one.function)}}}"
+        assert made()["derivations.tex"].count(label) <= 1
+    assert r"\jugdisplay" not in made()["notation.tex"]
 
 
 def test_every_line_of_the_written_proof_is_certified_and_printed_holds() -> None:
@@ -208,11 +231,24 @@ def test_an_equation_stands_corrected_where_the_print_is_false_holds() -> None:
     assert r"\tag{37}" in equation(contents().entry("eq-37"))
 
 
+def test_an_export_judges_only_what_is_asked_for_holds(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    judged = list[str]()
+
+    def recorded(chosen: Sequence[Claim], claims: Sequence[Claim], folder: Path) -> list[Judgement]:
+        judged.extend(one.id for one in chosen)
+        return judge_some(chosen, claims, folder)
+
+    monkeypatch.setattr(gathered, "judge_some", recorded)
+    assert run(["export", "latex", "sB.3-f1", "37"]) == 0 and judged == ["sB.3-f1", "eq-37"]
+    wanted = [equation(contents().entry(name)) for name in judged]
+    assert capsys.readouterr().out == "".join(f"{one}\n" for one in wanted)
+
+
 def test_rejects_an_equation_that_the_paper_does_not_print(
-    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(show, "gather", contents)
     assert run(["export", "latex", "theorem"]) == 2
     assert "theorem has no printed formula" in capsys.readouterr().err
     assert run(["export", "latex", "no-such"]) == 2
@@ -226,15 +262,75 @@ def test_documents_compile_without_a_fault_holds(document: str) -> None:
 
 
 @latex
+def test_the_fragments_need_only_amsmath_holds() -> None:
+    given = {
+        name: content for name, content in files(contents()).items() if "juggleproof." not in name
+    }
+    names = ["juggleproof-macros", "notation", "theorem", "errata", "appendix-a", "appendix-b"]
+    body = "".join(f"\\input{{{name}}}\n" for name in [*names, "derivations"])
+    source = (
+        rf"\documentclass{{article}}\usepackage{{amsmath}}\begin{{document}}{body}\end{{document}}"
+    )
+    pdf, faults = compiled({**given, "own.tex": source.encode()}, "own")
+    assert pdf.startswith(b"%PDF") and not [one for one in faults if "Warning" in one]
+
+
+def equations() -> dict[str, str]:
+    return {one.claim.id: equation(one) for one in contents().entries if one.claim.printed}
+
+
+@latex
 def test_every_equation_compiles_alone_holds() -> None:
-    every = [equation(entry) for entry in contents().entries if entry.claim.printed]
+    """Each in a group, which ends what it defines."""
+    every = equations().values()
     assert len(every) > 100
     body = (
-        "\\documentclass{article}\\usepackage{amsmath}\\begin{document}\n"
-        + "\n".join(every)
+        "\\documentclass{article}\\usepackage{amsmath,amssymb}\\begin{document}\n"
+        + "\n".join(f"\\begingroup\n{one}\\endgroup" for one in every)
         + "\\end{document}\n"
     )
-    assert compiled({"all.tex": body.encode()}, "all")[0].startswith(b"%PDF")
+    pdf, faults = compiled({"all.tex": body.encode()}, "all")
+    assert pdf.startswith(b"%PDF") and not [one for one in faults if "Warning" in one]
+
+
+# Commands of equations that are no symbols of the paper.
+STRUCTURE = set(
+    r"\frac \sqrt \left \right \middle \in \notin \subset \subseteq \cap \cup \circ \cdot \equiv"
+    r" \le \ge \mid \quad \qquad \to \lim \max \forall \partial".split()
+)
+ACCENTED = re.compile(r"((?:\\(?:dot|bar|mathcal)[ {]*)*)(\\[A-Za-z]+|[A-Za-z])")
+
+
+def signs(latex: str) -> set[str]:
+    """The letters of a formula, each after its accents in the order of the alphabet."""
+    spelled = latex.replace(r"\overline", r"\bar").replace(r"\ddot", r"\dot\dot")
+    found = ACCENTED.findall(spelled)
+    accented = ("".join(sorted(re.findall(r"\\[a-z]+", over))) + one for over, one in found)
+    return {one for one in accented if one not in STRUCTURE}
+
+
+def unlisted(fragment: str) -> set[str]:
+    """The signs of an exported equation that its comments do not list."""
+    listed = re.findall(r"^%   (.+?): \w", fragment, re.MULTILINE)
+    means = dict(re.findall(r"\\providecommand\{(\\jug\w+)\}\{(.*)\}\n", fragment))
+    body = "\n".join(one for one in fragment.splitlines() if one[0] != "%" and "provide" not in one)
+    body = re.sub(r"\\(?:text|tag|label|begin|end)\{[^{}]*\}(?:\{l+\})?", " ", body)
+    for macro in sorted(means, key=len, reverse=True):
+        body = body.replace(macro, means[macro])
+    return signs(body) - set[str]().union(*map(signs, listed))
+
+
+def test_every_symbol_of_an_equation_has_its_meaning_beside_it_holds() -> None:
+    assert {name: unlisted(text) for name, text in equations().items() if unlisted(text)} == {}
+
+
+def test_rejects_an_equation_with_a_symbol_that_is_not_listed() -> None:
+    text = equation(contents().entry("eq-37"))
+    (row,) = re.findall(r"^%   \\alpha: .*\n", text, re.MULTILINE)
+    assert unlisted(text.replace(row, "")) == {r"\alpha"}
+    assert unlisted(text.replace(r"\jugrestitution^", "s^") + "s") == {"s"}
+    with pytest.raises(ClaimError, match=r"no meaning of q; add one for section A\.2"):
+        tex_words.symbols("q = 1", "A.2")
 
 
 @latex
