@@ -67,7 +67,6 @@ SYMBOLS = {
     "restitution_matrix": r"R_\alpha",
     "fixed_point": "e_K",
     "point_p": "p",
-    "relative_kinetic_energy": "K(z)",
     "energy_of_p": "E(p)",
     "hang_time": "t_f",
     "scaling": "(x, w)",
