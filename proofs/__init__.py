@@ -12,7 +12,8 @@ In reading order, each importing those before it only:
   range.
 - `register`: the verdicts that stand.
 - `checked`, `run`: the checker's outcomes of what is stored; many claims over processes.
-- `bounds`, `kept`: certified enclosures of minima; figures kept between runs.
+- `bounds`, `kept`, `extras`: certified enclosures of minima; figures kept between runs; libraries
+  of the optional extras.
 - `simulations`: what simulations show, as it is kept, and as the scenes compute it.
 - `paper`, `theorem`, `part`, `ledger`, `smtlib`: the claims themselves; scripts of SMT-LIB.
 - `reports`, `api`: what a run came to, in words, pages and data; the same from Python.

@@ -12,9 +12,9 @@ from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
+from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.ci import badge, markdown
 from juggleproof.proofs.reports.contents import Contents, as_json, gather
-from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.page import FILE, build, pictures
 from juggleproof.proofs.reports.part import kept_results

@@ -19,8 +19,7 @@ from juggleproof.proofs.command.outputs import show
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
-from juggleproof.proofs.reports import errata
-from juggleproof.proofs.reports.contents import entries_of
+from juggleproof.proofs.reports.contents import entries_of, errata_text
 from juggleproof.proofs.reports.tables import draw
 from juggleproof.proofs.reports.tex import equation
 
@@ -34,7 +33,7 @@ def command(parsed: argparse.Namespace) -> int:
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "list":
         return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json)
-    show(errata.as_text())
+    show(errata_text())
     return 0
 
 

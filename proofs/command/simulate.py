@@ -12,7 +12,7 @@ from typing import BinaryIO
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command import orbit_tables
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
-from juggleproof.proofs.reports.extras import needed
+from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.tables import components, exact
 from juggleproof.scenes.errors import SceneError
 from juggleproof.scenes.juggler.given import counted, restitution

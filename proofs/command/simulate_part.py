@@ -14,8 +14,8 @@ from typing import BinaryIO, TypeVar
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.command.outputs import clear, fault_of, progress, written_aside
+from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports import part as part_tables
-from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.part import keep_results
 from juggleproof.scenes.part.animation import HORIZON, animation
 from juggleproof.scenes.part.ensemble import in_words, no_vibration

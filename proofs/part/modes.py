@@ -527,7 +527,9 @@ def five_modes_that_differ_and_depend_on_the_motion() -> list[Statement]:
             for mode in MODES
         ),
         two_modes({"e": real("restitution_2"), "mu": real("friction_2")}, "by-the-parameters"),
-        two_modes({"sigma": real("sigma_2"), "S0": real("S1"), "C0": real("C1")}, "by-the-motion"),
+        two_modes(
+            {"sigma": real("direction_2"), "S0": real("S1"), "C0": real("C1")}, "by-the-motion"
+        ),
     ]
 
 

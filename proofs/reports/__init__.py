@@ -6,7 +6,6 @@ claims and the derivations.
     results    the results of a run as rows and data
     in_words   counterexamples in words
     errata     what the paper prints wrongly
-    extras     libraries of the optional extras
     contents   what reports show, gathered once, and JSON
     latex      names, terms and formulas as LaTeX
     words      sentences and statements in words and LaTeX

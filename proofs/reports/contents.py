@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.language import lemmas_of, rests_on
+from juggleproof.certificates.language import ClaimError, lemmas_of, rests_on
 from juggleproof.certificates.nodes import Json
 from juggleproof.certificates.store import DEFAULT, Store, canonical
 from juggleproof.certificates.votes.vote import Vote
@@ -207,6 +207,39 @@ def _entries(
         reading = reading_of(claim.body())
         entries.append(_entry(claim, judgement, by_id, store, tuple(steps), reading))
     return tuple(entries)
+
+
+def errata_text() -> str:
+    """Every claim that is not simply true, in groups; a heading with its number opens each.
+
+    Raises ClaimError, one line, where no verdict is registered yet.
+    """
+    register, claims = {**load_register()}, paper_claims()
+    if not register:
+        raise ClaimError(
+            "no verdict is registered yet; `juggleproof certify --accept` registers them"
+        )
+    doubted = [
+        claim
+        for claim in claims
+        if register.get(claim.id, {}).get("verdict") != "holds" or errata.is_noted(claim)
+    ]
+    judged = {one.id: one for one in judge_some(doubted, claims, DEFAULT)}
+    for name, one in judged.items():
+        register[name] = registered(one.verdict.word, one.verdict.detail, "", "")
+    findings = {name: one.finding() for name, one in judged.items()}
+    settled = {
+        name: [(*part, one.certificates[part[0]]) for part in one.statements]
+        for name, one in judged.items()
+    }
+    lines = [errata.HEAD, *errata.first_page(claims, register, findings, settled)]
+    for group, title in errata.GROUPS.items():
+        members = [claim for claim in claims if errata.group_of(claim, register, findings) == group]
+        lines.append(f"{title} ({len(members)})\n")
+        for claim in members:
+            own = settled[claim.id]
+            lines += [*errata.entry_of(claim, register, findings[claim.id], own), ""]
+    return "\n".join(lines).rstrip("\n")
 
 
 def tool_versions() -> dict[str, str]:

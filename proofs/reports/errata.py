@@ -14,7 +14,7 @@ from typing import NamedTuple
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
-from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.certificates.store import Store
 from juggleproof.proofs.claims import Argument, Claim, Readings, Remark, stated_texts
 from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.evaluating import numbers_at, value_at
@@ -22,9 +22,8 @@ from juggleproof.proofs.judgement import Correction, Finding
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.reading.meaning import read
-from juggleproof.proofs.register import Register, load_register, registered
+from juggleproof.proofs.register import Register
 from juggleproof.proofs.reports.in_words import in_words
-from juggleproof.proofs.run import judge_some
 
 THEOREM = "theorem-in-units"  # the claim on which those of section 4 rest
 ERRORS = ("misprint", "false", "gap")
@@ -70,39 +69,6 @@ WEIGHTS = {
     "readings": "wording",
 }
 WIDTH, LONGEST_GOAL = 124, 110  # characters of a formula that are still read at a glance
-
-
-def as_text() -> str:
-    """Every claim that is not simply true, in groups; a heading with its number opens each.
-
-    Raises ClaimError, one line, where no verdict is registered yet.
-    """
-    register, claims = {**load_register()}, paper_claims()
-    if not register:
-        raise ClaimError(
-            "no verdict is registered yet; `juggleproof certify --accept` registers them"
-        )
-    doubted = [
-        claim
-        for claim in claims
-        if register.get(claim.id, {}).get("verdict") != "holds" or is_noted(claim)
-    ]
-    judged = {one.id: one for one in judge_some(doubted, claims, DEFAULT)}
-    for name, one in judged.items():
-        register[name] = registered(one.verdict.word, one.verdict.detail, "", "")
-    findings = {name: one.finding() for name, one in judged.items()}
-    settled = {
-        name: [(*part, one.certificates[part[0]]) for part in one.statements]
-        for name, one in judged.items()
-    }
-    lines = [HEAD, *first_page(claims, register, findings, settled)]
-    for group, title in GROUPS.items():
-        members = [claim for claim in claims if group_of(claim, register, findings) == group]
-        lines.append(f"{title} ({len(members)})\n")
-        for claim in members:
-            own = settled[claim.id]
-            lines += [*entry_of(claim, register, findings[claim.id], own), ""]
-    return "\n".join(lines).rstrip("\n")
 
 
 def is_noted(claim: Claim) -> bool:

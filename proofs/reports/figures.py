@@ -11,8 +11,8 @@ from sympy import Expr, Rational, Symbol
 
 from juggleproof.certificates.language import ClaimError, Formula, Term
 from juggleproof.proofs import kept as cache
+from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.contents import Contents, gather
-from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.words import rows, without_alpha
 from juggleproof.proofs.theorem.definition import TO_THE_POINT, TRAP
 from juggleproof.scenes.figures import TABLE, Entry

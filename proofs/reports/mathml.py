@@ -15,7 +15,7 @@ from html import escape, unescape
 from xml.etree.ElementTree import Element, tostring
 
 from juggleproof.certificates.language import ClaimError
-from juggleproof.proofs.reports.extras import needed
+from juggleproof.proofs.extras import needed
 
 # -------------------------------------------------------------------------------------------------
 # What a formula may have.

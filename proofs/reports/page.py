@@ -15,11 +15,11 @@ from pathlib import Path
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import CERTIFICATES
 from juggleproof.proofs.correcting import note_of
+from juggleproof.proofs.extras import needed
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.reports import markup
 from juggleproof.proofs.reports.contents import Contents, Entry, Rule, Shown
 from juggleproof.proofs.reports.errata import FIRST, GROUPS, goal_of, is_latex
-from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.figures import saved
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.markup import Chip, Node, picture

@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.extras import needed
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper.derivations import Derivation
 from juggleproof.proofs.reports import tex_words
 from juggleproof.proofs.reports.contents import Contents, Entry
 from juggleproof.proofs.reports.errata import FIRST, GROUPS
-from juggleproof.proofs.reports.extras import needed
 from juggleproof.proofs.reports.latex import MACROS, NOTATION, latex_of, with_macros
 from juggleproof.proofs.reports.tex_words import APPENDICES
 from juggleproof.proofs.reports.words import parts_of

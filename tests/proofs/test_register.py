@@ -285,13 +285,13 @@ def test_rejects_one_file_for_two_outputs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(certify, "run", _no_run)
+    (tmp_path / "b").mkdir()
     assert (
         run(["certify", f"--json={tmp_path / 'a'}", f"--markdown={tmp_path / 'b' / '..' / 'a'}"])
         == 2
     )
-    assert "would overwrite what --json writes" in capsys.readouterr().err and not list(
-        tmp_path.iterdir()
-    )
+    assert "would overwrite what --json writes" in capsys.readouterr().err
+    assert [one.name for one in tmp_path.iterdir()] == ["b"]
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="the superuser can write everywhere")
@@ -312,7 +312,8 @@ def test_rejects_output_in_a_closed_folder(
 
 
 def test_outputs_of_a_run_of_ones_own_file_are_written_again_the_same_holds(tmp_path: Path) -> None:
-    claims, folder = file_with(tmp_path, FALSE), tmp_path / "new" / "folder"
+    claims, folder = file_with(tmp_path, FALSE), tmp_path / "new"
+    folder.mkdir()
     contents = []
     for _ in range(3):
         assert run(["certify", "--jobs", "1", str(claims), *outputs(folder)]) == 1

@@ -10,9 +10,10 @@ from typing import NoReturn
 import pytest
 
 from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs import extras
 from juggleproof.proofs.command import report
 from juggleproof.proofs.command.main import run
-from juggleproof.proofs.reports import extras, page
+from juggleproof.proofs.reports import page
 from juggleproof.proofs.reports.contents import Contents
 from tests.proofs.reports.runs import contents
 

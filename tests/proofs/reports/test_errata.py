@@ -15,7 +15,8 @@ from juggleproof.proofs.ledger.ledger import load_ledger
 from juggleproof.proofs.ledger.places import is_heading, place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
-from juggleproof.proofs.reports import errata
+from juggleproof.proofs.reports import contents, errata
+from juggleproof.proofs.reports.contents import errata_text
 from juggleproof.proofs.run import FINDINGS
 
 TITLES = list(errata.GROUPS.values())
@@ -25,7 +26,7 @@ TITLES = list(errata.GROUPS.values())
 def listing() -> dict[str, dict[str, str]]:
     """The entries by group and claim, as they are printed."""
     groups: dict[str, dict[str, str]] = {}
-    for block in errata.as_text().split("\n\n"):
+    for block in errata_text().split("\n\n"):
         heading = re.fullmatch(r"(.*) \((\d+)\)", block.strip())
         if heading and heading[1] in TITLES:
             groups[heading[1]] = {}
@@ -162,9 +163,9 @@ def test_what_is_wrong_is_told_in_words(
 
 
 def test_rejects_errata_without_a_register(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(errata, "load_register", dict)
+    monkeypatch.setattr(contents, "load_register", dict)
     with pytest.raises(errata.ClaimError, match="no verdict is registered yet"):
-        errata.as_text()
+        errata_text()
 
 
 def test_errors_stand_by_their_weight_holds(listing: dict[str, dict[str, str]]) -> None:
@@ -180,7 +181,7 @@ def test_errors_stand_by_their_weight_holds(listing: dict[str, dict[str, str]]) 
 
 
 def test_first_page_tells_what_bears_on_the_theorem_in_three_lines_holds() -> None:
-    text = errata.as_text()
+    text = errata_text()
     page = text[text.index(errata.FIRST) : text.index(errata.GROUPS["proof"])]
     first, stands, *entries = page.strip().split("\n\n")
     assert first == errata.FIRST and stands.startswith("The theorem survives all of these")
