@@ -8,6 +8,7 @@ from pathlib import Path
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store
+from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.reports.tree import LOST, theorem_line
 
 
@@ -24,7 +25,8 @@ def check(folder: Path | None) -> int:
     """
     where = folder or DEFAULT
     try:
-        results = checker.check_folder(str(where))
+        with busy("checking"):
+            results = checker.check_folder(str(where))
     except checker.Rejected as reason:
         raise ClaimError(
             f"{where}: {reason}; name a folder that `juggleproof certify` wrote"

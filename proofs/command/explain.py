@@ -11,6 +11,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
+from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
 from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
@@ -63,7 +64,8 @@ def explain(
     claims = {claim.id: claim for claim in (claims_of_files(files) if files else paper_claims())}
     claim = claims[claim_named(claim_id, claims)]
     store = store_of(files) if files else DEFAULT
-    (judgement,) = judge_some([claim], [*claims.values()], store)
+    with busy(f"judging {claim.id}"):
+        (judgement,) = judge_some([claim], [*claims.values()], store)
     place = f"section {claim.section} {claim.place}" if with_lines else place_of(claim)
     print(f"{claim.id}   {claim.where if files else place}")
     print(f"  {claim.says}")

@@ -7,8 +7,10 @@ import pydoc
 import shutil
 import sys
 import tempfile
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 from typing import BinaryIO
 
@@ -85,6 +87,30 @@ def progress() -> Callable[[int, int], None] | None:
             print(f"\r{done} of {of}", end="", file=sys.stderr, flush=True)
 
     return show
+
+
+@contextmanager
+def busy(doing: str) -> Iterator[None]:
+    """Shows what is being done and for how many seconds, on a terminal only."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    done = threading.Event()
+
+    def show() -> None:
+        for seconds in count(1):
+            if done.wait(1.0):
+                return
+            print(f"\r\x1b[K{doing}: {seconds} s", end="", file=sys.stderr, flush=True)
+
+    shown = threading.Thread(target=show, daemon=True)
+    shown.start()
+    try:
+        yield
+    finally:
+        done.set()
+        shown.join()
+        clear()
 
 
 def clear() -> None:

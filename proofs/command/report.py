@@ -12,6 +12,7 @@ from pathlib import Path
 
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import write_file
+from juggleproof.proofs.command.outputs import busy, clear
 from juggleproof.proofs.extras import needed
 from juggleproof.proofs.reports.ci import badge, markdown
 from juggleproof.proofs.reports.contents import Contents, as_json, gather
@@ -38,7 +39,10 @@ def report(wanted: Sequence[str], folder: Path | None) -> int:
     Raises ClaimError, one line, for an unknown format, a folder that cannot be written, or a
     library or program that is absent.
     """
-    return writer(wanted, folder, "--format")(gather())
+    write = writer(wanted, folder, "--format")
+    with busy("judging the stored claims"):
+        contents = gather()
+    return write(contents)
 
 
 def writer(
@@ -58,7 +62,8 @@ def writer(
     def write(contents: Contents) -> int:
         faulty = 0
         for one in dict.fromkeys(wanted):
-            made, faults = FORMATS[one](contents, place)
+            with busy(f"making the report as {one}"):
+                made, faults = FORMATS[one](contents, place)
             write_all(made, place)
             for fault in faults:
                 print(f"juggleproof: {fault}", file=sys.stderr)
@@ -70,6 +75,7 @@ def writer(
 
 def write_all(files: Files, place: Path) -> None:
     """Writes the files, each aside and renamed, and prints their paths."""
+    clear()
     for name, content in files.items():
         write_file(place / name, content)
         print(place / name)

@@ -15,7 +15,7 @@ from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, canonical, write_file
 from juggleproof.certificates.votes.smtlib import script
 from juggleproof.proofs.claims import VERDICTS, claim_named
-from juggleproof.proofs.command.outputs import show
+from juggleproof.proofs.command.outputs import busy, show
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import load_register
@@ -33,7 +33,9 @@ def command(parsed: argparse.Namespace) -> int:
         return EXPORTS[parsed.format](parsed.ids, parsed.output)
     if parsed.command == "list":
         return list_claims(parsed.section, parsed.verdict, parsed.lines, parsed.json)
-    show(errata_text())
+    with busy("judging what the errata name"):
+        text = errata_text()
+    show(text)
     return 0
 
 
@@ -127,7 +129,8 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
     """
     store = Store(DEFAULT)
     names = _names(store, ids)
-    exported = export(store, names)
+    with busy("writing the statements for Coq"):
+        exported = export(store, names)
     print("\n".join(exported.table()), file=sys.stderr)
     if not exported.texts:
         raise ClaimError("none of the statements named can be written for Coq")
@@ -151,7 +154,8 @@ def export_latex(ids: Sequence[str], folder: Path | None) -> int:
     by_id = {claim.id: claim for claim in paper_claims()}
     named = [by_id[claim_named(wanted, by_id)] for wanted in ids]
     chosen = named or [one for one in by_id.values() if one.printed]
-    texts = {entry.claim.id: equation(entry) for entry in entries_of(chosen)}
+    with busy("judging what is exported"):
+        texts = {entry.claim.id: equation(entry) for entry in entries_of(chosen)}
     for name, text in texts.items():
         if folder:
             write_file(folder / f"{name}.tex", text.encode())
