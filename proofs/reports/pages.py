@@ -21,6 +21,7 @@ from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.register import Register, load_register
 from juggleproof.proofs.reports import errata
 from juggleproof.proofs.reports import tex_words as words
+from juggleproof.proofs.reports.results import counted
 from juggleproof.proofs.run import findings_in
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,12 +32,12 @@ def summary() -> str:
     """How many claims have each verdict, and how many statements each outcome: two lines."""
     register, store = load_register(), Store(DEFAULT)
     verdicts = Counter(entry["verdict"] for entry in register.values())
-    outcomes = sum(_outcomes(store).values(), Counter[str]())
+    outcomes = Counter(word for own in _outcomes(store).values() for word in own.values())
     return (
         f"{len(register)} claims: "
         + ", ".join(f"{verdicts[word]} {word}" for word in VERDICTS)
-        + f".\n{outcomes.total()} statements: {outcomes['certificate']} certified,"
-        f" {outcomes['counterexample']} refuted, {outcomes['open']} open."
+        + f".\n{outcomes.total()} statements: {outcomes['certified']} certified,"
+        f" {outcomes['refuted']} refuted, {outcomes['unknown']} open."
     )
 
 
@@ -54,10 +55,8 @@ def results() -> str:
         entry = register.get(claim.id)
         if entry is None:
             continue
-        settled = ", ".join(
-            f"{n} {word}{'s' if n > 1 and word != 'open' else ''}"
-            for word, n in sorted(outcomes.get(claim.id, {}).items())
-        )
+        rules = [f"rule {name}" for name in getattr(claim.body(), "rests_on", ())]
+        settled = ", ".join([*counted(outcomes.get(claim.id, {})), *rules]) or "no statement"
         verdict = entry["verdict"]
         if errata.group_of(claim, register, findings):
             verdict = f"[{verdict}](errata.md#{claim.id})"
@@ -140,19 +139,14 @@ def _code(text: str) -> str:
     return f"{colon}`{goal}`" if colon and not title else f"`{text}`"
 
 
-def _outcomes(store: Store) -> dict[str, Counter[str]]:
-    counts: dict[str, Counter[str]] = {}
+def _outcomes(store: Store) -> dict[str, dict[str, str]]:
+    """What the certificates of each claim say of its statements."""
+    outcomes: dict[str, dict[str, str]] = {}
     for name, text in store.texts.items():
         certificate = store.certificate(name, text) or {}
-        word = (
-            "certificate"
-            if "certified" in certificate
-            else "counterexample"
-            if "refuted" in certificate
-            else "open"
-        )
-        counts.setdefault(name.split("/")[0], Counter())[word] += 1
-    return counts
+        words = (word for word in ("certified", "refuted") if word in certificate)
+        outcomes.setdefault(name.split("/")[0], {})[name] = next(words, "unknown")
+    return outcomes
 
 
 PAGES: Mapping[str, Callable[[], str]] = {

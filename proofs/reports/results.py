@@ -56,24 +56,27 @@ COLOURS = {
 }
 
 
-def settled_by(judgement: Judgement) -> str:
-    """How a claim was settled: certificates, counterexamples, and the votes of the other routes."""
-    own = {
-        name: outcome for name, outcome in judgement.outcomes.items() if "/corrected." not in name
-    }
-    counts = [
-        (sum(o == word for o in own.values()), label)
-        for word, label in (
-            ("certified", "certificate"),
-            ("refuted", "counterexample"),
-            ("unknown", "open"),
-        )
-    ]
-    parts = [
+def counted(outcomes: Mapping[str, str]) -> list[str]:
+    """How many statements of a claim, its corrections apart, have a certificate, how many a
+    counterexample, and how many are open.
+
+    >>> outcomes = {"a/x": "certified", "a/y": "refuted", "a/z": "certified"}
+    >>> counted({**outcomes, "a/corrected.x": "certified"})
+    ['2 certificates', '1 counterexample']
+    """
+    own = [outcome for name, outcome in outcomes.items() if "/corrected." not in name]
+    labels = {"certified": "certificate", "refuted": "counterexample", "unknown": "open"}
+    counts = [(own.count(word), label) for word, label in labels.items()]
+    return [
         f"{count} {label}{'s' if count > 1 and label != 'open' else ''}"
         for count, label in counts
         if count
     ]
+
+
+def settled_by(judgement: Judgement) -> str:
+    """How a claim was settled: certificates, counterexamples, and the votes of the other routes."""
+    parts = counted(judgement.outcomes)
     votes = [
         vote for name, cast in judgement.votes.items() if "/corrected." not in name for vote in cast
     ]

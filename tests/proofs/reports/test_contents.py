@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from jsonschema import Draft202012Validator
 
 from juggleproof.proofs.command import report
 from juggleproof.proofs.register import load_register
+from juggleproof.proofs.reports import pages
 from juggleproof.proofs.reports.ci import badge, markdown
 from juggleproof.proofs.reports.contents import SCHEMA, SCHEMA_FILE, TOOLS, as_json, results_of
 from juggleproof.proofs.reports.results import Results
@@ -36,6 +38,15 @@ def written(results: Results) -> Document:
 
 def claim(data: Document, name: str) -> Document:
     return next(one for one in data["claims"] if one["id"] == name)
+
+
+def test_pages_count_certificates_as_reports_do_holds() -> None:
+    rows = (line.split(" | ") for line in pages.results().splitlines() if "<a id=" in line)
+    counted = {row[0].partition("</a>")[2]: row[3] for row in rows}
+    votes = r"(?:, )?(?:z3|boxes) \d+/\d+"
+    assert counted == {
+        one.claim.id: re.sub(votes, "", one.settled_by) for one in contents().entries
+    }
 
 
 def test_run_of_the_paper_is_as_described_holds() -> None:
