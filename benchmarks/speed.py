@@ -61,7 +61,7 @@ COMMANDS = (
     Timed("juggleproof report --format pdf -o DIR", None, "latexmk"),
     Timed("juggleproof simulate juggler --alpha 3/10 --state x=1000,w=-41"),
     Timed(
-        "juggleproof simulate juggler --alpha 3/10 --state x=1,w=-1 --picture orbit -o DIR/orbit.svg"
+        "juggleproof simulate juggler --alpha 3/10 --state x=1,w=-1 --picture orbit -o DIR/o.svg"
     ),
     Timed("juggleproof simulate juggler --alpha 1/2 --picture basin -o DIR/basin.svg"),
     Timed("juggleproof simulate juggler --picture bifurcation -o DIR/bifurcation.svg"),
