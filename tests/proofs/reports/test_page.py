@@ -397,12 +397,11 @@ def test_notes_of_corrections_count_no_columns_holds() -> None:
 
 
 def test_each_letter_of_a_statement_has_a_meaning_holds() -> None:
+    articles = {one.attributes["id"]: one for one in document().with_class("claim")}
     for entry in contents().entries:
         if not entry.statements:
             continue
-        article = next(
-            one for one in document().with_class("claim") if one.attributes["id"] == entry.claim.id
-        )
+        article = articles[entry.claim.id]
         meant = {
             name
             for one in article.all("div")
