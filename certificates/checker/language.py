@@ -397,7 +397,7 @@ ORDERS = {
     "map": r"over domain state space (piece )+",
     "descends": r"map domain (root )*rank (stage )+",
     "contracts": r"map domain (root )*on point weights rate radius size ",
-    "lyapunov": r"map domain (root )*on point (value )+loss least upper radius ",
+    "lyapunov": r"map domain (root )*on point (have )*(value )+loss least upper radius ",
     "attracts": r"descent (contraction|lyapunov) ",
     "escapes": r"map domain (root )*point start word ",
     "exactly": r"attraction escape ",

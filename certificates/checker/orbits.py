@@ -69,6 +69,10 @@ class Orbits:
         (self.space,) = self.map.get("space")
         (self.domain,) = statement.rows("domain")
         self.pieces = self.map.get("piece")
+        # what is known of the point in premises; without it, its terms stand there
+        self.have = [f"given {line}" for line in statement.rows("have")]
+        self.point = [name + "_point" for name in self.state]
+        self.gaps: list[str] = []
         self.moving = set(self.state)  # what has another value at the next state
         self.roots = []
         self.fixed = []
@@ -91,15 +95,30 @@ class Orbits:
         return put(text, {name: name + "_next" for name in self.moving})
 
     def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
-        """For all parameters in the domain, with the roots of parameters."""
-        forall = "forall " + " ".join([*self.parameters, *extra])
+        """For all parameters in the domain, with the roots of parameters; around a point, with its
+        name for each state variable.
+        """
+        named = self.point if self.have else []
+        forall = "forall " + " ".join([*self.parameters, *named, *extra])
+        known = [*self.fixed, *(self.have or self.at_its_terms())]
         # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
-        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, self.domain, *rows])))
-        return [forall, f"range {self.domain}", *self.fixed, *rows]
+        self.work.spend(PER_LETTER * sum(map(len, [*known, self.domain, *rows])))
+        return [forall, f"range {self.domain}", *known, *rows]
+
+    def at_its_terms(self) -> list[str]:
+        """Around a point: its names stand for its terms."""
+        if not self.gaps:
+            return []
+        return [f"let {name} = {term}" for name, term in zip(self.point, self.terms("point"))]
 
     def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain and all states of the space."""
-        return self.for_all(f"given {self.space}", *self.roots, *rows, extra=[*self.state, *extra])
+        places = [
+            f"let {name} = {point} + {gap}"
+            for name, point, gap in zip(self.state, self.point, self.gaps)
+        ]
+        names = [*(self.gaps or self.state), *extra]
+        return self.for_all(*places, f"given {self.space}", *self.roots, *rows, extra=names)
 
     def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
         """Where the k-th piece applies: something of the next state, which is in the space by the
@@ -107,10 +126,36 @@ class Orbits:
         """
         (guard,), images = self.pieces[k]
         image = [f"let {name}_next = {image}" for name, image in zip(self.state, images)]
+        for name, point, gap in zip(self.state, self.point, self.gaps):
+            image.append(f"let {gap}_next = {name}_next - {point}")
         known = []
         if self.own is not self.map:  # else the map would be assumed to do what is to be shown
             known = ["given " + self.next(self.space), *map(self.next, self.roots)]
         return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
+
+    def around(self) -> Orbits:
+        """The same around the point: NAME_gap is how far NAME is from NAME_point, the variable of
+        the premises in place of NAME.
+        """
+        self.gaps = [name + "_gap" for name in self.state]
+        self.moving.update(self.gaps)
+        return self
+
+    def at_the_point(self, *rows: str) -> list[str]:
+        """For all parameters in the domain, with the point's names for its terms."""
+        forall = "forall " + " ".join(self.parameters)
+        return [forall, f"range {self.domain}", *self.fixed, *self.at_its_terms(), *rows]
+
+    def names(self, text: str) -> list[str]:
+        """What a text's names of the point and of gaps mean, for a statement without them."""
+        self.around()
+        gaps = [
+            f"let {gap} = {name} - {point}"
+            for name, point, gap in zip(self.state, self.point, self.gaps)
+        ]
+        used = names_in(text)
+        lets = [*self.at_its_terms(), *gaps] if used & {*self.point, *self.gaps} else []
+        return lets
 
     def terms(self, keyword: str) -> list[str]:
         """One term for each state variable, in the parameters."""
@@ -231,27 +276,28 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     every d > 0; and all states with |s - e| <= radius are in it.  So e is stable, and attracts the
     set.
 
-    Premises: least(distance, level) > 0 for distance > 0 and level >= 0; radius > 0, upper > 0; e
+    In all lines but `point` NAME_point names the point, and NAME_gap is NAME - NAME_point.  Where
+    there are lines `have`, these are all that the premises know of the point.
+
+    Premises: the lines `have` hold at e; least(distance, level) > 0 for distance > 0 and level >= 0; radius > 0, upper > 0; e
     is in the space; `on` holds where |s - e| <= radius, V(s) <= upper distance where |s - e| <=
     distance <= radius; and on the set, which is taken into itself, V(s) >= 0, V(f(s)) <= V(s) -
     loss, and loss >= least(distance, level) where |s - e| >= distance and V(s) <= level.  The loss
     may name V(s), as `value`.
     """
-    f = Orbits(statement, known, work)
+    f = Orbits(statement, known, work).around()
     (on,), (loss,), (least,) = map(statement.get, ("on", "loss", "least"))
     (upper,), (radius,) = map(statement.get, ("upper", "radius"))
-    point, values = f.terms("point"), statement.get("value")
+    values = statement.get("value")
     roots = {line.split(" ")[1] for line in [*f.fixed, *f.roots]}
     names = names_in(*(text for guards, terms in values for text in [*guards, *terms]))
     fits = all(len(guards) < 2 and len(terms) == 1 for guards, terms in values)
     # V is of the state alone: `value` in it would say V(s) <= V(s)
-    own = names <= {*f.parameters, *f.state, *roots} and not names_in(loss) & {"distance", "level"}
+    own = names <= {*f.parameters, *f.state, *f.point, *f.gaps, *roots}
+    own = own and not names_in(loss) & {"distance", "level"}
     require(fits and own, Kind.VALUE, statement.name)
-    after = [name + "_next" for name in f.state]
-    at_point = [f"let {name} = {e}" for name, e in zip(after, point)]
-    sides = [f"{name} - ({e})" for name, e in zip(f.state, point)]
-    within = all_of(f"-distance <= {d} and {d} <= distance" for d in sides)
-    beyond = all_of((f"{d} >= distance or {d} <= -distance" for d in sides), " or ")
+    within = all_of(f"-distance <= {gap} and {gap} <= distance" for gap in f.gaps)
+    beyond = all_of((f"{gap} >= distance or {gap} <= -distance" for gap in f.gaps), " or ")
     here = [f"given {on}"]
     for guards, (term,) in values:
         reached = [*(f"not ({guard})" for guard in guards), f"({term}) <= value"]
@@ -267,10 +313,11 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     positive = all_of(f"({c}) > 0" for c in (least, upper, radius))
     close = ["given distance >= 0", f"given {within}", f"given distance <= ({radius})"]
     both = ["distance", "level"]
+    there = dict(zip(f.state, f.point))
     enough = f"show ({loss}) >= ({least})"
     premises = {
         "constants": f.for_all(*any_level, f"show {positive}", extra=both),
-        "point": f.for_all(*at_point, "show " + put(f.space, dict(zip(f.state, after)))),
+        "point": f.at_the_point("show " + all_of([put(f.space, there), *statement.rows("have")])),
         "surrounds": f.at(*close, f"show {on}", extra=["distance"]),
         "bounded": f.at(*here, "show value >= 0", extra=["value"]),
         "least": f.at(*bounded, *far, enough, extra=["value", *both]),
@@ -302,7 +349,7 @@ def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Pr
     last, on = f.own.get("stage")[-1], other.own.get("on")[0]
     return {
         "inside": f.for_all(f"show {other.domain}"),
-        "enters": f.at(*roots, f"given {last}", f"show {on}"),
+        "enters": f.at(*roots, *other.names(on), f"given {last}", f"show {on}"),
     }
 
 
