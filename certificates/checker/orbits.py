@@ -315,10 +315,15 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     of these n, for every d > 0; and all states of the space with |s - e| <= radius are in it.  So e
     is stable, and attracts the set.
 
-    XX and level >= 0; e is in the space; `on` holds where |s - e| <= radius; V(s) <=
-    upper distance where |s - e| <= distance <= radius; and on the set, which is taken into itself,
-    V(s) >= 0, loss >= 0, V(f(s)) <= V(s) - loss, and loss >= least(distance, level) where |s - e|
-    >= distance and V(s) <= level.  The loss may name V(s), as `value`.
+    In all lines but `point` NAME_point names the point, and NAME_gap is NAME - NAME_point.  What
+    the lines `have` say of the point is all that the premises know of it, if there are any.
+
+    Premises: e is in the space, and what the lines `have` say is so; radius > 0 and upper > 0, in
+    the parameters alone; least(distance, level) > 0 for distance > 0 and level >= 0; `on` holds
+    where |s - e| <= radius; V(s) <= upper distance where |s - e| <= distance <= radius; and on the
+    set, which is taken into itself, V(s) >= 0, loss >= 0, V(f(s)) <= V(s) - loss, and loss >=
+    least(distance, level) where |s - e| >= distance and V(s) <= level.  The loss may name V(s), as
+    `value`.
 
     Stable: where |s - e| >= d and V(s) <= c = upper radius, V(s) >= loss >= least(d, c).  So where
     V(s) is less than both, |f^n(s) - e| < d for all n.  V(e) = 0, so V(f(e)) = 0 and f(e) = e.
