@@ -359,6 +359,11 @@ def mapping(text: str, read: Reader) -> tuple[list[str], list[str]]:
     return listed(left, read), listed(right, read)
 
 
+def guarded(text: str, read: Reader) -> tuple[list[str], list[str]]:
+    """TERM, or GUARD -> TERM."""
+    return mapping(text, read) if " -> " in text else ([], listed(text, read))
+
+
 LINES = {  # how what follows each keyword is read
     **dict.fromkeys(
         ("forall", "integer", "exists", "over", "sharp", "state"), lambda text, read: text.split()
@@ -370,12 +375,14 @@ LINES = {  # how what follows each keyword is read
         ("range", "given", "have", "with", "show", "domain", "holds"), lambda text, read: read(text)
     ),
     **dict.fromkeys(("iterates", "after", "piece"), mapping),
+    "value": guarded,
     "word": lambda text, read: [int(k) for k in text.split()],
     **dict.fromkeys(
-        ("map", "descent", "contraction", "attraction", "escape"), lambda text, read: text
+        ("map", "descent", "contraction", "lyapunov", "attraction", "escape"),
+        lambda text, read: text,
     ),
     **dict.fromkeys(
-        ("space", "rank", "stage", "on", "rate", "radius", "size"),
+        ("space", "rank", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
         lambda text, read: written(read(text)),
     ),
     **dict.fromkeys(("point", "weights", "start"), listed),
@@ -390,7 +397,8 @@ ORDERS = {
     "map": r"over domain state space (piece )+",
     "descends": r"map domain (root )*rank (stage )+",
     "contracts": r"map domain (root )*on point weights rate radius size ",
-    "attracts": r"descent contraction ",
+    "lyapunov": r"map domain (root )*on point (value )+loss least upper radius ",
+    "attracts": r"descent (contraction|lyapunov) ",
     "escapes": r"map domain (root )*point start word ",
     "exactly": r"attraction escape ",
 }

@@ -1,0 +1,404 @@
+"""The rules for orbits of maps: what holds of every orbit, from premises that this file writes.
+
+Each rule writes its premises itself, as text, and a certificate has to prove exactly these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from .algebra import Kind, Rejected, Work, require
+from .language import Known, Statement, read_statements
+from .rules import Hint, at, prove
+from .text import names_in, put
+
+PER_LETTER = 20  # elementary products that a letter of a premise stands for
+
+Premises = Mapping[str, list[str]]  # {name: lines of a statement}
+
+# ------------------------------------------------------------ a map, and what is said of it
+
+
+def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Premises:
+    """The K-th iterate of the map, for every integer K >= 0.  Premises: P(0) is the identity, and
+    map(P(K)) = P(K + 1).
+    """
+    (variables,) = statement.get("forall")
+    (counts,) = statement.get("integer")
+    ((state, images),) = statement.get("iterates")
+    ((count, powers),) = statement.get("after")
+    lets = ["let " + text for text in statement.rows("let")]
+    shaped = state == variables[: len(state)] and 0 < len(state) == len(images) == len(powers)
+    # the count apart from the state: else the map would change how often it is iterated
+    apart = count == counts and set(count) <= set(variables[len(state) :])
+    require(shaped and apart, Kind.ITERATES_SHAPE, statement.name)
+    still = not names_in(*images) & set(count) and not names_in(*lets) & {*count, *state}
+    require(still, Kind.ITERATES_COUNT, statement.name)
+    # a name that only the premises declare, such as x_next, would mean something in them alone
+    declared = {*variables, *(name for name, _ in statement.get("let"))}
+    require(names_in(*images, *powers) <= declared, Kind.ITERATES_NAME, statement.name)
+    (k,) = count
+    after = {name: name + "_next" for name in state}
+    head = [f"forall {' '.join(variables)}", f"integer {k}", *lets]
+    start = [f"({put(power, {k: '0'})}) = {name}" for name, power in zip(state, powers)]
+    step = [
+        f"({put(image, after)}) = ({put(power, {k: f'({k} + 1)'})})"
+        for image, power in zip(images, powers)
+    ]
+    reached = [f"let {name}_next = {power}" for name, power in zip(state, powers)]
+    return {
+        "start": [*head, "show " + " and ".join(start)],
+        "step": [*head, *reached, "show " + " and ".join(step)],
+    }
+
+
+class Orbits:
+    """A map with the lines of a statement about it, from which the text of the premises is
+    written.
+    """
+
+    def __init__(self, statement: Statement, known: Known, work: Work) -> None:
+        self.own = statement
+        self.work = work
+        if statement.kind == "map":
+            self.map = statement
+        else:
+            self.map = earlier_of("map", statement.text("map"), known)
+        (self.parameters,) = self.map.get("over")
+        (self.state,) = self.map.get("state")
+        (self.space,) = self.map.get("space")
+        (self.domain,) = statement.rows("domain")
+        self.pieces = self.map.get("piece")
+        self.moving = set(self.state)  # what has another value at the next state
+        self.roots = []
+        self.fixed = []
+        for line in statement.rows("root"):
+            name, _, under = line.partition(" = ")
+            if self.moving & names_in(under):
+                self.moving.add(name)
+                self.roots.append("root " + line)
+            else:
+                self.fixed.append("root " + line)
+        fits = all(
+            len(guard) == 1 and len(images) == len(self.state) for guard, images in self.pieces
+        )
+        # nothing but parameters and state: x_next in a guard would mean the image itself
+        named = names_in(*(text for piece in self.pieces for side in piece for text in side))
+        require(fits and named <= {*self.parameters, *self.state}, Kind.PIECE, self.map.name)
+
+    def next(self, text: str) -> str:
+        """The same of the next state."""
+        return put(text, {name: name + "_next" for name in self.moving})
+
+    def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
+        """For all parameters in the domain, with the roots of parameters."""
+        forall = "forall " + " ".join([*self.parameters, *extra])
+        # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
+        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, self.domain, *rows])))
+        return [forall, f"range {self.domain}", *self.fixed, *rows]
+
+    def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
+        """For all parameters in the domain and all states of the space."""
+        return self.for_all(f"given {self.space}", *self.roots, *rows, extra=[*self.state, *extra])
+
+    def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
+        """Where the k-th piece applies: something of the next state, which is in the space by the
+        map's premises.
+        """
+        (guard,), images = self.pieces[k]
+        image = [f"let {name}_next = {image}" for name, image in zip(self.state, images)]
+        known = []
+        if self.own is not self.map:  # else the map would be assumed to do what is to be shown
+            known = ["given " + self.next(self.space), *map(self.next, self.roots)]
+        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
+
+    def terms(self, keyword: str) -> list[str]:
+        """One term for each state variable, in the parameters."""
+        terms: list[str]
+        (terms,) = self.own.get(keyword)
+        constants = {*self.parameters, *(line.split(" ")[1] for line in self.fixed)}
+        # with a state variable in it, the point would move with the state
+        fits = len(terms) == len(self.state) and names_in(*terms) <= constants
+        require(fits, Kind.STATE_TERMS, self.own.name)
+        return terms
+
+    def with_domain(self, premises: Premises) -> Premises:
+        """Beside other premises: a state of the space, for parameters in the domain, which is part
+        of the map's domain.
+        """
+        some = "exists " + " ".join([*self.parameters, *self.state])
+        possible = [some, f"with {self.domain}", f"show {self.space}"]
+        inside = {}
+        if self.own is not self.map:
+            (whole,) = self.map.rows("domain")
+            inside = {"inside": self.for_all("show " + whole)}
+        return {"possible": possible, **inside, **premises}
+
+
+def earlier_of(kind: str, name: str, known: Known) -> Statement:
+    """A statement that another rests on: an earlier one, certified, of the kind that it needs."""
+    require(name in known and known[name].kind == kind, Kind.EARLIER, f"{kind} {name}")
+    return known[name]
+
+
+def all_of(parts: Iterable[str], op: str = " and ") -> str:
+    return op.join(f"({part})" for part in parts)
+
+
+def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
+    """A map f of the space into itself: for all parameters in the domain, each state of the space
+    has exactly one piece whose guard holds, f(state) is given by that piece, and f(state) is in the
+    space.
+    """
+    f = Orbits(statement, known, work)
+    guards = [guard for (guard,), _ in f.pieces]
+    premises = {"covers": f.at("show " + all_of(guards, " or "))}
+    for i, guard in enumerate(guards):
+        for k in range(i):
+            both = f"given {guard}", f"given {guards[k]}"
+            premises[f"apart-{i + 1}-{k + 1}"] = f.at(*both, "show 0 = 1")
+    for k in range(len(guards)):
+        premises[f"stays-{k + 1}"] = f.step(k, show=f.next(f.space))
+    return f.with_domain(premises)
+
+
+def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premises:
+    """Descent of a rank to a trap: stages A_1, .., A_m.  For all parameters in the domain and all
+    states s of the space, f^N(s) is in A_m for every integer N >= rank(s) + m - 1.
+
+    Premises: rank >= 0; outside of all stages rank(f(s)) <= rank(s) - 1; f takes A_k into A_(k+1),
+    and A_m into itself. So the first visit to a stage is after at most rank(s) steps, and m - 1
+    more steps, or fewer, lead to A_m.
+    """
+    f = Orbits(statement, known, work)
+    (rank,) = statement.get("rank")
+    stages = statement.get("stage")
+    outside = f"given not ({all_of(stages, ' or ')})"
+    premises = {"bounded": f.at(f"show ({rank}) >= 0")}
+    for k in range(len(f.pieces)):
+        falls = f"({f.next(rank)}) <= ({rank}) - 1"
+        premises[f"falls-{k + 1}"] = f.step(k, outside, show=falls)
+        for i, (stage, after) in enumerate(zip(stages, [*stages[1:], stages[-1]])):
+            premises[f"stage-{i + 1}-{k + 1}"] = f.step(k, f"given {stage}", show=f.next(after))
+    return f.with_domain(premises)
+
+
+def premises_of_contraction(statement: Statement, known: Known, work: Work) -> Premises:
+    """Contraction in a weighted sup norm, |s - e| = max |s_j - e_j| / weight_j, e the point.  For
+    all parameters in the domain: f(e) = e; for all states s of the space in the set `on` and all
+    integers n >= 0, f^n(s) is in it and |f^n(s) - e| <= rate^n |s - e| <= rate^n size; and all
+    states of the space with |s - e| <= radius are in it.  So e is stable, and attracts the set.
+
+    Premises: 0 <= rate < 1, weights > 0, radius > 0, size > 0; e is in the space; `on` holds where
+    |s - e| <= radius, is taken into itself, and has |s - e| <= size; and on it |s - e| <= distance
+    implies |f(s) - e| <= rate distance, for every distance >= 0.
+    """
+    f = Orbits(statement, known, work)
+    (on,), (rate,), (radius,), (size,) = map(statement.get, ("on", "rate", "radius", "size"))
+    point = f.terms("point")
+    weights = f.terms("weights")
+
+    def within(distance: str, names: Sequence[str]) -> str:
+        parts = []
+        for name, e, weight in zip(names, point, weights):
+            reach = f"({distance})*({weight})"
+            parts.append(f"-{reach} <= {name} - ({e}) and {name} - ({e}) <= {reach}")
+        return all_of(parts)
+
+    positive = [f"({c}) > 0" for c in [*weights, radius, size]]
+    after = [name + "_next" for name in f.state]
+    at_point = [f"let {name} = {e}" for name, e in zip(after, point)]
+    premises = {
+        "constants": f.for_all("show " + all_of([f"({rate}) >= 0", f"({rate}) < 1", *positive])),
+        "point": f.for_all(*at_point, "show " + put(f.space, dict(zip(f.state, after)))),
+        "surrounds": f.at("given " + within(radius, f.state), f"show {on}"),
+        "size": f.at(f"given {on}", "show " + within(size, f.state)),
+    }
+    near = ["given distance >= 0", "given " + within("distance", f.state)]
+    nearer = within(f"({rate})*distance", after)
+    for k in range(len(f.pieces)):
+        premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
+        closer = f.step(k, f"given {on}", *near, show=nearer, extra=["distance"])
+        premises[f"closer-{k + 1}"] = closer
+    return f.with_domain(premises)
+
+
+def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Premises:
+    """A Lyapunov function V with a loss: V(s) is the greatest of the terms `value` whose guard, if
+    they have one, holds at s; e is the point, and |s - e| = max |s_j - e_j|.  For all parameters in
+    the domain: f(e) = e; for all states s of the space in the set `on` f^n(s) is in it, V(f^n(s))
+    falls as n grows, and |f^n(s) - e| >= d for at most V(s)/least(d, V(s)) integers n >= 0, for
+    every d > 0; and all states with |s - e| <= radius are in it.  So e is stable, and attracts the
+    set.
+
+    Premises: least(distance, level) > 0 for distance > 0 and level >= 0; radius > 0, upper > 0; e
+    is in the space; `on` holds where |s - e| <= radius, V(s) <= upper distance where |s - e| <=
+    distance <= radius; and on the set, which is taken into itself, V(s) >= 0, V(f(s)) <= V(s) -
+    loss, and loss >= least(distance, level) where |s - e| >= distance and V(s) <= level.  The loss
+    may name V(s), as `value`.
+    """
+    f = Orbits(statement, known, work)
+    (on,), (loss,), (least,) = map(statement.get, ("on", "loss", "least"))
+    (upper,), (radius,) = map(statement.get, ("upper", "radius"))
+    point, values = f.terms("point"), statement.get("value")
+    roots = {line.split(" ")[1] for line in [*f.fixed, *f.roots]}
+    names = names_in(*(text for guards, terms in values for text in [*guards, *terms]))
+    fits = all(len(guards) < 2 and len(terms) == 1 for guards, terms in values)
+    # V is of the state alone: `value` in it would say V(s) <= V(s)
+    own = names <= {*f.parameters, *f.state, *roots} and not names_in(loss) & {"distance", "level"}
+    require(fits and own, Kind.VALUE, statement.name)
+    after = [name + "_next" for name in f.state]
+    at_point = [f"let {name} = {e}" for name, e in zip(after, point)]
+    sides = [f"{name} - ({e})" for name, e in zip(f.state, point)]
+    within = all_of(f"-distance <= {d} and {d} <= distance" for d in sides)
+    beyond = all_of((f"{d} >= distance or {d} <= -distance" for d in sides), " or ")
+    here = [f"given {on}"]
+    for guards, (term,) in values:
+        reached = [*(f"not ({guard})" for guard in guards), f"({term}) <= value"]
+        here.append("given " + all_of(reached, " or "))
+    # what holds for every number that is at least V(s) holds for V(s); 1 + value > 0 and 1 + level
+    # > 0, so that loss and least may divide by them
+    bounded = [*here, "given value >= 0", "given 1 + value > 0"]
+    before, extra = bounded, ["value"]
+    if len(values) == 1 and not values[0][0]:
+        before, extra = [here[0], f"let value = {values[0][1][0]}", *bounded[-2:]], []
+    any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
+    far = [*any_level, f"given {beyond}", "given level >= value"]
+    positive = all_of(f"({c}) > 0" for c in (least, upper, radius))
+    close = ["given distance >= 0", f"given {within}", f"given distance <= ({radius})"]
+    both = ["distance", "level"]
+    enough = f"show ({loss}) >= ({least})"
+    premises = {
+        "constants": f.for_all(*any_level, f"show {positive}", extra=both),
+        "point": f.for_all(*at_point, "show " + put(f.space, dict(zip(f.state, after)))),
+        "surrounds": f.at(*close, f"show {on}", extra=["distance"]),
+        "bounded": f.at(*here, "show value >= 0", extra=["value"]),
+        "least": f.at(*bounded, *far, enough, extra=["value", *both]),
+    }
+    for i, (guards, (term,)) in enumerate(values):
+        small = [*(f"given {guard}" for guard in guards), f"show ({term}) <= ({upper})*distance"]
+        premises[f"small-{i + 1}"] = f.at(*close, *small, extra=["distance"])
+    for k in range(len(f.pieces)):
+        premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
+        for i, (guards, (term,)) in enumerate(values):
+            less = f"({f.next(term)}) <= value - ({loss})"
+            show = all_of([*(f"not ({f.next(guard)})" for guard in guards), less], " or ")
+            premises[f"falls-{k + 1}-{i + 1}"] = f.step(k, *before, show=show, extra=extra)
+    return f.with_domain(premises)
+
+
+def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Premises:
+    """A descent whose last stage lies in the set `on` of a contraction, or of a Lyapunov function,
+    of the same map.  For all parameters in the descent's domain, the point is stable and f^n(s)
+    tends to it for all states s of the space; with a contraction |f^(N+k)(s) - e| <= rate^k size
+    for all integers N >= rank(s) + m - 1, k >= 0.
+    """
+    f = Orbits(earlier_of("descends", statement.text("descent"), known), known, work)
+    other = Orbits(around(statement, known), known, work)
+    # the very statement: two maps may have the same text, and other certificates
+    require(f.map is other.map, Kind.OTHER_MAP, statement.name)
+    # a root of one name for two terms is declared twice, and refused
+    roots = [root for root in other.fixed + other.roots if root not in f.fixed + f.roots]
+    last, on = f.own.get("stage")[-1], other.own.get("on")[0]
+    return {
+        "inside": f.for_all(f"show {other.domain}"),
+        "enters": f.at(*roots, f"given {last}", f"show {on}"),
+    }
+
+
+def around(statement: Statement, known: Known) -> Statement:
+    """What an attraction says of a neighbourhood of its point."""
+    kind = {"contraction": "contracts", "lyapunov": "lyapunov"}
+    (keyword,) = (key for key, _ in statement.lines if key in kind)
+    return earlier_of(kind[keyword], statement.text(keyword), known)
+
+
+def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premises:
+    """A periodic orbit: for all parameters in the domain the start is in the space, f^n(start) =
+    start for the length n of the word of pieces, and start is not the point; so the orbit of the
+    start does not tend to the point.
+    """
+    f = Orbits(statement, known, work)
+    (word,) = statement.get("word")
+    require(word, Kind.WORD, statement.name)  # after no step, every start is back
+    here = f.terms("start")
+    rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
+    first = {name: f"{name}_0" for name in f.state}
+    apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
+    shown = [put(f.space, first)]
+    for count, piece in enumerate(word):
+        (guard,), images = at(f.pieces, piece - 1)
+        now = {name: f"{name}_{count}" for name in f.state}
+        work.spend(PER_LETTER * sum(map(len, [guard, *here, *images])))
+        rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
+        shown.append(put(guard, now))
+        if count == 0:
+            shown.append(apart)
+        here = [put(image, now) for image in images]
+    shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
+    return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
+
+
+def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Premises:
+    """An attraction and an escape, from the same point of the same map, on domains that make up the
+    map's.  For all parameters in the map's domain: the point is stable and attracts every state of
+    the space <=> the parameters are in the domain of the attraction's descent.
+    """
+    attraction = earlier_of("attracts", statement.text("attraction"), known)
+    f = Orbits(known[attraction.text("descent")], known, work)
+    inner = Orbits(around(attraction, known), known, work)
+    other = Orbits(earlier_of("escapes", statement.text("escape"), known), known, work)
+    require(f.map is other.map, Kind.OTHER_MAP, statement.name)
+    roots = [root for root in inner.fixed if root not in other.fixed]
+    points = zip(inner.terms("point"), other.terms("point"))
+    same = all_of(f"({one}) = ({two})" for one, two in points)
+    return {
+        "covers": Orbits(f.map, known, work).for_all(f"show ({f.domain}) or ({other.domain})"),
+        "same-point": other.for_all(*roots, f"show {same}"),
+    }
+
+
+ORBIT_RULES = {
+    "iterates": premises_of_iterates,
+    "map": premises_of_map,
+    "descends": premises_of_descent,
+    "contracts": premises_of_contraction,
+    "lyapunov": premises_of_lyapunov,
+    "attracts": premises_of_attraction,
+    "escapes": premises_of_escape,
+    "exactly": premises_of_sharpness,
+}
+
+
+def orbit_rules() -> dict[str, str]:
+    """{kind of statement: what its rule says}, for the rules for orbits of maps."""
+    return {kind: str(rule.__doc__) for kind, rule in ORBIT_RULES.items()}
+
+
+def premises_of(
+    statement: Statement, known: Known, work: Work | None = None
+) -> dict[str, Statement]:
+    """The premises of an orbit rule, as statements that a certificate has to prove: {name:
+    statement}.
+    """
+    premises = {}
+    for name, rows in ORBIT_RULES[statement.kind](statement, known, work or Work()).items():
+        full = f"{statement.name}.{name}"
+        premises[name] = read_statements("\n".join([f"statement {full}", *rows]))[full]
+    return premises
+
+
+def check_orbit_rule(statement: Statement, certificate: Hint, known: Known, work: Work) -> None:
+    """{premise: prove}: each of the premises that the rule asks for is proved, and there is no
+    other.
+    """
+    premises = premises_of(statement, known, work)
+    # what the statement asks for is shown, not what the certificate offers
+    require(
+        set(certificate) == set(premises), Kind.PREMISES, sorted(set(certificate) ^ set(premises))
+    )
+    for name, premise in premises.items():
+        try:
+            prove(premise, certificate[name], known, work=work)
+        except Rejected as reason:
+            raise reason.within(f"premise {name} of {statement.name}") from None
