@@ -155,8 +155,26 @@ def _of_contraction(f: Lines) -> str:
     )
 
 
+def _of_lyapunov(f: Lines) -> str:
+    each = [value.rpartition(" -> ")[::2] for value in f.all("value")]
+    terms = [term + (f" where {guard}" if guard else "") for guard, term in each]
+    V = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
+    return (
+        f"for {f.domain()}: {f.point()} is a fixed point, is stable, and attracts the set"
+        f" {_set(f.one('on'), '`on`')}, which f takes into itself: with V(s) = {V}, V(f^n(s)) falls"
+        f" as n grows, and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for"
+        f" every state s of the space in the set and every distance > 0, where |s - e| is the"
+        f" greatest |s_j - e_j|, least = {f.one('least')}, level = V(s); all states of the space"
+        f" with |s - e| <= {f.one('radius')} are in the set"
+    )
+
+
 def _of_attraction(f: Lines) -> str:
-    descent, inner = f.named("descent"), f.named("contraction")
+    descent = f.named("descent")
+    if f.all("lyapunov"):
+        point = f.named("lyapunov").point()
+        return f"for {descent.domain()}: {point} is stable and attracts every state of the space"
+    inner = f.named("contraction")
     return (
         f"for {descent.domain()}: {inner.point()} is stable and attracts every state s of the"
         f" space: |f^(N + k)(s) - e| <= {_bound(inner, 'k')} for all integers k >= 0 and"
@@ -243,12 +261,27 @@ RULES = {
             " rate",
         },
     ),
+    "lyapunov": Rule(
+        "map domain (root )*on point (value )+loss least upper radius ",
+        _of_lyapunov,
+        {
+            **OF_DOMAIN,
+            "constants": "least, upper and radius are positive where distance > 0 and level >= 0",
+            "point": "the point is in the space",
+            "surrounds": "all states of the space within the radius of the point are in the set",
+            "bounded": "V is at least 0 on the set",
+            "least": "on the set, the loss is at least `least` of the distance and of V",
+            "small": "term {0} of V is at most upper times the distance, within the radius",
+            "stays": "piece {0} takes the set into itself",
+            "falls": "on the set, piece {0} takes term {1} of V to at most V less the loss",
+        },
+    ),
     "attracts": Rule(
-        "descent contraction ",
+        "descent (contraction|lyapunov) ",
         _of_attraction,
         {
-            "inside": "the domain of the descent is part of that of the contraction",
-            "enters": "the last stage of the descent lies in the set of the contraction",
+            "inside": "the domain of the descent is part of that of the other rule",
+            "enters": "the last stage of the descent lies in the set `on` of the other rule",
         },
     ),
     "escapes": Rule(

@@ -125,7 +125,8 @@ def _statement(
         if words:
             print(f"       {words}")
     elif outcome != "certified":
-        print(f"    -> {outcome}: {certificate.get('unknown', 'the checker rejects it')}")
+        reason = certificate.get("unknown", "the checker rejects it").replace("\n", "\n    ")
+        print(f"    -> {outcome}: {reason}")
     elif concluded:
         row = textwrap.wrap(f"-> certified: {concluded}", WIDTH, subsequent_indent=" " * 3)
         print(textwrap.indent("\n".join(row), " " * 4))

@@ -17,7 +17,14 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
 
 FOLDER = Path(__file__).resolve().parents[3] / "certificates" / "checker"
-ORDER = ["algebra", "text", "language", "rules", "orbits", "settling"]  # each rests on those before it
+ORDER = [
+    "algebra",
+    "text",
+    "language",
+    "rules",
+    "orbits",
+    "settling",
+]  # each rests on those before it
 FILES = {path.stem: path.read_text() for path in sorted(FOLDER.glob("*.py"))}
 TREES = {name: ast.parse(source) for name, source in FILES.items()}
 NODES = [node for tree in TREES.values() for node in ast.walk(tree)]
