@@ -30,8 +30,9 @@ def readings(statement: checker.Statement, certificate: Hint, known: Known) -> s
     Raises NotWritten where a certificate has what is not written for Coq.
     """
     written = [lemmas(statement, certificate, known)]
+    roots: dict[str, str] = {}
     for name, premise in checker.premises_of(statement, known).items():
-        written.append(Reading(premise, certificate["certified"][name], known).text())
+        written.append(Reading(premise, certificate["certified"][name], known, roots).text())
     return "\n".join(written)
 
 
@@ -59,13 +60,16 @@ class Reading:
     """A statement for all, in the words of its lines, as a lemma that its polynomial lemma proves.
 
     A root is written as `sqrt`; that it is one needs the sign of what is under it, which the
-    certificate proves and which has a lemma of its own.
+    certificate proves and which has a lemma of its own; roots: {lines before it: this lemma}.
     """
 
-    def __init__(self, statement: checker.Statement, proof: Hint, known: Known) -> None:
+    def __init__(
+        self, statement: checker.Statement, proof: Hint, known: Known, roots: dict[str, str]
+    ) -> None:
         self.statement = statement
         self.proof = proof
         self.known = known
+        self.roots = roots
         self.form = Form(statement)
         if self.form.integers or statement.get("have"):
             raise NotWritten("a premise is about integers, or has a line `have`")
@@ -151,18 +155,18 @@ class Reading:
 
     def _under(self, count: int, under: ast.expr) -> str:
         """A proof that what stands under a root is not negative; its lemma is written before."""
-        name = f"{self.statement.name}.root-{count}"
-        lines = [line.split(" ", 1) for line in self.statement.text().splitlines()[1 : count + 1]]
-        rows = [f"statement {name}", *map(" ".join, lines)]
-        shown = ast.unparse(under).replace("**", "^")
-        part = checker.read_statements("\n".join([*rows, f"show {shown} >= 0"]))
-        _, steps, _ = self.proof
-        before = sum(keyword == "root" for keyword, _ in lines)
-        proof = ["proof", steps[:before], steps[before]]
-        self.before.append(certified(part[name], proof, self.known))
-        self.before.append(Reading(part[name], proof, self.known).text())
+        lines = self.statement.text().splitlines()[1 : count + 1]
+        text = "\n".join([*lines, f"show {ast.unparse(under).replace('**', '^')} >= 0"])
+        if text not in self.roots:
+            name = f"{self.statement.name}.root-{count}"
+            part = checker.read_statements(f"statement {name}\n{text}")[name]
+            before = sum(line.startswith("root ") for line in lines)
+            proof = ["proof", self.proof[1][:before], self.proof[1][before]]
+            self.before.append(certified(part, proof, self.known))
+            self.before.append(Reading(part, proof, self.known, self.roots).text())
+            self.roots[text] = reading_name(name)
         arguments = [*map(coq_name, self._variables()), *self.assumed]
-        return f"({' '.join([reading_name(name), *arguments])})"
+        return f"({' '.join([self.roots[text], *arguments])})"
 
     def _variables(self) -> list[str]:
         """The variables that are not roots."""

@@ -10,10 +10,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import PRELUDE, NotWritten
-from juggleproof.certificates.coq.branch import Hint, Known
+from juggleproof.certificates.coq import PRELUDE, NotWritten, lemmas
+from juggleproof.certificates.coq.branch import Known
 from juggleproof.certificates.coq.text import conjoined, conjunctive, coq_name, disjunctive
-from juggleproof.certificates.language import rests_on
+from juggleproof.certificates.language import lemmas_of, rests_on
+from juggleproof.certificates.nodes import Certificate
 from juggleproof.proofs.theorem.coq_readings import reading_name, readings
 from juggleproof.proofs.theorem.coq_terms import coq_formula, coq_term, names_in, term_of
 
@@ -47,31 +48,54 @@ def _without_imports(text: str) -> str:
     return re.sub(r"^From Coq Require Import .*\n", "", text, flags=re.MULTILINE)
 
 
-def theorem(name: str, statements: Known, certificates: Mapping[str, Hint]) -> str:
-    """The file of the theorem that a stored statement is; certificates: of it and of all that it
-    rests on.
+def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate]) -> str:
+    """The file of the theorem that a stored statement is; certificates: of it, of all that it
+    rests on, and of the lemmas that these use.
 
     Raises NotWritten for a rule, or a part of a certificate, that is not written for Coq.
     """
     chain = _chain(name, statements)
-    kinds = [statements[one].kind for one in chain]
-    for one, kind in zip(chain, kinds):
-        if kind not in RULES:
-            raise NotWritten(f"{one} is of a rule that is not written for Coq")
-    rows = [theory()]
+    for one in chain:
+        if statements[one].kind not in RULES:
+            raise NotWritten(f"{one} is of a rule that is not written for Coq; claim it by another")
     frame = Frame(statements[chain[0]], statements)
+    rows = [theory()]
+    used = _uses(chain, certificates)
+    for one, statement in statements.items():
+        if one in used:
+            rows.append(lemmas(statement, certificates[one], statements))
     for one in chain:
         statement = statements[one]
         definitions, proofs = RULES[statement.kind]
         rows += [
             f"(* {'-' * 70} {one} *)\n",
             *definitions(frame, statement),
-            "",
             readings(statement, certificates[one], statements),
             *proofs(frame, statement),
-            "",
         ]
     return "\n".join([*rows, f"Print Assumptions {theorem_name(name)}.", ""])
+
+
+NO_THEOREM = ("universal", "sharp", "iterates", "map", "escapes")
+
+
+def theorems_in(statements: Known) -> list[str]:
+    """The theorems on the orbits of a map on which no other statement rests."""
+    inner = {name for one in statements.values() for name in rests_on(one)}
+    return [
+        name for name, one in statements.items() if one.kind not in NO_THEOREM and name not in inner
+    ]
+
+
+def _uses(names: Sequence[str], certificates: Mapping[str, Certificate]) -> set[str]:
+    """The lemmas that certificates use, and those that these use."""
+    found: set[str] = set()
+    todo = [*names]
+    while todo:
+        more = lemmas_of(certificates[todo.pop()]) - found
+        found |= more
+        todo += more
+    return found
 
 
 def theorem_name(name: str) -> str:
@@ -733,5 +757,3 @@ RULES: Mapping[str, tuple[Rows, Rows]] = {
     "escapes": (escape_definitions, escape_proofs),
     "exactly": (no_definitions, sharp_proofs),
 }
-# the kinds whose theorem is of use by itself
-STABILITY = ("descends", "contracts", "attracts", "exactly")
