@@ -313,7 +313,7 @@ def search_map_rule(
             return {"unknown": f"it rests on {name}, which is not certified"}
     for name, premise in checker.premises_of(statement, known).items():
         proof = None
-        for effort in (1, 2):
+        for effort in (1, 2, SQUARED):
             try:
                 proof = proof or search_proof(
                     premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)

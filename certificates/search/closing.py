@@ -30,6 +30,7 @@ from juggleproof.certificates.search.psatz.linear import (
     close_by_equations,
     search,
 )
+from juggleproof.certificates.search.psatz.orthant import search_orthant
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.states import State
@@ -218,6 +219,9 @@ class Closing:
         cases by sign.
         """
         lemmas: list[Lemma] = []
+        node = search_orthant(problem, self.budget) if self.effort > 1 else None
+        if node is not None:
+            return node
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
             before = len(lemmas)
             stages = BOTH if kind == "variables" and len(problem.facts) <= MOST_FOR_BOTH else FIRST
