@@ -167,7 +167,7 @@ class Leaf:
             if k not in orthant.own.values() and not not_negative(orthant.facts[k])
         ]
         self.count = len(rest)
-        groups = [(k,) for k in rest]
+        groups: list[tuple[int, ...]] = [(k,) for k in rest]
         if len(rest) <= MOST_FOR_PAIRS:
             groups += combinations_with_replacement(rest, 2)
         self.bases = []
