@@ -19,6 +19,7 @@ from juggleproof.certificates.algebra.numbers import (
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
 from juggleproof.certificates.search.psatz.facts import Pool
+from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
     DEEP,
     FIRST,
@@ -201,7 +202,11 @@ class Closing:
             and self.effort
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
-            node = self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
+            node = (
+                self.usual(problem, False)
+                or (None if depth else search_forms(inside, problem.ring, self.budget))
+                or self.with_lemmas(inside, problem, depth)
+            )
         return wrapped(rounded, node)
 
     def usual(self, problem: Problem, again: bool) -> Node | None:
