@@ -12,7 +12,7 @@ quadratic Lyapunov functions for hybrid systems, IEEE Trans. Automatic Control 4
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -30,7 +30,7 @@ from juggleproof.certificates.algebra.polynomials import (
     degree_in,
     total_degree,
 )
-from juggleproof.certificates.algebra.semidefinite import as_squares
+from juggleproof.certificates.algebra.semidefinite import Floats, LinearEquations, as_squares
 from juggleproof.certificates.nodes import Node
 from juggleproof.certificates.search.psatz.facts import Factors, merge
 from juggleproof.certificates.search.psatz.lifting import MonomialCofactor, lift
@@ -50,9 +50,12 @@ MOST_COUPLED = 40  # the same, where all are parts of one program
 MOST_GUARDS = 6  # facts that are linear in z
 HALVINGS = 3  # of a box, one inside another
 MOST_GOALS = 3
-RAISED = 2  # by how much the degree is raised
+RAISED = 3
+FINE = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
+INNER = ((1e-4, 1e-5), (1e-6, 1e-6))
 
 Form = dict[Monomial, Fraction]  # exponents of all variables: coefficient
+Found = tuple[list[Square], list[fmpz_mpoly]]  # with the roots
 
 
 @dataclass(frozen=True)
@@ -234,10 +237,11 @@ class QuadraticForm:
             node = self._apart(linear, quadratic, budget)
             if node is not None:
                 return node
-        for linear, quadratic in self._choices(False):
-            node = self._coupled(linear, quadratic, budget)
-            if node is not None:
-                return node
+        for more in range(RAISED):
+            for linear, quadratic in self._choices(False):
+                node = self._coupled(linear, quadratic, more, budget)
+                if node is not None:
+                    return node
         return None
 
     def _choices(self, free: bool) -> Iterator[tuple[list[Guard], list[Guard]]]:
@@ -289,34 +293,49 @@ class QuadraticForm:
             degrees = [degree_in(self.form.poly, axis.variable) + more for axis in axes]
             if more and (not axes or prod(n + 1 for n in degrees) > MOST_PARTS):
                 break
-            used, roots = list[Square](), list[fmpz_mpoly]()
-            parts = self._parts(axes, degrees)
-            for place in sorted(parts, key=lambda p: not is_vertex(p, degrees)):
-                budget.spend(20 + len(basis) ** 3)
-                found = self._squares(parts[place], basis) or self._guarded(
-                    parts[place], basis, blocks, budget
-                )
-                if found is None:
-                    break
-                factors = merge(*(a.factors(k, n) for a, k, n in zip(axes, place, degrees)))
-                for (own, root), weight in found[0]:
-                    number = len(roots) + root if root >= 0 else -1
-                    used.append(((merge(own, factors), number), weight))
-                roots += found[1]
-            else:
-                used.append(((((self.goal, 1),), -1), self.form.scale))
-                return lift(self.problem, used, [], roots)
-            if is_vertex(place, degrees):
+            found, at_vertex = self._each(
+                terms_of(self.form.poly, Fraction(-1)),
+                axes,
+                degrees,
+                lambda form: (
+                    self._squares(form, basis) or self._guarded(form, basis, blocks, budget)
+                ),
+            )
+            if found is not None:
+                used = [((((self.goal, 1),), -1), self.form.scale), *found[0]]
+                return lift(self.problem, used, [], found[1])
+            if at_vertex:
                 return None
         self.halving = self._halving(axes)
         return None
 
-    def _parts(self, axes: Sequence[Axis], degrees: Sequence[int]) -> dict[tuple[int, ...], Form]:
+    def _each(
+        self,
+        form: Form,
+        axes: Sequence[Axis],
+        degrees: Sequence[int],
+        squares: Callable[[Form], Found | None],
+    ) -> tuple[Found | None, bool]:
+        """All Bernstein coefficients of a form as squares; without them, whether one at a vertex
+        has none.
+        """
+        used, roots = list[Square](), list[fmpz_mpoly]()
+        parts = self._parts(form, axes, degrees)
+        for place in sorted(parts, key=lambda p: not is_vertex(p, degrees)):
+            found = squares(parts[place])
+            if found is None:
+                return None, is_vertex(place, degrees)
+            factors = merge(*(a.factors(k, n) for a, k, n in zip(axes, place, degrees)))
+            for (own, root), weight in found[0]:
+                number = len(roots) + root if root >= 0 else -1
+                used.append(((merge(own, factors), number), weight))
+            roots += found[1]
+        return (used, roots), False
+
+    def _parts(
+        self, terms: Form, axes: Sequence[Axis], degrees: Sequence[int]
+    ) -> dict[tuple[int, ...], Form]:
         """Q_k of Q = sum_k Q_k * product of powers of the bounds."""
-        terms = {
-            tuple(map(int, m)): Fraction(-int(c))
-            for m, c in zip(self.form.poly.monoms(), self.form.poly.coeffs())
-        }
         for axis, degree in zip(axes, degrees):
             v, moved = axis.variable, Form()
             rows = {e: axis.row(self.problem, e, degree) for e in {m[v] for m in terms}}
@@ -334,9 +353,7 @@ class QuadraticForm:
                 part[rest] = c
         return parts
 
-    def _squares(
-        self, form: Form, basis: Sequence[fmpz_mpoly]
-    ) -> tuple[list[Square], list[fmpz_mpoly]] | None:
+    def _squares(self, form: Form, basis: Sequence[fmpz_mpoly]) -> Found | None:
         """The form as squares alone, with their roots."""
         exponents = [tuple(map(int, b.monoms()[0])) for b in basis]
         gram = [
@@ -371,15 +388,16 @@ class QuadraticForm:
         basis: list[fmpz_mpoly],
         blocks: Sequence[FactBlock],
         budget: Budget,
-    ) -> tuple[list[Square], list[fmpz_mpoly]] | None:
-        """The form as squares and products of facts, with the roots."""
+    ) -> Found | None:
+        """A form without parameters as squares and products of facts, with the roots."""
+        budget.spend(20)
         if not blocks or not form:
             return None
         below = lcm(*(c.denominator for c in form.values()))
         whole = {m: int(c * below) for m, c in form.items()}
         content, top = gcd(*whole.values()), max(map(abs, whole.values()))
         poly = self.ring.ctx.from_dict({m: -c // content for m, c in whole.items()})
-        size, result = Fraction(top, below), list[tuple[list[Square], list[fmpz_mpoly]]]()
+        size, result = Fraction(top, below), list[Found]()
 
         def kept(used: list[Square], _: object, roots: list[fmpz_mpoly]) -> Node:
             scaled = [(one, weight * size) for one, weight in used if one[0] != goal.factors]
@@ -389,8 +407,19 @@ class QuadraticForm:
         goal = FactBlock(poly, True, [self.ring.one], ((self.goal, 1),))
         squares = FactBlock(self.ring.one, False, basis, ())
         total = Fraction(content, top)
+
+        def completed(used: list[Square], roots: list[fmpz_mpoly], left: Form) -> Node | None:
+            found = self._squares(left, basis)
+            if found is None:
+                return None
+            used, roots = joined((used, roots), found)
+            return kept(used, [], roots)
+
+        inside = InnerProgram(
+            self.ring, [goal, squares, *blocks], [], kept, total, count=1, completed=completed
+        )
         search_squares(
-            [SquaresProgram(self.ring, [goal, squares, *blocks], [], kept, total)], budget
+            [inside, SquaresProgram(self.ring, [goal, squares, *blocks], [], kept, total)], budget
         )
         return result[0] if result else None
 
@@ -422,7 +451,9 @@ class QuadraticForm:
 
     # -------------------------------------------------------- all coefficients in one program
 
-    def _coupled(self, linear: list[Guard], quadratic: list[Guard], budget: Budget) -> Node | None:
+    def _coupled(
+        self, linear: list[Guard], quadratic: list[Guard], more: int, budget: Budget
+    ) -> Node | None:
         """The node of a program with facts in which parameters occur."""
         alone = self.guards[0]
         whole = [self.form, *linear, *quadratic]
@@ -432,27 +463,30 @@ class QuadraticForm:
         products = list(self._products(linear, quadratic))
         axes = self._axes([g.poly for g in (*whole, *alone)])
         polys = [self.form.poly, *(b.poly for b in products), *(g.poly for g in alone)]
-        degrees = [max(degree_in(p, a.variable) for p in polys) for a in axes]
+        degrees = [max(degree_in(p, a.variable) for p in polys) + more for a in axes]
         if prod(n + 1 for n in degrees) > MOST_COUPLED:
             return None
         one = [self.ring.one]
         basis = self._basis([g.poly for g in whole], not all(g.homogeneous for g in whole))
         goal = FactBlock(self.form.poly, True, one, ((self.goal, 1),), self.form.scale)
-        blocks = [goal]
-        gens = (
-            [self.ring.gens[a.variable] ** k for k in range(n // 2 + 1)]
-            for a, n in zip(axes, degrees)
-        )
-        bent = [prod(powers, start=z) for *powers, z in choices(*gens, basis)]
-        blocks.append(FactBlock(self.ring.one, False, bent, ()))
-        squares = [FactBlock(self.ring.one, False, basis, ())]
+        squares = FactBlock(self.ring.one, False, basis, ())
+        base = list(self._times_bounds(squares, axes, degrees))
+        others = []
         for count in (1, 2):
             for some in combinations(alone, count):
                 poly = prod((g.poly for g in some), start=self.ring.one)
                 factors = merge(*(((g.fact, 1),) for g in some))
-                squares.append(FactBlock(poly, False, basis, factors))
-        for block in (*squares, *products):
+                others.append(FactBlock(poly, False, basis, factors))
+        blocks = [goal, *base]
+        for block in (*others, *products):
             blocks += self._times_bounds(block, axes, degrees)
+        if others:
+            gens = (
+                [self.ring.gens[a.variable] ** k for k in range(n // 2 + 1)]
+                for a, n in zip(axes, degrees)
+            )
+            bent = [prod(powers, start=z) for *powers, z in choices(*gens, basis)]
+            blocks.append(FactBlock(self.ring.one, False, bent, ()))
         cofactors: list[tuple[MonomialCofactor, fmpz_mpoly]] = []
         for place in self.equations:
             poly = self.problem.reduction.left[place].poly
@@ -464,8 +498,21 @@ class QuadraticForm:
                     exponents = tuple(map(int, monomial.monoms()[0]))
                     cofactors.append(((place, exponents), poly * monomial))
         total = Fraction(1, max(abs(int(c)) for c in self.form.poly.coeffs()))
-        program = SquaresProgram(self.ring, blocks, cofactors, partial(lift, self.problem), total)
-        return search_squares([program], budget)
+
+        def completed(used: list[Square], roots: list[fmpz_mpoly], left: Form) -> Node | None:
+            found, _ = self._each(left, axes, degrees, lambda form: self._squares(form, basis))
+            if found is None:
+                return None
+            used, roots = joined((used, roots), found)
+            first = (goal.factors, -1), total * goal.scale
+            return lift(self.problem, [first, *used], [], roots)
+
+        whole_lift = partial(lift, self.problem)
+        inside = InnerProgram(
+            self.ring, blocks, cofactors, whole_lift, total, count=len(base), completed=completed
+        )
+        programs = [inside, SquaresProgram(self.ring, blocks, cofactors, whole_lift, total)]
+        return search_squares(programs[: 1 if more else 2], budget)
 
     def _times_bounds(
         self, block: FactBlock, axes: Sequence[Axis], degrees: Sequence[int]
@@ -477,6 +524,76 @@ class QuadraticForm:
             facts = self.problem.facts
             poly = prod((facts[k].poly ** e for k, e in factors), start=block.poly)
             yield FactBlock(poly, False, block.basis, merge(factors, block.factors), block.scale)
+
+
+def terms_of(poly: fmpz_mpoly, factor: Fraction) -> Form:
+    """A polynomial times a rational, term by term."""
+    return {tuple(map(int, m)): int(c) * factor for m, c in zip(poly.monoms(), poly.coeffs())}
+
+
+def joined(one: Found, other: Found) -> Found:
+    """All squares of both."""
+    moved = [((f, len(one[1]) + k if k >= 0 else -1), weight) for (f, k), weight in other[0]]
+    return [*one[0], *moved], [*one[1], *other[1]]
+
+
+@dataclass
+class InnerProgram(SquaresProgram):
+    """A program whose matrices are all definite: those of its first `count` blocks after the goal
+    are not rounded, but `completed` from what the rounded ones leave.
+    """
+
+    goals: Sequence[tuple[float, float]] = INNER
+    denominators: Sequence[int] = FINE
+    kernels: Sequence[float] = ()
+    count: int = 0
+    completed: Callable[[list[Square], list[fmpz_mpoly], Form], Node | None] = lambda *_: None
+
+    def _rounded(
+        self,
+        linear: LinearEquations,
+        grams: list[Floats],
+        denominators: Sequence[int],
+        budget: Budget,
+    ) -> Node | None:
+        """The node of rational matrices near the floating ones, shorter ones first."""
+        for denominator in denominators:
+            budget.spend(50 + len(linear.entries))
+            used, roots = list[Square](), list[fmpz_mpoly]()
+            left = terms_of(self.blocks[0].poly, -self.total)
+            for k, block in enumerate(self.blocks[self.count + 1 :], self.count + 1):
+                scale, size = linear.scales[k], len(block.basis)
+                # a little more than nothing keeps what is singular definite
+                gram = [
+                    [
+                        Fraction(round(float(c) * denominator) + (i == j and size > 1), denominator)
+                        / scale
+                        for j, c in enumerate(row)
+                    ]
+                    for i, row in enumerate(grams[k])
+                ]
+                squares = as_squares(gram)
+                if squares is None:
+                    break
+                for weight, row in squares:
+                    root = sum((b * c for b, c in zip(block.basis, row) if c), self.ring.zero)
+                    add(left, block.poly * root * root, -weight)
+                    number = -1 if root == self.ring.one else len(roots)
+                    used.append(((block.factors, number), weight * block.scale))
+                    roots += [root] if number >= 0 else []
+            else:
+                for (_, poly), c in zip(self.cofactors, linear.multipliers):
+                    add(left, poly, -Fraction(round(c * denominator), denominator))
+                node = self.completed(used, roots, left)
+                if node is not None:
+                    return node
+        return None
+
+
+def add(total: Form, poly: fmpz_mpoly, factor: Fraction) -> None:
+    """Adds a polynomial times a rational."""
+    for m, c in terms_of(poly, factor).items():
+        total[m] = total.get(m, Fraction(0)) + c
 
 
 def is_vertex(place: Sequence[int], degrees: Sequence[int]) -> bool:
