@@ -19,6 +19,7 @@ from juggleproof.certificates.algebra.numbers import (
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
 from juggleproof.certificates.search.psatz.facts import Pool
+from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
     DEEP,
     FIRST,
@@ -203,8 +204,12 @@ class Closing:
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
             factors = two_factors(problem)
-            node = self.by_factors(inside, factors, depth) if factors else None
-            node = node or self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
+            node = (
+                (self.by_factors(inside, factors, depth) if factors else None)
+                or self.usual(problem, False)
+                or (None if depth else search_forms(inside, problem.ring, self.budget))
+                or self.with_lemmas(inside, problem, depth)
+            )
         return wrapped(rounded, node)
 
     def by_factors(self, state: State, factors: Sequence[str], depth: int) -> Node | None:
