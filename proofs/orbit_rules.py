@@ -435,13 +435,13 @@ def why(
 ) -> str:
     """A line on a premise for which no proof was found within the budget, from Z3's answer."""
     vote, model = answer
-    about = f"{name}: {meaning(kind, name)};"
+    about = f"{name}, {meaning(kind, name)}:"
     if model is not None:
         # a root that is not known to exist has no value
         names = model.point if model.part == "goal" else premise.get("forall")[0]
         values = ", ".join(f"{one} = {_value(model.point[one])}" for one in names)
         numbers = _numbers(premise, model)
-        return f"{about} false at {values}" + (f": {numbers}" if numbers else "")
+        return f"{about} false at {values}" + (f", where {numbers}" if numbers else "")
     says = {"holds": "Z3 says that it holds", "fails": "Z3 says that it is false"}
     return (
         f"{about} {says.get(vote.answer, 'Z3 gives no answer')}; no certificate was found within"

@@ -141,7 +141,7 @@ def test_a_false_premise_has_values_at_which_it_is_false_holds(
     if premise == "possible":  # Z3 alone says that nothing exists
         assert model is None and "Z3 says that it is false; no certificate was found" in line
         return
-    assert model is not None and "; false at " in line
+    assert model is not None and ": false at " in line
     point = {name: value for name, value in model.point.items() if isinstance(value, Fraction)}
     assert point.keys() == model.point.keys()
     for name, text in (row.split(" = ", 1) for row in false.rows("let")):
@@ -181,25 +181,27 @@ stage x = 0 and y = 0
 
 def test_both_sides_are_enclosed_where_a_root_is_irrational_holds() -> None:
     line = line_of(PLANE.replace("stage x = 0 and y = 0", "stage y != 0 or 2*x != 1"), "falls-1")
-    assert "x = 1/2, y = 0, u = 1/2, u_next = 1/4: u_next <= u - 1 comes to 1/4 <= -1/2" in line
+    assert (
+        "x = 1/2, y = 0, u = 1/2, u_next = 1/4, where u_next <= u - 1 comes to 1/4 <= -1/2" in line
+    )
     irrational = PLANE.replace("stage x = 0 and y = 0", "stage y != 1 or x != 1")
     line = line_of(irrational, "falls-1")
     assert line.endswith(
-        "u = about 1.414214 (a root of z^2 - 2), u_next = about 0.707107 (a root of 2*z^2 - 1):"
-        " u_next <= u - 1 comes to about 0.707107 <= about 0.414214"
+        "u = about 1.414214 (a root of z^2 - 2), u_next = about 0.707107 (a root of 2*z^2 - 1),"
+        " where u_next <= u - 1 comes to about 0.707107 <= about 0.414214"
     )
 
 
 def test_a_term_under_a_root_that_may_be_negative_is_named_holds() -> None:
     line = line_of(PLANE.replace("x^2 + y^2", "x - 1"), "bounded")
-    assert line.startswith("bounded: the rank is at least 0 on the space; false at a = 1, x = ")
-    assert "under the root u, x - 1 >= 0 comes to " in line and "u = " not in line
+    assert line.startswith("bounded, the rank is at least 0 on the space: false at a = 1, x = ")
+    assert ", where under the root u, x - 1 >= 0 comes to " in line and "u = " not in line
 
 
 def test_a_long_goal_is_shown_by_its_numbers_holds() -> None:
     long = PLANE.replace("x >= 0 and y", f"{'x + ' * 40}x >= 0 and y").replace("-> y/2", "-> y - 1")
     line = line_of(long.partition("statement t/descends")[0], "stays-1")
-    assert re.search(r"; false at a = 1, x = [^ ]+, y = [^ ]+: -[\d/]+ >= 0$", line), line
+    assert re.search(r": false at a = 1, x = [^ ]+, y = [^ ]+, where -[\d/]+ >= 0$", line), line
 
 
 @pytest.mark.parametrize(
@@ -214,7 +216,7 @@ def test_what_z3_says_without_values_holds(answer: str, says: str) -> None:
     premise = checker.premises_of(STATEMENTS_OF_EACH_KIND["demo/map"], {})["stays-2"]
     line = why("map", "stays-2", premise, (Vote("z3", answer, ""), None), 70)
     assert line == (
-        f"stays-2: piece 2 takes the space into itself; {says} was found within the budget: try"
+        f"stays-2, piece 2 takes the space into itself: {says} was found within the budget: try"
         " --budget 700, or a lemma"
     )
 
@@ -264,12 +266,14 @@ def test_an_overlap_and_a_gap_are_shown_with_a_state_holds(
     path = file_of(tmp_path, of_map=(*MAP[:4], *pieces))
     assert certify(path) == 1
     out = capsys.readouterr().out
-    (gap,) = (line for line in out.splitlines() if "covers: " in line)
-    (overlap,) = (line for line in out.splitlines() if "apart-2-1: " in line)
+    (gap,) = (line for line in out.splitlines() if "covers, " in line)
+    (overlap,) = (line for line in out.splitlines() if "apart-2-1, " in line)
     assert "mine/map is open: 2 of the 5 premises of `map`:\n" in out
-    assert gap.startswith("      covers: the guard of some piece holds at each state of the space;")
+    assert gap.startswith(
+        "      covers, the guard of some piece holds at each state of the space: false"
+    )
     assert "x > 3/4 comes to " in gap and "x <= 1/2 comes to " in gap
-    assert "the guards of pieces 1 and 2 do not overlap; false at a = " in overlap
+    assert "the guards of pieces 1 and 2 do not overlap: false at a = " in overlap
     assert overlap.endswith("x = 1/2")
     assert "mine/near is open: it rests on mine/map, which is not certified" in out
 
@@ -291,7 +295,7 @@ def test_an_open_rule_is_explained_with_the_text_of_its_premise_holds(
 ) -> None:
     path = file_of(tmp_path, put(NEAR, "rate", "a/2"))
     assert certify(path) == 1
-    line = "1 of the 8 premises of `contracts`: closer-1: on the set, piece 1 multiplies"
+    line = "1 of the 8 premises of `contracts`: closer-1, on the set, piece 1 multiplies"
     assert line in capsys.readouterr().out
     assert run(["explain", "mine", str(path)]) == 0
     out = capsys.readouterr().out
