@@ -217,7 +217,7 @@ class MapRule:
 
 
 # the lines that name an earlier statement
-RESTING = ("attraction", "escape", "descent", "contraction", "lyapunov", "map")
+RESTING = ("attraction", "escape", "unstable", "descent", "contraction", "lyapunov", "map")
 
 
 def rests_on(statement: checker.Statement) -> list[str]:

@@ -378,14 +378,14 @@ LINES = {  # how what follows each keyword is read
     "value": guarded,
     "word": lambda text, read: [int(k) for k in text.split()],
     **dict.fromkeys(
-        ("map", "descent", "contraction", "lyapunov", "attraction", "escape"),
+        ("map", "descent", "contraction", "lyapunov", "attraction", "escape", "unstable"),
         lambda text, read: text,
     ),
     **dict.fromkeys(
         ("space", "rank", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
         lambda text, read: written(read(text)),
     ),
-    **dict.fromkeys(("point", "weights", "start"), listed),
+    **dict.fromkeys(("point", "weights", "start", "direction"), listed),
 }
 # the lines that each kind of statement has, in this order, so that none can be overlooked
 ORDERS = {
@@ -397,10 +397,12 @@ ORDERS = {
     "map": r"over domain state space (piece )+",
     "descends": r"map domain (root )*rank (stage )+",
     "contracts": r"map domain (root )*on point weights rate radius size ",
-    "lyapunov": r"map domain (root )*on point (value )+loss least upper radius ",
+    "lyapunov": r"map domain (root )*on point (have )*(value )+loss least upper radius ",
+    "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
     "attracts": r"descent (contraction|lyapunov) ",
+    "into": r"descent attraction radius ",
     "escapes": r"map domain (root )*point start word ",
-    "exactly": r"attraction escape ",
+    "exactly": r"attraction (escape|unstable) ",
 }
 
 

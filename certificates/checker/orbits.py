@@ -63,12 +63,16 @@ class Orbits:
         if statement.kind == "map":
             self.map = statement
         else:
-            self.map = earlier_of("map", statement.text("map"), known)
+            self.map = earlier(statement, known, "map")
         (self.parameters,) = self.map.get("over")
         (self.state,) = self.map.get("state")
         (self.space,) = self.map.get("space")
         (self.domain,) = statement.rows("domain")
         self.pieces = self.map.get("piece")
+        # the names of the point, and the variables in place of the state's where they are used
+        self.point = [name + "_point" for name in self.state]
+        self.gaps: list[str] = []
+        self.have = [f"given {line}" for line in statement.rows("have")]
         self.moving = set(self.state)  # what has another value at the next state
         self.roots = []
         self.fixed = []
@@ -91,32 +95,106 @@ class Orbits:
         return put(text, {name: name + "_next" for name in self.moving})
 
     def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
-        """For all parameters in the domain, with the roots of parameters."""
-        forall = "forall " + " ".join([*self.parameters, *extra])
+        """For all parameters in the domain, with the roots of parameters; around a point, for all
+        points with what the lines `have` say.
+        """
+        named = self.point if self.have else []
+        forall = "forall " + " ".join([*self.parameters, *named, *extra])
+        known = [*self.fixed, *(self.have or self.let_point())]
         # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
-        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, self.domain, *rows])))
-        return [forall, f"range {self.domain}", *self.fixed, *rows]
+        self.work.spend(PER_LETTER * sum(map(len, [*known, self.domain, *rows])))
+        return [forall, f"range {self.domain}", *known, *rows]
 
     def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain and all states of the space."""
-        return self.for_all(f"given {self.space}", *self.roots, *rows, extra=[*self.state, *extra])
+        sums = zip(self.state, self.point, self.gaps)
+        places = [f"let {name} = {point} + {gap}" for name, point, gap in sums]
+        names = [*(self.gaps or self.state), *extra]
+        return self.for_all(*places, f"given {self.space}", *self.roots, *rows, extra=names)
 
     def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
         """Where the k-th piece applies: something of the next state, which is in the space by the
         map's premises.
         """
         (guard,), images = self.pieces[k]
-        image = [f"let {name}_next = {image}" for name, image in zip(self.state, images)]
         known = []
         if self.own is not self.map:  # else the map would be assumed to do what is to be shown
             known = ["given " + self.next(self.space), *map(self.next, self.roots)]
+        image = self.let_next(images)
         return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
 
-    def terms(self, keyword: str) -> list[str]:
-        """One term for each state variable, in the parameters."""
+    def let_next(self, terms: Sequence[str]) -> list[str]:
+        """The lines that name the terms of the next state, or of any other."""
+        lets = [f"let {name}_next = {term}" for name, term in zip(self.state, terms)]
+        gaps = zip(self.gaps, self.state, self.point)
+        return lets + [f"let {gap}_next = {name}_next - {point}" for gap, name, point in gaps]
+
+    def around(self) -> Orbits:
+        """The same around the point: NAME_gap is NAME - NAME_point, and the variable in place of
+        NAME.
+        """
+        self.gaps = [name + "_gap" for name in self.state]
+        self.moving.update(self.gaps)
+        return self
+
+    def let_point(self) -> list[str]:
+        """Around a point: its names stand for its terms."""
+        terms = self.terms("point") if self.gaps else []
+        return [f"let {name} = {term}" for name, term in zip(self.point, terms)]
+
+    def let_names(self, text: str) -> list[str]:
+        """For premises of others: what a text's names of the point and of gaps stand for."""
+        if not names_in(text) & {*self.point, *(name + "_gap" for name in self.state)}:
+            return []
+        gaps = zip(self.around().gaps, self.state, self.point)
+        return [*self.let_point(), *(f"let {gap} = {name} - {at}" for gap, name, at in gaps)]
+
+    def at_the_point(self) -> list[str]:
+        """The point, which has its terms, is in the space, and what the lines `have` say is so."""
+        shown = [put(self.space, dict(zip(self.state, self.point))), *self.own.rows("have")]
+        forall = "forall " + " ".join(self.parameters)
+        lets = [*self.fixed, *self.let_point()]
+        return [forall, f"range {self.domain}", *lets, "show " + all_of(shown)]
+
+    def within_gaps(self, distance: str, after: str = "") -> str:
+        """|s - e| <= distance, e the point, in the sup norm, around it; of the next state where
+        after is "_next".
+        """
+        reach = f"({distance})"
+        gaps = [gap + after for gap in self.gaps]
+        return all_of(f"-{reach} <= {gap} and {gap} <= {reach}" for gap in gaps)
+
+    def in_space(self, point: Sequence[str], *roots: str) -> list[str]:
+        """A point is in the space."""
+        return self.for_all(*roots, *self.let_next(point), "show " + self.next(self.space))
+
+    def within(
+        self, distance: str, point: Sequence[str], weights: Sequence[str] = (), after: str = ""
+    ) -> str:
+        """|s - e| <= distance, e the point, in the sup norm, with weights if there are any; of the
+        next state where after is "_next".
+        """
+        parts = []
+        for name, e, weight in zip(self.state, point, weights or ["1"] * len(point)):
+            reach = f"({distance})*({weight})"
+            side = f"{name}{after} - ({e})"
+            parts.append(f"-{reach} <= {side} and {side} <= {reach}")
+        return all_of(parts)
+
+    def values(self) -> list[tuple[list[str], str]]:
+        """[(guards, term)] of the lines `value`, each with one guard or none."""
+        values = self.own.get("value")
+        fits = all(len(guards) < 2 and len(terms) == 1 for guards, terms in values)
+        # the terms are of the state alone: with `value` in them, V(s) <= value would say nothing
+        names = names_in(*(text for guards, terms in values for text in [*guards, *terms]))
+        require(fits and "value" not in names, Kind.VALUE, self.own.name)
+        return [(guards, term) for guards, (term,) in values]
+
+    def terms(self, keyword: str, *more: str) -> list[str]:
+        """One term for each state variable, in the parameters and what more is named."""
         terms: list[str]
         (terms,) = self.own.get(keyword)
-        constants = {*self.parameters, *(line.split(" ")[1] for line in self.fixed)}
+        constants = {*self.parameters, *more, *(line.split(" ")[1] for line in self.fixed)}
         # with a state variable in it, the point would move with the state
         fits = len(terms) == len(self.state) and names_in(*terms) <= constants
         require(fits, Kind.STATE_TERMS, self.own.name)
@@ -135,9 +213,25 @@ class Orbits:
         return {"possible": possible, **inside, **premises}
 
 
-def earlier_of(kind: str, name: str, known: Known) -> Statement:
-    """A statement that another rests on: an earlier one, certified, of the kind that it needs."""
-    require(name in known and known[name].kind == kind, Kind.EARLIER, f"{kind} {name}")
+NAMED = {  # the kinds of statements that a line may name
+    "map": ["map"],
+    "descent": ["descends"],
+    "contraction": ["contracts"],
+    "lyapunov": ["lyapunov"],
+    "attraction": ["attracts", "into"],
+    "escape": ["escapes"],
+    "unstable": ["unstable"],
+}
+
+
+def earlier(statement: Statement, known: Known, *keywords: str) -> Statement:
+    """What the line with one of these keywords names: an earlier statement, certified, of the kind
+    that the line needs.
+    """
+    ((keyword, name),) = (line for line in statement.lines if line[0] in keywords)
+    kinds = NAMED[keyword]
+    fits = name in known and known[name].kind in kinds
+    require(fits, Kind.EARLIER, f"{' or '.join(kinds)} {name}")
     return known[name]
 
 
@@ -197,25 +291,15 @@ def premises_of_contraction(statement: Statement, known: Known, work: Work) -> P
     (on,), (rate,), (radius,), (size,) = map(statement.get, ("on", "rate", "radius", "size"))
     point = f.terms("point")
     weights = f.terms("weights")
-
-    def within(distance: str, names: Sequence[str]) -> str:
-        parts = []
-        for name, e, weight in zip(names, point, weights):
-            reach = f"({distance})*({weight})"
-            parts.append(f"-{reach} <= {name} - ({e}) and {name} - ({e}) <= {reach}")
-        return all_of(parts)
-
     positive = [f"({c}) > 0" for c in [*weights, radius, size]]
-    after = [name + "_next" for name in f.state]
-    at_point = [f"let {name} = {e}" for name, e in zip(after, point)]
     premises = {
         "constants": f.for_all("show " + all_of([f"({rate}) >= 0", f"({rate}) < 1", *positive])),
-        "point": f.for_all(*at_point, "show " + put(f.space, dict(zip(f.state, after)))),
-        "surrounds": f.at("given " + within(radius, f.state), f"show {on}"),
-        "size": f.at(f"given {on}", "show " + within(size, f.state)),
+        "point": f.in_space(point),
+        "surrounds": f.at("given " + f.within(radius, point, weights), f"show {on}"),
+        "size": f.at(f"given {on}", "show " + f.within(size, point, weights)),
     }
-    near = ["given distance >= 0", "given " + within("distance", f.state)]
-    nearer = within(f"({rate})*distance", after)
+    near = ["given distance >= 0", "given " + f.within("distance", point, weights)]
+    nearer = f.within(f"({rate})*distance", point, weights, "_next")
     for k in range(len(f.pieces)):
         premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
         closer = f.step(k, f"given {on}", *near, show=nearer, extra=["distance"])
@@ -224,36 +308,32 @@ def premises_of_contraction(statement: Statement, known: Known, work: Work) -> P
 
 
 def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Premises:
-    """A Lyapunov function V with a loss: V(s) is the greatest of the terms `value` whose guard, if
-    they have one, holds at s; e is the point, and |s - e| = max |s_j - e_j|.  For all parameters in
-    the domain: f(e) = e; for all states s of the space in the set `on` f^n(s) is in it, V(f^n(s))
-    falls as n grows, and |f^n(s) - e| >= d for at most V(s)/least(d, V(s)) integers n >= 0, for
-    every d > 0; and all states with |s - e| <= radius are in it.  So e is stable, and attracts the
-    set.
+    """A Lyapunov function V: V(s) is the greatest of the terms `value` whose guard, if they have
+    one, holds at s; e is the point, and |s - e| = max |s_j - e_j|.  For all parameters in the
+    domain: f(e) = e; for all states s of the space in the set `on` and all integers n >= 0, f^n(s)
+    is in it, V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= d for at most V(s)/least(d, V(s))
+    of these n, for every d > 0; and all states of the space with |s - e| <= radius are in it.  So e
+    is stable, and attracts the set.
 
-    Premises: least(distance, level) > 0 for distance > 0 and level >= 0; radius > 0, upper > 0; e
-    is in the space; `on` holds where |s - e| <= radius, V(s) <= upper distance where |s - e| <=
-    distance <= radius; and on the set, which is taken into itself, V(s) >= 0, V(f(s)) <= V(s) -
-    loss, and loss >= least(distance, level) where |s - e| >= distance and V(s) <= level.  The loss
-    may name V(s), as `value`.
+    In all lines but `point` NAME_point names the point, and NAME_gap is NAME - NAME_point.  What
+    the lines `have` say of the point is all that the premises know of it, if there are any.
+
+    Premises: e is in the space, and what the lines `have` say is so; radius > 0 and upper > 0, in
+    the parameters alone; least(distance, level) > 0 for distance > 0 and level >= 0; `on` holds
+    where |s - e| <= radius; V(s) <= upper distance where |s - e| <= distance <= radius; and on the
+    set, which is taken into itself, V(s) >= 0, loss >= 0, V(f(s)) <= V(s) - loss, and loss >=
+    least(distance, level) where |s - e| >= distance and V(s) <= level.  The loss may name V(s), as
+    `value`.
+
+    Stable: where |s - e| >= d and V(s) <= c = upper radius, V(s) >= loss >= least(d, c).  So where
+    V(s) is less than both, |f^n(s) - e| < d for all n.  V(e) = 0, so V(f(e)) = 0 and f(e) = e.
     """
-    f = Orbits(statement, known, work)
+    f = Orbits(statement, known, work).around()
     (on,), (loss,), (least,) = map(statement.get, ("on", "loss", "least"))
     (upper,), (radius,) = map(statement.get, ("upper", "radius"))
-    point, values = f.terms("point"), statement.get("value")
-    roots = {line.split(" ")[1] for line in [*f.fixed, *f.roots]}
-    names = names_in(*(text for guards, terms in values for text in [*guards, *terms]))
-    fits = all(len(guards) < 2 and len(terms) == 1 for guards, terms in values)
-    # V is of the state alone: `value` in it would say V(s) <= V(s)
-    own = names <= {*f.parameters, *f.state, *roots} and not names_in(loss) & {"distance", "level"}
-    require(fits and own, Kind.VALUE, statement.name)
-    after = [name + "_next" for name in f.state]
-    at_point = [f"let {name} = {e}" for name, e in zip(after, point)]
-    sides = [f"{name} - ({e})" for name, e in zip(f.state, point)]
-    within = all_of(f"-distance <= {d} and {d} <= distance" for d in sides)
-    beyond = all_of((f"{d} >= distance or {d} <= -distance" for d in sides), " or ")
+    values = f.values()
     here = [f"given {on}"]
-    for guards, (term,) in values:
+    for guards, term in values:
         reached = [*(f"not ({guard})" for guard in guards), f"({term}) <= value"]
         here.append("given " + all_of(reached, " or "))
     # what holds for every number that is at least V(s) holds for V(s); 1 + value > 0 and 1 + level
@@ -261,29 +341,75 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     bounded = [*here, "given value >= 0", "given 1 + value > 0"]
     before, extra = bounded, ["value"]
     if len(values) == 1 and not values[0][0]:
-        before, extra = [here[0], f"let value = {values[0][1][0]}", *bounded[-2:]], []
+        before, extra = [here[0], f"let value = {values[0][1]}", *bounded[-2:]], []
     any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
-    far = [*any_level, f"given {beyond}", "given level >= value"]
-    positive = all_of(f"({c}) > 0" for c in (least, upper, radius))
-    close = ["given distance >= 0", f"given {within}", f"given distance <= ({radius})"]
+    far = all_of((f"{gap} >= distance or {gap} <= -distance" for gap in f.gaps), " or ")
+    far_off = [*any_level, f"given {far}", "given level >= value", f"show ({loss}) >= ({least})"]
+    within = "given " + f.within_gaps("distance")
+    near = ["given distance >= 0", within, f"given distance <= ({radius})"]
     both = ["distance", "level"]
-    enough = f"show ({loss}) >= ({least})"
     premises = {
-        "constants": f.for_all(*any_level, f"show {positive}", extra=both),
-        "point": f.for_all(*at_point, "show " + put(f.space, dict(zip(f.state, after)))),
-        "surrounds": f.at(*close, f"show {on}", extra=["distance"]),
+        # apart from `least`: a radius that names `distance` would be as small as it likes
+        "constants": f.for_all("show " + all_of([f"({radius}) > 0", f"({upper}) > 0"])),
+        "positive": f.for_all(*any_level, f"show ({least}) > 0", extra=both),
+        "point": f.at_the_point(),
+        "surrounds": f.at("given " + f.within_gaps(radius), f"show {on}"),
         "bounded": f.at(*here, "show value >= 0", extra=["value"]),
-        "least": f.at(*bounded, *far, enough, extra=["value", *both]),
+        "loss": f.at(*before, f"show ({loss}) >= 0", extra=extra),
+        "least": f.at(*bounded, *far_off, extra=["value", *both]),
     }
-    for i, (guards, (term,)) in enumerate(values):
+    for i, (guards, term) in enumerate(values):
         small = [*(f"given {guard}" for guard in guards), f"show ({term}) <= ({upper})*distance"]
-        premises[f"small-{i + 1}"] = f.at(*close, *small, extra=["distance"])
+        premises[f"small-{i + 1}"] = f.at(*near, *small, extra=["distance"])
     for k in range(len(f.pieces)):
         premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
-        for i, (guards, (term,)) in enumerate(values):
+        for i, (guards, term) in enumerate(values):
             less = f"({f.next(term)}) <= value - ({loss})"
             show = all_of([*(f"not ({f.next(guard)})" for guard in guards), less], " or ")
             premises[f"falls-{k + 1}-{i + 1}"] = f.step(k, *before, show=show, extra=extra)
+    return f.with_domain(premises)
+
+
+def premises_of_instability(statement: Statement, known: Known, work: Work) -> Premises:
+    """A Chetaev function W: W(s) is the greatest of the terms `value` whose guard, if they have
+    one, holds at s; e is the point, |s - e| = max |s_j - e_j|, and s(d) the state given by the
+    terms `direction`, in which d is named `distance`.  For all parameters in the domain and 0 < d
+    <= radius: s(d) is in the space, |s(d) - e| <= d, and |f^n(s(d)) - e| > radius for some integer
+    n >= 0.  So e is not stable.
+
+    Premises, with the point's names and the lines `have` as for a Lyapunov function: e is in the
+    space; rate > 1, radius > 0 and upper > 0, in the parameters alone; for 0 < d <= radius s(d) is
+    in the space, |s(d) - e| <= d and W(s(d)) > 0; and for all states s of the space with |s - e| <=
+    radius and W(s) > 0, W(s) <= upper and W(f(s)) >= rate W(s).  If the orbit stayed, W(f^n(s(d)))
+    >= rate^n W(s(d)) would exceed upper.
+    """
+    f = Orbits(statement, known, work).around()
+    (rate,), (radius,), (upper,) = map(statement.get, ("rate", "radius", "upper"))
+    curve, values = f.terms("direction", "distance", *f.point), f.values()
+
+    def next_value(bound: str) -> str:
+        """W of the next state meets a lower bound."""
+        parts = [[*map(f.next, guards), f"({f.next(term)}) {bound}"] for guards, term in values]
+        return all_of(map(all_of, parts), " or ")
+
+    # what is shown to be a state of the space has the roots that are of the state
+    start = ["have " + f.next(f.space), *map(f.next, f.roots)]
+    small = ["given distance > 0", f"given distance <= ({radius})", *f.let_next(curve), *start]
+    # no f.next of it: a state variable may have the name `distance`
+    show = "show " + all_of([f.within_gaps("distance", "_next"), next_value("> 0")])
+    constants = all_of([f"({rate}) > 1", f"({radius}) > 0", f"({upper}) > 0"])
+    premises = {
+        "constants": f.for_all(f"show {constants}"),
+        "point": f.at_the_point(),
+        "direction": f.for_all(*small, show, extra=["distance"]),
+    }
+    for i, (guards, term) in enumerate(values):
+        here = [f.within_gaps(radius), *guards, f"({term}) > 0"]
+        given = [f"given {one}" for one in here]
+        premises[f"bounded-{i + 1}"] = f.at(*given, f"show ({term}) <= ({upper})")
+        for k in range(len(f.pieces)):
+            grows = f.step(k, *given, show=next_value(f">= ({rate})*({term})"))
+            premises[f"grows-{k + 1}-{i + 1}"] = grows
     return f.with_domain(premises)
 
 
@@ -293,7 +419,7 @@ def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Pr
     tends to it for all states s of the space; with a contraction |f^(N+k)(s) - e| <= rate^k size
     for all integers N >= rank(s) + m - 1, k >= 0.
     """
-    f = Orbits(earlier_of("descends", statement.text("descent"), known), known, work)
+    f = Orbits(earlier(statement, known, "descent"), known, work)
     other = Orbits(around(statement, known), known, work)
     # the very statement: two maps may have the same text, and other certificates
     require(f.map is other.map, Kind.OTHER_MAP, statement.name)
@@ -302,15 +428,41 @@ def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Pr
     last, on = f.own.get("stage")[-1], other.own.get("on")[0]
     return {
         "inside": f.for_all(f"show {other.domain}"),
-        "enters": f.at(*roots, f"given {last}", f"show {on}"),
+        "enters": f.at(*roots, *other.let_names(on), f"given {last}", f"show {on}"),
     }
 
 
 def around(statement: Statement, known: Known) -> Statement:
     """What an attraction says of a neighbourhood of its point."""
-    kind = {"contraction": "contracts", "lyapunov": "lyapunov"}
-    (keyword,) = (key for key, _ in statement.lines if key in kind)
-    return earlier_of(kind[keyword], statement.text(keyword), known)
+    one = earlier(statement, known, "contraction", "lyapunov", "attraction")
+    return around(one, known) if one.kind in NAMED["attraction"] else one
+
+
+def premises_of_attraction_into(statement: Statement, known: Known, work: Work) -> Premises:
+    """A descent of a map f, and an attraction of a map g with the same parameters, state and pieces
+    on another space.  For all parameters in the descent's domain, the attraction's point e is a
+    fixed point of f, it is stable, and f^n(s) tends to it for all states s of f's space.
+
+    Premises: the descent's domain is part of the attraction's; e is in f's space; radius > 0, in
+    the parameters alone; the states of f's space that are in the last stage, or have |s - e| =
+    max |s_j - e_j| <= radius, are in g's space.  f = g where both are defined, since one guard at
+    most holds there: an orbit of f that enters g's space is from there on an orbit of g.
+    """
+    f = Orbits(earlier(statement, known, "descent"), known, work)
+    attraction = earlier(statement, known, "attraction")
+    g = Orbits(earlier(attraction, known, "descent"), known, work)
+    other = Orbits(around(attraction, known), known, work)
+    same = all(f.map.get(keyword) == g.map.get(keyword) for keyword in ("over", "state", "piece"))
+    require(same, Kind.OTHER_MAP, statement.name)
+    (radius,), point = statement.get("radius"), other.terms("point")
+    roots = [root for root in other.fixed if root not in f.fixed]
+    return {
+        "inside": f.for_all(f"show {g.domain}"),
+        "constants": f.for_all(*roots, f"show ({radius}) > 0"),
+        "point": f.in_space(point, *roots),
+        "surrounds": f.at(*roots, "given " + f.within(radius, point), f"show {g.space}"),
+        "enters": f.at(f"given {f.own.get('stage')[-1]}", f"show {g.space}"),
+    }
 
 
 def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premises:
@@ -340,14 +492,15 @@ def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premis
 
 
 def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Premises:
-    """An attraction and an escape, from the same point of the same map, on domains that make up the
-    map's.  For all parameters in the map's domain: the point is stable and attracts every state of
-    the space <=> the parameters are in the domain of the attraction's descent.
+    """An attraction, and an escape from the same point of the same map, or its instability, on
+    domains that make up the map's.  For all parameters in the map's domain: the point is stable and
+    attracts every state of the space <=> the parameters are in the domain of the attraction's
+    descent.
     """
-    attraction = earlier_of("attracts", statement.text("attraction"), known)
-    f = Orbits(known[attraction.text("descent")], known, work)
+    attraction = earlier(statement, known, "attraction")
+    f = Orbits(earlier(attraction, known, "descent"), known, work)
     inner = Orbits(around(attraction, known), known, work)
-    other = Orbits(earlier_of("escapes", statement.text("escape"), known), known, work)
+    other = Orbits(earlier(statement, known, "escape", "unstable"), known, work)
     require(f.map is other.map, Kind.OTHER_MAP, statement.name)
     roots = [root for root in inner.fixed if root not in other.fixed]
     points = zip(inner.terms("point"), other.terms("point"))
@@ -364,7 +517,9 @@ ORBIT_RULES = {
     "descends": premises_of_descent,
     "contracts": premises_of_contraction,
     "lyapunov": premises_of_lyapunov,
+    "unstable": premises_of_instability,
     "attracts": premises_of_attraction,
+    "into": premises_of_attraction_into,
     "escapes": premises_of_escape,
     "exactly": premises_of_sharpness,
 }
