@@ -32,6 +32,7 @@ from juggleproof.proofs.evaluating import Ends, ends_of, is_false_between
 # What a rule concludes, with the numbers of the statement.
 
 
+AROUND = ("contraction", "lyapunov", "attraction")  # lines that name what holds around a point
 LONGEST_SET = 60  # characters of a set that is written in a conclusion
 
 
@@ -55,11 +56,25 @@ class Lines:
         """The statement that the line of this keyword names."""
         return Lines(self.one(keyword), self.texts)
 
-    def domain(self, of_map: Lines | None = None) -> str:
+    def for_domain(self) -> str:
+        """For which parameters a conclusion holds; nothing where there are none."""
+        return f"for {self.domain()}: " if self.of_map().one("over") else ""
+
+    def of_map(self) -> Lines:
+        """The map that the statement is about, or is."""
+        return self.named("map") if self.all("map") else self
+
+    def around(self) -> Lines:
+        """What an attraction rests on around its point."""
+        keyword = next(key for key, _ in self.rows if key in AROUND)
+        inner = self.named(keyword)
+        return inner.around() if keyword == "attraction" else inner
+
+    def domain(self) -> str:
         """The parameters in the domain: by intervals, where each condition is on one of them and
         linear; else with the conditions as they stand.
         """
-        names, text = (of_map or self.named("map")).one("over").split(), self.one("domain")
+        names, text = self.of_map().one("over").split(), self.one("domain")
         tree = checker.parse(text)
         parts = tree.values if isinstance(tree, ast.BoolOp) else [tree]
         alone = all(len(checker.names_in(ast.unparse(part))) == 1 for part in parts)
@@ -132,7 +147,7 @@ def _of_map(f: Lines) -> str:
     pieces = [piece.split(" -> ") for piece in f.all("piece")]
     images = [f"f({state}) = {_vector(image)} where {guard}" for guard, image in pieces]
     return (
-        f"for {f.domain(f)}: f maps the space {_set(f.one('space'), '')} into itself, and exactly"
+        f"{f.for_domain()}f maps the space {_set(f.one('space'), '')} into itself, and exactly"
         f" one piece applies at each of its states: {'; '.join(images)}"
     )
 
@@ -140,14 +155,14 @@ def _of_map(f: Lines) -> str:
 def _of_descent(f: Lines) -> str:
     trap = _set(f.all("stage")[-1], "the last stage")
     return (
-        f"for {f.domain()}: f^N(s) is in {trap} for every state s of the space and every integer"
+        f"{f.for_domain()}f^N(s) is in {trap} for every state s of the space and every integer"
         f" N >= {_steps(f)}, {_rank(f)}"
     )
 
 
 def _of_contraction(f: Lines) -> str:
     return (
-        f"for {f.domain()}: {f.point()} is a fixed point, is stable, and attracts the set"
+        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts the set"
         f" {_set(f.one('on'), '`on`')}: |f^n(s) - e| <= {_power(f, 'n')} |s - e| <="
         f" {_bound(f, 'n')} for every state s of the space in the set and every integer n >= 0,"
         f" where {_norm(f)}; f takes the set into itself, and all states of the space with |s - e|"
@@ -155,47 +170,75 @@ def _of_contraction(f: Lines) -> str:
     )
 
 
-def _of_lyapunov(f: Lines) -> str:
+def _greatest(f: Lines) -> str:
+    """The greatest of the terms `value`, and what their names of the point mean."""
     each = [value.rpartition(" -> ")[::2] for value in f.all("value")]
     terms = [term + (f" where {guard}" if guard else "") for guard, term in each]
-    V = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
+    names = [
+        f"{name}_gap = {name} - {name}_point, {name}_point of e"
+        for name in f.of_map().one("state").split()
+        if {f"{name}_gap", f"{name}_point"} & checker.names_in(*terms)
+    ]
+    greatest = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
+    return ", ".join([greatest, *names])
+
+
+def _of_lyapunov(f: Lines) -> str:
     return (
-        f"for {f.domain()}: {f.point()} is a fixed point, is stable, and attracts the set"
-        f" {_set(f.one('on'), '`on`')}, which f takes into itself: with V(s) = {V}, V(f^n(s)) falls"
-        f" as n grows, and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for"
-        f" every state s of the space in the set and every distance > 0, where |s - e| is the"
-        f" greatest |s_j - e_j|, least = {f.one('least')}, level = V(s); all states of the space"
-        f" with |s - e| <= {f.one('radius')} are in the set"
+        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts the set"
+        f" {_set(f.one('on'), '`on`')}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)),"
+        f" and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s"
+        f" of the space in the set and every distance > 0, where V(s) = {_greatest(f)}; least ="
+        f" {f.one('least')} with level = V(s); {LARGEST}; all states of the space with |s - e| <="
+        f" {f.one('radius')} are in the set"
+    )
+
+
+LARGEST = "|s - e| is the largest of all |s_j - e_j|"
+
+
+def _of_instability(f: Lines) -> str:
+    radius = f.one("radius")
+    return (
+        f"{f.for_domain()}{f.point()} is not stable: for 0 < distance <= {radius} the state s ="
+        f" {_vector(f.one('direction'))} has |s - e| <= distance, and |f^n(s) - e| > {radius} for"
+        f" some integer n >= 0, where {LARGEST}"
     )
 
 
 def _of_attraction(f: Lines) -> str:
-    descent = f.named("descent")
-    if f.all("lyapunov"):
-        point = f.named("lyapunov").point()
-        return f"for {descent.domain()}: {point} is stable and attracts every state of the space"
-    inner = f.named("contraction")
+    descent, inner = f.named("descent"), f.around()
+    start = f"{descent.for_domain()}{inner.point()} is stable and attracts every state"
+    if not inner.all("weights"):
+        return f"{start} of the space"
     return (
-        f"for {descent.domain()}: {inner.point()} is stable and attracts every state s of the"
-        f" space: |f^(N + k)(s) - e| <= {_bound(inner, 'k')} for all integers k >= 0 and"
-        f" N >= {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
+        f"{start} s of the space: |f^(N + k)(s) - e| <= {_bound(inner, 'k')} for all integers"
+        f" k >= 0 and N >= {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
     )
+
+
+def _of_attraction_into(f: Lines) -> str:
+    descent = f.named("descent")
+    return (
+        f"{descent.for_domain()}{f.around().point()} is a fixed point, is stable, and attracts"
+        f" every state of the space {_set(descent.of_map().one('space'), '')}"
+    ).rstrip()
 
 
 def _of_escape(f: Lines) -> str:
     word = f.one("word").split()
     return (
-        f"for {f.domain()}: the orbit of {_vector(f.one('start'))} is back after"
+        f"{f.for_domain()}the orbit of {_vector(f.one('start'))} is back after"
         f" {len(word)} step{'s' * (len(word) > 1)}, by the pieces {', '.join(word)}, and does not"
         f" tend to {f.point()}"
     )
 
 
 def _of_sharpness(f: Lines) -> str:
-    descent, escape = f.named("attraction").named("descent"), f.named("escape")
-    whole = escape.named("map")
+    descent = f.named("attraction").named("descent")
+    whole = descent.of_map()
     return (
-        f"for {whole.domain(whole)}: {escape.point()} is stable and attracts every state of the"
+        f"{whole.for_domain()}{f.around().point()} is stable and attracts every state of the"
         f" space if and only if {descent.domain()}"
     )
 
@@ -218,6 +261,7 @@ OF_DOMAIN = {
     "possible": "some parameters of the domain have a state in the space",
     "inside": "the domain is part of the map's domain",
 }
+OF_POINT = "the point is in the space, and what the lines `have` say of it is so"
 RULES = {
     "iterates": Rule(
         "forall integer (let )*iterates after ",
@@ -262,18 +306,35 @@ RULES = {
         },
     ),
     "lyapunov": Rule(
-        "map domain (root )*on point (value )+loss least upper radius ",
+        "map domain (root )*on point (have )*(value )+loss least upper radius ",
         _of_lyapunov,
         {
             **OF_DOMAIN,
-            "constants": "least, upper and radius are positive where distance > 0 and level >= 0",
-            "point": "the point is in the space",
+            "constants": "radius and upper are positive",
+            "positive": "least is positive where distance > 0 and level >= 0",
+            "point": OF_POINT,
             "surrounds": "all states of the space within the radius of the point are in the set",
             "bounded": "V is at least 0 on the set",
+            "loss": "the loss is at least 0 on the set",
             "least": "on the set, the loss is at least `least` of the distance and of V",
             "small": "term {0} of V is at most upper times the distance, within the radius",
             "stays": "piece {0} takes the set into itself",
             "falls": "on the set, piece {0} takes term {1} of V to at most V less the loss",
+        },
+    ),
+    "unstable": Rule(
+        "map domain (root )*point direction (have )*(value )+rate radius upper ",
+        _of_instability,
+        {
+            **OF_DOMAIN,
+            "constants": "rate > 1, and radius and upper are positive",
+            "point": OF_POINT,
+            "direction": "for 0 < distance <= radius the direction is a state of the space within"
+            " the distance of the point, and the value is positive there",
+            "bounded": "where term {0} of the value is positive, within the radius, it is at most"
+            " upper",
+            "grows": "where term {1} of the value is positive, within the radius, piece {0} takes"
+            " the value to at least rate times the term",
         },
     ),
     "attracts": Rule(
@@ -282,6 +343,18 @@ RULES = {
         {
             "inside": "the domain of the descent is part of that of the other rule",
             "enters": "the last stage of the descent lies in the set `on` of the other rule",
+        },
+    ),
+    "into": Rule(
+        "descent attraction radius ",
+        _of_attraction_into,
+        {
+            "inside": "the domain of the descent is part of that of the attraction",
+            "constants": "the radius is positive",
+            "point": "the point is in the space of the descent",
+            "surrounds": "all states within the radius of the point are in the space of the"
+            " attraction",
+            "enters": "the last stage of the descent lies in the space of the attraction",
         },
     ),
     "escapes": Rule(
@@ -294,11 +367,11 @@ RULES = {
         },
     ),
     "exactly": Rule(
-        "attraction escape ",
+        "attraction (escape|unstable) ",
         _of_sharpness,
         {
-            "covers": "the domains of descent and escape make up the map's domain",
-            "same-point": "contraction and escape are about the same point",
+            "covers": "the domains of the two rules make up the map's domain",
+            "same-point": "both rules are about the same point",
         },
     ),
 }
@@ -373,7 +446,7 @@ def premises_of(
     try:
         return checker.premises_of(rule, known)
     except checker.Rejected as reason:
-        kind, _, name = reason.offender.partition(" ")
+        kind, _, name = reason.offender.rpartition(" ")
         if reason.kind is checker.Kind.EARLIER and name in known:
             raise ClaimError(
                 f"{rule.name}: {name} is a rule `{known[name].kind}`; name one of the kind `{kind}`"
@@ -463,14 +536,25 @@ def _numbers(premise: checker.Statement, model: Model) -> str:
         name: (value, value) if isinstance(value, Fraction) else value.enclosure(BITS)
         for name, value in model.point.items()
     }
-    for name, term in premise.get("let"):
-        point[name] = ends_of(term, point)
-    if model.part == "goal":
-        (goal,) = premise.get("show")
-        return _false_part(goal, point)
-    name, (under,) = premise.get("root")[int(model.part.split()[-1]) - 1]
-    shown = _false_part(ast.Compare(under, [ast.GtE()], [ast.Constant(0)]), point)
-    return f"under the root {name}, {shown}"
+    obligations = 0
+    try:
+        for keyword, line in premise.lines:
+            if keyword == "let":
+                point[line[0]] = ends_of(line[1], point)
+            elif keyword == "show":
+                return _false_part(line, point)
+            elif keyword in ("have", "root"):
+                obligations += 1
+                if model.part != f"obligation {obligations}":
+                    continue
+                if keyword == "have":
+                    return _false_part(line, point)
+                name, (under,) = line
+                defined = ast.Compare(under, [ast.GtE()], [ast.Constant(0)])
+                return f"under the root {name}, {_false_part(defined, point)}"
+    except ZeroDivisionError:  # between ends that are not close enough
+        return ""
+    return ""
 
 
 def _false_part(node: ast.expr, point: Mapping[str, Ends]) -> str:

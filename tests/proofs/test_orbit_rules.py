@@ -18,34 +18,18 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.evaluating import is_true_at, value_at
 from juggleproof.proofs.orbit_rules import RULES, conclusion, meaning, why
-from tests.certificates.checker.maps import SUBTRACT, edited, read
-from tests.certificates.checker.test_map_rules import FAILING
+from tests.certificates.checker.maps import ASKED, DOUBLE, FLIP, NEST, SUBTRACT, edited, read
+from tests.certificates.checker.test_map_rules import (
+    FAILING,
+    FAILING_IN_A_SPACE,
+    FAILING_INTO,
+    FAILING_WITH_GUARDS,
+)
 
-MORE = """
-statement demo/iterates
-forall x K
-integer K
-iterates x -> x + 2
-after K -> x + 2*K
-
-statement demo/lyapunov
-map demo/map
-domain a > 0 and a < 1
-on x < 1
-point 0
-value x
-value x < 1/2 -> 0
-loss (1 - a)*value
-least (1 - a)*distance
-upper 1
-radius 1/2
-
-statement demo/by-lyapunov
-descent demo/descends
-lyapunov demo/lyapunov
-"""
-STATEMENTS_OF_EACH_KIND = read(SUBTRACT + MORE)
-TEXTS = {name: one.text() for name, one in STATEMENTS_OF_EACH_KIND.items()}
+STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, ASKED)]
+TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
+KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
+SUBTRACTING = STATEMENTS_OF[0]
 CONCLUSIONS = {
     "demo/map": "for 0 < a <= 1: f maps the space {x >= 0} into itself, and exactly one piece"
     " applies at each of its states: f(x) = x - 1 where x >= 1; f(x) = a*x where x < 1",
@@ -62,7 +46,23 @@ CONCLUSIONS = {
     " not tend to e = 0",
     "demo/exactly": "for 0 < a <= 1: e = 0 is stable and attracts every state of the space if and"
     " only if 0 < a < 1",
-    "demo/by-lyapunov": "for 0 < a < 1: e = 0 is stable and attracts every state of the space",
+    "demo/settles": "for 0 < a < 1: e = 0 is stable and attracts every state of the space",
+    "flip/lyapunov": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
+    " {0 = 0}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >="
+    " distance for at most V(s)/least integers n >= 0, for every state s of the space in the set"
+    " and every distance > 0, where V(s) = the greatest of x where x >= 0; (a - 3)*x/4 where x < 0;"
+    " least = (1 - a)*distance/8 with level = V(s); |s - e| is the largest of all |s_j - e_j|; all"
+    " states of the space with |s - e| <= 1 are in the set",
+    "flip/unstable": "for a > 1: e = 0 is not stable: for"
+    " 0 < distance <= 1 the state s = distance has |s - e| <= distance, and |f^n(s) - e| > 1 for"
+    " some integer n >= 0, where |s - e| is the largest of all |s_j - e_j|",
+    "nest/into-twice": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts every state"
+    " of the space {x >= 0}",
+    "nest/exactly": "for 0 < a <= 1: e = 0 is stable and attracts every state of the space if and"
+    " only if 0 < a < 1",
+    "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
+    " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"
+    " largest of all |s_j - e_j|",
 }
 
 
@@ -104,24 +104,27 @@ def test_every_rule_has_its_lines_in_the_order_of_the_checker_holds() -> None:
 
 def test_every_premise_of_every_rule_has_its_words_holds() -> None:
     named: dict[str, set[str]] = {kind: set() for kind in checker.orbit_rules()}
-    for statement in STATEMENTS_OF_EACH_KIND.values():
-        for name in checker.premises_of(statement, STATEMENTS_OF_EACH_KIND):
-            words = meaning(statement.kind, name)
-            assert not set("{}") & set(words), name
-            assert all(number in words for number in name.split("-")[1:] if number.isdigit())
-            named[statement.kind].add(name.rstrip("-0123456789"))
+    for statements in STATEMENTS_OF:
+        for statement in statements.values():
+            for name in checker.premises_of(statement, statements):
+                words = meaning(statement.kind, name)
+                assert not set("{}") & set(words), name
+                assert all(number in words for number in name.split("-")[1:] if number.isdigit())
+                named[statement.kind].add(name.rstrip("-0123456789"))
     assert named == {kind: {*rule.premises} for kind, rule in RULES.items()}
 
 
 @pytest.mark.parametrize("name", CONCLUSIONS)
 def test_a_rule_is_concluded_with_its_numbers_holds(name: str) -> None:
-    assert conclusion(STATEMENTS_OF_EACH_KIND[name].kind, name, TEXTS) == CONCLUSIONS[name]
+    assert conclusion(KINDS[name], name, TEXTS) == CONCLUSIONS[name]
 
 
-def test_a_lyapunov_function_is_concluded_with_its_terms_holds() -> None:
-    said = conclusion("lyapunov", "demo/lyapunov", TEXTS)
-    assert "V(s) = the greatest of x; 0 where x < 1/2," in said
-    assert "least = (1 - a)*distance" in said
+def test_names_of_the_point_in_a_value_are_concluded_with_their_meaning_holds() -> None:
+    changed = TEXTS | {
+        "demo/lyapunov": TEXTS["demo/lyapunov"].replace("value x\n", "value x_gap\n")
+    }
+    said = conclusion("lyapunov", "demo/lyapunov", changed)
+    assert "V(s) = x_gap, x_gap = x - x_point, x_point of e; least = (1 - a)*distance with" in said
 
 
 def test_a_domain_that_is_no_interval_is_concluded_as_it_stands_holds() -> None:
@@ -129,17 +132,26 @@ def test_a_domain_that_is_no_interval_is_concluded_as_it_stands_holds() -> None:
     assert conclusion("map", "demo/map", changed).startswith("for all a with a^2 < a: f maps")
 
 
-@pytest.mark.parametrize(("part", "old", "new", "premise"), FAILING)
+@pytest.mark.parametrize(
+    ("whole", "part", "old", "new", "premise"),
+    [
+        *((SUBTRACT, *row) for row in FAILING),
+        *((FLIP, *row) for row in FAILING_WITH_GUARDS),
+        *((DOUBLE, *row) for row in FAILING_IN_A_SPACE),
+        *((NEST, *row) for row in FAILING_INTO),
+    ],
+)
 def test_a_false_premise_has_values_at_which_it_is_false_holds(
-    part: str, old: str, new: str, premise: str
+    whole: str, part: str, old: str, new: str, premise: str
 ) -> None:
-    statements = read(edited(SUBTRACT, part, old, new))
-    false = checker.premises_of(statements[f"demo/{part}"], statements)[premise]
+    statements = read(edited(whole, part, old, new))
+    rule = next(one for name, one in statements.items() if name.endswith(f"/{part}"))
+    false = checker.premises_of(rule, statements)[premise]
     vote, model = vote_and_model(false)
-    line = why(part, premise, false, (vote, model), 1)
-    assert vote.answer == "fails"
+    line = why(rule.kind, premise, false, (vote, model), 1)
     if premise == "possible":  # Z3 alone says that nothing exists
-        assert model is None and "Z3 says that it is false; no certificate was found" in line
+        assert vote.answer == "fails" and model is None
+        assert "Z3 says that it is false; no certificate was found" in line
         return
     assert model is not None and ": false at " in line
     point = {name: value for name, value in model.point.items() if isinstance(value, Fraction)}
@@ -149,8 +161,9 @@ def test_a_false_premise_has_values_at_which_it_is_false_holds(
         assert value is not None
         point[name] = value
     assert all(is_true_at(text, point) for text in false.rows("given") + false.rows("range"))
-    assert is_true_at(*false.rows("show"), point) is False
-    assert all(f"{name} = {value}" in line for name, value in model.point.items())
+    (shown,) = false.rows("show" if model.part == "goal" else "have")
+    assert is_true_at(shown, point) is False
+    assert all(f"{name} = {model.point[name]}" in line for name in false.get("forall")[0])
 
 
 def line_of(statement: str, premise: str) -> str:
@@ -213,7 +226,7 @@ def test_a_long_goal_is_shown_by_its_numbers_holds() -> None:
     ],
 )
 def test_what_z3_says_without_values_holds(answer: str, says: str) -> None:
-    premise = checker.premises_of(STATEMENTS_OF_EACH_KIND["demo/map"], {})["stays-2"]
+    premise = checker.premises_of(SUBTRACTING["demo/map"], {})["stays-2"]
     line = why("map", "stays-2", premise, (Vote("z3", answer, ""), None), 70)
     assert line == (
         f"stays-2, piece 2 takes the space into itself: {says} was found within the budget: try"
