@@ -15,18 +15,17 @@ from typing import NamedTuple
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
-from juggleproof.certificates.definitions import formula_of
+from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.language import (
+    RESTING,
     ClaimError,
     MapRule,
     bounds_of,
     interval_text,
-    names_in,
-    rests_on,
 )
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.certificates.votes.z3 import Model
-from juggleproof.proofs.evaluating import Ends, ends_of, is_false_between
+from juggleproof.proofs.evaluating import Ends, ends_of, is_surely
 
 # -------------------------------------------------------------------------------------------------
 # What a rule concludes, with the numbers of the statement.
@@ -58,7 +57,9 @@ class Lines:
 
     def for_domain(self) -> str:
         """For which parameters a conclusion holds; nothing where there are none."""
-        return f"for {self.domain()}: " if self.of_map().one("over") else ""
+        names = self.of_map().one("over").split()
+        every = self.intervals() or f"all {', '.join(names)} with {self.one('domain')}"
+        return f"for {every}: " if names else ""
 
     def of_map(self) -> Lines:
         """The map that the statement is about, or is."""
@@ -70,26 +71,35 @@ class Lines:
         inner = self.named(keyword)
         return inner.around() if keyword == "attraction" else inner
 
-    def domain(self) -> str:
-        """The parameters in the domain: by intervals, where each condition is on one of them and
-        linear; else with the conditions as they stand.
-        """
+    def intervals(self) -> str:
+        """The domain, where each condition is on one parameter alone and linear; else nothing."""
         names, text = self.of_map().one("over").split(), self.one("domain")
         tree = checker.parse(text)
         parts = tree.values if isinstance(tree, ast.BoolOp) else [tree]
         alone = all(len(checker.names_in(ast.unparse(part))) == 1 for part in parts)
         bounds = [bounds_of(text, name) for name in names]
         if not alone or None in bounds:
-            return f"all {', '.join(names)} with {text}"
+            return ""
         return ", ".join(interval_text(name, *(ends or ())) for name, ends in zip(names, bounds))
+
+    def roots(self) -> list[str]:
+        """The root lines of this statement, and of those that it rests on."""
+        inner = [root for key, _ in self.rows if key in RESTING for root in self.named(key).roots()]
+        return [*dict.fromkeys([*inner, *self.all("root")])]
 
     def point(self) -> str:
         """The point, as e."""
         return f"e = {_vector(self.one('point'))}"
 
 
-def _set(condition: str, called: str) -> str:
-    return f"{{{condition}}}" if len(condition) <= LONGEST_SET else called
+def _set(called: str, condition: str) -> str:
+    return f"{called} {{{condition}}}" if len(condition) <= LONGEST_SET else called
+
+
+def _terms(text: str) -> list[str]:
+    tree = checker.parse(text)
+    parts = tree.elts if isinstance(tree, ast.Tuple) else [tree]
+    return [str(term_of(part)) for part in parts]
 
 
 def _vector(terms: str) -> str:
@@ -107,7 +117,7 @@ def _steps(descent: Lines) -> str:
 
 
 def _rank(descent: Lines) -> str:
-    return "where " + ", ".join([f"rank = {descent.one('rank')}", *descent.all("root")])
+    return f"where rank = {descent.one('rank')}"
 
 
 def _power(contraction: Lines, exponent: str) -> str:
@@ -121,19 +131,16 @@ def _bound(contraction: Lines, exponent: str) -> str:
 
 def _norm(contraction: Lines) -> str:
     names = contraction.named("map").one("state").split()
-    weights = checker.parse(contraction.one("weights"))
-    each = weights.elts if isinstance(weights, ast.Tuple) else [weights]
     parts = []
-    for name, weight in zip(names, each):
-        text = ast.unparse(weight).replace(" ** ", "^")
+    for name, weight in zip(names, _terms(contraction.one("weights"))):
         apart = f"|{name} - e_{name}|" if len(names) > 1 else f"|{name} - e|"
-        parts.append(apart + ("" if text == "1" else f"/{_factor(text)}"))
+        parts.append(apart + ("" if weight == "1" else f"/{_factor(weight)}"))
     return "|s - e| = " + (f"max({', '.join(parts)})" if len(parts) > 1 else parts[0])
 
 
 def _of_iterates(f: Lines) -> str:
     (state, images), (count, powers) = (
-        (side.strip("(,)") for side in f.one(keyword).split(" -> "))
+        (", ".join(_terms(side)) for side in f.one(keyword).split(" -> "))
         for keyword in ("iterates", "after")
     )
     return (
@@ -147,13 +154,13 @@ def _of_map(f: Lines) -> str:
     pieces = [piece.split(" -> ") for piece in f.all("piece")]
     images = [f"f({state}) = {_vector(image)} where {guard}" for guard, image in pieces]
     return (
-        f"{f.for_domain()}f maps the space {_set(f.one('space'), '')} into itself, and exactly"
+        f"{f.for_domain()}f maps {_set('the space', f.one('space'))} into itself, and exactly"
         f" one piece applies at each of its states: {'; '.join(images)}"
     )
 
 
 def _of_descent(f: Lines) -> str:
-    trap = _set(f.all("stage")[-1], "the last stage")
+    trap = _set("the last stage", f.all("stage")[-1])
     return (
         f"{f.for_domain()}f^N(s) is in {trap} for every state s of the space and every integer"
         f" N >= {_steps(f)}, {_rank(f)}"
@@ -162,8 +169,8 @@ def _of_descent(f: Lines) -> str:
 
 def _of_contraction(f: Lines) -> str:
     return (
-        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts the set"
-        f" {_set(f.one('on'), '`on`')}: |f^n(s) - e| <= {_power(f, 'n')} |s - e| <="
+        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts"
+        f" {_set('the set `on`', f.one('on'))}: |f^n(s) - e| <= {_power(f, 'n')} |s - e| <="
         f" {_bound(f, 'n')} for every state s of the space in the set and every integer n >= 0,"
         f" where {_norm(f)}; f takes the set into itself, and all states of the space with |s - e|"
         f" <= {f.one('radius')} are in it"
@@ -185,8 +192,8 @@ def _greatest(f: Lines) -> str:
 
 def _of_lyapunov(f: Lines) -> str:
     return (
-        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts the set"
-        f" {_set(f.one('on'), '`on`')}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)),"
+        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts"
+        f" {_set('the set `on`', f.one('on'))}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)),"
         f" and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s"
         f" of the space in the set and every distance > 0, where V(s) = {_greatest(f)}; least ="
         f" {f.one('least')} with level = V(s); {LARGEST}; all states of the space with |s - e| <="
@@ -221,8 +228,8 @@ def _of_attraction_into(f: Lines) -> str:
     descent = f.named("descent")
     return (
         f"{descent.for_domain()}{f.around().point()} is a fixed point, is stable, and attracts"
-        f" every state of the space {_set(descent.of_map().one('space'), '')}"
-    ).rstrip()
+        f" every state of {_set('the space', descent.of_map().one('space'))}"
+    )
 
 
 def _of_escape(f: Lines) -> str:
@@ -239,7 +246,7 @@ def _of_sharpness(f: Lines) -> str:
     whole = descent.of_map()
     return (
         f"{whole.for_domain()}{f.around().point()} is stable and attracts every state of the"
-        f" space if and only if {descent.domain()}"
+        f" space if and only if {descent.intervals() or descent.one('domain')}"
     )
 
 
@@ -384,7 +391,12 @@ def conclusion(kind: str, name: str, texts: Mapping[str, str]) -> str:
     >>> conclusion("iterates", "t/sum", {"t/sum": text})
     'f^K(x) = x + 2*K for every integer K >= 0, where f(x) = x + 2'
     """
-    return RULES[kind].concludes(Lines(name, texts))
+    lines = Lines(name, texts)
+    said = RULES[kind].concludes(lines)
+    for root in reversed(lines.roots()):  # a root may be of one above it
+        if root.partition(" = ")[0] in checker.names_in(said):
+            said += f"; {root}"
+    return said
 
 
 def meaning(kind: str, premise: str) -> str:
@@ -433,7 +445,7 @@ def premises_of(
     Raises ClaimError for a name that is not stated before it, or is that of another kind of rule;
     and for lines of which the checker makes no premises.
     """
-    for keyword, name in ((key, text) for key, text in rule.lines if text in rests_on(rule)):
+    for keyword, name in ((key, text) for key, text in rule.lines if key in RESTING):
         if name not in stated:
             similar = get_close_matches(name, stated, 1)
             hint = f"did you mean {similar[0]}?" if similar else "state it first"
@@ -514,7 +526,8 @@ def why(
         names = model.point if model.part == "goal" else premise.get("forall")[0]
         values = ", ".join(f"{one} = {_value(model.point[one])}" for one in names)
         numbers = _numbers(premise, model)
-        return f"{about} false at {values}" + (f", where {numbers}" if numbers else "")
+        parts = ["false", f" at {values}" * bool(values), f", where {numbers}" * bool(numbers)]
+        return f"{about} {''.join(parts)}"
     says = {"holds": "Z3 says that it holds", "fails": "Z3 says that it is false"}
     return (
         f"{about} {says.get(vote.answer, 'Z3 gives no answer')}; no certificate was found within"
@@ -529,8 +542,8 @@ def _value(value: Fraction | AlgebraicNumber) -> str:
 
 
 def _numbers(premise: checker.Statement, model: Model) -> str:
-    """What is false at the values, with the numbers that its two sides come to; nothing where it
-    names no variable.
+    """What is false at the values, with the numbers that its two sides come to; nothing where that
+    is 0 = 1, or where the ends of irrational values do not tell.
     """
     point = {
         name: (value, value) if isinstance(value, Fraction) else value.enclosure(BITS)
@@ -559,23 +572,24 @@ def _numbers(premise: checker.Statement, model: Model) -> str:
 
 def _false_part(node: ast.expr, point: Mapping[str, Ends]) -> str:
     """The first false part of a conjunction, all parts of a disjunction that is false."""
-    if isinstance(node, ast.BoolOp):
-        parts = [_false_part(part, point) for part in node.values]
-        if isinstance(node.op, ast.Or):
-            return ", ".join(parts) if all(parts) else ""
-        return next(filter(None, parts), "")
-    if not isinstance(node, ast.Compare):
+    if not is_surely(False, node, point):
         return ""
+    if isinstance(node, ast.BoolOp):
+        parts = list(filter(None, (_false_part(part, point) for part in node.values)))
+        return ", ".join(parts if isinstance(node.op, ast.Or) else parts[:1])
+    if not isinstance(node, ast.Compare):
+        return f"{formula_of(node)} is false"
     sides = [node.left, *node.comparators]
-    for left, sign, right in zip(sides, node.ops, sides[1:]):
-        ends = ends_of(left, point), ends_of(right, point)
-        if is_false_between(sign, *ends):
-            relation = formula_of(ast.Compare(left, [sign], [right]))
-            numbers = f"{_number(ends[0])} {relation.op} {_number(ends[1])}"
-            if not names_in(relation):
-                return ""
-            return f"{relation} comes to {numbers}" if len(str(relation)) <= LONGEST else numbers
-    return ""
+    pairs = (
+        ast.Compare(left, [sign], [right]) for left, sign, right in zip(sides, node.ops, sides[1:])
+    )
+    pair = next(one for one in pairs if is_surely(False, one, point))
+    relation = formula_of(pair)
+    if not checker.names_in(str(relation)):
+        return "" if str(relation) == "0 = 1" else f"{relation} is false"
+    left, right = (_number(ends_of(side, point)) for side in (pair.left, *pair.comparators))
+    numbers = f"{left} {relation.op} {right}"
+    return f"{relation} comes to {numbers}" if len(str(relation)) <= LONGEST else numbers
 
 
 def _number(ends: Ends) -> str:

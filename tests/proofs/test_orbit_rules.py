@@ -33,12 +33,12 @@ SUBTRACTING = STATEMENTS_OF[0]
 CONCLUSIONS = {
     "demo/map": "for 0 < a <= 1: f maps the space {x >= 0} into itself, and exactly one piece"
     " applies at each of its states: f(x) = x - 1 where x >= 1; f(x) = a*x where x < 1",
-    "demo/descends": "for 0 < a < 1: f^N(s) is in {x < 1} for every state s of the space and every"
-    " integer N >= rank(s), where rank = x",
+    "demo/descends": "for 0 < a < 1: f^N(s) is in the last stage {x < 1} for every state s of the"
+    " space and every integer N >= rank(s), where rank = x",
     "demo/contracts": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
-    " {x < 1}: |f^n(s) - e| <= a^n |s - e| <= a^n for every state s of the space in the set and"
-    " every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all states of"
-    " the space with |s - e| <= 1/2 are in it",
+    " `on` {x < 1}: |f^n(s) - e| <= a^n |s - e| <= a^n for every state s of the space in the set"
+    " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all states"
+    " of the space with |s - e| <= 1/2 are in it",
     "demo/attracts": "for 0 < a < 1: e = 0 is stable and attracts every state s of the space:"
     " |f^(N + k)(s) - e| <= a^k for all integers k >= 0 and N >= rank(s), where rank = x,"
     " |s - e| = |x - e|",
@@ -48,7 +48,7 @@ CONCLUSIONS = {
     " only if 0 < a < 1",
     "demo/settles": "for 0 < a < 1: e = 0 is stable and attracts every state of the space",
     "flip/lyapunov": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
-    " {0 = 0}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >="
+    " `on` {0 = 0}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >="
     " distance for at most V(s)/least integers n >= 0, for every state s of the space in the set"
     " and every distance > 0, where V(s) = the greatest of x where x >= 0; (a - 3)*x/4 where x < 0;"
     " least = (1 - a)*distance/8 with level = V(s); |s - e| is the largest of all |s_j - e_j|; all"
@@ -125,6 +125,11 @@ def test_names_of_the_point_in_a_value_are_concluded_with_their_meaning_holds() 
     }
     said = conclusion("lyapunov", "demo/lyapunov", changed)
     assert "V(s) = x_gap, x_gap = x - x_point, x_point of e; least = (1 - a)*distance with" in said
+
+
+def test_the_roots_of_a_conclusion_are_defined_below_it_holds() -> None:
+    said = conclusion("descends", "asked/descends", TEXTS)
+    assert said.endswith("where rank = d + e; e = sqrt(d); d = sqrt(c*x); c = sqrt(a)")
 
 
 def test_a_domain_that_is_no_interval_is_concluded_as_it_stands_holds() -> None:
@@ -215,6 +220,39 @@ def test_a_long_goal_is_shown_by_its_numbers_holds() -> None:
     long = PLANE.replace("x >= 0 and y", f"{'x + ' * 40}x >= 0 and y").replace("-> y/2", "-> y - 1")
     line = line_of(long.partition("statement t/descends")[0], "stays-1")
     assert re.search(r": false at a = 1, x = [^ ]+, y = [^ ]+, where -[\d/]+ >= 0$", line), line
+
+
+@pytest.mark.parametrize(
+    ("kind", "old", "new", "premise", "says"),
+    [
+        ("contracts", "rate a", "rate 1", "constants", ", where 1 < 1 is false"),
+        ("map", "piece x < 1", "piece x <= 1", "apart-2-1", ", x = 1"),
+        (
+            "descends",
+            "stage x < 1",
+            "stage not x >= 1 or x > 9",
+            "stage-1-1",
+            r", where not x_next >= 1 is false, x_next > 9 comes to [\d/]+ > 9",
+        ),
+        ("descends", "stage x < 1", "stage implies(x >= 1, x > 9)", "stage-1-1", r", x = [\d/]+"),
+    ],
+)
+def test_what_is_false_is_shown_by_its_form_holds(
+    kind: str, old: str, new: str, premise: str, says: str
+) -> None:
+    statements = read(edited(SUBTRACT, kind, old, new))
+    one = checker.premises_of(statements[f"demo/{kind}"], statements)[premise]
+    line = why(kind, premise, one, vote_and_model(one), 1)
+    assert re.search(rf": false at a = .*{says}$", line), line
+
+
+def test_a_false_recurrence_has_values_holds() -> None:
+    (statement,) = read(
+        "statement t/t\nforall x K\ninteger K\niterates x -> x + 2\nafter K -> x + 3*K"
+    ).values()
+    step = checker.premises_of(statement, {})["step"]
+    line = why("iterates", "step", step, vote_and_model(step), 1)
+    assert re.search(r"false at x = .*, where x_next \+ 2 = x \+ 3\*\(K \+ 1\) comes to ", line)
 
 
 @pytest.mark.parametrize(
@@ -405,5 +443,5 @@ def test_the_theorem_is_explained_without_certificates_holds(
     out = capsys.readouterr().out
     assert "psatz" not in out and "proof       docs/theorem.md" in out
     said = " ".join(out.split())
-    assert "every integer N >= rank(s) + 3, where rank = 2*u + (1 - w)/2, u = sqrt(4*x" in said
+    assert "every integer N >= rank(s) + 3, where rank = 2*u + (1 - w)/2; u = sqrt(4*x" in said
     assert "is stable and attracts every state of the space if and only if 0 < alpha < 1/3" in said
