@@ -53,7 +53,7 @@ class Orthant:
     >>> formula = context.formula(checker.parse("x > 1 and y >= x and y^2 < x^2"))
     >>> orthant = Orthant(Problem(State(context).assume(formula), Ring(("x", "y"))), [0, 1, 2])
     >>> orthant.own, str(orthant.facts[2])
-    ({0: 0, 1: 1}, '-2*x*y - y^2 - 2*y')
+    ({0: 1, 1: 0}, '-x^2 - 2*x*y - 2*x')
     """
 
     def __init__(self, problem: Problem, only: Sequence[int]) -> None:
