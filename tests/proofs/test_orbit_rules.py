@@ -37,8 +37,8 @@ CONCLUSIONS = {
     " space and every integer N >= rank(s), where rank = x",
     "demo/contracts": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
     " `on` {x < 1}: |f^n(s) - e| <= a^n |s - e| <= a^n for every state s of the space in the set"
-    " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all states"
-    " of the space with |s - e| <= 1/2 are in it",
+    " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all"
+    " states of the space with |s - e| <= 1/2 are in it",
     "demo/attracts": "for 0 < a < 1: e = 0 is stable and attracts every state s of the space:"
     " |f^(N + k)(s) - e| <= a^k for all integers k >= 0 and N >= rank(s), where rank = x,"
     " |s - e| = |x - e|",
