@@ -194,9 +194,9 @@ def _of_lyapunov(f: Lines) -> str:
     return (
         f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts"
         f" {_set('the set `on`', f.one('on'))}, which f takes into itself:"
-        f" V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s"
-        f" of the space in the set and every distance > 0, where V(s) = {_greatest(f)}; least ="
-        f" {f.one('least')} with level = V(s); {LARGEST}; all states of the space with |s - e| <="
+        f" V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= distance for at most V(s)/least"
+        f" integers n >= 0, for every state s of the space in the set and every distance > 0, where"
+        f" V(s) = {_greatest(f)}; least = {f.one('least')} with level = V(s); {LARGEST}; all states of the space with |s - e| <="
         f" {f.one('radius')} are in the set"
     )
 
