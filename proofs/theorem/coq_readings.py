@@ -18,6 +18,8 @@ from juggleproof.certificates.coq.transfer import Form, Transfer
 from juggleproof.certificates.states import State
 from juggleproof.proofs.theorem.coq_terms import ATOM, formula_of, term_of
 
+AND, OR = "/\\", "\\/"
+
 
 def reading_name(name: str) -> str:
     """The name of the lemma in the words of a statement."""
@@ -273,23 +275,30 @@ def _numerator(value: checker.Poly, relation: str) -> checker.Poly:
 def _chain(parts: Sequence[_Read], lemma: str) -> _Read:
     """A conjunction or disjunction of several."""
     last = parts[-1]
-    for part in reversed(parts[:-1]):
-        last = _joined(part, last, lemma)
+    for count, part in enumerate(reversed(parts[:-1])):
+        last = _joined(part, last, lemma, count > 0)
     return last
 
 
-def _joined(one: _Read, two: _Read, lemma: str) -> _Read:
-    """Two formulas joined as the lemma of Readings.v says."""
-    yes = f"({one.holds}) {{}} ({two.holds})"
-    no = f"({one.fails}) {{}} ({two.fails})"
-    mixed, other = f"({one.fails}) \\/ ({two.holds})", f"({one.holds}) /\\ ({two.fails})"
+def _joined(one: _Read, two: _Read, lemma: str, is_tail: bool = False) -> _Read:
+    """Two formulas joined as the lemma of Readings.v says; the tail of a chain needs no
+    parentheses.
+    """
+
+    def both(left: str, op: str, right: str) -> str:
+        return f"{_enclosed(left)} {op} {right if is_tail else _enclosed(right)}"
+
     holds, fails = {
-        "reads_and": (yes.format("/\\"), no.format("\\/")),
-        "reads_or": (yes.format("\\/"), no.format("/\\")),
-        "reads_implies": (mixed, other),
+        "reads_and": (both(one.holds, AND, two.holds), both(one.fails, OR, two.fails)),
+        "reads_or": (both(one.holds, OR, two.holds), both(one.fails, AND, two.fails)),
+        "reads_implies": (both(one.fails, OR, two.holds), both(one.holds, AND, two.fails)),
         "reads_iff": (
-            f"({mixed}) /\\ (({one.holds}) \\/ ({two.fails}))",
-            f"({other}) \\/ (({one.fails}) /\\ ({two.holds}))",
+            f"({both(one.fails, OR, two.holds)}) {AND} ({both(one.holds, OR, two.fails)})",
+            f"({both(one.holds, AND, two.fails)}) {OR} ({both(one.fails, AND, two.holds)})",
         ),
     }[lemma]
     return _Read(holds, fails, f"({lemma} _ _ _ _ _ _ {one.proof} {two.proof})")
+
+
+def _enclosed(text: str) -> str:
+    return f"({text})" if "\\" in text else text
