@@ -144,7 +144,6 @@ class Reading:
             f"assert ({signed} : 0 <= {own}) by apply sqrt_pos.",
             f"assert ({squared} : {own} * {own} = {radicand})"
             f" by exact (sqrt_sqrt _ (Rge_le _ _ {below})).",
-            f"clearbody {own}.",
         ]
         self._declare([name])
         self.universal.append(own)
