@@ -12,7 +12,7 @@ Open Scope R_scope.
 
 Definition reads (N P Q : Prop) : Prop := (N /\ P /\ ~ Q) \/ (~ N /\ ~ P /\ Q).
 
-Lemma holds N P Q : reads N P Q -> (N <-> P).
+Lemma reads_holds N P Q : reads N P Q -> (N <-> P).
 Proof. unfold reads. tauto. Qed.
 
 Lemma reads_and A P Q B S T : reads A P Q -> reads B S T -> reads (A /\ B) (P /\ S) (Q \/ T).

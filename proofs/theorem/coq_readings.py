@@ -208,7 +208,7 @@ class Reading:
         read = self._read(node, texts)
         self.rows += texts.rows
         target = proposition(self.branch.names, formula)
-        proof = f"(holds _ _ _ {read.proof})"
+        proof = f"(reads_holds _ _ _ {read.proof})"
         if read.holds == target:
             return proof
         same = self.branch.fresh()
