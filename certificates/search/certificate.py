@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
@@ -292,14 +292,42 @@ def search_proof(
 # Certificates of the map rules: a proof for each premise that the checker writes.
 
 
+def search_premises(
+    premises: Mapping[str, checker.Statement],
+    known: dict[str, checker.Statement],
+    budget: int,
+    hints: Mapping[str, Hints] | None = None,
+    is_false: Callable[[str], bool] = lambda name: False,
+) -> dict[str, Proof | None]:
+    """A proof of each premise of a map rule, by its name, or None; each may take the whole budget,
+    and one that `is_false`, which is asked after a cheap attempt, takes no more.
+
+    Raises Rejected, with the name of the premise, where one cannot be read.
+    """
+    proofs: dict[str, Proof | None] = {}
+    for name, premise in premises.items():
+        proofs[name] = None
+        for effort in (1, 2):
+            if effort == 2 and (proofs[name] is not None or is_false(name)):
+                break
+            try:
+                proofs[name] = search_proof(
+                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
+                )
+            except Exhausted:
+                continue
+            except checker.Rejected as reason:
+                raise reason.within(f"premise {name}") from None
+    return proofs
+
+
 def search_map_rule(
     statement: checker.Statement,
     known: dict[str, checker.Statement],
     budget: int,
     hints: Mapping[str, Hints] | None = None,
 ) -> Certificate:
-    """{"certified": {premise: proof}}, or {"unknown": the premise for which no proof was found};
-    each premise may take the whole budget.
+    """{"certified": {premise: proof}}, or {"unknown": the premises for which no proof was found}.
 
     >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\n"
     >>> text += "space x >= 0\\npiece x >= 0 -> x/2"
@@ -307,20 +335,11 @@ def search_map_rule(
     >>> sorted(search_map_rule(statement, {}, 10**6)["certified"])
     ['covers', 'possible', 'stays-1']
     """
-    proofs: dict[str, Proof] = {}
     for name in rests_on(statement):
         if name not in known:
             return {"unknown": f"it rests on {name}, which is not certified"}
-    for name, premise in checker.premises_of(statement, known).items():
-        proof = None
-        for effort in (1, 2):
-            try:
-                proof = proof or search_proof(
-                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
-                )
-            except Exhausted:
-                continue
-        if proof is None:
-            return {"unknown": f"no proof of the premise {name} was found"}
-        proofs[name] = proof
-    return {"certified": proofs}
+    found = search_premises(checker.premises_of(statement, known), known, budget, hints)
+    unproved = [name for name, proof in found.items() if proof is None]
+    if unproved:
+        return {"unknown": f"no proof of {', '.join(unproved)} was found"}
+    return {"certified": {name: proof for name, proof in found.items() if proof is not None}}
