@@ -127,6 +127,8 @@ class Reading:
             equation = self.branch.fresh()
             self.stated.append(f"forall {own} : R, {own} = {value} ->")
             self.rows.append(f"intros {own} {equation}.")
+            if self.lets:
+                self.rows.append(f"unfold {', '.join(reversed(self.lets))} in {equation}.")
             self.assumed += [own, equation]
             self.sums.append(equation)
         else:

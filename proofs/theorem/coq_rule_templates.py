@@ -226,6 +226,95 @@ Proof.
 Qed.
 """
 
+# `$E` are the coordinates of the point, where premises are about all points with what the lines
+# `have` say, `$H` the proofs of these, `$gaps` those of the state less those of the point, `$sums`
+# the state as their sum; `$here` says of of_v that it is at least the value.
+LYAPUNOV = """\
+Lemma of_near_point_is : ${all}forall of_c of_s, LyapunovFunction.near$a of_c of_s <->
+  $inequalities.
+Proof.
+  intros$a of_c of_s. split.
+  { intro of_close. exact $forth. }
+  { intros $each_axis []; [$back]. }
+Qed.
+
+(* The point is fixed, stable, and attracts the set. *)
+Theorem $theorem : ${all}LyapunovFunction.domain$a ->
+  Map.space$a (LyapunovFunction.point$a) /\\
+  Map.f$a (LyapunovFunction.point$a) = LyapunovFunction.point$a /\\
+  Map.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
+  Map.attracting (LyapunovFunction.set$a) (Map.f$a) (LyapunovFunction.point$a).
+Proof.
+  intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
+  assert (of_map : Map.domain$a) by exact (${P}_inside$a$E of_dom$H).
+  destruct (${P}_constants$a$E of_dom$H) as [of_radius of_upper].
+  assert (of_positive : forall of_d of_c, 0 < of_d -> 0 <= of_c ->
+    0 < LyapunovFunction.least$a of_d of_c).
+  { intros of_d of_c of_1 of_2.
+    exact (${P}_positive$a$E of_d of_c of_dom$H of_1 (Rle_ge _ _ of_2) (one_more _ of_2)). }
+  assert (of_surrounded : forall of_s, Map.space$a of_s ->
+    LyapunovFunction.near$a (LyapunovFunction.radius$a) of_s -> LyapunovFunction.set$a of_s).
+  { intros of_s of_there of_close. apply (of_near_point_is$a _ _) in of_close.
+    split; [exact of_there|].
+    ${open}exact (${P}_surrounds$a$E $gaps of_dom$H $sums of_there of_close). }
+  assert (of_small : forall of_i of_s of_d, (of_i < $count)%nat -> Map.space$a of_s -> 0 <= of_d ->
+    LyapunovFunction.near$a of_d of_s -> of_d <= LyapunovFunction.radius$a ->
+    LyapunovFunction.guards$a of_i of_s ->
+    LyapunovFunction.values$a of_i of_s <= LyapunovFunction.upper$a * of_d).
+  { intros $each_value of_s of_d of_less of_there of_1 of_close of_2 of_here;
+      [$small|exfalso; lia]. }
+  assert (of_kept : forall of_s,
+    LyapunovFunction.set$a of_s -> LyapunovFunction.set$a (Map.f$a of_s)).
+  { intros of_s [of_there of_in].
+    assert (of_next := of_map_keeps$a of_s of_map of_there). split; [exact of_next|].
+    $stays }
+  pose (of_above := Lyapunov.above (LyapunovFunction.guards$a) (LyapunovFunction.values$a) $count).
+  assert (of_bounded : forall of_s of_v, LyapunovFunction.set$a of_s -> of_above of_s of_v ->
+    0 <= of_v).
+  { intros of_s of_v [of_there of_in] of_high. $here
+    ${open}exact (Rge_le _ _ (${P}_bounded$a$E $gaps of_v of_dom$H $sums of_there of_in
+      $at_least)). }
+  assert (of_loses : forall of_s of_v, LyapunovFunction.set$a of_s -> of_above of_s of_v ->
+    0 <= of_v -> 0 <= $loss).
+  { intros of_s of_v [of_there of_in] of_high of_1. $own_value$here
+    ${open}exact (Rge_le _ _ (${P}_loss$a$E $gaps$v of_dom$H $sums of_there of_in$given)). }
+  assert (of_least : forall of_s of_v of_d of_c, LyapunovFunction.set$a of_s ->
+    of_above of_s of_v -> 0 <= of_v -> 0 < of_d -> 0 <= of_c ->
+    Lyapunov.far Map.coordinate (fun of_j => Map.coordinate of_j (LyapunovFunction.point$a))
+      of_d of_s -> of_v <= of_c -> LyapunovFunction.least$a of_d of_c <= $loss).
+  { intros of_s of_v of_d of_c [of_there of_in] of_high of_1 of_2 of_3 of_far of_4.
+    assert (of_apart : $far).
+    { destruct of_far as [[] of_far]; apply far_is in of_far; [$each_far]. }
+    $own_value$level$here
+    ${open}exact (Rge_le _ _ (${P}_least$a$E $gaps $value of_d of_c of_dom$H $sums of_there of_in
+      $reached (Rle_ge _ _ of_1) (one_more _ of_1) of_2 (Rle_ge _ _ of_3) (one_more _ of_3)
+      of_apart (Rle_ge _ _ of_4))). }
+  assert (of_falls : forall of_i of_s of_v, (of_i < $count)%nat -> LyapunovFunction.set$a of_s ->
+    of_above of_s of_v -> 0 <= of_v -> LyapunovFunction.guards$a of_i (Map.f$a of_s) ->
+    LyapunovFunction.values$a of_i (Map.f$a of_s) <= of_v - $loss).
+  { intros $each_value of_s of_v of_less [of_there of_in] of_high of_1 of_guard.
+    $falls
+    exfalso; lia. }
+  split; [exact of_at|split; [|split]].
+  { apply of_same_state.
+    exact (Lyapunov.lyapunov_fixed_point $function of_radius of_positive of_surrounded of_small
+      of_kept of_bounded of_loses of_least of_falls (LyapunovFunction.point$a) of_at
+      (fun _ => eq_refl)). }
+  { exact (Lyapunov.lyapunov_stability $function of_radius of_upper of_positive of_surrounded
+      of_small of_kept of_bounded of_loses of_least of_falls). }
+  { exact (Lyapunov.lyapunov_attraction $attraction of_positive of_kept of_bounded of_loses
+      of_least of_falls). }
+Qed.
+"""
+
+# What the least value of a function without guards is, in place of one that is no less.
+OWN_VALUE = """\
+assert (of_own : LyapunovFunction.value_1$a of_s <= of_v) by exact (of_high 0%nat ltac:(lia) I).
+    clear of_1. assert (of_1 : of_above of_s (LyapunovFunction.value_1$a of_s)).
+    { intros [|of_i] of_first _; [apply Rle_refl|exfalso; lia]. }
+    apply (of_bounded of_s _ (conj of_there of_in)) in of_1.
+    """
+
 ATTRACTS = """\
 (* The point is stable and attracts every state, within a bound. *)
 Theorem $theorem : ${all}Descent.domain$a ->
@@ -257,6 +346,28 @@ Proof.
 Qed.
 """
 
+ATTRACTS_BY_LYAPUNOV = """\
+(* The point is stable and attracts every state. *)
+Theorem $theorem : ${all}Descent.domain$a ->
+  Map.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
+  Map.attracting (Map.space$a) (Map.f$a) (LyapunovFunction.point$a).
+Proof.
+  intros$a of_dom. destruct ($lyapunov$a (${P}_inside$a of_dom)) as (_ & _ & of_stays & of_tends).
+  assert (of_into : forall of_s, Map.space$a of_s -> Descent.stage_$last$a of_s ->
+    LyapunovFunction.set$a of_s).
+  { intros of_s of_there of_in. split; [exact of_there|].
+    ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
+  split; [exact of_stays|]. refine (Lyapunov.attraction_from_a_set (Map.f$a) Map.coordinate
+    (fun of_j => Map.coordinate of_j (LyapunovFunction.point$a)) (Map.space$a)
+    (LyapunovFunction.set$a) _ of_tends).
+  intros of_s of_there.
+  destruct (Rules.exceeded_by_a_number (Descent.rank$a of_s + INR $extra)) as [of_n of_late].
+  exists of_n. apply of_into; [|exact ($descends$a of_dom of_s of_n of_there of_late)].
+  apply Rules.iterate_keeps; [|exact of_there].
+  intro of_t. exact (of_map_keeps$a of_t (${descent}_inside$a of_dom)).
+Qed.
+"""
+
 ESCAPES = """\
 Theorem $theorem : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
   Rules.iterate (Map.f$a) $period (Escape.start$a) = Escape.start$a /\\
@@ -275,17 +386,17 @@ Qed.
 EXACTLY = """\
 (* The point is stable and attracts every state just for the parameters of the descent. *)
 Theorem $theorem : ${all}Map.domain$a ->
-  (Descent.domain$a <-> Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
-   Map.attracting (Map.space$a) (Map.f$a) (Contraction.point$a)).
+  (Descent.domain$a <-> Map.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
+   Map.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
 Proof.
   intros$a of_map.
   refine (Rules.exactly (Map.f$a) Map.coordinate
-    (fun of_j => Map.coordinate of_j (Contraction.point$a))
+    (fun of_j => Map.coordinate of_j ($around.point$a))
     (fun of_j => Map.coordinate of_j (Escape.point$a)) (Map.space$a) $period (Escape.start$a)
-    (Descent.domain$a) (Escape.domain$a) (Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a))
+    (Descent.domain$a) (Escape.domain$a) (Map.stable (Map.space$a) (Map.f$a) ($around.point$a))
     (${P}_covers$a of_map) _ _ _ _).
   { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
-  { intro of_dom. exact (proj1 (proj2 ($attraction$a of_dom))). }
+  { intro of_dom. exact ($tends ($attraction$a of_dom)). }
   { intro of_out. split; [lia|exact ($escape$a of_out)]. }
   { intro of_out. pose proof (${P}_same_point$a of_out) as $each_axis. intros []; [$back]. }
 Qed.

@@ -45,7 +45,8 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
         if statements[one].kind not in RULES:
             raise NotWritten(f"{one} is of a rule that is not written for Coq; claim it by another")
     frame = Frame(statements[chain[0]], statements)
-    rows = [Template(texts.HEADER).substitute(name=name), _theory()]
+    kinds = {statements[one].kind for one in chain}
+    rows = [Template(texts.HEADER).substitute(name=name), _theory("lyapunov" in kinds)]
     used = _uses(chain, certificates)
     rows += [
         lemmas(statement, certificates[one], statements)
@@ -84,11 +85,13 @@ def _uses(names: Sequence[str], certificates: Mapping[str, Certificate]) -> set[
     return used
 
 
-def _theory() -> str:
+def _theory(with_lyapunov: bool) -> str:
     """The lemmas of certificates, and the rules for any map."""
-    sources = (PRELUDE, *((COQ / name).read_text() for name in ("Readings.v", "Rules.v")))
-    imports = re.compile(r"^(From Coq Require Import .*|Open Scope R_scope\.)\n", re.MULTILINE)
-    prelude, read, rules = (imports.sub("", source) for source in sources)
+    sources = ["Readings.v", "Rules.v", *["Lyapunov.v"] * with_lyapunov]
+    imports = re.compile(r"^(From (Coq|Juggleproof) .*|Open Scope R_scope\.)\n", re.MULTILINE)
+    prelude, read, rules, *more = (
+        imports.sub("", text) for text in (PRELUDE, *((COQ / one).read_text() for one in sources))
+    )
     return "\n".join(
         [
             "From Coq Require Import Reals ZArith Lra Lia List.",
@@ -96,6 +99,7 @@ def _theory() -> str:
             prelude,
             read,
             f"Module Rules.\n{rules}End Rules.\n",
+            *(f"Module Lyapunov.\nImport Rules.\n{text}End Lyapunov.\n" for text in more),
         ]
     )
 
@@ -106,6 +110,7 @@ class Frame:
     def __init__(self, own: checker.Statement, known: Known) -> None:
         (parameters,), (state,) = own.get("over"), own.get("state")
         self.known = known
+        self.names = state
         self.state = [*map(coq_name, state)]
         self.axes = [f"Map.axis_{name}" for name in state]
         self.pieces = range(1, len(own.get("piece")) + 1)
@@ -137,27 +142,66 @@ class Frame:
         returns: str,
         *parts: str,
         of_state: bool = True,
+        more: str = "",
     ) -> str:
-        """A definition over the parameters, and of a state, by the texts of a statement; of several
-        it is the state that they are the coordinates of.
+        """A definition over the parameters, of a state, and of more, by the texts of a statement;
+        of several it is the state that they are the coordinates of.
         """
-        state = f" {self.pattern}" if of_state else ""
+        state = (f" {self.pattern}" if of_state else "") + more
         write = coq_formula if returns == "Prop" else coq_term
-        body = _roots(own, parts) + self.tuple([write(part) for part in parts])
+        body = self.lets(own, parts) + self.tuple([write(part) for part in parts])
         return f"Definition {name}{self.bound}{state} : {returns} :=\n  {body}."
 
+    def lets(self, own: checker.Statement, parts: Sequence[str]) -> str:
+        """What texts name beside parameters and state, in order, as `let` of Coq: roots, and around
+        a point its coordinates, and the state less these.
+        """
+        roots = [(name, f"sqrt ({term_of(under, 0)})", under) for name, (under,) in own.get("root")]
+        entries = roots
+        if own.get("value"):
+            moving, fixed = {*self.names, *(f"{name}_gap" for name in self.names)}, []
+            for root in roots:
+                if _names(root[2]) & moving:
+                    moving.add(root[0])
+                else:
+                    fixed.append(root)
+            point = [
+                (f"{name}_point", coq_term(text), checker.parse(text))
+                for name, text in zip(self.names, own.get("point")[0])
+            ]
+            gaps = [
+                (f"{name}_gap", coq_term(text), checker.parse(text))
+                for name, text in ((name, f"{name} - {name}_point") for name in self.names)
+            ]
+            entries = [*fixed, *point, *gaps, *(one for one in roots if one not in fixed)]
+        used = set().union(*map(names_in, parts))
+        rows = ""
+        for name, value, node in reversed(entries):
+            if name in used:
+                used |= _names(node)
+                rows = f"let {coq_name(name)} := {value} in " + rows
+        return rows
+
     def by_pieces(
-        self, own: checker.Statement, premise: str, known: str, has_next: bool = True
+        self,
+        own: checker.Statement,
+        premise: str,
+        known: str,
+        point: str = "$s",
+        places: str = " in of_next |- *",
+        case: str = "exact {}",
     ) -> str:
         """Tactics that show something of the next state by a premise for each piece; known: what
-        it assumes.
+        it assumes; point: the coordinates; places: where the next state occurs.
         """
-        place = " in of_next |- *" if has_next else ""
-        cases = "|".join(f"exact (${{P}}_{premise}_{k}$a $s {known})" for k in self.pieces)
+        first, _, last = premise.partition(" ")
+        cases = "|".join(
+            case.format(f"(${{P}}_{first}_{k}{last}$a {point} {known})") for k in self.pieces
+        )
         opened = self.words["open"].replace(". ", "; ")
         return self.fill(
             f"destruct (of_map_moves$a of_s of_map of_there) as {self.one_piece()};\n"
-            f"    rewrite of_same{place}; clear of_same; {opened}[{cases}].",
+            f"    rewrite of_same{places}; clear of_same; {opened}[{cases}].",
             own,
         )
 
@@ -186,15 +230,15 @@ def _equal_states(proofs: Sequence[str]) -> str:
     return proof
 
 
-def _roots(own: checker.Statement, parts: Sequence[str]) -> str:
-    """The roots that texts name, in order, as `let` of Coq."""
-    used = set().union(*map(names_in, parts))
-    rows = ""
-    for name, (under,) in reversed(own.get("root")):
-        if name in used:
-            used |= {node.id for node in ast.walk(under) if isinstance(node, ast.Name)}
-            rows = f"let {coq_name(name)} := sqrt ({term_of(under, 0)}) in " + rows
-    return rows
+def _names(node: ast.expr) -> set[str]:
+    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
+
+
+def _nested(last: str, count: int) -> str:
+    """The pattern for a number that is one of the first few, or more."""
+    for _ in range(count):
+        last = f"[|{last}]"
+    return last
 
 
 # -------------------------------------------------------------------------------------------------
@@ -240,7 +284,7 @@ def map_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         decided=f.fill("\n  ".join(decided), own),
         one_guard=disjunctive(["of_g"] * last),
         none="|".join(f"exact (of_not_{k} of_g)" for k in f.pieces),
-        stays=f.by_pieces(own, "stays", "of_map of_there of_g", has_next=False),
+        stays=f.by_pieces(own, "stays", "of_map of_there of_g", places=""),
         open_t=_opened("of_t", [f"of_{axis}" for axis in range(len(f.axes))]),
         equal=_equal_states([f"(of_same {axis})" for axis in f.axes]),
     )
@@ -285,14 +329,11 @@ def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     for k in stages:
         leads = f.by_pieces(own, f"stage_{k}", "of_dom of_there of_in of_g of_next")
         yield f.fill(texts.STAGE, own, k=k, next=next_, following=min(k + 1, last), leads=leads)
-    each_stage = "of_k"
-    for _ in stages[1:]:
-        each_stage = f"[|{each_stage}]"
     lead_on = "".join(f"exact (of_stage_{k}$a of_dom of_s of_there of_in)|" for k in stages[:-1])
     yield f.fill(
         texts.DESCENDS,
         own,
-        each_stage=each_stage,
+        each_stage=_nested("of_k", len(stages) - 1),
         lead_on=f.fill(lead_on, own),
         last=last,
         extra=f.extra_steps(own),
@@ -360,6 +401,141 @@ def contraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     )
 
 
+FUNCTION = "LyapunovFunction"
+
+
+def lyapunov_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """The set, the point, the terms of the value, and the numbers."""
+    yield f"Module {FUNCTION}.\nImport Map."
+    yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
+    yield f.define(own, "on", "Prop", *own.get("on"))
+    yield f.define(own, "point", "State", *own.get("point")[0], of_state=False)
+    guards = values = ""
+    for k, (guard, (term,)) in enumerate(own.get("value"), 1):
+        yield f.define(own, f"value_{k}", "R", term)
+        values += f.fill(f"{k - 1}%nat => value_{k}$a | ", own)
+        if guard:
+            yield f.define(own, f"guard_{k}", "Prop", *guard)
+            holds = f.fill(f"guard_{k}$a of_s", own)
+            yield f"Lemma decided_{k}{f.bound} (of_s : State) : {{{holds}}} + {{~ {holds}}}."
+            opened = f.words["open"]
+            yield f"Proof. {opened}cbv beta iota zeta delta [guard_{k}]. decidable. Qed."
+        each = f"guard_{k}$a" if guard else "fun _ => True"
+        guards += f.fill(f"{k - 1}%nat => {each} | ", own)
+    match = "(of_i : nat) : State -> {} :=\n  match of_i with {} end."
+    yield f"Definition guards{f.bound} " + match.format("Prop", guards + "_ => fun _ => False")
+    yield f"Definition values{f.bound} " + match.format("R", values + "_ => fun _ => 0")
+    yield f.define(own, "loss", "R", *own.get("loss"), more=" (value : R)")
+    both = " (distance level : R)"
+    yield f.define(own, "least", "R", *own.get("least"), of_state=False, more=both)
+    for name in ("upper", "radius"):
+        yield f.define(own, name, "R", *own.get(name), of_state=False)
+    bound = f"{f.bound} (of_s : State) : Prop"
+    yield f.fill(f"Definition set{bound} := space$a of_s /\\ on$a of_s.", own)
+    yield f.fill(
+        f"Definition near{f.bound} : R -> State -> Prop :=\n"
+        "  Lyapunov.close coordinate (fun of_j => coordinate of_j (point$a)).",
+        own,
+    )
+    yield f"End {FUNCTION}."
+
+
+def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
+    """The point is fixed, stable, and attracts the set."""
+    values, have = own.get("value"), own.get("have")
+    count, is_plain = len(values), len(values) == 1 and not values[0][0]
+    names = f.state if len(f.axes) > 1 else ["of_s"]
+    at = [f"(Map.coordinate {axis} ({FUNCTION}.point$a))" for axis in f.axes]
+    gaps = " ".join(f"({name} - {e})" for name, e in zip(names, at))
+    sums = " ".join(f"{name} (sum_is {name} {e})" for name, e in zip(names, at))
+    points = "".join(f" {e}" for e in at) if have else ""
+    proofs = "".join(f" of_have_{k}" for k in range(1, len(have) + 1))
+    each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
+    apart = [f"Map.coordinate {axis} of_s - {e}" for axis, e in zip(f.axes, at)]
+    here, heres = "", " ".join(f"of_here_{k}" for k in range(1, count + 1))
+    for k, (guard, _) in enumerate(values, 1):
+        least = f"{FUNCTION}.value_{k}$a of_s <= of_v"
+        if guard:
+            here += (
+                f"assert (of_here_{k} : ~ {FUNCTION}.guard_{k}$a of_s \\/ {least}).\n"
+                f"    {{ destruct ({FUNCTION}.decided_{k}$a of_s) as [of_g|of_g]; [right|left].\n"
+                f"      exact (of_high {k - 1}%nat ltac:(lia) of_g). exact of_g. }}\n    "
+            )
+        else:
+            here += (
+                f"assert (of_here_{k} : {least}) by exact (of_high {k - 1}%nat ltac:(lia) I).\n    "
+            )
+    value = f"({FUNCTION}.value_1$a of_s)" if is_plain else "of_v"
+    loss = f"{FUNCTION}.loss$a of_s {value}"
+    known = "(Rle_ge _ _ of_1) (one_more _ of_1)"
+    given = known if is_plain else f"{heres} {known}"
+    own_value = f.fill(texts.OWN_VALUE, own) if is_plain else ""
+    before = f"of_dom{proofs} {sums} of_there of_in"
+    extra = "" if is_plain else " of_v"
+    falls = []
+    for k, (guard, _) in enumerate(values, 1):
+        rows = f"{{ assert (of_next := of_map_keeps$a of_s of_map of_there).\n    {own_value}{here}"
+        if is_plain:
+            rows += f"apply Rle_trans with ({value} - {loss});\n      "
+            rows += "[|exact (Rplus_le_compat_r _ _ _ of_own)].\n    "
+        choice = "destruct {} as [of_no|of_le]; [destruct (of_no of_guard)|exact of_le]"
+        rows += f.by_pieces(
+            own,
+            f"falls _{k}",
+            f"{before} {given} of_g of_next",
+            point=f"{points} {gaps}{extra}",
+            places=" in of_next, of_guard |- *",
+            case=choice if guard else "exact {}",
+        )
+        falls.append(rows + " }")
+    small = [
+        f"apply (of_near_point_is$a _ _) in of_close; {f.words['open'].replace('. ', '; ')}"
+        f"exact (${{P}}_small_{k}$a{points} {gaps} of_d of_dom{proofs} {sums} of_there"
+        f" (Rle_ge _ _ of_1) of_close of_2{' of_here' if guard else ''})"
+        for k, (guard, _) in enumerate(values, 1)
+    ]
+    norm = f"(Map.f$a) Map.coordinate (fun of_j => Map.coordinate of_j ({FUNCTION}.point$a))"
+    parts = f"({FUNCTION}.guards$a) ({FUNCTION}.values$a) {count}"
+    losses = f"(fun of_s {'_' if is_plain else 'of_v'} => {loss})"
+    far = []
+    for k in range(len(f.axes)):
+        side = "of_far" if k == len(f.axes) - 1 else "(or_introl of_far)"
+        for _ in range(k):
+            side = f"(or_intror {side})"
+        far.append(f"exact {side}")
+    words = {
+        "inequalities": " /\\\n  ".join(f"(- of_c <= {one} /\\ {one} <= of_c)" for one in apart),
+        "forth": conjoined([f"(proj1 (within_is _ _) (of_close {axis}))" for axis in f.axes]),
+        "each_axis": conjunctive(each),
+        "back": "|".join(f"exact (proj2 (within_is _ _) {name})" for name in each),
+        "point": conjunctive(["of_at", *proofs.split()]),
+        "E": points,
+        "H": proofs,
+        "gaps": gaps,
+        "sums": sums,
+        "each_value": _nested("of_i", count),
+        "small": "|".join(small),
+        "stays": f.by_pieces(own, "stays", f"{before} of_g of_next", point=f"{points} {gaps}"),
+        "here": here,
+        "at_least": heres,
+        "loss": loss,
+        "own_value": own_value,
+        "level": "apply (Rle_trans _ _ _ of_own) in of_4. " if is_plain else "",
+        "v": extra,
+        "given": f" {given}",
+        "far": " \\/ ".join(f"({one} >= of_d \\/ {one} <= - of_d)" for one in apart),
+        "each_far": "|".join(far),
+        "value": value,
+        "reached": "(Rle_refl _)" if is_plain else heres,
+        "falls": "\n    ".join(falls),
+        "function": f"{norm} (Map.space$a)\n      ({FUNCTION}.set$a) {parts} {losses}"
+        f" ({FUNCTION}.least$a)\n      ({FUNCTION}.upper$a) ({FUNCTION}.radius$a)",
+        "attraction": f"{norm}\n      ({FUNCTION}.set$a) {parts} {losses} ({FUNCTION}.least$a)",
+    }
+    filled = {name: f.fill(text, own) for name, text in words.items()}
+    yield f.fill(texts.LYAPUNOV, own, count=count, **filled)
+
+
 def no_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """None: the statement names what others define."""
     return iter(())
@@ -368,6 +544,17 @@ def no_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
 def attraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable, and attracts every state."""
     descent = f.known[own.text("descent")]
+    if own.get("lyapunov"):
+        yield f.fill(
+            texts.ATTRACTS_BY_LYAPUNOV,
+            own,
+            extra=f.extra_steps(descent),
+            last=f.extra_steps(descent) + 1,
+            descent=reading_name(descent.name),
+            descends=theorem_name(descent.name),
+            lyapunov=theorem_name(own.text("lyapunov")),
+        )
+        return
     yield f.fill(
         texts.ATTRACTS,
         own,
@@ -419,13 +606,16 @@ def escape_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
 
 def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state just on the domain of the descent."""
-    escape = f.known[own.text("escape")]
+    escape, attraction = f.known[own.text("escape")], f.known[own.text("attraction")]
+    by_lyapunov = bool(attraction.get("lyapunov"))
     each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
     yield f.fill(
         texts.EXACTLY,
         own,
         period=len(escape.get("word")[0]),
-        attraction=theorem_name(own.text("attraction")),
+        around=FUNCTION if by_lyapunov else "Contraction",
+        tends="proj2" if by_lyapunov else "(fun of_all => proj1 (proj2 of_all))",
+        attraction=theorem_name(attraction.name),
         escape=theorem_name(escape.name),
         each_axis=conjunctive(each),
         back="|".join(f"exact (eq_sym {one})" for one in each),
@@ -437,6 +627,7 @@ RULES: Mapping[str, tuple[Rows, Rows]] = {
     "map": (map_definitions, map_proofs),
     "descends": (descent_definitions, descent_proofs),
     "contracts": (contraction_definitions, contraction_proofs),
+    "lyapunov": (lyapunov_definitions, lyapunov_proofs),
     "attracts": (no_definitions, attraction_proofs),
     "escapes": (escape_definitions, escape_proofs),
     "exactly": (no_definitions, sharp_proofs),
