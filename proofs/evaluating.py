@@ -174,11 +174,34 @@ def ends_of(node: ast.AST, point: Mapping[str, Ends]) -> Ends:
     return min(values), max(values)
 
 
-def is_false_between(sign: ast.cmpop, left: Ends, right: Ends) -> bool:
-    """Whether a relation is false for all values between these ends."""
-    if isinstance(sign, ast.Eq):
-        return left[1] < right[0] or right[1] < left[0]
-    return not any(RELATIONS[type(sign)][1](a, b) for a in left for b in right)
+def is_surely(truth: bool, node: ast.AST, point: Mapping[str, Ends]) -> bool:
+    """Whether a formula of relations, `and`, `or` and `not` is true, or is false, for all values
+    between these ends.
+
+    >>> root_of_2 = {"z": (Fraction(7, 5), Fraction(3, 2))}
+    >>> formula = checker.parse("z^2 <= 1 or not z < 2")
+    >>> is_surely(False, formula, root_of_2), is_surely(False, checker.parse("z^2 < 2"), root_of_2)
+    (True, False)
+    """
+    if isinstance(node, ast.BoolOp):
+        each = (is_surely(truth, part, point) for part in node.values)
+        return all(each) if truth == isinstance(node.op, ast.And) else any(each)
+    if isinstance(node, ast.UnaryOp):
+        return is_surely(not truth, node.operand, point)
+    if not isinstance(node, ast.Compare):
+        return False
+    ends = [ends_of(side, point) for side in (node.left, *node.comparators)]
+    each = (
+        _is_surely_related(truth, type(sign), a, b) for sign, a, b in zip(node.ops, ends, ends[1:])
+    )
+    return all(each) if truth else any(each)
+
+
+def _is_surely_related(truth: bool, sign: type, left: Ends, right: Ends) -> bool:
+    if sign in (ast.Eq, ast.NotEq):
+        apart = left[1] < right[0] or right[1] < left[0]
+        return apart if truth == (sign is ast.NotEq) else len({*left, *right}) == 1
+    return all(RELATIONS[sign][1](a, b) == truth for a in left for b in right)
 
 
 # -------------------------------------------------------------------------------------------------

@@ -313,7 +313,7 @@ class Judge:
 
         hints, budget = self.claim.hints.get("premises"), self.resources.budget
         try:
-            found = search_premises(premises, self.known, budget, hints, is_false)
+            found = dict(search_premises(premises, self.known, budget, hints, is_false))
         except checker.Rejected as reason:
             raise ClaimError(f"{rule.name}: {reason}") from None
         proofs = {name: proof for name, proof in found.items() if proof is not None}

@@ -15,23 +15,23 @@ from typing import NamedTuple
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
-from juggleproof.certificates.definitions import formula_of
+from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.language import (
+    RESTING,
     ClaimError,
     MapRule,
     bounds_of,
     interval_text,
-    names_in,
-    rests_on,
 )
 from juggleproof.certificates.votes.vote import Vote
 from juggleproof.certificates.votes.z3 import Model
-from juggleproof.proofs.evaluating import Ends, ends_of, is_false_between
+from juggleproof.proofs.evaluating import Ends, ends_of, is_surely
 
 # -------------------------------------------------------------------------------------------------
 # What a rule concludes, with the numbers of the statement.
 
 
+AROUND = ("contraction", "lyapunov", "attraction")  # lines that name what holds around a point
 LONGEST_SET = 60  # characters of a set that is written in a conclusion
 
 
@@ -55,26 +55,51 @@ class Lines:
         """The statement that the line of this keyword names."""
         return Lines(self.one(keyword), self.texts)
 
-    def domain(self, of_map: Lines | None = None) -> str:
-        """The parameters in the domain: by intervals, where each condition is on one of them and
-        linear; else with the conditions as they stand.
-        """
-        names, text = (of_map or self.named("map")).one("over").split(), self.one("domain")
+    def for_domain(self) -> str:
+        """For which parameters a conclusion holds; nothing where there are none."""
+        names = self.of_map().one("over").split()
+        every = self.intervals() or f"all {', '.join(names)} with {self.one('domain')}"
+        return f"for {every}: " if names else ""
+
+    def of_map(self) -> Lines:
+        """The map that the statement is about, or is."""
+        return self.named("map") if self.all("map") else self
+
+    def around(self) -> Lines:
+        """What an attraction rests on around its point."""
+        keyword = next(key for key, _ in self.rows if key in AROUND)
+        inner = self.named(keyword)
+        return inner.around() if keyword == "attraction" else inner
+
+    def intervals(self) -> str:
+        """The domain, where each condition is on one parameter alone and linear; else nothing."""
+        names, text = self.of_map().one("over").split(), self.one("domain")
         tree = checker.parse(text)
         parts = tree.values if isinstance(tree, ast.BoolOp) else [tree]
         alone = all(len(checker.names_in(ast.unparse(part))) == 1 for part in parts)
         bounds = [bounds_of(text, name) for name in names]
         if not alone or None in bounds:
-            return f"all {', '.join(names)} with {text}"
+            return ""
         return ", ".join(interval_text(name, *(ends or ())) for name, ends in zip(names, bounds))
+
+    def roots(self) -> list[str]:
+        """The root lines of this statement, and of those that it rests on."""
+        inner = [root for key, _ in self.rows if key in RESTING for root in self.named(key).roots()]
+        return [*dict.fromkeys([*inner, *self.all("root")])]
 
     def point(self) -> str:
         """The point, as e."""
         return f"e = {_vector(self.one('point'))}"
 
 
-def _set(condition: str, called: str) -> str:
-    return f"{{{condition}}}" if len(condition) <= LONGEST_SET else called
+def _set(called: str, condition: str) -> str:
+    return f"{called} {{{condition}}}" if len(condition) <= LONGEST_SET else called
+
+
+def _terms(text: str) -> list[str]:
+    tree = checker.parse(text)
+    parts = tree.elts if isinstance(tree, ast.Tuple) else [tree]
+    return [str(term_of(part)) for part in parts]
 
 
 def _vector(terms: str) -> str:
@@ -92,7 +117,7 @@ def _steps(descent: Lines) -> str:
 
 
 def _rank(descent: Lines) -> str:
-    return "where " + ", ".join([f"rank = {descent.one('rank')}", *descent.all("root")])
+    return f"where rank = {descent.one('rank')}"
 
 
 def _power(contraction: Lines, exponent: str) -> str:
@@ -106,19 +131,16 @@ def _bound(contraction: Lines, exponent: str) -> str:
 
 def _norm(contraction: Lines) -> str:
     names = contraction.named("map").one("state").split()
-    weights = checker.parse(contraction.one("weights"))
-    each = weights.elts if isinstance(weights, ast.Tuple) else [weights]
     parts = []
-    for name, weight in zip(names, each):
-        text = ast.unparse(weight).replace(" ** ", "^")
+    for name, weight in zip(names, _terms(contraction.one("weights"))):
         apart = f"|{name} - e_{name}|" if len(names) > 1 else f"|{name} - e|"
-        parts.append(apart + ("" if text == "1" else f"/{_factor(text)}"))
+        parts.append(apart + ("" if weight == "1" else f"/{_factor(weight)}"))
     return "|s - e| = " + (f"max({', '.join(parts)})" if len(parts) > 1 else parts[0])
 
 
 def _of_iterates(f: Lines) -> str:
     (state, images), (count, powers) = (
-        (side.strip("(,)") for side in f.one(keyword).split(" -> "))
+        (", ".join(_terms(side)) for side in f.one(keyword).split(" -> "))
         for keyword in ("iterates", "after")
     )
     return (
@@ -132,71 +154,99 @@ def _of_map(f: Lines) -> str:
     pieces = [piece.split(" -> ") for piece in f.all("piece")]
     images = [f"f({state}) = {_vector(image)} where {guard}" for guard, image in pieces]
     return (
-        f"for {f.domain(f)}: f maps the space {_set(f.one('space'), '')} into itself, and exactly"
+        f"{f.for_domain()}f maps {_set('the space', f.one('space'))} into itself, and exactly"
         f" one piece applies at each of its states: {'; '.join(images)}"
     )
 
 
 def _of_descent(f: Lines) -> str:
-    trap = _set(f.all("stage")[-1], "the last stage")
+    trap = _set("the last stage", f.all("stage")[-1])
     return (
-        f"for {f.domain()}: f^N(s) is in {trap} for every state s of the space and every integer"
+        f"{f.for_domain()}f^N(s) is in {trap} for every state s of the space and every integer"
         f" N >= {_steps(f)}, {_rank(f)}"
     )
 
 
 def _of_contraction(f: Lines) -> str:
     return (
-        f"for {f.domain()}: {f.point()} is a fixed point, is stable, and attracts the set"
-        f" {_set(f.one('on'), '`on`')}: |f^n(s) - e| <= {_power(f, 'n')} |s - e| <="
+        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts"
+        f" {_set('the set `on`', f.one('on'))}: |f^n(s) - e| <= {_power(f, 'n')} |s - e| <="
         f" {_bound(f, 'n')} for every state s of the space in the set and every integer n >= 0,"
         f" where {_norm(f)}; f takes the set into itself, and all states of the space with |s - e|"
         f" <= {f.one('radius')} are in it"
     )
 
 
-def _of_lyapunov(f: Lines) -> str:
+def _greatest(f: Lines) -> str:
+    """The greatest of the terms `value`, and what their names of the point mean."""
     each = [value.rpartition(" -> ")[::2] for value in f.all("value")]
     terms = [term + (f" where {guard}" if guard else "") for guard, term in each]
-    V = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
+    names = [
+        f"{name}_gap = {name} - {name}_point, {name}_point of e"
+        for name in f.of_map().one("state").split()
+        if {f"{name}_gap", f"{name}_point"} & checker.names_in(*terms)
+    ]
+    greatest = f"the greatest of {'; '.join(terms)}" if len(terms) > 1 else terms[0]
+    return ", ".join([greatest, *names])
+
+
+def _of_lyapunov(f: Lines) -> str:
     return (
-        f"for {f.domain()}: {f.point()} is a fixed point, is stable, and attracts the set"
-        f" {_set(f.one('on'), '`on`')}, which f takes into itself: with V(s) = {V}, V(f^n(s)) falls"
-        f" as n grows, and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for"
-        f" every state s of the space in the set and every distance > 0, where |s - e| is the"
-        f" greatest |s_j - e_j|, least = {f.one('least')}, level = V(s); all states of the space"
-        f" with |s - e| <= {f.one('radius')} are in the set"
+        f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts"
+        f" {_set('the set `on`', f.one('on'))}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)),"
+        f" and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s"
+        f" of the space in the set and every distance > 0, where V(s) = {_greatest(f)}; least ="
+        f" {f.one('least')} with level = V(s); {LARGEST}; all states of the space with |s - e| <="
+        f" {f.one('radius')} are in the set"
+    )
+
+
+LARGEST = "|s - e| is the largest of all |s_j - e_j|"
+
+
+def _of_instability(f: Lines) -> str:
+    radius = f.one("radius")
+    return (
+        f"{f.for_domain()}{f.point()} is not stable: for 0 < distance <= {radius} the state s ="
+        f" {_vector(f.one('direction'))} has |s - e| <= distance, and |f^n(s) - e| > {radius} for"
+        f" some integer n >= 0, where {LARGEST}"
     )
 
 
 def _of_attraction(f: Lines) -> str:
-    descent = f.named("descent")
-    if f.all("lyapunov"):
-        point = f.named("lyapunov").point()
-        return f"for {descent.domain()}: {point} is stable and attracts every state of the space"
-    inner = f.named("contraction")
+    descent, inner = f.named("descent"), f.around()
+    start = f"{descent.for_domain()}{inner.point()} is stable and attracts every state"
+    if not inner.all("weights"):
+        return f"{start} of the space"
     return (
-        f"for {descent.domain()}: {inner.point()} is stable and attracts every state s of the"
-        f" space: |f^(N + k)(s) - e| <= {_bound(inner, 'k')} for all integers k >= 0 and"
-        f" N >= {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
+        f"{start} s of the space: |f^(N + k)(s) - e| <= {_bound(inner, 'k')} for all integers"
+        f" k >= 0 and N >= {_steps(descent)}, {_rank(descent)}, {_norm(inner)}"
+    )
+
+
+def _of_attraction_into(f: Lines) -> str:
+    descent = f.named("descent")
+    return (
+        f"{descent.for_domain()}{f.around().point()} is a fixed point, is stable, and attracts"
+        f" every state of {_set('the space', descent.of_map().one('space'))}"
     )
 
 
 def _of_escape(f: Lines) -> str:
     word = f.one("word").split()
     return (
-        f"for {f.domain()}: the orbit of {_vector(f.one('start'))} is back after"
+        f"{f.for_domain()}the orbit of {_vector(f.one('start'))} is back after"
         f" {len(word)} step{'s' * (len(word) > 1)}, by the pieces {', '.join(word)}, and does not"
         f" tend to {f.point()}"
     )
 
 
 def _of_sharpness(f: Lines) -> str:
-    descent, escape = f.named("attraction").named("descent"), f.named("escape")
-    whole = escape.named("map")
+    descent = f.named("attraction").named("descent")
+    whole = descent.of_map()
     return (
-        f"for {whole.domain(whole)}: {escape.point()} is stable and attracts every state of the"
-        f" space if and only if {descent.domain()}"
+        f"{whole.for_domain()}{f.around().point()} is stable and attracts every state of the"
+        f" space if and only if {descent.intervals() or descent.one('domain')}"
     )
 
 
@@ -218,6 +268,7 @@ OF_DOMAIN = {
     "possible": "some parameters of the domain have a state in the space",
     "inside": "the domain is part of the map's domain",
 }
+OF_POINT = "the point is in the space, and what the lines `have` say of it is so"
 RULES = {
     "iterates": Rule(
         "forall integer (let )*iterates after ",
@@ -262,18 +313,35 @@ RULES = {
         },
     ),
     "lyapunov": Rule(
-        "map domain (root )*on point (value )+loss least upper radius ",
+        "map domain (root )*on point (have )*(value )+loss least upper radius ",
         _of_lyapunov,
         {
             **OF_DOMAIN,
-            "constants": "least, upper and radius are positive where distance > 0 and level >= 0",
-            "point": "the point is in the space",
+            "constants": "radius and upper are positive",
+            "positive": "least is positive where distance > 0 and level >= 0",
+            "point": OF_POINT,
             "surrounds": "all states of the space within the radius of the point are in the set",
             "bounded": "V is at least 0 on the set",
+            "loss": "the loss is at least 0 on the set",
             "least": "on the set, the loss is at least `least` of the distance and of V",
             "small": "term {0} of V is at most upper times the distance, within the radius",
             "stays": "piece {0} takes the set into itself",
             "falls": "on the set, piece {0} takes term {1} of V to at most V less the loss",
+        },
+    ),
+    "unstable": Rule(
+        "map domain (root )*point direction (have )*(value )+rate radius upper ",
+        _of_instability,
+        {
+            **OF_DOMAIN,
+            "constants": "rate > 1, and radius and upper are positive",
+            "point": OF_POINT,
+            "direction": "for 0 < distance <= radius the direction is a state of the space within"
+            " the distance of the point, and the value is positive there",
+            "bounded": "where term {0} of the value is positive, within the radius, it is at most"
+            " upper",
+            "grows": "where term {1} of the value is positive, within the radius, piece {0} takes"
+            " the value to at least rate times the term",
         },
     ),
     "attracts": Rule(
@@ -282,6 +350,18 @@ RULES = {
         {
             "inside": "the domain of the descent is part of that of the other rule",
             "enters": "the last stage of the descent lies in the set `on` of the other rule",
+        },
+    ),
+    "into": Rule(
+        "descent attraction radius ",
+        _of_attraction_into,
+        {
+            "inside": "the domain of the descent is part of that of the attraction",
+            "constants": "the radius is positive",
+            "point": "the point is in the space of the descent",
+            "surrounds": "all states within the radius of the point are in the space of the"
+            " attraction",
+            "enters": "the last stage of the descent lies in the space of the attraction",
         },
     ),
     "escapes": Rule(
@@ -294,11 +374,11 @@ RULES = {
         },
     ),
     "exactly": Rule(
-        "attraction escape ",
+        "attraction (escape|unstable) ",
         _of_sharpness,
         {
-            "covers": "the domains of descent and escape make up the map's domain",
-            "same-point": "contraction and escape are about the same point",
+            "covers": "the domains of the two rules make up the map's domain",
+            "same-point": "both rules are about the same point",
         },
     ),
 }
@@ -311,7 +391,12 @@ def conclusion(kind: str, name: str, texts: Mapping[str, str]) -> str:
     >>> conclusion("iterates", "t/sum", {"t/sum": text})
     'f^K(x) = x + 2*K for every integer K >= 0, where f(x) = x + 2'
     """
-    return RULES[kind].concludes(Lines(name, texts))
+    lines = Lines(name, texts)
+    said = RULES[kind].concludes(lines)
+    for root in reversed(lines.roots()):  # a root may be of one above it
+        if root.partition(" = ")[0] in checker.names_in(said):
+            said += f"; {root}"
+    return said
 
 
 def meaning(kind: str, premise: str) -> str:
@@ -360,7 +445,7 @@ def premises_of(
     Raises ClaimError for a name that is not stated before it, or is that of another kind of rule;
     and for lines of which the checker makes no premises.
     """
-    for keyword, name in ((key, text) for key, text in rule.lines if text in rests_on(rule)):
+    for keyword, name in ((key, text) for key, text in rule.lines if key in RESTING):
         if name not in stated:
             similar = get_close_matches(name, stated, 1)
             hint = f"did you mean {similar[0]}?" if similar else "state it first"
@@ -373,7 +458,7 @@ def premises_of(
     try:
         return checker.premises_of(rule, known)
     except checker.Rejected as reason:
-        kind, _, name = reason.offender.partition(" ")
+        kind, _, name = reason.offender.rpartition(" ")
         if reason.kind is checker.Kind.EARLIER and name in known:
             raise ClaimError(
                 f"{rule.name}: {name} is a rule `{known[name].kind}`; name one of the kind `{kind}`"
@@ -435,13 +520,14 @@ def why(
 ) -> str:
     """A line on a premise for which no proof was found within the budget, from Z3's answer."""
     vote, model = answer
-    about = f"{name}: {meaning(kind, name)};"
+    about = f"{name}, {meaning(kind, name)}:"
     if model is not None:
         # a root that is not known to exist has no value
         names = model.point if model.part == "goal" else premise.get("forall")[0]
         values = ", ".join(f"{one} = {_value(model.point[one])}" for one in names)
         numbers = _numbers(premise, model)
-        return f"{about} false at {values}" + (f": {numbers}" if numbers else "")
+        parts = ["false", f" at {values}" * bool(values), f", where {numbers}" * bool(numbers)]
+        return f"{about} {''.join(parts)}"
     says = {"holds": "Z3 says that it holds", "fails": "Z3 says that it is false"}
     return (
         f"{about} {says.get(vote.answer, 'Z3 gives no answer')}; no certificate was found within"
@@ -456,42 +542,54 @@ def _value(value: Fraction | AlgebraicNumber) -> str:
 
 
 def _numbers(premise: checker.Statement, model: Model) -> str:
-    """What is false at the values, with the numbers that its two sides come to; nothing where it
-    names no variable.
+    """What is false at the values, with the numbers that its two sides come to; nothing where that
+    is 0 = 1, or where the ends of irrational values do not tell.
     """
     point = {
         name: (value, value) if isinstance(value, Fraction) else value.enclosure(BITS)
         for name, value in model.point.items()
     }
-    for name, term in premise.get("let"):
-        point[name] = ends_of(term, point)
-    if model.part == "goal":
-        (goal,) = premise.get("show")
-        return _false_part(goal, point)
-    name, (under,) = premise.get("root")[int(model.part.split()[-1]) - 1]
-    shown = _false_part(ast.Compare(under, [ast.GtE()], [ast.Constant(0)]), point)
-    return f"under the root {name}, {shown}"
+    obligations = 0
+    try:
+        for keyword, line in premise.lines:
+            if keyword == "let":
+                point[line[0]] = ends_of(line[1], point)
+            elif keyword == "show":
+                return _false_part(line, point)
+            elif keyword in ("have", "root"):
+                obligations += 1
+                if model.part != f"obligation {obligations}":
+                    continue
+                if keyword == "have":
+                    return _false_part(line, point)
+                name, (under,) = line
+                defined = ast.Compare(under, [ast.GtE()], [ast.Constant(0)])
+                return f"under the root {name}, {_false_part(defined, point)}"
+    except ZeroDivisionError:  # between ends that are not close enough
+        return ""
+    return ""
 
 
 def _false_part(node: ast.expr, point: Mapping[str, Ends]) -> str:
     """The first false part of a conjunction, all parts of a disjunction that is false."""
-    if isinstance(node, ast.BoolOp):
-        parts = [_false_part(part, point) for part in node.values]
-        if isinstance(node.op, ast.Or):
-            return ", ".join(parts) if all(parts) else ""
-        return next(filter(None, parts), "")
-    if not isinstance(node, ast.Compare):
+    if not is_surely(False, node, point):
         return ""
+    if isinstance(node, ast.BoolOp):
+        parts = list(filter(None, (_false_part(part, point) for part in node.values)))
+        return ", ".join(parts if isinstance(node.op, ast.Or) else parts[:1])
+    if not isinstance(node, ast.Compare):
+        return f"{formula_of(node)} is false"
     sides = [node.left, *node.comparators]
-    for left, sign, right in zip(sides, node.ops, sides[1:]):
-        ends = ends_of(left, point), ends_of(right, point)
-        if is_false_between(sign, *ends):
-            relation = formula_of(ast.Compare(left, [sign], [right]))
-            numbers = f"{_number(ends[0])} {relation.op} {_number(ends[1])}"
-            if not names_in(relation):
-                return ""
-            return f"{relation} comes to {numbers}" if len(str(relation)) <= LONGEST else numbers
-    return ""
+    pairs = (
+        ast.Compare(left, [sign], [right]) for left, sign, right in zip(sides, node.ops, sides[1:])
+    )
+    pair = next(one for one in pairs if is_surely(False, one, point))
+    relation = formula_of(pair)
+    if not checker.names_in(str(relation)):
+        return "" if str(relation) == "0 = 1" else f"{relation} is false"
+    left, right = (_number(ends_of(side, point)) for side in (pair.left, *pair.comparators))
+    numbers = f"{left} {relation.op} {right}"
+    return f"{relation} comes to {numbers}" if len(str(relation)) <= LONGEST else numbers
 
 
 def _number(ends: Ends) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
@@ -298,27 +298,26 @@ def search_premises(
     budget: int,
     hints: Mapping[str, Hints] | None = None,
     is_false: Callable[[str], bool] = lambda name: False,
-) -> dict[str, Proof | None]:
-    """A proof of each premise of a map rule, by its name, or None; each may take the whole budget,
-    and one that `is_false`, which is asked after a cheap attempt, takes no more.
+) -> Iterator[tuple[str, Proof | None]]:
+    """The premises of a map rule in order, each with a proof or None; each may take the whole
+    budget, and one that `is_false`, which is asked after a cheap attempt, takes no more.
 
     Raises Rejected, with the name of the premise, where one cannot be read.
     """
-    proofs: dict[str, Proof | None] = {}
     for name, premise in premises.items():
-        proofs[name] = None
-        for effort in (1, 2):
-            if effort == 2 and (proofs[name] is not None or is_false(name)):
+        proof = None
+        for effort in (1, 2, SQUARED):
+            if effort > 1 and (proof is not None or is_false(name)):
                 break
             try:
-                proofs[name] = search_proof(
+                proof = search_proof(
                     premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
                 )
             except Exhausted:
                 continue
             except checker.Rejected as reason:
                 raise reason.within(f"premise {name}") from None
-    return proofs
+        yield name, proof
 
 
 def search_map_rule(
@@ -327,7 +326,7 @@ def search_map_rule(
     budget: int,
     hints: Mapping[str, Hints] | None = None,
 ) -> Certificate:
-    """{"certified": {premise: proof}}, or {"unknown": the premises for which no proof was found}.
+    """{"certified": {premise: proof}}, or {"unknown": the first premise without a proof}.
 
     >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\n"
     >>> text += "space x >= 0\\npiece x >= 0 -> x/2"
@@ -338,8 +337,9 @@ def search_map_rule(
     for name in rests_on(statement):
         if name not in known:
             return {"unknown": f"it rests on {name}, which is not certified"}
-    found = search_premises(checker.premises_of(statement, known), known, budget, hints)
-    unproved = [name for name, proof in found.items() if proof is None]
-    if unproved:
-        return {"unknown": f"no proof of {', '.join(unproved)} was found"}
-    return {"certified": {name: proof for name, proof in found.items() if proof is not None}}
+    proofs: dict[str, Proof] = {}
+    for name, proof in search_premises(checker.premises_of(statement, known), known, budget, hints):
+        if proof is None:
+            return {"unknown": f"no proof of the premise {name} was found"}
+        proofs[name] = proof
+    return {"certified": proofs}

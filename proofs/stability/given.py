@@ -5,12 +5,11 @@ map rule, and brought to the form that the checker takes.
 from __future__ import annotations
 
 import ast
-import itertools
 import operator
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, reduce
 from pathlib import Path
@@ -254,7 +253,7 @@ def read_file(path: Path) -> Map:
 
 def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
     """The map that lines (keyword, text) say; absolute values, maxima and minima are taken apart
-    into pieces, decimals are exact fractions, and what a piece divides by is said to be nonzero.
+    into pieces, and decimals are exact fractions.
     """
     said: dict[str, list[str]] = {keyword: [] for keyword in ORDER}
     for keyword, text in rows:
@@ -278,7 +277,7 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
                 f"piece {text}: {len(terms)} terms for {len(state)} state variables; write"
                 f" GUARD -> a term for each of {' '.join(state)}"
             )
-        pieces += _taken_apart(guard if arrow else "", terms)
+        pieces += [one for one in _taken_apart(guard if arrow else "", terms) if not _never(one[0])]
     found = Map(
         name,
         tuple(" ".join(said["over"]).split()),
@@ -292,7 +291,15 @@ def read_rows(name: str, rows: Sequence[tuple[str, str]]) -> Map:
         strange = sorted(checker.names_in(text) - set(found.names))
         if strange:
             raise ClaimError(f"{strange[0]} in {text} is neither parameter nor state variable")
-    return with_licences(found)
+    return found
+
+
+def _never(guard: str) -> bool:
+    """Whether the guard says something false of numbers alone."""
+    return any(
+        not poly.free_symbols and (poly < 0 or strict and poly == 0)
+        for poly, strict in atoms(guard)
+    )
 
 
 def of_rule(rule: MapRule) -> Map:
@@ -307,6 +314,7 @@ def _readable(text: str) -> str:
 
 # -------------------------------------------------------------------------------------------------
 # Absolute values, maxima and minima: one piece for each of their cases.
+
 
 def _taken_apart(guard: str, images: tuple[str, ...]) -> list[Piece]:
     """The pieces without abs, max and min; where there are several, each has a guard of its own."""
@@ -361,46 +369,6 @@ def _replaced(node: ast.expr, call: str, term: str) -> str:
     return checker_text(Put().visit(deepcopy(node)))
 
 
-# -------------------------------------------------------------------------------------------------
-# What is divided by: the checker takes a division where a fact says that its divisor is not 0.
-
-
-def with_licences(system: Map) -> Map:
-    """The map whose images are quotients of polynomials, and whose domain and guards say of each
-    divisor that it is > 0.
-    """
-    domain, pieces = system.domain, []
-    for guard, images in system.pieces:
-        terms = []
-        for image in images:
-            above, below = sympy.fraction(sympy.together(expression(image)))
-            constant, divisors = sympy.factor_list(below)
-            terms.append(image if not divisors else written(sympy.factor(above) / below))
-            for divisor, _ in divisors:
-                if divisor.free_symbols & set(symbols(system.state)):
-                    facts = conjunction(domain, system.space, guard)
-                    guard = conjunction(guard, licence(divisor, facts))
-                else:
-                    domain = conjunction(domain, licence(divisor, domain))
-        pieces.append((guard, tuple(terms)))
-    return replace(system, domain=domain, pieces=tuple(pieces))
-
-
-def licence(divisor: Expr, facts: str) -> str:
-    """That the divisor is > 0, where no fact says that it is not 0."""
-    for fact, strict in atoms(facts):
-        ratio = sympy.cancel(fact / divisor)
-        if strict and ratio.is_Rational and ratio != 0:
-            return ""
-    return f"{written(divisor)} > 0"
-
-
 def symbols(names: Iterable[str]) -> list[Expr]:
     """The names as SymPy's real symbols."""
     return [sympy.Symbol(name, real=True) for name in names]
-
-
-def products(exponents: int, count: int) -> Iterable[tuple[int, ...]]:
-    """All exponents up to a size, the smallest sum first."""
-    every = itertools.product(range(-exponents, exponents + 1), repeat=count)
-    return sorted(every, key=lambda one: (sum(map(abs, one)), one))

@@ -5,15 +5,26 @@ nothing that is proved rests on.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
+import sympy
 from numpy.typing import NDArray
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import bounds_of
-from juggleproof.proofs.stability.given import Map, holds, value
+from juggleproof.proofs.stability.given import (
+    Expr,
+    Map,
+    atoms,
+    conjunction,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
 
 Floats = NDArray[np.float64]
 Arrays = dict[str, Floats]
@@ -74,6 +85,44 @@ def region(formula: str, names: Sequence[str], count: int, given: Arrays | None 
             break
     names_kept = kept[0].keys()
     return {name: np.concatenate([part[name] for part in kept])[:count] for name in names_kept}
+
+
+# -------------------------------------------------------------------------------------------------
+# What is divided by: the checker takes a division where a fact says that its divisor is not 0.
+
+
+def with_licences(system: Map) -> Map:
+    """The map whose images are quotients of polynomials, and whose domain and guards say of each
+    divisor that it is > 0.
+    """
+    domain, pieces = system.domain, []
+    for guard, images in system.pieces:
+        terms = []
+        for image in images:
+            above, below = sympy.fraction(sympy.together(expression(image)))
+            constant, divisors = sympy.factor_list(below)
+            terms.append(image if not divisors else written(sympy.factor(above) / below))
+            for divisor, _ in divisors:
+                if divisor.free_symbols & set(symbols(system.state)):
+                    facts = conjunction(domain, system.space, guard)
+                    guard = conjunction(guard, licence(divisor, facts))
+                else:
+                    domain = conjunction(domain, licence(divisor, domain))
+        pieces.append((guard, tuple(terms)))
+    return replace(system, domain=domain, pieces=tuple(pieces))
+
+
+def licence(divisor: Expr, facts: str) -> str:
+    """That the divisor is > 0, < 0 or not 0, as it is at samples, where no fact says so."""
+    for fact, strict in atoms(facts):
+        ratio = sympy.cancel(fact / divisor)
+        if strict and ratio.is_Rational and ratio != 0:
+            return ""
+    names = sorted(checker.names_in(facts) | {str(symbol) for symbol in divisor.free_symbols})
+    at = value(written(divisor), region(facts, names, 200))
+    if (at > 0).all():
+        return f"{written(divisor)} > 0"
+    return f"{written(-divisor)} > 0" if (at < 0).all() else f"{written(divisor)} != 0"
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ which the checker takes certificates.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -20,14 +20,20 @@ from juggleproof.proofs.stability.given import (
     atoms,
     conjunction,
     expression,
-    licence,
     symbols,
     value,
     written,
 )
 from juggleproof.proofs.stability.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.points import FixedPoint, fixed_points
-from juggleproof.proofs.stability.samples import Point, around, ends_of, region
+from juggleproof.proofs.stability.samples import (
+    Point,
+    around,
+    ends_of,
+    licence,
+    region,
+    with_licences,
+)
 from juggleproof.proofs.stability.values import (
     Function,
     Setting,
@@ -91,7 +97,7 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
         left = f"{name}_point" if below == 1 else f"{name}_point*({written(below)})"
         lines.append(f"{left} = {written(above)}")
     guard, _ = system.pieces[fixed.piece]
-    points = {k: v for k, v in setting.states.points.items()}
+    points = setting.states.points
     for poly, _ in atoms(conjunction(system.space, guard)):
         if poly.free_symbols & set(symbols(system.state)):
             at_point = points | {name: points[name + "_point"] for name in system.state}
@@ -108,7 +114,7 @@ def setting_of(system: Map, fixed: FixedPoint) -> Setting:
     domain = with_point_licences(system.domain, point)
     parameters = region(domain, system.parameters, PARAMETERS)
     states = around(system, point, parameters, STATES)
-    bare = Setting(system, point, (), domain, parameters, states)
+    bare = Setting(system, point, fixed.piece, (), domain, parameters, states)
     return replace(bare, have=known_of(system, fixed, bare))
 
 
@@ -116,6 +122,7 @@ def search_stability(system: Map, report: Report = lambda text: None) -> tuple[P
     """A proof that the fixed point is stable and attracts the whole space, if one is found, and
     what was tried.
     """
+    system = with_licences(system)
     parameters = region(system.domain, system.parameters, PARAMETERS)
     every = [p for p in fixed_points(system) if p.exists(system, parameters).all()]
     proof = Proof()
@@ -143,7 +150,7 @@ def candidates(setting: Setting, on: str, name: str, report: Report) -> Iterator
             yield rule
     tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
     positive = [n for n in system.state if ends_of(system.space, n)[0] == 0]
-    for template in quadratic_templates(system, positive):
+    for template in quadratic_templates(system, setting.piece, positive):
         for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
             function = Function(tuple(terms), template.parts, template.divisor)
             for rule in lyapunov_rules(setting, function, on, name):

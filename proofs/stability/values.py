@@ -27,40 +27,38 @@ TURNS = 6  # of adding the samples that are missed
 
 @dataclass(frozen=True)
 class Template:
-    """A function V = sum of a_i b_i over a divisor: the b_i as text, and the guards under which they
-    count, if V has one part for each piece.
+    """A function V = sum of a_i b_i over a divisor: the b_i as text; where V has one part for each
+    piece, the guards, and the b_i of each part.
     """
 
     basis: tuple[str, ...]
     divisor: str = "1"
     parts: tuple[str, ...] = ()  # guards
+    bases: tuple[tuple[str, ...], ...] = ()
 
     def columns(self, point: Arrays) -> Floats:
         """The terms at each state, shape (states, unknowns)."""
         size = len(next(iter(point.values())))
         below = np.broadcast_to(np.asarray(value(self.divisor, point), float), (size,))
-        one = np.stack(
-            [
-                np.broadcast_to(np.asarray(value(b, point), float), (size,)) / below
-                for b in self.basis
-            ],
-            axis=1,
-        )
-        if not self.parts:
-            return one
-        inside = [np.broadcast_to(holds(guard, point), (size,)) for guard in self.parts]
-        return np.concatenate([one * mask[:, None] for mask in inside], axis=1)
+        blocks = []
+        for guard, basis in zip(self.parts or ("0 < 1",), self.bases or (self.basis,)):
+            inside = np.broadcast_to(holds(guard, point), (size,))
+            for b in basis:
+                column = np.broadcast_to(np.asarray(value(b, point), float), (size,))
+                blocks.append(np.where(inside, column / below, 0.0))
+        return np.stack(blocks, axis=1)
 
     def terms(self, numbers: Sequence[Fraction]) -> list[str]:
         """V as text, one term or one for each part."""
-        n = len(self.basis)
         texts = []
-        for start in range(0, len(numbers), n):
+        start = 0
+        for basis in self.bases or (self.basis,):
             parts = [
                 f"{signed(c)}*{b}" if c != 1 else b
-                for c, b in zip(numbers[start : start + n], self.basis)
+                for c, b in zip(numbers[start : start + len(basis)], basis)
                 if c
             ]
+            start += len(basis)
             total = " + ".join(parts) or "0"
             texts.append(total if self.divisor == "1" else f"({total})/({self.divisor})")
         return texts
@@ -70,9 +68,10 @@ def signed(number: Fraction) -> str:
     return f"({number})" if number < 0 or number.denominator > 1 else str(number)
 
 
-def quadratic_templates(system: Map, positive: Sequence[str]) -> Iterator[Template]:
+def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Iterator[Template]:
     """Quadratic forms in the differences, of constant coefficients first, then of coefficients that
-    are linear in the parameters, of a part for each piece, and divided by what is positive.
+    are linear in the parameters, of a part for each piece, and divided by what is positive.  piece:
+    the one that the point is in.
     """
     gaps = [name + "_gap" for name in system.state]
     pairs = list(itertools.combinations_with_replacement(gaps, 2))
@@ -84,7 +83,11 @@ def quadratic_templates(system: Map, positive: Sequence[str]) -> Iterator[Templa
     if moving:
         yield Template((*squares, *moving))
     if len(system.pieces) > 1:
-        yield Template(squares, "1", tuple(guard for guard, _ in system.pieces))
+        guards = tuple(guard for guard, _ in system.pieces)
+        whole = (*squares, *gaps, "1")
+        bases = tuple(squares if k == piece else whole for k in range(len(guards)))
+        yield Template(squares, "1", guards, (squares,) * len(guards))
+        yield Template(squares, "1", guards, bases)
     quartic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 4))
     cubic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 3))
     if len(gaps) <= 2:
@@ -325,6 +328,7 @@ class Setting:
 
     system: Map
     point: Point
+    piece: int  # that the point is in
     have: tuple[str, ...]  # what premises know of the point; nothing where its terms are simple
     domain: str
     parameters: Arrays
