@@ -11,8 +11,8 @@ HEADER = """\
 (* $name, a theorem on the orbits of a map, for coqc alone.
 
    A certificate proves each premise, as a lemma on polynomials; the lemma after it is the premise
-   in the words of the rule. The modules Map, Descent, Contraction and Escape define what the
-   theorem at the end speaks of; Rules holds for any map. *)
+   in the words of the rule. The modules Map, Descent and so on, one for each rule, define what the
+   theorem at the end speaks of; Rules and Lyapunov hold for any map. *)
 
 """
 
@@ -315,6 +315,39 @@ assert (of_own : LyapunovFunction.value_1$a of_s <= of_v) by exact (of_high 0%na
     apply (of_bounded of_s _ (conj of_there of_in)) in of_1.
     """
 
+UNSTABLE = """\
+Lemma of_near_centre_is : ${all}forall of_c of_s, ChetaevFunction.near$a of_c of_s <->
+  $inequalities.
+Proof.
+  intros$a of_c of_s. split.
+  { intro of_close. exact $forth. }
+  { intros $each_axis []; [$back]. }
+Qed.
+
+(* The point is not stable. *)
+Theorem $theorem : ${all}ChetaevFunction.domain$a ->
+  ~ Map.stable (Map.space$a) (Map.f$a) (ChetaevFunction.point$a).
+Proof.
+  intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
+  assert (of_map : Map.domain$a) by exact (${P}_inside$a$E of_dom$H).
+  destruct (${P}_constants$a$E of_dom$H) as [of_rate [of_radius of_upper]].
+  refine (Lyapunov.chetaev_instability (Map.f$a) Map.coordinate
+    (fun of_j => Map.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
+    (ChetaevFunction.guards$a) (ChetaevFunction.values$a) $count (ChetaevFunction.direction$a)
+    (ChetaevFunction.rate$a) (ChetaevFunction.radius$a) (ChetaevFunction.upper$a)
+    of_rate of_radius (fun of_s => of_map_keeps$a of_s of_map) _ _ _).
+  { intros of_d of_1 of_2. split; [exact (${P}_direction_line_$line$a$E of_d of_dom$H of_1 of_2)|].
+    destruct (${P}_direction$a$E of_d of_dom$H of_1 of_2) as [of_close of_start].
+    split; [apply (of_near_centre_is$a _ _); exact of_close|].
+    revert of_start. intros $values; [$starts]. }
+  { intros $each_value of_s of_less of_there of_close of_here of_1;
+      [$bounded|exfalso; lia]. }
+  { intros $each_value of_s of_less of_there of_close of_here of_1.
+    $grows
+    exfalso; lia. }
+Qed.
+"""
+
 ATTRACTS = """\
 (* The point is stable and attracts every state, within a bound. *)
 Theorem $theorem : ${all}Descent.domain$a ->
@@ -399,5 +432,24 @@ Proof.
   { intro of_dom. exact ($tends ($attraction$a of_dom)). }
   { intro of_out. split; [lia|exact ($escape$a of_out)]. }
   { intro of_out. pose proof (${P}_same_point$a of_out) as $each_axis. intros []; [$back]. }
+Qed.
+"""
+
+EXACTLY_OR_UNSTABLE = """\
+(* The point is stable and attracts every state just for the parameters of the descent. *)
+Theorem $theorem : ${all}Map.domain$a ->
+  (Descent.domain$a <-> Map.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
+   Map.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
+Proof.
+  intros$a of_map.
+  refine (Lyapunov.exactly_or_unstable (Map.f$a) Map.coordinate
+    (fun of_j => Map.coordinate of_j ($around.point$a))
+    (fun of_j => Map.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
+    (Descent.domain$a) (ChetaevFunction.domain$a) (${P}_covers$a of_map) _ _ _ _).
+  { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
+  { intro of_dom. exact ($tends ($attraction$a of_dom)). }
+  { intro of_out. exact ($unstable$a of_out). }
+  { intro of_out. pose proof ($at_point$a of_out) as $point.
+    pose proof (${P}_same_point$a$E of_out$H) as $each_axis. intros []; [$back]. }
 Qed.
 """

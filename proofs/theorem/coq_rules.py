@@ -4,7 +4,6 @@ the premises proved by their certificates, and the theorem by proofs/coq/Rules.v
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -13,12 +12,27 @@ from string import Template
 from juggleproof.certificates import checker
 from juggleproof.certificates.coq import PRELUDE, NotWritten, lemmas
 from juggleproof.certificates.coq.branch import Known
-from juggleproof.certificates.coq.text import conjoined, conjunctive, coq_name, disjunctive
+from juggleproof.certificates.coq.text import conjoined, conjunctive, disjunctive
 from juggleproof.certificates.language import lemmas_of, rests_on
 from juggleproof.certificates.nodes import Certificate
 from juggleproof.proofs.theorem import coq_rule_templates as texts
+from juggleproof.proofs.theorem.coq_frame import (
+    Frame,
+    equal_states,
+    nested,
+    opened,
+    theorem_name,
+)
 from juggleproof.proofs.theorem.coq_readings import reading_name, readings
-from juggleproof.proofs.theorem.coq_terms import coq_formula, coq_term, names_in, term_of
+from juggleproof.proofs.theorem.coq_values import (
+    CHETAEV,
+    LYAPUNOV,
+    Around,
+    instability_definitions,
+    instability_proofs,
+    lyapunov_definitions,
+    lyapunov_proofs,
+)
 
 COQ = Path(__file__).resolve().parents[1] / "coq"
 # what says nothing of the orbits that tend to a point, or is a part of what does
@@ -46,7 +60,8 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
             raise NotWritten(f"{one} is of a rule that is not written for Coq; claim it by another")
     frame = Frame(statements[chain[0]], statements)
     kinds = {statements[one].kind for one in chain}
-    rows = [Template(texts.HEADER).substitute(name=name), _theory("lyapunov" in kinds)]
+    rows = [Template(texts.HEADER).substitute(name=name)]
+    rows.append(_theory(not kinds.isdisjoint(("lyapunov", "unstable"))))
     used = _uses(chain, certificates)
     rows += [
         lemmas(statement, certificates[one], statements)
@@ -59,11 +74,6 @@ def theorem(name: str, statements: Known, certificates: Mapping[str, Certificate
         rows += [f"(* {'-' * 60} {one} *)\n", *define(frame, own), ""]
         rows += [readings(own, certificates[one], statements), *prove(frame, own)]
     return "\n".join([*rows, f"Print Assumptions {theorem_name(name)}.", ""])
-
-
-def theorem_name(name: str) -> str:
-    """The name of the theorem that a statement is."""
-    return "theorem_" + re.sub(r"\W", "_", name)
 
 
 def _chain(name: str, statements: Known) -> list[str]:
@@ -104,143 +114,6 @@ def _theory(with_lyapunov: bool) -> str:
     )
 
 
-class Frame:
-    """The words in which a file speaks of its map: parameters and state, bound and applied."""
-
-    def __init__(self, own: checker.Statement, known: Known) -> None:
-        (parameters,), (state,) = own.get("over"), own.get("state")
-        self.known = known
-        self.names = state
-        self.state = [*map(coq_name, state)]
-        self.axes = [f"Map.axis_{name}" for name in state]
-        self.pieces = range(1, len(own.get("piece")) + 1)
-        names = " ".join(map(coq_name, parameters))
-        self.bound = f" ({names} : R)" if names else ""
-        self.pattern = f"({self.state[0]} : State)"
-        if len(state) > 1:
-            self.pattern = f"'({self.tuple(self.state)} : State)"
-        self.words = {
-            "a": f" {names}" if names else "",
-            "all": f"forall {names} : R, " if names else "",
-            "open": _opened("of_s", self.state),
-            "s": " ".join(self.state) if len(state) > 1 else "of_s",
-        }
-
-    def tuple(self, terms: Sequence[str]) -> str:
-        """A state with these coordinates."""
-        return terms[0] if len(terms) == 1 else f"({', '.join(terms)})"
-
-    def fill(self, text: str, own: checker.Statement, **more: str | int) -> str:
-        """A template with the words of the file, of a statement, and more."""
-        prefix, name = reading_name(own.name), theorem_name(own.name)
-        return Template(text).substitute({**self.words, "P": prefix, "theorem": name, **more})
-
-    def define(
-        self,
-        own: checker.Statement,
-        name: str,
-        returns: str,
-        *parts: str,
-        of_state: bool = True,
-        more: str = "",
-    ) -> str:
-        """A definition over the parameters, of a state, and of more, by the texts of a statement;
-        of several it is the state that they are the coordinates of.
-        """
-        state = (f" {self.pattern}" if of_state else "") + more
-        write = coq_formula if returns == "Prop" else coq_term
-        body = self.lets(own, parts) + self.tuple([write(part) for part in parts])
-        return f"Definition {name}{self.bound}{state} : {returns} :=\n  {body}."
-
-    def lets(self, own: checker.Statement, parts: Sequence[str]) -> str:
-        """What texts name beside parameters and state, in order, as `let` of Coq: roots, and around
-        a point its coordinates, and the state less these.
-        """
-        roots = [(name, f"sqrt ({term_of(under, 0)})", under) for name, (under,) in own.get("root")]
-        entries = roots
-        if own.get("value"):
-            moving, fixed = {*self.names, *(f"{name}_gap" for name in self.names)}, []
-            for root in roots:
-                if _names(root[2]) & moving:
-                    moving.add(root[0])
-                else:
-                    fixed.append(root)
-            point = [
-                (f"{name}_point", coq_term(text), checker.parse(text))
-                for name, text in zip(self.names, own.get("point")[0])
-            ]
-            gaps = [
-                (f"{name}_gap", coq_term(text), checker.parse(text))
-                for name, text in ((name, f"{name} - {name}_point") for name in self.names)
-            ]
-            entries = [*fixed, *point, *gaps, *(one for one in roots if one not in fixed)]
-        used = set().union(*map(names_in, parts))
-        rows = ""
-        for name, value, node in reversed(entries):
-            if name in used:
-                used |= _names(node)
-                rows = f"let {coq_name(name)} := {value} in " + rows
-        return rows
-
-    def by_pieces(
-        self,
-        own: checker.Statement,
-        premise: str,
-        known: str,
-        point: str = "$s",
-        places: str = " in of_next |- *",
-        case: str = "exact {}",
-    ) -> str:
-        """Tactics that show something of the next state by a premise for each piece; known: what
-        it assumes; point: the coordinates; places: where the next state occurs.
-        """
-        first, _, last = premise.partition(" ")
-        cases = "|".join(
-            case.format(f"(${{P}}_{first}_{k}{last}$a {point} {known})") for k in self.pieces
-        )
-        opened = self.words["open"].replace(". ", "; ")
-        return self.fill(
-            f"destruct (of_map_moves$a of_s of_map of_there) as {self.one_piece()};\n"
-            f"    rewrite of_same{places}; clear of_same; {opened}[{cases}].",
-            own,
-        )
-
-    def one_piece(self) -> str:
-        """The pattern for the piece whose guard holds, and for the image by it."""
-        return disjunctive(["[of_g of_same]"] * len(self.pieces))
-
-    def extra_steps(self, descent: checker.Statement) -> int:
-        """The steps from the first stage to the last."""
-        return len(descent.get("stage")) - 1
-
-
-def _opened(state: str, names: Sequence[str]) -> str:
-    """The tactic that takes a state apart, where it has several coordinates."""
-    pattern = names[0]
-    for name in names[1:]:
-        pattern = f"[{pattern} {name}]"
-    return f"destruct {state} as {pattern}. " if len(names) > 1 else ""
-
-
-def _equal_states(proofs: Sequence[str]) -> str:
-    """A proof that states are equal, from those for the coordinates."""
-    proof = proofs[0]
-    for one in proofs[1:]:
-        proof = f"(f_equal2 pair {proof} {one})"
-    return proof
-
-
-def _names(node: ast.expr) -> set[str]:
-    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
-
-
-def _nested(last: str, count: int) -> str:
-    """The pattern for a number that is one of the first few, or more."""
-    for _ in range(count):
-        last = f"[|{last}]"
-    return last
-
-
 # -------------------------------------------------------------------------------------------------
 # The rules, each by its definitions, and by what follows from its premises.
 
@@ -260,9 +133,7 @@ def map_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     for k, ((guard,), images) in enumerate(own.get("piece"), 1):
         yield f.define(own, f"guard_{k}", "Prop", guard)
         yield f.define(own, f"image_{k}", "State", *images)
-        bound, decided = f"{f.bound} (of_s : State)", "{guard_$k$a of_s} + {~ guard_$k$a of_s}"
-        yield f.fill(f"Lemma decided_$k{bound} : {decided}.", own, k=k)
-        yield f.fill("Proof. ${open}cbv beta iota zeta delta [guard_$k]. decidable. Qed.", own, k=k)
+        yield f.decided(own, k)
     for k in reversed(f.pieces):
         steps = f.fill(f"if decided_$k$a of_s then image_$k$a of_s\n  else {steps}", own, k=k)
     yield f"Definition f{f.bound} (of_s : State) : State :=\n  {steps}."
@@ -285,8 +156,8 @@ def map_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         one_guard=disjunctive(["of_g"] * last),
         none="|".join(f"exact (of_not_{k} of_g)" for k in f.pieces),
         stays=f.by_pieces(own, "stays", "of_map of_there of_g", places=""),
-        open_t=_opened("of_t", [f"of_{axis}" for axis in range(len(f.axes))]),
-        equal=_equal_states([f"(of_same {axis})" for axis in f.axes]),
+        open_t=opened("of_t", [f"of_{axis}" for axis in range(len(f.axes))]),
+        equal=equal_states([f"(of_same {axis})" for axis in f.axes]),
     )
     for k in f.pieces:
         others = []
@@ -333,7 +204,7 @@ def descent_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     yield f.fill(
         texts.DESCENDS,
         own,
-        each_stage=_nested("of_k", len(stages) - 1),
+        each_stage=nested("of_k", len(stages) - 1),
         lead_on=f.fill(lead_on, own),
         last=last,
         extra=f.extra_steps(own),
@@ -401,141 +272,6 @@ def contraction_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     )
 
 
-FUNCTION = "LyapunovFunction"
-
-
-def lyapunov_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The set, the point, the terms of the value, and the numbers."""
-    yield f"Module {FUNCTION}.\nImport Map."
-    yield f.define(own, "domain", "Prop", *own.rows("domain"), of_state=False)
-    yield f.define(own, "on", "Prop", *own.get("on"))
-    yield f.define(own, "point", "State", *own.get("point")[0], of_state=False)
-    guards = values = ""
-    for k, (guard, (term,)) in enumerate(own.get("value"), 1):
-        yield f.define(own, f"value_{k}", "R", term)
-        values += f.fill(f"{k - 1}%nat => value_{k}$a | ", own)
-        if guard:
-            yield f.define(own, f"guard_{k}", "Prop", *guard)
-            holds = f.fill(f"guard_{k}$a of_s", own)
-            yield f"Lemma decided_{k}{f.bound} (of_s : State) : {{{holds}}} + {{~ {holds}}}."
-            opened = f.words["open"]
-            yield f"Proof. {opened}cbv beta iota zeta delta [guard_{k}]. decidable. Qed."
-        each = f"guard_{k}$a" if guard else "fun _ => True"
-        guards += f.fill(f"{k - 1}%nat => {each} | ", own)
-    match = "(of_i : nat) : State -> {} :=\n  match of_i with {} end."
-    yield f"Definition guards{f.bound} " + match.format("Prop", guards + "_ => fun _ => False")
-    yield f"Definition values{f.bound} " + match.format("R", values + "_ => fun _ => 0")
-    yield f.define(own, "loss", "R", *own.get("loss"), more=" (value : R)")
-    both = " (distance level : R)"
-    yield f.define(own, "least", "R", *own.get("least"), of_state=False, more=both)
-    for name in ("upper", "radius"):
-        yield f.define(own, name, "R", *own.get(name), of_state=False)
-    bound = f"{f.bound} (of_s : State) : Prop"
-    yield f.fill(f"Definition set{bound} := space$a of_s /\\ on$a of_s.", own)
-    yield f.fill(
-        f"Definition near{f.bound} : R -> State -> Prop :=\n"
-        "  Lyapunov.close coordinate (fun of_j => coordinate of_j (point$a)).",
-        own,
-    )
-    yield f"End {FUNCTION}."
-
-
-def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
-    """The point is fixed, stable, and attracts the set."""
-    values, have = own.get("value"), own.get("have")
-    count, is_plain = len(values), len(values) == 1 and not values[0][0]
-    names = f.state if len(f.axes) > 1 else ["of_s"]
-    at = [f"(Map.coordinate {axis} ({FUNCTION}.point$a))" for axis in f.axes]
-    gaps = " ".join(f"({name} - {e})" for name, e in zip(names, at))
-    sums = " ".join(f"{name} (sum_is {name} {e})" for name, e in zip(names, at))
-    points = "".join(f" {e}" for e in at) if have else ""
-    proofs = "".join(f" of_have_{k}" for k in range(1, len(have) + 1))
-    each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
-    apart = [f"Map.coordinate {axis} of_s - {e}" for axis, e in zip(f.axes, at)]
-    here, heres = "", " ".join(f"of_here_{k}" for k in range(1, count + 1))
-    for k, (guard, _) in enumerate(values, 1):
-        least = f"{FUNCTION}.value_{k}$a of_s <= of_v"
-        if guard:
-            here += (
-                f"assert (of_here_{k} : ~ {FUNCTION}.guard_{k}$a of_s \\/ {least}).\n"
-                f"    {{ destruct ({FUNCTION}.decided_{k}$a of_s) as [of_g|of_g]; [right|left].\n"
-                f"      exact (of_high {k - 1}%nat ltac:(lia) of_g). exact of_g. }}\n    "
-            )
-        else:
-            here += (
-                f"assert (of_here_{k} : {least}) by exact (of_high {k - 1}%nat ltac:(lia) I).\n    "
-            )
-    value = f"({FUNCTION}.value_1$a of_s)" if is_plain else "of_v"
-    loss = f"{FUNCTION}.loss$a of_s {value}"
-    known = "(Rle_ge _ _ of_1) (one_more _ of_1)"
-    given = known if is_plain else f"{heres} {known}"
-    own_value = f.fill(texts.OWN_VALUE, own) if is_plain else ""
-    before = f"of_dom{proofs} {sums} of_there of_in"
-    extra = "" if is_plain else " of_v"
-    falls = []
-    for k, (guard, _) in enumerate(values, 1):
-        rows = f"{{ assert (of_next := of_map_keeps$a of_s of_map of_there).\n    {own_value}{here}"
-        if is_plain:
-            rows += f"apply Rle_trans with ({value} - {loss});\n      "
-            rows += "[|exact (Rplus_le_compat_r _ _ _ of_own)].\n    "
-        choice = "destruct {} as [of_no|of_le]; [destruct (of_no of_guard)|exact of_le]"
-        rows += f.by_pieces(
-            own,
-            f"falls _{k}",
-            f"{before} {given} of_g of_next",
-            point=f"{points} {gaps}{extra}",
-            places=" in of_next, of_guard |- *",
-            case=choice if guard else "exact {}",
-        )
-        falls.append(rows + " }")
-    small = [
-        f"apply (of_near_point_is$a _ _) in of_close; {f.words['open'].replace('. ', '; ')}"
-        f"exact (${{P}}_small_{k}$a{points} {gaps} of_d of_dom{proofs} {sums} of_there"
-        f" (Rle_ge _ _ of_1) of_close of_2{' of_here' if guard else ''})"
-        for k, (guard, _) in enumerate(values, 1)
-    ]
-    norm = f"(Map.f$a) Map.coordinate (fun of_j => Map.coordinate of_j ({FUNCTION}.point$a))"
-    parts = f"({FUNCTION}.guards$a) ({FUNCTION}.values$a) {count}"
-    losses = f"(fun of_s {'_' if is_plain else 'of_v'} => {loss})"
-    far = []
-    for k in range(len(f.axes)):
-        side = "of_far" if k == len(f.axes) - 1 else "(or_introl of_far)"
-        for _ in range(k):
-            side = f"(or_intror {side})"
-        far.append(f"exact {side}")
-    words = {
-        "inequalities": " /\\\n  ".join(f"(- of_c <= {one} /\\ {one} <= of_c)" for one in apart),
-        "forth": conjoined([f"(proj1 (within_is _ _) (of_close {axis}))" for axis in f.axes]),
-        "each_axis": conjunctive(each),
-        "back": "|".join(f"exact (proj2 (within_is _ _) {name})" for name in each),
-        "point": conjunctive(["of_at", *proofs.split()]),
-        "E": points,
-        "H": proofs,
-        "gaps": gaps,
-        "sums": sums,
-        "each_value": _nested("of_i", count),
-        "small": "|".join(small),
-        "stays": f.by_pieces(own, "stays", f"{before} of_g of_next", point=f"{points} {gaps}"),
-        "here": here,
-        "at_least": heres,
-        "loss": loss,
-        "own_value": own_value,
-        "level": "apply (Rle_trans _ _ _ of_own) in of_4. " if is_plain else "",
-        "v": extra,
-        "given": f" {given}",
-        "far": " \\/ ".join(f"({one} >= of_d \\/ {one} <= - of_d)" for one in apart),
-        "each_far": "|".join(far),
-        "value": value,
-        "reached": "(Rle_refl _)" if is_plain else heres,
-        "falls": "\n    ".join(falls),
-        "function": f"{norm} (Map.space$a)\n      ({FUNCTION}.set$a) {parts} {losses}"
-        f" ({FUNCTION}.least$a)\n      ({FUNCTION}.upper$a) ({FUNCTION}.radius$a)",
-        "attraction": f"{norm}\n      ({FUNCTION}.set$a) {parts} {losses} ({FUNCTION}.least$a)",
-    }
-    filled = {name: f.fill(text, own) for name, text in words.items()}
-    yield f.fill(texts.LYAPUNOV, own, count=count, **filled)
-
-
 def no_definitions(f: Frame, own: checker.Statement) -> Iterator[str]:
     """None: the statement names what others define."""
     return iter(())
@@ -600,25 +336,38 @@ def escape_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         steps=f.fill("\n  ".join(steps), own),
         apart=apart,
         rewritten=", ".join(f"of_step_{k}" for k in range(len(word))),
-        equal=_equal_states([f"(eq_sym {one})" for one in back]),
+        equal=equal_states([f"(eq_sym {one})" for one in back]),
     )
 
 
 def sharp_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     """The point is stable and attracts every state just on the domain of the descent."""
-    escape, attraction = f.known[own.text("escape")], f.known[own.text("attraction")]
+    attraction = f.known[own.text("attraction")]
     by_lyapunov = bool(attraction.get("lyapunov"))
     each = [f"of_{k}" for k in range(1, len(f.axes) + 1)]
+    words = {
+        "around": LYAPUNOV if by_lyapunov else "Contraction",
+        "tends": "proj2" if by_lyapunov else "(fun of_all => proj1 (proj2 of_all))",
+        "attraction": theorem_name(attraction.name),
+        "each_axis": conjunctive(each),
+        "back": "|".join(f"exact (eq_sym {one})" for one in each),
+    }
+    if own.get("escape"):
+        escape = f.known[own.text("escape")]
+        name, period = theorem_name(escape.name), len(escape.get("word")[0])
+        yield f.fill(texts.EXACTLY, own, escape=name, period=period, **words)
+        return
+    unstable = f.known[own.text("unstable")]
+    around = Around(f, unstable, CHETAEV).words
     yield f.fill(
-        texts.EXACTLY,
+        texts.EXACTLY_OR_UNSTABLE,
         own,
-        period=len(escape.get("word")[0]),
-        around=FUNCTION if by_lyapunov else "Contraction",
-        tends="proj2" if by_lyapunov else "(fun of_all => proj1 (proj2 of_all))",
-        attraction=theorem_name(attraction.name),
-        escape=theorem_name(escape.name),
-        each_axis=conjunctive(each),
-        back="|".join(f"exact (eq_sym {one})" for one in each),
+        unstable=theorem_name(unstable.name),
+        at_point=reading_name(f"{unstable.name}.point"),
+        point=around["point"],
+        E=f.fill(around["E"], own),
+        H=around["H"],
+        **words,
     )
 
 
@@ -628,6 +377,7 @@ RULES: Mapping[str, tuple[Rows, Rows]] = {
     "descends": (descent_definitions, descent_proofs),
     "contracts": (contraction_definitions, contraction_proofs),
     "lyapunov": (lyapunov_definitions, lyapunov_proofs),
+    "unstable": (instability_definitions, instability_proofs),
     "attracts": (no_definitions, attraction_proofs),
     "escapes": (escape_definitions, escape_proofs),
     "exactly": (no_definitions, sharp_proofs),

@@ -1,4 +1,4 @@
-"""Claims on the orbits of maps, as a user's own file has them: in one coordinate, with every rule;
+"""Claims on the orbits of maps, as a user's own file has them: with every rule, in one coordinate
 and in two, with square roots of the parameter and of the state.
 """
 
@@ -44,6 +44,46 @@ def origin_attracts_the_square() -> list[MapRule]:
         MapRule("near", (*of, *set_, *norm("1, 1", rate="1/2", radius="u", size="10"))),
         MapRule("down", (*of, *rank)),
         MapRule("all", (("descent", "mixed/down"), ("contraction", "mixed/near"))),
+    ]
+
+
+@claim("shifted")
+def a_fixed_point_that_moves_attracts() -> list[MapRule]:
+    """x -> a x + 1 on x >= 0, 0 < a < 1: 1/(1 - a) is stable and attracts every state."""
+    over = (("over", "a"), ("domain", "a > 0 and a != 1"), ("state", "x"), ("space", "x >= 0"))
+    map_, have = ("map", "shifted/map"), ("have", "(1 - a)*x_point = 1")
+    of = (map_, ("domain", "0 < a and a < 1 and 1 - a > 0"))
+    value = (("value", "x_gap >= 0 -> x_gap"), ("value", "-x_gap"))
+    falls = (("loss", "(1 - a)*value"), ("least", "(1 - a)*distance"), ("upper", "1"))
+    return [
+        MapRule("map", (*over, ("piece", "x < 1 -> a*x + 1"), ("piece", "x >= 1 -> 1 + x*a"))),
+        MapRule(
+            "near",
+            (*of, ("on", "x >= 0"), ("point", "1/(1 - a)"), have, *value, *falls, ("radius", "1")),
+        ),
+        MapRule("down", (*of, ("rank", "0"), ("stage", "x >= 0"))),
+        MapRule("all", (("descent", "shifted/down"), ("lyapunov", "shifted/near"))),
+    ]
+
+
+@claim("grown")
+def zero_is_stable_just_below_1() -> list[MapRule]:
+    """x -> a x for all x, a > 0, a != 1: 0 is stable and attracts every state just for a < 1."""
+    line = "x^2 >= 0"
+    over = (("over", "a"), ("domain", "a > 0 and a != 1"), ("state", "x"), ("space", line))
+    map_, point = ("map", "grown/map"), ("point", "0")
+    of = (map_, ("domain", BELOW_1))
+    falls = (("loss", "(1 - a^2)*value"), ("least", "(1 - a^2)*distance^2"))
+    direction = (("direction", "x_point + distance"), ("have", "x_point = 0"))
+    grows = (("value", "x_gap >= 0 -> x_gap"), ("value", "-x"), ("rate", "a"))
+    ends = (("upper", "1"), ("radius", "1"))
+    return [
+        MapRule("map", (*over, ("piece", line + " -> a*x"))),
+        MapRule("near", (*of, ("on", line), point, ("value", "x_gap^2"), *falls, *ends)),
+        MapRule("down", (*of, ("rank", "0"), ("stage", line))),
+        MapRule("all", (("descent", "grown/down"), ("lyapunov", "grown/near"))),
+        MapRule("away", (map_, ("domain", "a > 1"), point, *direction, *grows, *ends[::-1])),
+        MapRule("exactly", (("attraction", "grown/all"), ("unstable", "grown/away"))),
     ]
 
 

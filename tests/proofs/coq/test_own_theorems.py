@@ -26,12 +26,18 @@ from tests.proofs.coq.development import coqc
 from tests.proofs.coq.test_development import REALS
 
 MAPS = Path(__file__).with_name("maps.py")
-SHARP, PLANE = "scaled/exactly", "mixed/all"
+SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
 CONCLUSIONS = {
     SHARP: "forall a : R, Map.domain a -> (Descent.domain a <-> Map.stable (Map.space a) (Map.f a)"
     " (Contraction.point a) /\\ Map.attracting (Map.space a) (Map.f a) (Contraction.point a)).",
     PLANE: "forall a : R, Descent.domain a -> Map.stable (Map.space a) (Map.f a)"
     " (Contraction.point a) /\\ Map.attracting (Map.space a) (Map.f a) (Contraction.point a) /\\",
+    SHIFTED: "forall a : R, Descent.domain a -> Map.stable (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a) /\\ Map.attracting (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a).",
+    GROWN: "forall a : R, Map.domain a -> (Descent.domain a <-> Map.stable (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a) /\\ Map.attracting (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a)).",
 }
 
 
@@ -56,7 +62,7 @@ def taken(folder: Path, text: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
 
 
-@pytest.mark.parametrize("name", [SHARP, PLANE])
+@pytest.mark.parametrize("name", CONCLUSIONS)
 def test_coqc_accepts_a_theorem_alone_holds(name: str, tmp_path: Path) -> None:
     coqc()
     text = written(name, *judged())
@@ -85,6 +91,8 @@ def forged(own: str, premise: str, other: str) -> dict[str, Any]:
         (SHARP, "scaled/near", "closer-1", "stays-1"),
         (SHARP, "scaled/map", "stays-1", "covers"),
         (PLANE, "mixed/down", "stage-1-1", "falls-1"),
+        (SHIFTED, "shifted/near", "falls-1-1", "falls-2-2"),
+        (GROWN, "grown/away", "grows-1-1", "grows-1-2"),
     ],
 )
 def test_rejects_a_forged_certificate(
@@ -126,17 +134,19 @@ def test_rejects_another_map_with_the_certificates_of_one(tmp_path: Path) -> Non
 
 def test_export_writes_a_file_for_each_theorem_holds(tmp_path: Path) -> None:
     assert run(["export", "coq", str(MAPS), "-o", str(tmp_path)]) == 0
-    assert {path.name for path in tmp_path.iterdir()} == {"S_scaled_exactly.v", "S_mixed_all.v"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        f"S_{one.replace('/', '_')}.v" for one in CONCLUSIONS
+    }
     assert (tmp_path / "S_mixed_all.v").read_text() == written(PLANE, *judged())
 
 
 def test_rests_on_decides_what_is_a_theorem_holds() -> None:
     texts = judged()[0]
-    assert theorems_in(checker.read_statements("\n\n".join(texts.values()))) == [SHARP, PLANE]
+    assert theorems_in(checker.read_statements("\n\n".join(texts.values()))) == [*CONCLUSIONS]
     del texts[SHARP]
     assert theorems_in(checker.read_statements("\n\n".join(texts.values()))) == [
         "scaled/all",
-        PLANE,
+        *[*CONCLUSIONS][1:],
     ]
 
 
@@ -146,7 +156,8 @@ def test_rejects_what_cannot_be_written_in_one_line(
     own = shutil.copy(MAPS, tmp_path / "own.py")
     monkeypatch.delitem(coq_rules.RULES, "escapes")
     assert run(["export", "coq", str(own), "-o", str(tmp_path / "coq")]) == 1
-    assert [path.name for path in (tmp_path / "coq").iterdir()] == ["S_mixed_all.v"]
+    names = {path.name for path in (tmp_path / "coq").iterdir()}
+    assert "S_scaled_exactly.v" not in names and len(names) == len(CONCLUSIONS) - 1
     assert capsys.readouterr().err == (
         f"juggleproof: {own}: scaled/exactly: scaled/away is of a rule that is not written for Coq;"
         " claim it by another\n"
@@ -162,7 +173,10 @@ def test_rejects_what_cannot_be_written_in_one_line(
 @pytest.mark.parametrize(
     "names, says",
     [
-        ([str(MAPS)], "several theorems, scaled/exactly, mixed/all; give -o DIR"),
+        (
+            [str(MAPS)],
+            "several theorems, scaled/exactly, mixed/all, shifted/all, grown/exactly; give",
+        ),
         ([str(MAPS), "eq-37"], "files and claims of the paper together"),
         (["none.py"], "none.py: no such file"),
     ],
