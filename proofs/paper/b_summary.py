@@ -316,7 +316,7 @@ def map_on_b1_again(printed: Printed) -> list[Statement]:
 def map_on_b2_again(printed: Printed) -> Statement:
     """The dynamics on B2, which have to be what free flight makes of a state until the next bounce.
 
-    f_1 is the map on B1, as the section has it; x, which it does not introduce, is taken for the
+    f1 is the map on B1, as the section has it; x, which it does not introduce, is taken for the
     state.
     """
     names: dict[str, Value] = {

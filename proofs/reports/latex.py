@@ -198,7 +198,7 @@ class _Printer:
             )
         if isinstance(node, ast.BoolOp):
             word, parts = "and" if isinstance(node.op, ast.And) else "or", node.values
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in JOINED:
             word, parts = node.func.id, node.args
         else:
             raise TypeError(f"no formula: {ast.dump(node)}")

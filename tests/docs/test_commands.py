@@ -6,22 +6,22 @@ from __future__ import annotations
 
 import doctest
 import importlib.util
-import os
 import re
 import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
 from juggleproof.certificates.store import DEFAULT
+from juggleproof.proofs.command import main
 from tests.docs.pages import PAGES, ROOT, blocks, code, name
 
-PROGRAMS = {
-    "juggleproof": [sys.executable, "-m", "juggleproof.proofs.command.main"],
+PROGRAMS = {  # juggleproof itself is run in this process, which has loaded it
     "python": [sys.executable],
     "pytest": [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"],
 }
@@ -37,7 +37,6 @@ SMALLER = {
     "juggleproof bench --question": "--widths 1e-2 --seconds 1",
     "juggleproof bench": "--quick --seconds 1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
-    "python -m juggleproof.benchmarks.peers": "--share 400 --seconds 1",
     "python -m juggleproof.benchmarks.speed": "--only smt2 --runs 1",
     "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
 }
@@ -64,6 +63,11 @@ ELSEWHERE = {
         "found = dict(judge_all(",
     ),
     "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
+    "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
+    "python -m juggleproof.benchmarks.peers": (
+        "tests/benchmarks/test_peers.py",
+        'peers.main(["--share", "400"',
+    ),
 }
 NEEDS = {
     "simulate part": "numba",
@@ -91,8 +95,45 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
-def run(command: str, page: Path, folder: Path) -> subprocess.CompletedProcess[str]:
-    """The command, in a folder with the files that the page shows and a copy of the store."""
+class Done(NamedTuple):
+    """The exit code of a command, and what it has printed."""
+
+    code: int
+    out: str
+    err: str
+
+
+Run = Callable[[str, Path], Done]
+
+
+@pytest.fixture
+def run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Run:
+    """Runs a command in a folder with the files that a page shows and a copy of the store."""
+    environment = {"PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"}
+    for variable, value in environment.items():
+        monkeypatch.setenv(variable, value)
+
+    def run(command: str, page: Path) -> Done:
+        first, *rest = arguments(command, page, tmp_path)
+        monkeypatch.chdir(ROOT if first == "python" else tmp_path)
+        if first == "juggleproof":
+            try:
+                code = main.run(rest)
+            except SystemExit as stop:  # of --version
+                code = int(stop.code or 0)
+            return Done(code, *capsys.readouterr())
+        done = subprocess.run(
+            [*PROGRAMS[first], *rest], capture_output=True, text=True, timeout=600, check=False
+        )
+        return Done(done.returncode, done.stdout, done.stderr)
+
+    return run
+
+
+def arguments(command: str, page: Path, folder: Path) -> list[str]:
+    """The words of a command, when the folder has what it reads."""
     for block in [*blocks(ROOT / "docs/your-own.md"), *blocks(page)]:
         if block.title:
             path = folder / block.title
@@ -103,22 +144,15 @@ def run(command: str, page: Path, folder: Path) -> subprocess.CompletedProcess[s
     if paper:  # what is judged here must not write into the store
         shutil.copytree(DEFAULT, folder / "store")
         rest += ["--store", "store"]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"}
-    return subprocess.run(
-        [*PROGRAMS[first], *rest],
-        capture_output=True,
-        text=True,
-        cwd=ROOT if first == "python" else folder,
-        env=environment,
-        timeout=600,
-        check=False,
-    )
+    return [first, *rest]
 
 
 @pytest.mark.parametrize(
     ("page", "command"), COMMANDS, ids=[f"{name(page)}: {one}" for page, one in COMMANDS]
 )
-def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path) -> None:
+def test_a_command_that_is_shown_runs(
+    page: Path, command: str, tmp_path: Path, run: Run
+) -> None:
     if command in ELSEWHERE:
         file, text = ELSEWHERE[command]
         assert text in (ROOT / file).read_text(encoding="utf-8")
@@ -131,21 +165,21 @@ def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path) 
     stored = command.startswith("juggleproof check mine.") or " mean.certificates" in command
     if stored:  # what the line above it has written
         source = "mine.py" if "mine." in command else "mean.smt2"
-        assert run(f"juggleproof certify {source}", page, tmp_path).returncode == 0
+        assert run(f"juggleproof certify {source}", page).code == 0
     less = next((more for begin, more in SMALLER.items() if command.startswith(begin)), "")
     if " -o scenes/" in command:
         (tmp_path / "scenes/part").mkdir(parents=True)
-    done = run(f"{command} {less}", page, tmp_path)
-    assert done.returncode == 0, done.stdout + done.stderr
+    done = run(f"{command} {less}", page)
+    assert done.code == 0, done.out + done.err
 
 
 SESSIONS = [(page, one) for page in PAGES for one in code(page, "console")]
 
 
 @pytest.mark.parametrize(("page", "session"), SESSIONS, ids=[name(page) for page, _ in SESSIONS])
-def test_what_is_shown_of_an_output_is_printed(page: Path, session: str, tmp_path: Path) -> None:
+def test_what_is_shown_of_an_output_is_printed(page: Path, session: str, run: Run) -> None:
     command, _, expected = session.removeprefix("$ ").partition("\n")
-    printed = run(command, page, tmp_path).stdout
+    printed = run(command, page).out
     checker = doctest.OutputChecker()
     assert checker.check_output(expected, printed, doctest.ELLIPSIS), printed
 
