@@ -13,13 +13,13 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
 from juggleproof.certificates.store import DEFAULT
-from juggleproof.proofs.command import main
 from tests.docs.pages import PAGES, ROOT, blocks, code, name
+from tests.proofs.command import running
+from tests.proofs.command.running import Done
 
 PROGRAMS = {  # juggleproof itself is run in this process, which has loaded it
     "python": [sys.executable],
@@ -34,7 +34,6 @@ SMALLER = {
     "juggleproof simulate part --figure": "--horizon 0.05",
     "juggleproof simulate part --animation": "--horizon 0.05",
     "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
-    "juggleproof bench --question": "--widths 1e-2 --seconds 1",
     "juggleproof bench": "--quick --seconds 1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
     "python -m juggleproof.benchmarks.speed": "--only smt2 --runs 1",
@@ -56,7 +55,25 @@ ELSEWHERE = {
         "tests/proofs/test_pytest_plugin.py",
         'runpytest_subprocess("--juggleproof", "-v", "-s")',
     ),
+    "pytest --juggleproof juggleproof::eq-37": (
+        "tests/proofs/test_pytest_plugin.py",
+        '"--juggleproof", "juggleproof::eq-37"',
+    ),
+    "juggleproof check": ("tests/proofs/command/test_check.py", "check(None)"),
+    "python -I -S certificates/checker": (
+        "tests/proofs/paper/test_claims.py",
+        '"-I", "-S", "certificates/checker"',
+    ),
+    "juggleproof certify --json F --junit G --markdown H": (
+        "tests/proofs/test_register.py",
+        'for option in ("json", "junit", "markdown")',
+    ),
+    "juggleproof bench --question DE-H --widths 1e-3,1e-9 --seconds 5 -o DIR": (
+        "tests/benchmarks/bench/test_bench.py",
+        '"--question",',
+    ),
     "juggleproof bench --quick": ("tests/docs/test_commands.py", '"juggleproof bench": "--quick'),
+    "juggleproof certify --only eq-36": ("tests/proofs/test_register.py", 'command("--only", '),
     "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
     "python -m tests.certificates.checker.mutate rules.close_by_sign": (
         "tests/certificates/checker/test_mutants.py",
@@ -95,37 +112,26 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
-class Done(NamedTuple):
-    """The exit code of a command, and what it has printed."""
-
-    code: int
-    out: str
-    err: str
-
-
 Run = Callable[[str, Path], Done]
 
 
 @pytest.fixture
-def run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Run:
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Runs a command in a folder with the files that a page shows and a copy of the store."""
-    environment = {"PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"}
-    for variable, value in environment.items():
+    for variable, value in {"PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"}.items():
         monkeypatch.setenv(variable, value)
 
     def run(command: str, page: Path) -> Done:
         first, *rest = arguments(command, page, tmp_path)
-        monkeypatch.chdir(ROOT if first == "python" else tmp_path)
         if first == "juggleproof":
-            try:
-                code = main.run(rest)
-            except SystemExit as stop:  # of --version
-                code = int(stop.code or 0)
-            return Done(code, *capsys.readouterr())
+            return running.run(*rest, cwd=tmp_path)
         done = subprocess.run(
-            [*PROGRAMS[first], *rest], capture_output=True, text=True, timeout=600, check=False
+            [*PROGRAMS[first], *rest],
+            capture_output=True,
+            text=True,
+            cwd=ROOT if first == "python" else tmp_path,
+            timeout=600,
+            check=False,
         )
         return Done(done.returncode, done.stdout, done.stderr)
 
@@ -150,9 +156,7 @@ def arguments(command: str, page: Path, folder: Path) -> list[str]:
 @pytest.mark.parametrize(
     ("page", "command"), COMMANDS, ids=[f"{name(page)}: {one}" for page, one in COMMANDS]
 )
-def test_a_command_that_is_shown_runs(
-    page: Path, command: str, tmp_path: Path, run: Run
-) -> None:
+def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path, run: Run) -> None:
     if command in ELSEWHERE:
         file, text = ELSEWHERE[command]
         assert text in (ROOT / file).read_text(encoding="utf-8")
@@ -165,12 +169,12 @@ def test_a_command_that_is_shown_runs(
     stored = command.startswith("juggleproof check mine.") or " mean.certificates" in command
     if stored:  # what the line above it has written
         source = "mine.py" if "mine." in command else "mean.smt2"
-        assert run(f"juggleproof certify {source}", page).code == 0
+        assert run(f"juggleproof certify {source}", page).returncode == 0
     less = next((more for begin, more in SMALLER.items() if command.startswith(begin)), "")
     if " -o scenes/" in command:
         (tmp_path / "scenes/part").mkdir(parents=True)
     done = run(f"{command} {less}", page)
-    assert done.code == 0, done.out + done.err
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 SESSIONS = [(page, one) for page in PAGES for one in code(page, "console")]
@@ -179,7 +183,7 @@ SESSIONS = [(page, one) for page in PAGES for one in code(page, "console")]
 @pytest.mark.parametrize(("page", "session"), SESSIONS, ids=[name(page) for page, _ in SESSIONS])
 def test_what_is_shown_of_an_output_is_printed(page: Path, session: str, run: Run) -> None:
     command, _, expected = session.removeprefix("$ ").partition("\n")
-    printed = run(command, page).out
+    printed = run(command, page).stdout
     checker = doctest.OutputChecker()
     assert checker.check_output(expected, printed, doctest.ELLIPSIS), printed
 

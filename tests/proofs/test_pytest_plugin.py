@@ -209,6 +209,12 @@ def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
     } == store
 
 
+def test_a_node_id_selects_a_claim_of_the_paper_holds(inner: pytest.Pytester) -> None:
+    result = inner.runpytest_subprocess("--juggleproof", "juggleproof::eq-37", "--collect-only")
+    assert result.ret == 0 and "collected 1 item" in result.stdout.str()
+    assert "<ClaimItem eq-37>" in result.stdout.str()
+
+
 def test_plugin_is_registered_and_cheap_to_load_holds() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     assert project["entry-points"]["pytest11"] == {
