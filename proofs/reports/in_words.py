@@ -58,7 +58,7 @@ NOUNS = {  # of definitions, of `named_terms`, and of variables that mean one th
     "v0": "the velocity",
     "chi_dot": "the relative velocity before the impact",
     "chi_dot_after": "the relative velocity after the impact",
-    "flown": "the time since the launch",
+    "time": "the time since the launch",
 }
 # The left and the right side of statements that compare longer terms.
 SIDES = {

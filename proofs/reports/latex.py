@@ -198,9 +198,11 @@ class _Printer:
             )
         if isinstance(node, ast.BoolOp):
             word, parts = "and" if isinstance(node.op, ast.And) else "or", node.values
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in JOINED:
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
             word, parts = node.func.id, node.args
         else:
+            raise TypeError(f"no formula: {ast.dump(node)}")
+        if word not in JOINED:  # a function, such as E(t)
             raise TypeError(f"no formula: {ast.dump(node)}")
         own, sign = JOINED[word]
         text = f" {sign} ".join(self.formula(part, own + 1 + (word == "or")) for part in parts)

@@ -287,7 +287,7 @@ LETTERS = {  # names in statements that the notation lacks -> what they stand fo
     "chi_dot": "velocity of the ball relative to the table",
     "chi_after": "height of the ball above the table after the impact",
     "chi_dot_after": "velocity of the ball relative to the table after the impact",
-    "flown": "time since the launch",
+    "time": "time since the launch",
     "lam": "Lagrange's multiplier",
     "mu": "coefficient of friction",
     "sigma": "direction of sliding, 1 or -1",
