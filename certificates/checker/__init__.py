@@ -14,7 +14,8 @@ reading order, each resting on those before it:
     text.py      terms and formulas as syntax trees; definitions, written out where they are used
     language.py  what a file of statements means: formulas, statements, unfolding
     rules.py     states, the rules that close them, proofs, witnesses and counterexamples
-    settling.py  the rules for orbits of maps, one statement, and a folder of them
+    orbits.py    the rules for orbits of maps, each with the premises that it rests on
+    settling.py  what settles one statement, and a folder of them
 
 The folder runs under two names, `checker` alone and a longer one where it is imported: so it
 imports its own files relatively, and only these.  `__all__` is all that others may rest on.
@@ -33,9 +34,10 @@ from .language import (
     read_statements, univariate, variables_of,
 )
 from .rules import State, close, find, prove
+from .orbits import orbit_rules, premises_of
 from .settling import (
     CERTIFICATES, MAX_FOLDER_WORK, MAX_STATEMENTS, STATEMENTS, check_folder, check_one, load, main,
-    orbit_rules, premises_of, read_certificates, report, verdict,
+    read_certificates, report, verdict,
 )
 
 __all__ = [

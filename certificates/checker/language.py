@@ -359,6 +359,11 @@ def mapping(text: str, read: Reader) -> tuple[list[str], list[str]]:
     return listed(left, read), listed(right, read)
 
 
+def guarded(text: str, read: Reader) -> tuple[list[str], list[str]]:
+    """TERM, or GUARD -> TERM."""
+    return mapping(text, read) if " -> " in text else ([], listed(text, read))
+
+
 LINES = {  # how what follows each keyword is read
     **dict.fromkeys(
         ("forall", "integer", "exists", "over", "sharp", "state"), lambda text, read: text.split()
@@ -370,15 +375,17 @@ LINES = {  # how what follows each keyword is read
         ("range", "given", "have", "with", "show", "domain", "holds"), lambda text, read: read(text)
     ),
     **dict.fromkeys(("iterates", "after", "piece"), mapping),
+    "value": guarded,
     "word": lambda text, read: [int(k) for k in text.split()],
     **dict.fromkeys(
-        ("map", "descent", "contraction", "attraction", "escape"), lambda text, read: text
+        ("map", "descent", "contraction", "lyapunov", "attraction", "escape", "unstable"),
+        lambda text, read: text,
     ),
     **dict.fromkeys(
-        ("space", "rank", "stage", "on", "rate", "radius", "size"),
+        ("space", "rank", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
         lambda text, read: written(read(text)),
     ),
-    **dict.fromkeys(("point", "weights", "start"), listed),
+    **dict.fromkeys(("point", "weights", "start", "direction"), listed),
 }
 # the lines that each kind of statement has, in this order, so that none can be overlooked
 ORDERS = {
@@ -390,9 +397,12 @@ ORDERS = {
     "map": r"over domain state space (piece )+",
     "descends": r"map domain (root )*rank (stage )+",
     "contracts": r"map domain (root )*on point weights rate radius size ",
-    "attracts": r"descent contraction ",
+    "lyapunov": r"map domain (root )*on point (have )*(value )+loss least upper radius ",
+    "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
+    "attracts": r"descent (contraction|lyapunov) ",
+    "into": r"descent attraction radius ",
     "escapes": r"map domain (root )*point start word ",
-    "exactly": r"attraction escape ",
+    "exactly": r"attraction (escape|unstable) ",
 }
 
 

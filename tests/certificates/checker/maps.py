@@ -1,4 +1,4 @@
-"""Two maps that are not the paper's, with all that the map rules say of them, and certificates that
+"""Maps that are not the paper's, with all that the map rules say of them, and certificates that
 the search finds.
 """
 
@@ -44,6 +44,21 @@ statement demo/attracts
 descent demo/descends
 contraction demo/contracts
 
+statement demo/lyapunov
+map demo/map
+domain a > 0 and a < 1
+on x < 1
+point 0
+value x
+loss (1 - a)*value
+least (1 - a)*distance
+upper 1
+radius 1/2
+
+statement demo/settles
+descent demo/descends
+lyapunov demo/lyapunov
+
 statement demo/escapes
 map demo/map
 domain a = 1
@@ -87,6 +102,155 @@ size 1
 statement turn/attracts
 descent turn/descends
 contraction turn/contracts
+"""
+
+# Two steps multiply a state by a: 0 attracts every state for a < 1, and is unstable for a > 1.
+FLIP = """
+statement flip/map
+over a
+domain a > 0 and a != 1
+state x
+space 0 = 0
+piece x >= 0 -> -2*a*x
+piece x < 0 -> -x/2
+
+statement flip/descends
+map flip/map
+domain a > 0 and a < 1
+rank 0
+stage 0 = 0
+
+statement flip/lyapunov
+map flip/map
+domain a > 0 and a < 1
+on 0 = 0
+point 0
+value x >= 0 -> x
+value x < 0 -> (a - 3)*x/4
+loss (1 - a)*value/4
+least (1 - a)*distance/8
+upper 1
+radius 1
+
+statement flip/attracts
+descent flip/descends
+lyapunov flip/lyapunov
+
+statement flip/unstable
+map flip/map
+domain a > 1 and a > 0 and 1 + a > 0
+point 0
+direction distance
+value x >= 0 -> x
+value x < 0 -> -(1 + a)*x/(4*a)
+rate 2*a/(1 + a)
+radius 1
+upper 1
+
+statement flip/exactly
+attraction flip/attracts
+unstable flip/unstable
+"""
+
+# The same map on three spaces, each in the one before it: what attracts the least attracts all.
+NEST = """
+statement nest/map
+over a
+domain a > 0 and a <= 1
+state x
+space x >= 0
+piece x > 1 -> x - 1
+piece x <= 1 -> a*x
+
+statement nest/middle
+over a
+domain a > 0 and a < 1
+state x
+space x >= 0 and x <= 5
+piece x > 1 -> x - 1
+piece x <= 1 -> a*x
+
+statement nest/inner
+over a
+domain a > 0 and a < 1
+state x
+space x >= 0 and x <= 1
+piece x > 1 -> x - 1
+piece x <= 1 -> a*x
+
+statement nest/at-once
+map nest/inner
+domain a > 0 and a < 1
+rank 0
+stage 0 = 0
+
+statement nest/contracts
+map nest/inner
+domain a > 0 and a < 1
+on 0 = 0
+point 0
+weights 1
+rate a
+radius 1/2
+size 1
+
+statement nest/attracts
+descent nest/at-once
+contraction nest/contracts
+
+statement nest/descends
+map nest/middle
+domain a > 0 and a < 1
+rank x
+stage x <= 1
+
+statement nest/into
+descent nest/descends
+attraction nest/attracts
+radius 1
+
+statement nest/descends-first
+map nest/map
+domain a > 0 and a < 1
+rank x
+stage x <= 4
+
+statement nest/into-twice
+descent nest/descends-first
+attraction nest/into
+radius 1
+
+statement nest/escapes
+map nest/map
+domain a = 1
+point 0
+start 1/2
+word 2
+
+statement nest/exactly
+attraction nest/into-twice
+escape nest/escapes
+"""
+
+# No parameter: a state is doubled.
+DOUBLE = """
+statement double/map
+over
+domain 0 = 0
+state x
+space x >= 0
+piece x >= 0 -> 2*x
+
+statement double/unstable
+map double/map
+domain 0 = 0
+root r = sqrt(x)
+point 0
+direction distance
+value r^2
+rate 2
+radius 1
+upper 1
 """
 
 
@@ -171,6 +335,86 @@ size c
 statement asked/attracts
 descent asked/descends
 contraction asked/contracts
+
+statement asked/lyapunov
+map asked/map
+domain a > 2
+root c = sqrt(a)
+root h = sqrt(y^2)
+on h < 1
+point c, b
+value h > 2 -> x + h
+value c*y
+loss value*x
+least level + distance
+upper c
+radius b
+
+statement asked/lyapunov-of-one-term
+map asked/map
+domain a > 4
+on x < 1
+point a, b
+value x^2
+loss value
+least distance
+upper a
+radius b
+
+statement asked/settles
+descent asked/descends
+lyapunov asked/lyapunov
+
+statement asked/unstable
+map asked/map
+domain a > 3
+root c = sqrt(a)
+root h = sqrt(y^2)
+point c, b
+direction c + distance, b
+value h > 1 -> x
+value x*h
+rate c
+radius b
+upper a
+
+statement asked/inner
+over a b
+domain a > 0
+state x y
+space x >= 0 and y >= 0
+piece x >= 1 -> x - 1, y
+piece x < 1 -> a*y, b
+
+statement asked/inner-descends
+map asked/inner
+domain a > 5
+rank x
+stage y < 1
+
+statement asked/inner-contracts
+map asked/inner
+domain a > 6
+root k = sqrt(a + 1)
+on y < 2
+point k, b
+weights 1, 1
+rate a
+radius b
+size k
+
+statement asked/inner-attracts
+descent asked/inner-descends
+contraction asked/inner-contracts
+
+statement asked/into
+descent asked/descends
+attraction asked/inner-attracts
+radius k
+
+statement asked/exactly-unstable
+attraction asked/into
+unstable asked/unstable
 
 statement asked/escapes
 map asked/map

@@ -1,4 +1,4 @@
-"""The map rules on two other maps: accepted as they are, rejected with the premise's name where one
+"""The map rules on other maps: accepted as they are, rejected with the premise's name where one
 premise fails, and nothing can be left out.
 """
 
@@ -16,7 +16,18 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
 from juggleproof.certificates.checker.rules import prove
 from tests.certificates.checker.harness import Expected, refused
-from tests.certificates.checker.maps import ASKED, SUBTRACT, TURN, checked, edited, read, searched
+from tests.certificates.checker.maps import (
+    ASKED,
+    DOUBLE,
+    FLIP,
+    NEST,
+    SUBTRACT,
+    TURN,
+    checked,
+    edited,
+    read,
+    searched,
+)
 
 Json = Any
 
@@ -49,55 +60,116 @@ FAILING = [
     ("contracts", ON, ON.replace("x < 1", "x < 3/2").replace("size 1", "size 2"), "closer-1"),
     ("contracts", "on x < 1", "on x <= 1/2 or x > 3/4 and x < 1", "stays-2"),
     ("contracts", "rate a", "rate a/2", "closer-2"),
+    ("lyapunov", "domain a > 0 and a < 1", "domain a > 0 and a < 0", "possible"),
+    ("lyapunov", "domain a > 0 and a < 1", "domain a > 0 and a < 2", "inside"),
+    ("lyapunov", "radius 1/2", "radius 0", "constants"),
+    ("lyapunov", "upper 1", "upper 0", "constants"),
+    ("lyapunov", "least (1 - a)*distance", "least 0", "positive"),
+    ("lyapunov", "least (1 - a)*distance", "least (1 - a)*level", "positive"),
+    ("lyapunov", "point 0", "point -1", "point"),
+    ("lyapunov", "radius 1/2", "radius 2", "surrounds"),
+    ("lyapunov", "value x", "value x - 1", "bounded"),
+    ("lyapunov", "loss (1 - a)*value", "loss (1 - a)*value - 1", "loss"),
+    ("lyapunov", "least (1 - a)*distance", "least distance", "least"),
+    ("lyapunov", "upper 1", "upper 1/2", "small-1"),
+    ("lyapunov", "on x < 1", "on x < 1 or x = 3", "stays-1"),
+    ("lyapunov", "on x < 1", "on x < 3/2", "falls-1-1"),
+    ("lyapunov", "on x < 1", "on x <= 1/2 or x > 3/4 and x < 1", "stays-2"),
+    ("lyapunov", "loss (1 - a)*value", "loss (1 - a/2)*value", "falls-2-1"),
     ("escapes", "start 1/2", "start 0", "start"),
     ("escapes", "start 1/2", "start 3/2", "start"),
     ("escapes", "word 2", "word 1", "start"),
     ("escapes", "domain a = 1", "domain a = 2", "inside"),
     ("escapes", "domain a = 1", "domain a < a", "possible"),
 ]
+UNSTABLE = "domain a > 1 and a > 0 and 1 + a > 0"
+FAILING_WITH_GUARDS = [
+    ("lyapunov", "value x >= 0 -> x", "value x > 0 -> x", "bounded"),
+    ("lyapunov", "(a - 3)*x/4", "-2*x", "small-2"),
+    ("lyapunov", "(a - 3)*x/4", "-x", "falls-1-2"),
+    ("lyapunov", "(a - 3)*x/4", "-x/2", "falls-2-1"),
+    ("unstable", UNSTABLE, "domain a > 1 and a < 1", "possible"),
+    ("unstable", UNSTABLE, "domain a > 1/2 and a > 0 and 1 + a > 0", "inside"),
+    ("unstable", "rate 2*a/(1 + a)", "rate 1", "constants"),
+    ("unstable", "radius 1", "radius 0", "constants"),
+    ("unstable", "upper 1", "upper 0", "constants"),
+    ("unstable", "direction distance", "direction 0", "direction"),
+    ("unstable", "direction distance", "direction 2*distance", "direction"),
+    ("unstable", "direction distance", "direction -2*distance", "direction"),
+    ("unstable", "upper 1", "upper 1/2", "bounded-1"),
+    ("unstable", "-(1 + a)*x/(4*a)", "-2*x", "bounded-2"),
+    ("unstable", "-(1 + a)*x/(4*a)", "-x/(2*a)", "grows-1-1"),
+    ("unstable", "-(1 + a)*x/(4*a)", "-x/2", "grows-2-2"),
+    ("unstable", "value x >= 0 -> x", "value x > 2 -> x", "direction"),
+]
+FAILING_IN_A_SPACE = [
+    ("unstable", "direction distance", "direction -distance", "direction"),
+]
+FAILING_INTO = [("into", "radius 1", "radius 0", "constants")]
 # What joins two statements fails through the one or the other: (statement changed, from, to,
 # statement that fails, premise)
 JOINS = [
     ("contracts", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "attracts", "inside"),
     ("contracts", "on x < 1", "on x < 3/4", "attracts", "enters"),
+    ("lyapunov", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "settles", "inside"),
+    ("lyapunov", "on x < 1", "on x < 3/4", "settles", "enters"),
     ("escapes", "point 0", "point 1/3", "exactly", "same-point"),
     ("descends", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "exactly", "covers"),
 ]
+JOINS_INTO = [
+    ("at-once", "domain a > 0 and a < 1", "domain a > 0 and a < 1/2", "into", "inside"),
+    ("middle", "space x >= 0 and x <= 5", "space x > 0 and x <= 5", "into", "point"),
+    ("inner", "space x >= 0 and x <= 1", "space x >= 0 and x <= 1/2", "into", "surrounds"),
+    ("descends", "stage x <= 1", "stage x <= 3/2", "into", "enters"),
+    ("descends-first", "stage x <= 4", "stage x <= 6", "into-twice", "enters"),
+    ("escapes", "point 0", "point 1/3", "exactly", "same-point"),
+]
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN], ids=["subtract", "turn"])
+@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE])
 def test_every_rule_holds_on_another_map(text: str) -> None:
     results = checked(text, searched(text))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
 
 
+def named(text: str, kind: str) -> str:
+    """The name of the statement of this kind."""
+    (name,) = (name for name in read(text) if name.split("/")[1] == kind)
+    return name
+
+
 @pytest.mark.parametrize(
-    ("kind", "old", "new", "premise"),
-    FAILING,
-    ids=[f"{row[0]}: {row[3]} ({row[2][:24]})" for row in FAILING],
+    ("whole", "kind", "old", "new", "premise"),
+    [
+        *((SUBTRACT, *row) for row in FAILING),
+        *((FLIP, *row) for row in FAILING_WITH_GUARDS),
+        *((DOUBLE, *row) for row in FAILING_IN_A_SPACE),
+        *((NEST, *row) for row in FAILING_INTO),
+    ],
 )
-def test_a_rule_fails_without_its_premise(kind: str, old: str, new: str, premise: str) -> None:
-    text, name = edited(SUBTRACT, kind, old, new), f"demo/{kind}"
+def test_a_rule_fails_without_its_premise(
+    whole: str, kind: str, old: str, new: str, premise: str
+) -> None:
+    text, name = edited(whole, kind, old, new), named(whole, kind)
     assert searched(text)[name] == {"unknown": f"no proof of the premise {premise} was found"}
-    outcome, reason = checked(text, searched(SUBTRACT))[name]
+    outcome, reason = checked(text, searched(whole))[name]
     assert outcome == "rejected" and reason is not None
     assert reason.place.startswith("premise ") or reason.kind is Kind.PREMISES
 
 
 @pytest.mark.parametrize(
-    ("kind", "old", "new", "joined", "premise"), JOINS, ids=[f"{row[3]}: {row[4]}" for row in JOINS]
+    ("whole", "kind", "old", "new", "joined", "premise"),
+    [*((SUBTRACT, *row) for row in JOINS), *((NEST, *row) for row in JOINS_INTO)],
 )
 def test_joined_statements_fail_without_what_joins_them(
-    kind: str, old: str, new: str, joined: str, premise: str
+    whole: str, kind: str, old: str, new: str, joined: str, premise: str
 ) -> None:
-    text = edited(SUBTRACT, kind, old, new)
+    text, name = edited(whole, kind, old, new), named(whole, joined)
     found = searched(text)
-    assert found[f"demo/{joined}"] == {"unknown": f"no proof of the premise {premise} was found"}
-    outcome, reason = checked(
-        text, {**found, f"demo/{joined}": searched(SUBTRACT)[f"demo/{joined}"]}
-    )[f"demo/{joined}"]
+    assert found[name] == {"unknown": f"no proof of the premise {premise} was found"}
+    outcome, reason = checked(text, {**found, name: searched(whole)[name]})[name]
     assert outcome == "rejected" and reason is not None
-    assert reason.place == f"premise {premise} of demo/{joined}"
+    assert reason.place == f"premise {premise} of {name}"
 
 
 def test_the_premises_of_every_rule_are_these() -> None:
@@ -131,6 +203,50 @@ def test_rejects_an_escape_of_another_map_of_the_same_text() -> None:
     outcome, reason = results["demo/exactly"]
     assert outcome == "rejected"
     assert refused(reason, (Kind.OTHER_MAP, "demo/exactly"))
+
+
+@pytest.mark.parametrize(("old", "new"), [("over a", "over a b"), ("x", "y"), ("a*x", "a*x/2")])
+def test_rejects_an_attraction_of_a_map_with_other_lines(old: str, new: str) -> None:
+    text = edited(NEST, "inner", old, new)
+    before = searched(text.split("statement nest/into")[0])
+    results = checked(text, {**searched(NEST), **before})
+    assert results["nest/attracts"] == results["nest/descends"] == ("certified", None)
+    outcome, reason = results["nest/into"]
+    assert outcome == "rejected"
+    assert refused(reason, (Kind.OTHER_MAP, "nest/into"))
+
+
+def test_rejects_a_loss_that_is_negative_at_the_point() -> None:
+    """0 and 1 change places, so 0 is no fixed point; every other premise holds."""
+    text = """
+statement swap/map
+over
+domain 0 = 0
+state x
+space x = 0 or x = 1
+piece 0 = 0 -> 1 - x
+
+statement swap/lyapunov
+map swap/map
+domain 0 = 0
+on 0 = 0
+point 0
+value x
+loss 2*x - 1
+least 1
+upper 1
+radius 1/2
+"""
+    unknown = {"unknown": "no proof of the premise loss was found"}
+    assert searched(text)["swap/lyapunov"] == unknown
+
+
+def test_rejects_a_direction_from_elsewhere_where_a_state_is_called_distance() -> None:
+    text = DOUBLE.replace("x", "distance")
+    assert checked(text, searched(text))["double/unstable"] == ("certified", None)
+    text = edited(text, "unstable", "direction distance", "direction distance + 2")
+    unknown = {"unknown": "no proof of the premise direction was found"}
+    assert searched(text)["double/unstable"] == unknown
 
 
 def test_rejects_one_name_for_the_roots_of_two_terms() -> None:
@@ -168,9 +284,10 @@ def test_rejects_a_missing_or_left_over_premise() -> None:
 
 def test_rejects_whatever_rests_on_what_is_not_certified() -> None:
     after = {
-        "map": {"descends", "contracts", "attracts", "escapes", "exactly"},
-        "descends": {"attracts", "exactly"},
+        "map": {"descends", "contracts", "lyapunov", "attracts", "settles", "escapes", "exactly"},
+        "descends": {"attracts", "settles", "exactly"},
         "contracts": {"attracts", "exactly"},
+        "lyapunov": {"settles"},
         "attracts": {"exactly"},
         "escapes": {"exactly"},
         "exactly": set(),
@@ -308,6 +425,41 @@ MALFORMED = [
         "on x_next < 1",
         (Kind.UNDECLARED, "x_next", "premise surrounds of demo/contracts"),
     ),
+    (
+        "lyapunov",
+        "radius 1/2",
+        "radius distance/2",
+        (Kind.UNDECLARED, "distance", "premise constants of demo/lyapunov"),
+    ),
+    (
+        "lyapunov",
+        "upper 1",
+        "upper 1 + distance",
+        (Kind.UNDECLARED, "distance", "premise constants of demo/lyapunov"),
+    ),
+    (
+        "lyapunov",
+        "least (1 - a)*distance",
+        "least (1 - a)*x",
+        (Kind.UNDECLARED, "x", "premise positive of demo/lyapunov"),
+    ),
+    (
+        "lyapunov",
+        "loss (1 - a)*value",
+        "loss (1 - a)*value + level",
+        (Kind.UNDECLARED, "level", "premise loss of demo/lyapunov"),
+    ),
+    ("lyapunov", "value x", "value value", Kind.VALUE),
+    ("lyapunov", "value x", "value value < 1 -> x", Kind.VALUE),
+    ("lyapunov", "value x", "value x, x", Kind.VALUE),
+    ("lyapunov", "value x", "value (x > 0, x < 1) -> x", Kind.VALUE),
+    ("lyapunov", "point 0", "point x", Kind.STATE_TERMS),
+    (
+        "settles",
+        "demo/lyapunov",
+        "demo/contracts",
+        (Kind.EARLIER, "lyapunov "),
+    ),
     ("map", "state x", "state x iff", Kind.PIECE),
     ("map", "over a", "over a implies", (Kind.NAME, "implies", "premise possible of demo/map")),
     ("escapes", "word 2", "word", (Kind.WORD, "demo/escapes")),
@@ -367,3 +519,37 @@ def test_what_the_rules_conclude_holds_of_orbits(a: Fraction, x: Fraction, more:
     for _ in range(more):
         y = step(y)
     assert y <= a**more
+
+
+def flip(a: Fraction, x: Fraction) -> Fraction:
+    return -2 * a * x if x >= 0 else -x / 2
+
+
+@given(
+    a=st.fractions(Fraction(1, 100), Fraction(99, 100), max_denominator=100),
+    x=st.fractions(-20, 20, max_denominator=50),
+    d=st.fractions(Fraction(1, 50), 5, max_denominator=50),
+)
+def test_a_lyapunov_function_counts_the_states_away_from_the_point_holds(
+    a: Fraction, x: Fraction, d: Fraction
+) -> None:
+    value = x if x >= 0 else (a - 3) * x / 4
+    count = 0
+    for _ in range(100):
+        count += abs(x) >= d
+        x = flip(a, x)
+    assert count <= value / ((1 - a) * d / 8)
+
+
+@given(
+    a=st.fractions(Fraction(21, 20), 3, max_denominator=50),
+    d=st.fractions(Fraction(1, 50), 1, max_denominator=50),
+)
+def test_an_orbit_from_the_direction_of_an_unstable_point_leaves_holds(
+    a: Fraction, d: Fraction
+) -> None:
+    x = value = farthest = d
+    while value <= 1:  # as long as the Chetaev function may stay below `upper`
+        x, value = flip(a, x), value * 2 * a / (1 + a)
+        farthest = max(farthest, abs(x))
+    assert farthest > 1

@@ -17,7 +17,14 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind
 
 FOLDER = Path(__file__).resolve().parents[3] / "certificates" / "checker"
-ORDER = ["algebra", "text", "language", "rules", "settling"]  # each rests on those before it
+ORDER = [
+    "algebra",
+    "text",
+    "language",
+    "rules",
+    "orbits",
+    "settling",
+]  # each rests on those before it
 FILES = {path.stem: path.read_text() for path in sorted(FOLDER.glob("*.py"))}
 TREES = {name: ast.parse(source) for name, source in FILES.items()}
 NODES = [node for tree in TREES.values() for node in ast.walk(tree)]
@@ -60,10 +67,10 @@ def test_lines_of_code_are_counted_without_comments_and_docstrings() -> None:
     )
 
 
-def test_there_are_fewer_than_1600_lines_of_code_with_all_rules() -> None:
+def test_there_are_fewer_than_1700_lines_of_code_with_all_rules() -> None:
     """Counted at 100 columns, all files and all rules; 75 lines are the table of kinds."""
     assert set(FILES) == {*ORDER, "__init__", "__main__"}
-    assert sum(map(code_lines, FILES.values())) < 1600
+    assert sum(map(code_lines, FILES.values())) < 1700
 
 
 def test_only_the_standard_library_and_earlier_files_are_imported() -> None:
@@ -106,7 +113,7 @@ def test_every_check_passes_its_meter_on() -> None:
     """A context or a proof without one would begin a meter of its own."""
     calls = [
         node
-        for name in ("rules", "settling")
+        for name in ("rules", "orbits", "settling")
         for node in ast.walk(TREES[name])
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
     ]

@@ -70,6 +70,17 @@ WEAKER = {
         "exists k, (k < count)%nat /\\ guard k s.",
         "exists k, guard k s.",
     ),
+    "loss-at-the-point": ("Lyapunov", "0 <= v -> 0 <= loss s v.", "0 <= v -> -1 <= loss s v."),
+    "direction-elsewhere": (
+        "Lyapunov",
+        "close coordinate point d (direction d) /\\",
+        "close coordinate point (d + 1) (direction d) /\\",
+    ),
+    "inner-space-beside-the-point": (
+        "Lyapunov",
+        "space s -> close coordinate point radius s -> inner s) ->",
+        "space s -> close coordinate point 0 s -> inner s) ->",
+    ),
     "negation": (
         "Formulas",
         "| Atom p Positive => Atom (opposite p)",

@@ -68,13 +68,25 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: P
         "Lists.lists_approach",
         "Lists.lists_convergence",
         "RulesInFull.attraction",
+        "Lyapunov.value_falls",
+        "Lyapunov.rarely_far",
+        "Lyapunov.lyapunov_fixed_point",
+        "Lyapunov.lyapunov_stability",
+        "Lyapunov.lyapunov_attraction",
+        "Lyapunov.attraction_from_a_set",
+        "Lyapunov.chetaev_leaves",
+        "Lyapunov.chetaev_instability",
+        "Lyapunov.same_pieces_agree",
+        "Lyapunov.into_attraction",
+        "Lyapunov.into_stability",
+        "Lyapunov.exactly_or_unstable",
     ]
     asked = [f"Statements.{name}" for name in names] + rules
     assert len(names) > 40
     everything = ", ".join(f"@{name}" for name in asked)
     text = (
-        "From Juggleproof Require Rules Lists RulesInFull Statements.\nDefinition everything :="
-        f" ({everything}).\nPrint Assumptions everything.\n"
+        "From Juggleproof Require Rules Lists RulesInFull Lyapunov Statements.\n"
+        f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
     )
     result = compiled(development, "Asked.v", text)
     assert result.returncode == 0 and result.stdout.startswith("Axioms:\n"), result.stderr

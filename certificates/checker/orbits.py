@@ -1,0 +1,559 @@
+"""The rules for orbits of maps: what holds of every orbit, from premises that this file writes.
+
+Each rule writes its premises itself, as text, and a certificate has to prove exactly these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from .algebra import Kind, Rejected, Work, require
+from .language import Known, Statement, read_statements
+from .rules import Hint, at, prove
+from .text import names_in, put
+
+PER_LETTER = 20  # elementary products that a letter of a premise stands for
+
+Premises = Mapping[str, list[str]]  # {name: lines of a statement}
+
+# ------------------------------------------------------------ a map, and what is said of it
+
+
+def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Premises:
+    """The K-th iterate of the map, for every integer K >= 0.  Premises: P(0) is the identity, and
+    map(P(K)) = P(K + 1).
+    """
+    (variables,) = statement.get("forall")
+    (counts,) = statement.get("integer")
+    ((state, images),) = statement.get("iterates")
+    ((count, powers),) = statement.get("after")
+    lets = ["let " + text for text in statement.rows("let")]
+    shaped = state == variables[: len(state)] and 0 < len(state) == len(images) == len(powers)
+    # the count apart from the state: else the map would change how often it is iterated
+    apart = count == counts and set(count) <= set(variables[len(state) :])
+    require(shaped and apart, Kind.ITERATES_SHAPE, statement.name)
+    still = not names_in(*images) & set(count) and not names_in(*lets) & {*count, *state}
+    require(still, Kind.ITERATES_COUNT, statement.name)
+    # a name that only the premises declare, such as x_next, would mean something in them alone
+    declared = {*variables, *(name for name, _ in statement.get("let"))}
+    require(names_in(*images, *powers) <= declared, Kind.ITERATES_NAME, statement.name)
+    (k,) = count
+    after = {name: name + "_next" for name in state}
+    head = [f"forall {' '.join(variables)}", f"integer {k}", *lets]
+    start = [f"({put(power, {k: '0'})}) = {name}" for name, power in zip(state, powers)]
+    step = [
+        f"({put(image, after)}) = ({put(power, {k: f'({k} + 1)'})})"
+        for image, power in zip(images, powers)
+    ]
+    reached = [f"let {name}_next = {power}" for name, power in zip(state, powers)]
+    return {
+        "start": [*head, "show " + " and ".join(start)],
+        "step": [*head, *reached, "show " + " and ".join(step)],
+    }
+
+
+class Orbits:
+    """A map with the lines of a statement about it, from which the text of the premises is
+    written.
+    """
+
+    def __init__(self, statement: Statement, known: Known, work: Work) -> None:
+        self.own = statement
+        self.work = work
+        if statement.kind == "map":
+            self.map = statement
+        else:
+            self.map = earlier(statement, known, "map")
+        (self.parameters,) = self.map.get("over")
+        (self.state,) = self.map.get("state")
+        (self.space,) = self.map.get("space")
+        (self.domain,) = statement.rows("domain")
+        self.pieces = self.map.get("piece")
+        # the names of the point, and the variables in place of the state's where they are used
+        self.point = [name + "_point" for name in self.state]
+        self.gaps: list[str] = []
+        self.have = [f"given {line}" for line in statement.rows("have")]
+        self.moving = set(self.state)  # what has another value at the next state
+        self.roots = []
+        self.fixed = []
+        for line in statement.rows("root"):
+            name, _, under = line.partition(" = ")
+            if self.moving & names_in(under):
+                self.moving.add(name)
+                self.roots.append("root " + line)
+            else:
+                self.fixed.append("root " + line)
+        fits = all(
+            len(guard) == 1 and len(images) == len(self.state) for guard, images in self.pieces
+        )
+        # nothing but parameters and state: x_next in a guard would mean the image itself
+        named = names_in(*(text for piece in self.pieces for side in piece for text in side))
+        require(fits and named <= {*self.parameters, *self.state}, Kind.PIECE, self.map.name)
+
+    def next(self, text: str) -> str:
+        """The same of the next state."""
+        return put(text, {name: name + "_next" for name in self.moving})
+
+    def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
+        """For all parameters in the domain, with the roots of parameters; around a point, for all
+        points with what the lines `have` say.
+        """
+        named = self.point if self.have else []
+        forall = "forall " + " ".join([*self.parameters, *named, *extra])
+        known = [*self.fixed, *(self.have or self.let_point())]
+        # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
+        self.work.spend(PER_LETTER * sum(map(len, [*known, self.domain, *rows])))
+        return [forall, f"range {self.domain}", *known, *rows]
+
+    def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
+        """For all parameters in the domain and all states of the space."""
+        sums = zip(self.state, self.point, self.gaps)
+        places = [f"let {name} = {point} + {gap}" for name, point, gap in sums]
+        names = [*(self.gaps or self.state), *extra]
+        return self.for_all(*places, f"given {self.space}", *self.roots, *rows, extra=names)
+
+    def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
+        """Where the k-th piece applies: something of the next state, which is in the space by the
+        map's premises.
+        """
+        (guard,), images = self.pieces[k]
+        known = []
+        if self.own is not self.map:  # else the map would be assumed to do what is to be shown
+            known = ["given " + self.next(self.space), *map(self.next, self.roots)]
+        image = self.let_next(images)
+        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
+
+    def let_next(self, terms: Sequence[str]) -> list[str]:
+        """The lines that name the terms of the next state, or of any other."""
+        lets = [f"let {name}_next = {term}" for name, term in zip(self.state, terms)]
+        gaps = zip(self.gaps, self.state, self.point)
+        return lets + [f"let {gap}_next = {name}_next - {point}" for gap, name, point in gaps]
+
+    def around(self) -> Orbits:
+        """The same around the point: NAME_gap is NAME - NAME_point, and the variable in place of
+        NAME.
+        """
+        self.gaps = [name + "_gap" for name in self.state]
+        self.moving.update(self.gaps)
+        return self
+
+    def let_point(self) -> list[str]:
+        """Around a point: its names stand for its terms."""
+        terms = self.terms("point") if self.gaps else []
+        return [f"let {name} = {term}" for name, term in zip(self.point, terms)]
+
+    def let_names(self, text: str) -> list[str]:
+        """For premises of others: what a text's names of the point and of gaps stand for."""
+        if not names_in(text) & {*self.point, *(name + "_gap" for name in self.state)}:
+            return []
+        gaps = zip(self.around().gaps, self.state, self.point)
+        return [*self.let_point(), *(f"let {gap} = {name} - {at}" for gap, name, at in gaps)]
+
+    def at_the_point(self) -> list[str]:
+        """The point, which has its terms, is in the space, and what the lines `have` say is so."""
+        shown = [put(self.space, dict(zip(self.state, self.point))), *self.own.rows("have")]
+        forall = "forall " + " ".join(self.parameters)
+        lets = [*self.fixed, *self.let_point()]
+        return [forall, f"range {self.domain}", *lets, "show " + all_of(shown)]
+
+    def within_gaps(self, distance: str, after: str = "") -> str:
+        """|s - e| <= distance, e the point, in the sup norm, around it; of the next state where
+        after is "_next".
+        """
+        reach = f"({distance})"
+        gaps = [gap + after for gap in self.gaps]
+        return all_of(f"-{reach} <= {gap} and {gap} <= {reach}" for gap in gaps)
+
+    def in_space(self, point: Sequence[str], *roots: str) -> list[str]:
+        """A point is in the space."""
+        return self.for_all(*roots, *self.let_next(point), "show " + self.next(self.space))
+
+    def within(
+        self, distance: str, point: Sequence[str], weights: Sequence[str] = (), after: str = ""
+    ) -> str:
+        """|s - e| <= distance, e the point, in the sup norm, with weights if there are any; of the
+        next state where after is "_next".
+        """
+        parts = []
+        for name, e, weight in zip(self.state, point, weights or ["1"] * len(point)):
+            reach = f"({distance})*({weight})"
+            side = f"{name}{after} - ({e})"
+            parts.append(f"-{reach} <= {side} and {side} <= {reach}")
+        return all_of(parts)
+
+    def values(self) -> list[tuple[list[str], str]]:
+        """[(guards, term)] of the lines `value`, each with one guard or none."""
+        values = self.own.get("value")
+        fits = all(len(guards) < 2 and len(terms) == 1 for guards, terms in values)
+        # the terms are of the state alone: with `value` in them, V(s) <= value would say nothing
+        names = names_in(*(text for guards, terms in values for text in [*guards, *terms]))
+        require(fits and "value" not in names, Kind.VALUE, self.own.name)
+        return [(guards, term) for guards, (term,) in values]
+
+    def terms(self, keyword: str, *more: str) -> list[str]:
+        """One term for each state variable, in the parameters and what more is named."""
+        terms: list[str]
+        (terms,) = self.own.get(keyword)
+        constants = {*self.parameters, *more, *(line.split(" ")[1] for line in self.fixed)}
+        # with a state variable in it, the point would move with the state
+        fits = len(terms) == len(self.state) and names_in(*terms) <= constants
+        require(fits, Kind.STATE_TERMS, self.own.name)
+        return terms
+
+    def with_domain(self, premises: Premises) -> Premises:
+        """Beside other premises: a state of the space, for parameters in the domain, which is part
+        of the map's domain.
+        """
+        some = "exists " + " ".join([*self.parameters, *self.state])
+        possible = [some, f"with {self.domain}", f"show {self.space}"]
+        inside = {}
+        if self.own is not self.map:
+            (whole,) = self.map.rows("domain")
+            inside = {"inside": self.for_all("show " + whole)}
+        return {"possible": possible, **inside, **premises}
+
+
+NAMED = {  # the kinds of statements that a line may name
+    "map": ["map"],
+    "descent": ["descends"],
+    "contraction": ["contracts"],
+    "lyapunov": ["lyapunov"],
+    "attraction": ["attracts", "into"],
+    "escape": ["escapes"],
+    "unstable": ["unstable"],
+}
+
+
+def earlier(statement: Statement, known: Known, *keywords: str) -> Statement:
+    """What the line with one of these keywords names: an earlier statement, certified, of the kind
+    that the line needs.
+    """
+    ((keyword, name),) = (line for line in statement.lines if line[0] in keywords)
+    kinds = NAMED[keyword]
+    fits = name in known and known[name].kind in kinds
+    require(fits, Kind.EARLIER, f"{' or '.join(kinds)} {name}")
+    return known[name]
+
+
+def all_of(parts: Iterable[str], op: str = " and ") -> str:
+    return op.join(f"({part})" for part in parts)
+
+
+def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
+    """A map f of the space into itself: for all parameters in the domain, each state of the space
+    has exactly one piece whose guard holds, f(state) is given by that piece, and f(state) is in the
+    space.
+    """
+    f = Orbits(statement, known, work)
+    guards = [guard for (guard,), _ in f.pieces]
+    premises = {"covers": f.at("show " + all_of(guards, " or "))}
+    for i, guard in enumerate(guards):
+        for k in range(i):
+            both = f"given {guard}", f"given {guards[k]}"
+            premises[f"apart-{i + 1}-{k + 1}"] = f.at(*both, "show 0 = 1")
+    for k in range(len(guards)):
+        premises[f"stays-{k + 1}"] = f.step(k, show=f.next(f.space))
+    return f.with_domain(premises)
+
+
+def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premises:
+    """Descent of a rank to a trap: stages A_1, .., A_m.  For all parameters in the domain and all
+    states s of the space, f^N(s) is in A_m for every integer N >= rank(s) + m - 1.
+
+    Premises: rank >= 0; outside of all stages rank(f(s)) <= rank(s) - 1; f takes A_k into A_(k+1),
+    and A_m into itself. So the first visit to a stage is after at most rank(s) steps, and m - 1
+    more steps, or fewer, lead to A_m.
+    """
+    f = Orbits(statement, known, work)
+    (rank,) = statement.get("rank")
+    stages = statement.get("stage")
+    outside = f"given not ({all_of(stages, ' or ')})"
+    premises = {"bounded": f.at(f"show ({rank}) >= 0")}
+    for k in range(len(f.pieces)):
+        falls = f"({f.next(rank)}) <= ({rank}) - 1"
+        premises[f"falls-{k + 1}"] = f.step(k, outside, show=falls)
+        for i, (stage, after) in enumerate(zip(stages, [*stages[1:], stages[-1]])):
+            premises[f"stage-{i + 1}-{k + 1}"] = f.step(k, f"given {stage}", show=f.next(after))
+    return f.with_domain(premises)
+
+
+def premises_of_contraction(statement: Statement, known: Known, work: Work) -> Premises:
+    """Contraction in a weighted sup norm, |s - e| = max |s_j - e_j| / weight_j, e the point.  For
+    all parameters in the domain: f(e) = e; for all states s of the space in the set `on` and all
+    integers n >= 0, f^n(s) is in it and |f^n(s) - e| <= rate^n |s - e| <= rate^n size; and all
+    states of the space with |s - e| <= radius are in it.  So e is stable, and attracts the set.
+
+    Premises: 0 <= rate < 1, weights > 0, radius > 0, size > 0; e is in the space; `on` holds where
+    |s - e| <= radius, is taken into itself, and has |s - e| <= size; and on it |s - e| <= distance
+    implies |f(s) - e| <= rate distance, for every distance >= 0.
+    """
+    f = Orbits(statement, known, work)
+    (on,), (rate,), (radius,), (size,) = map(statement.get, ("on", "rate", "radius", "size"))
+    point = f.terms("point")
+    weights = f.terms("weights")
+    positive = [f"({c}) > 0" for c in [*weights, radius, size]]
+    premises = {
+        "constants": f.for_all("show " + all_of([f"({rate}) >= 0", f"({rate}) < 1", *positive])),
+        "point": f.in_space(point),
+        "surrounds": f.at("given " + f.within(radius, point, weights), f"show {on}"),
+        "size": f.at(f"given {on}", "show " + f.within(size, point, weights)),
+    }
+    near = ["given distance >= 0", "given " + f.within("distance", point, weights)]
+    nearer = f.within(f"({rate})*distance", point, weights, "_next")
+    for k in range(len(f.pieces)):
+        premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
+        closer = f.step(k, f"given {on}", *near, show=nearer, extra=["distance"])
+        premises[f"closer-{k + 1}"] = closer
+    return f.with_domain(premises)
+
+
+def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Premises:
+    """A Lyapunov function V: V(s) is the greatest of the terms `value` whose guard, if they have
+    one, holds at s; e is the point, and |s - e| = max |s_j - e_j|.  For all parameters in the
+    domain: f(e) = e; for all states s of the space in the set `on` and all integers n >= 0, f^n(s)
+    is in it, V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= d for at most V(s)/least(d, V(s))
+    of these n, for every d > 0; and all states of the space with |s - e| <= radius are in it.  So e
+    is stable, and attracts the set.
+
+    In all lines but `point` NAME_point names the point, and NAME_gap is NAME - NAME_point.  What
+    the lines `have` say of the point is all that the premises know of it, if there are any.
+
+    Premises: e is in the space, and what the lines `have` say is so; radius > 0 and upper > 0, in
+    the parameters alone; least(distance, level) > 0 for distance > 0 and level >= 0; `on` holds
+    where |s - e| <= radius; V(s) <= upper distance where |s - e| <= distance <= radius; and on the
+    set, which is taken into itself, V(s) >= 0, loss >= 0, V(f(s)) <= V(s) - loss, and loss >=
+    least(distance, level) where |s - e| >= distance and V(s) <= level.  The loss may name V(s), as
+    `value`.
+
+    Stable: where |s - e| >= d and V(s) <= c = upper radius, V(s) >= loss >= least(d, c).  So where
+    V(s) is less than both, |f^n(s) - e| < d for all n.  V(e) = 0, so V(f(e)) = 0 and f(e) = e.
+    """
+    f = Orbits(statement, known, work).around()
+    (on,), (loss,), (least,) = map(statement.get, ("on", "loss", "least"))
+    (upper,), (radius,) = map(statement.get, ("upper", "radius"))
+    values = f.values()
+    here = [f"given {on}"]
+    for guards, term in values:
+        reached = [*(f"not ({guard})" for guard in guards), f"({term}) <= value"]
+        here.append("given " + all_of(reached, " or "))
+    # what holds for every number that is at least V(s) holds for V(s); 1 + value > 0 and 1 + level
+    # > 0, so that loss and least may divide by them
+    bounded = [*here, "given value >= 0", "given 1 + value > 0"]
+    before, extra = bounded, ["value"]
+    if len(values) == 1 and not values[0][0]:
+        before, extra = [here[0], f"let value = {values[0][1]}", *bounded[-2:]], []
+    any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
+    far = all_of((f"{gap} >= distance or {gap} <= -distance" for gap in f.gaps), " or ")
+    far_off = [*any_level, f"given {far}", "given level >= value", f"show ({loss}) >= ({least})"]
+    within = "given " + f.within_gaps("distance")
+    near = ["given distance >= 0", within, f"given distance <= ({radius})"]
+    both = ["distance", "level"]
+    premises = {
+        # apart from `least`: a radius that names `distance` would be as small as it likes
+        "constants": f.for_all("show " + all_of([f"({radius}) > 0", f"({upper}) > 0"])),
+        "positive": f.for_all(*any_level, f"show ({least}) > 0", extra=both),
+        "point": f.at_the_point(),
+        "surrounds": f.at("given " + f.within_gaps(radius), f"show {on}"),
+        "bounded": f.at(*here, "show value >= 0", extra=["value"]),
+        "loss": f.at(*before, f"show ({loss}) >= 0", extra=extra),
+        "least": f.at(*bounded, *far_off, extra=["value", *both]),
+    }
+    for i, (guards, term) in enumerate(values):
+        small = [*(f"given {guard}" for guard in guards), f"show ({term}) <= ({upper})*distance"]
+        premises[f"small-{i + 1}"] = f.at(*near, *small, extra=["distance"])
+    for k in range(len(f.pieces)):
+        premises[f"stays-{k + 1}"] = f.step(k, f"given {on}", show=f.next(on))
+        for i, (guards, term) in enumerate(values):
+            less = f"({f.next(term)}) <= value - ({loss})"
+            show = all_of([*(f"not ({f.next(guard)})" for guard in guards), less], " or ")
+            premises[f"falls-{k + 1}-{i + 1}"] = f.step(k, *before, show=show, extra=extra)
+    return f.with_domain(premises)
+
+
+def premises_of_instability(statement: Statement, known: Known, work: Work) -> Premises:
+    """A Chetaev function W: W(s) is the greatest of the terms `value` whose guard, if they have
+    one, holds at s; e is the point, |s - e| = max |s_j - e_j|, and s(d) the state given by the
+    terms `direction`, in which d is named `distance`.  For all parameters in the domain and 0 < d
+    <= radius: s(d) is in the space, |s(d) - e| <= d, and |f^n(s(d)) - e| > radius for some integer
+    n >= 0.  So e is not stable.
+
+    Premises, with the point's names and the lines `have` as for a Lyapunov function: e is in the
+    space; rate > 1, radius > 0 and upper > 0, in the parameters alone; for 0 < d <= radius s(d) is
+    in the space, |s(d) - e| <= d and W(s(d)) > 0; and for all states s of the space with |s - e| <=
+    radius and W(s) > 0, W(s) <= upper and W(f(s)) >= rate W(s).  If the orbit stayed, W(f^n(s(d)))
+    >= rate^n W(s(d)) would exceed upper.
+    """
+    f = Orbits(statement, known, work).around()
+    (rate,), (radius,), (upper,) = map(statement.get, ("rate", "radius", "upper"))
+    curve, values = f.terms("direction", "distance", *f.point), f.values()
+
+    def next_value(bound: str) -> str:
+        """W of the next state meets a lower bound."""
+        parts = [[*map(f.next, guards), f"({f.next(term)}) {bound}"] for guards, term in values]
+        return all_of(map(all_of, parts), " or ")
+
+    # what is shown to be a state of the space has the roots that are of the state
+    start = ["have " + f.next(f.space), *map(f.next, f.roots)]
+    small = ["given distance > 0", f"given distance <= ({radius})", *f.let_next(curve), *start]
+    # no f.next of it: a state variable may have the name `distance`
+    show = "show " + all_of([f.within_gaps("distance", "_next"), next_value("> 0")])
+    constants = all_of([f"({rate}) > 1", f"({radius}) > 0", f"({upper}) > 0"])
+    premises = {
+        "constants": f.for_all(f"show {constants}"),
+        "point": f.at_the_point(),
+        "direction": f.for_all(*small, show, extra=["distance"]),
+    }
+    for i, (guards, term) in enumerate(values):
+        here = [f.within_gaps(radius), *guards, f"({term}) > 0"]
+        given = [f"given {one}" for one in here]
+        premises[f"bounded-{i + 1}"] = f.at(*given, f"show ({term}) <= ({upper})")
+        for k in range(len(f.pieces)):
+            grows = f.step(k, *given, show=next_value(f">= ({rate})*({term})"))
+            premises[f"grows-{k + 1}-{i + 1}"] = grows
+    return f.with_domain(premises)
+
+
+def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Premises:
+    """A descent whose last stage lies in the set `on` of a contraction, or of a Lyapunov function,
+    of the same map.  For all parameters in the descent's domain, the point is stable and f^n(s)
+    tends to it for all states s of the space; with a contraction |f^(N+k)(s) - e| <= rate^k size
+    for all integers N >= rank(s) + m - 1, k >= 0.
+    """
+    f = Orbits(earlier(statement, known, "descent"), known, work)
+    other = Orbits(around(statement, known), known, work)
+    # the very statement: two maps may have the same text, and other certificates
+    require(f.map is other.map, Kind.OTHER_MAP, statement.name)
+    # a root of one name for two terms is declared twice, and refused
+    roots = [root for root in other.fixed + other.roots if root not in f.fixed + f.roots]
+    last, on = f.own.get("stage")[-1], other.own.get("on")[0]
+    return {
+        "inside": f.for_all(f"show {other.domain}"),
+        "enters": f.at(*roots, *other.let_names(on), f"given {last}", f"show {on}"),
+    }
+
+
+def around(statement: Statement, known: Known) -> Statement:
+    """What an attraction says of a neighbourhood of its point."""
+    one = earlier(statement, known, "contraction", "lyapunov", "attraction")
+    return around(one, known) if one.kind in NAMED["attraction"] else one
+
+
+def premises_of_attraction_into(statement: Statement, known: Known, work: Work) -> Premises:
+    """A descent of a map f, and an attraction of a map g with the same parameters, state and pieces
+    on another space.  For all parameters in the descent's domain, the attraction's point e is a
+    fixed point of f, it is stable, and f^n(s) tends to it for all states s of f's space.
+
+    Premises: the descent's domain is part of the attraction's; e is in f's space; radius > 0, in
+    the parameters alone; the states of f's space that are in the last stage, or have |s - e| =
+    max |s_j - e_j| <= radius, are in g's space.  f = g where both are defined, since one guard at
+    most holds there: an orbit of f that enters g's space is from there on an orbit of g.
+    """
+    f = Orbits(earlier(statement, known, "descent"), known, work)
+    attraction = earlier(statement, known, "attraction")
+    g = Orbits(earlier(attraction, known, "descent"), known, work)
+    other = Orbits(around(attraction, known), known, work)
+    same = all(f.map.get(keyword) == g.map.get(keyword) for keyword in ("over", "state", "piece"))
+    require(same, Kind.OTHER_MAP, statement.name)
+    (radius,), point = statement.get("radius"), other.terms("point")
+    roots = [root for root in other.fixed if root not in f.fixed]
+    return {
+        "inside": f.for_all(f"show {g.domain}"),
+        "constants": f.for_all(*roots, f"show ({radius}) > 0"),
+        "point": f.in_space(point, *roots),
+        "surrounds": f.at(*roots, "given " + f.within(radius, point), f"show {g.space}"),
+        "enters": f.at(f"given {f.own.get('stage')[-1]}", f"show {g.space}"),
+    }
+
+
+def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premises:
+    """A periodic orbit: for all parameters in the domain the start is in the space, f^n(start) =
+    start for the length n of the word of pieces, and start is not the point; so the orbit of the
+    start does not tend to the point.
+    """
+    f = Orbits(statement, known, work)
+    (word,) = statement.get("word")
+    require(word, Kind.WORD, statement.name)  # after no step, every start is back
+    here = f.terms("start")
+    rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
+    first = {name: f"{name}_0" for name in f.state}
+    apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
+    shown = [put(f.space, first)]
+    for count, piece in enumerate(word):
+        (guard,), images = at(f.pieces, piece - 1)
+        now = {name: f"{name}_{count}" for name in f.state}
+        work.spend(PER_LETTER * sum(map(len, [guard, *here, *images])))
+        rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
+        shown.append(put(guard, now))
+        if count == 0:
+            shown.append(apart)
+        here = [put(image, now) for image in images]
+    shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
+    return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
+
+
+def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Premises:
+    """An attraction, and an escape from the same point of the same map, or its instability, on
+    domains that make up the map's.  For all parameters in the map's domain: the point is stable and
+    attracts every state of the space <=> the parameters are in the domain of the attraction's
+    descent.
+    """
+    attraction = earlier(statement, known, "attraction")
+    f = Orbits(earlier(attraction, known, "descent"), known, work)
+    inner = Orbits(around(attraction, known), known, work)
+    other = Orbits(earlier(statement, known, "escape", "unstable"), known, work)
+    require(f.map is other.map, Kind.OTHER_MAP, statement.name)
+    roots = [root for root in inner.fixed if root not in other.fixed]
+    points = zip(inner.terms("point"), other.terms("point"))
+    same = all_of(f"({one}) = ({two})" for one, two in points)
+    return {
+        "covers": Orbits(f.map, known, work).for_all(f"show ({f.domain}) or ({other.domain})"),
+        "same-point": other.for_all(*roots, f"show {same}"),
+    }
+
+
+ORBIT_RULES = {
+    "iterates": premises_of_iterates,
+    "map": premises_of_map,
+    "descends": premises_of_descent,
+    "contracts": premises_of_contraction,
+    "lyapunov": premises_of_lyapunov,
+    "unstable": premises_of_instability,
+    "attracts": premises_of_attraction,
+    "into": premises_of_attraction_into,
+    "escapes": premises_of_escape,
+    "exactly": premises_of_sharpness,
+}
+
+
+def orbit_rules() -> dict[str, str]:
+    """{kind of statement: what its rule says}, for the rules for orbits of maps."""
+    return {kind: str(rule.__doc__) for kind, rule in ORBIT_RULES.items()}
+
+
+def premises_of(
+    statement: Statement, known: Known, work: Work | None = None
+) -> dict[str, Statement]:
+    """The premises of an orbit rule, as statements that a certificate has to prove: {name:
+    statement}.
+    """
+    premises = {}
+    for name, rows in ORBIT_RULES[statement.kind](statement, known, work or Work()).items():
+        full = f"{statement.name}.{name}"
+        premises[name] = read_statements("\n".join([f"statement {full}", *rows]))[full]
+    return premises
+
+
+def check_orbit_rule(statement: Statement, certificate: Hint, known: Known, work: Work) -> None:
+    """{premise: prove}: each of the premises that the rule asks for is proved, and there is no
+    other.
+    """
+    premises = premises_of(statement, known, work)
+    # what the statement asks for is shown, not what the certificate offers
+    require(
+        set(certificate) == set(premises), Kind.PREMISES, sorted(set(certificate) ^ set(premises))
+    )
+    for name, premise in premises.items():
+        try:
+            prove(premise, certificate[name], known, work=work)
+        except Rejected as reason:
+            raise reason.within(f"premise {name} of {statement.name}") from None
