@@ -198,7 +198,8 @@ def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expressio
 
 def instance(thing: Term, definitions: Sequence[Definition]) -> Term:
     """The term by the first definition whose body it is; any other term as it is."""
-    wholes = (_instance(one, thing, definitions) for one in definitions)
+    alike = (one for one in definitions if isinstance(one.body, Term) and one.body.op == thing.op)
+    wholes = (_instance(one, thing, definitions) for one in alike)
     return next((one for one in wholes if isinstance(one, Term)), thing)
 
 
