@@ -4,6 +4,7 @@
    Proved:   table_exists            there is a table in each phase;
              motion_is_execution     motion_of is an execution;
              execution_is_motion     every execution is such a one;
+             execution_through       there is an execution through each state at a bounce;
              ball_exists             there is an execution of the ball from each state on or above the table;
              ball_is_unique          and only one. *)
 
@@ -80,16 +81,16 @@ Section Existence.
     let k := number start T t in in_period alpha r g (at_bounce b k) (t - (start + INR k * T)).
 
   Section Ball.
-    Variables (surface : Motion) (p : R).
-    Hypothesis range : 0 <= p < T.
-    Hypothesis table_is : forall k t, 0 <= t < T -> 0 <= - p + INR k * T + t -> surface (- p + INR k * T + t) = fly g t launch.
+    Variables (surface : Motion) (start : R).
+    Hypothesis range : - T < start <= 0.
+    Hypothesis table_is : forall k t, 0 <= t < T -> 0 <= start + INR k * T + t -> surface (start + INR k * T + t) = fly g t launch.
 
-    Lemma above_at_bounces b k : above_at r p b ->
-      exists q, 0 <= q < T /\ above_at r q (at_bounce b k) /\ 0 <= - p + INR k * T + q /\
-        forall t, 0 <= t -> 0 <= - p + INR k * T + t -> q <= t.
+    Lemma above_at_bounces b k : above_at r (- start) b ->
+      exists q, 0 <= q < T /\ above_at r q (at_bounce b k) /\ 0 <= start + INR k * T + q /\
+        forall t, 0 <= t -> 0 <= start + INR k * T + t -> q <= t.
     Proof.
       intro above. induction k as [|k (q & low & here & _)].
-      - exists p. cbn. repeat split; try exact above; intros; lra.
+      - exists (- start). cbn. repeat split; try exact above; intros; lra.
       - exists 0. repeat split; try lra.
         + change (at_bounce b (S k)) with (ball alpha r g (at_bounce b k)).
           rewrite <- (in_period_T g r g_positive r_positive alpha q) by assumption.
@@ -99,12 +100,12 @@ Section Existence.
         + intros; assumption.
     Qed.
 
-    Lemma motion_in_period b k t : above_at r p b -> 0 <= t <= T -> 0 <= - p + INR k * T + t ->
-      motion_of (- p) b (- p + INR k * T + t) = in_period alpha r g (at_bounce b k) t.
+    Lemma motion_in_period b k t : above_at r (- start) b -> 0 <= t <= T -> 0 <= start + INR k * T + t ->
+      motion_of start b (start + INR k * T + t) = in_period alpha r g (at_bounce b k) t.
     Proof.
       intros above [low high] late. unfold motion_of. destruct (Rle_lt_or_eq_dec t T high) as [less|same].
       - rewrite (number_unique _ _ _ k) by lra. f_equal. ring.
-      - subst t. replace (- p + INR k * T + T) with (- p + INR (S k) * T) by (rewrite S_INR; ring). rewrite (number_unique _ _ _ (S k)) by lra.
+      - subst t. replace (start + INR k * T + T) with (start + INR (S k) * T) by (rewrite S_INR; ring). rewrite (number_unique _ _ _ (S k)) by lra.
         rewrite Rminus_diag_eq by reflexivity. destruct (above_at_bounces b k above) as (q & range_q & here & _).
         destruct (above_at_bounces b (S k) above) as (z & range_z & next & _ & least).
         rewrite (in_period_T g r g_positive r_positive alpha q) by assumption.
@@ -113,67 +114,93 @@ Section Existence.
         subst z. rewrite (in_period_start g r g_positive r_positive alpha 0) by assumption. apply fly_0.
     Qed.
 
-    Theorem motion_is_execution b : above_at r p b -> execution g alpha surface (motion_of (- p) b).
+    Theorem motion_is_execution b : above_at r (- start) b -> execution g alpha surface (motion_of start b).
     Proof.
-      intro above. apply (execution_by_periods _ _ _ _ (- p) T T_positive ltac:(lra)).
-      - intros t late. destruct (number_is (- p) T t T_positive ltac:(lra)) as [low high]. set (k := number (- p) T t) in *.
+      intro above. apply (execution_by_periods _ _ _ _ start T T_positive ltac:(lra)).
+      - intros t late. destruct (number_is start T t T_positive ltac:(lra)) as [low high]. set (k := number start T t) in *.
         destruct (above_at_bounces b k above) as (q & range_q & here & _ & least).
-        replace t with (- p + INR k * T + (t - (- p + INR k * T))) by ring. set (time := t - (- p + INR k * T)) in *.
+        replace t with (start + INR k * T + (t - (start + INR k * T))) by ring. set (time := t - (start + INR k * T)) in *.
         rewrite table_is, motion_in_period by (assumption || unfold time; lra).
         apply (in_period_above _ _ g_positive r_positive _ alpha_positive q); [exact range_q|exact here|].
         split; [apply least|]; unfold time; lra.
       - intros k s t late order last none. destruct (above_at_bounces b k above) as (q & range_q & here & _ & least).
-        set (from := s - (- p + INR k * T)). set (to := t - (- p + INR k * T)).
-        replace t with (- p + INR k * T + to) in * by (unfold to; ring). replace s with (- p + INR k * T + from) in * by (unfold from; ring).
-        replace (- p + INR k * T + to - (- p + INR k * T + from)) with (to - from) by ring.
+        set (from := s - (start + INR k * T)). set (to := t - (start + INR k * T)).
+        replace t with (start + INR k * T + to) in * by (unfold to; ring). replace s with (start + INR k * T + from) in * by (unfold from; ring).
+        replace (start + INR k * T + to - (start + INR k * T + from)) with (to - from) by ring.
         rewrite table_is, !motion_in_period by (assumption || lra).
         apply (in_period_flies _ _ g_positive r_positive _ alpha_positive q); try assumption; [split; [apply least|]; lra|lra|].
         intros time inside. rewrite <- (motion_in_period b k), <- (table_is k) by (assumption || lra). apply none. lra.
       - intros k s late order. destruct (above_at_bounces b k above) as (q & range_q & here & _ & least).
-        set (from := s - (- p + INR k * T)). assert (first : q <= from) by (apply least; unfold from; lra).
+        set (from := s - (start + INR k * T)). assert (first : q <= from) by (apply least; unfold from; lra).
         assert (free : forall e, from < e <= T -> ~ (strikes r g (at_bounce b k) /\ from < contact_time r (at_bounce b k) < e) ->
-          no_impact surface (motion_of (- p) b) s (- p + INR k * T + e)).
-        { intros e inside no t between hit. set (time := t - (- p + INR k * T)).
-          replace t with (- p + INR k * T + time) in hit by (unfold time; ring).
+          no_impact surface (motion_of start b) s (start + INR k * T + e)).
+        { intros e inside no t between hit. set (time := t - (start + INR k * T)).
+          replace t with (start + INR k * T + time) in hit by (unfold time; ring).
           rewrite table_is, motion_in_period in hit by (assumption || unfold time, from in *; lra).
           apply (one_impact _ _ g_positive r_positive _ alpha_positive q) in hit as [hits same]; try assumption;
             unfold time, from in *; [|lra]. apply no. split; [exact hits|lra]. }
         destruct (Rlt_dec from (contact_time r (at_bounce b k))) as [before|past];
           [destruct (Rlt_dec (contact_time r (at_bounce b k)) T) as [inside|outside]|].
-        + exists (- p + INR k * T + contact_time r (at_bounce b k)). split; [unfold from in before; lra|]. apply free; lra.
-        + exists (- p + INR k * T + T). split; [lra|]. apply free; [unfold from; lra|lra].
-        + exists (- p + INR k * T + T). split; [lra|]. apply free; [unfold from; lra|lra].
+        + exists (start + INR k * T + contact_time r (at_bounce b k)). split; [unfold from in before; lra|]. apply free; lra.
+        + exists (start + INR k * T + T). split; [lra|]. apply free; [unfold from; lra|lra].
+        + exists (start + INR k * T + T). split; [lra|]. apply free; [unfold from; lra|lra].
     Qed.
 
     (* Any execution of the ball is that of its state at the time 0, flown back to the bounce before. *)
     Theorem execution_is_motion body : execution g alpha surface body ->
-      above_at r p (fly g (- p) (body 0)) /\
-      forall k t, 0 <= t <= T -> 0 <= - p + INR k * T + t ->
-        body (- p + INR k * T + t) = in_period alpha r g (at_bounce (fly g (- p) (body 0)) k) t.
+      above_at r (- start) (fly g start (body 0)) /\
+      forall k t, 0 <= t <= T -> 0 <= start + INR k * T + t ->
+        body (start + INR k * T + t) = in_period alpha r g (at_bounce (fly g start (body 0)) k) t.
     Proof.
-      intro moves. set (b := fly g (- p) (body 0)).
-      assert (here : body 0 = fly g p b) by (unfold b; rewrite fly_fly, Rplus_opp_l; symmetry; apply fly_0).
-      assert (above : above_at r p b).
+      intro moves. set (b := fly g start (body 0)).
+      assert (here : body 0 = fly g (- start) b) by (unfold b; rewrite fly_fly, Rplus_opp_r; symmetry; apply fly_0).
+      assert (above : above_at r (- start) b).
       { pose proof (stays_above _ _ _ _ moves 0 (Rle_refl 0)) as high. rewrite here in high.
-        replace 0 with (- p + INR 0 * T + p) in high at 1 by (cbn; ring). rewrite table_is in high by (cbn; lra).
+        replace 0 with (start + INR 0 * T + (- start)) in high at 1 by (cbn; ring). rewrite table_is in high by (cbn; lra).
         unfold above_at, fly, height, velocity in *. cbn [fst snd] in *. lra. }
       split; [exact above|].
-      assert (all : forall k q, 0 <= q < T -> above_at r q (at_bounce b k) -> 0 <= - p + INR k * T + q ->
-        (forall t, 0 <= t -> 0 <= - p + INR k * T + t -> q <= t) -> body (- p + INR k * T + q) = fly g q (at_bounce b k) ->
-        forall t, q <= t <= T -> body (- p + INR k * T + t) = in_period alpha r g (at_bounce b k) t).
-      { intros k q range_q above_q late least start. apply (ball_in_period _ _ g_positive r_positive _ alpha_positive surface); try assumption.
+      assert (all : forall k q, 0 <= q < T -> above_at r q (at_bounce b k) -> 0 <= start + INR k * T + q ->
+        (forall t, 0 <= t -> 0 <= start + INR k * T + t -> q <= t) -> body (start + INR k * T + q) = fly g q (at_bounce b k) ->
+        forall t, q <= t <= T -> body (start + INR k * T + t) = in_period alpha r g (at_bounce b k) t).
+      { intros k q range_q above_q late least now_. apply (ball_in_period _ _ g_positive r_positive _ alpha_positive surface); try assumption.
         intros t inside. apply table_is; lra. }
-      assert (bounces : forall k, exists q, 0 <= q < T /\ above_at r q (at_bounce b k) /\ 0 <= - p + INR k * T + q /\
-        (forall t, 0 <= t -> 0 <= - p + INR k * T + t -> q <= t) /\ body (- p + INR k * T + q) = fly g q (at_bounce b k)).
-      { intro k. induction k as [|k (q & range_q & above_q & late & least & start)].
-        - exists p. cbn. repeat split; try assumption; try lra; [intros; lra|]. rewrite <- here. f_equal. ring.
+      assert (bounces : forall k, exists q, 0 <= q < T /\ above_at r q (at_bounce b k) /\ 0 <= start + INR k * T + q /\
+        (forall t, 0 <= t -> 0 <= start + INR k * T + t -> q <= t) /\ body (start + INR k * T + q) = fly g q (at_bounce b k)).
+      { intro k. induction k as [|k (q & range_q & above_q & late & least & now_)].
+        - exists (- start). cbn. repeat split; try assumption; try lra; [intros; lra|]. rewrite <- here. f_equal. ring.
         - destruct (above_at_bounces b (S k) above) as (z & range_z & next & late_z & least_z). exists z. repeat split; try assumption; try lra.
           assert (zero : z = 0).
           { apply Rle_antisym; [|lra]. apply least_z; [lra|]. rewrite S_INR. pose proof (pos_INR k). nra. }
-          subst z. rewrite fly_0. replace (- p + INR (S k) * T + 0) with (- p + INR k * T + T) by (rewrite S_INR; ring).
+          subst z. rewrite fly_0. replace (start + INR (S k) * T + 0) with (start + INR k * T + T) by (rewrite S_INR; ring).
           rewrite (all k q) by (assumption || lra). now apply (in_period_T g r g_positive r_positive alpha q). }
-      intros k t inside late. destruct (bounces k) as (q & range_q & above_q & late_q & least & start).
+      intros k t inside late. destruct (bounces k) as (q & range_q & above_q & late_q & least & now_).
       apply (all k q); try assumption. split; [apply least|]; lra.
+    Qed.
+
+    (* There is an execution through each state on or above the table at a bounce; before the first bounce it may be past its impact. *)
+    Theorem execution_through b : above_ground b -> exists body, execution g alpha surface body /\
+      forall k t, 0 <= t <= T -> 0 <= start + INR k * T + t -> body (start + INR k * T + t) = in_period alpha r g (at_bounce b k) t.
+    Proof.
+      intro above. assert (above_0 : above_at r 0 b) by (unfold above_at; unfold above_ground in above; lra).
+      assert (other : exists c, above_at r (- start) c /\ forall t, (- start) <= t <= T -> in_period alpha r g c t = in_period alpha r g b t).
+      { destruct (Rlt_dec (height b * g / 2 + r * velocity b) (r ^ 2)) as [hits|no].
+        - destruct (contact g r g_positive r_positive 0 b) as (falls & high & order & touch); try assumption; [lra|].
+          set (d := contact_time r b) in *. destruct (Rlt_dec d (- start)) as [past|before].
+          + exists (reflected alpha r b). assert (ahead : 0 <= alpha * ((r - velocity b) * ((- start) - d))) by (apply Rmult_le_pos; [lra|apply Rmult_le_pos; lra]).
+            split; [unfold above_at, reflected, height, velocity in *; cbn [fst snd]; rewrite touch; lra|].
+            intros t inside. rewrite (in_period_after _ _ _ b) by (assumption || fold d; lra). apply in_period_before. intros [again _].
+            apply (strikes_is g r g_positive r_positive) in again. assert (0 < alpha * ((r - velocity b) * (T - d))) by (apply Rmult_lt_0_compat; [lra|apply Rmult_lt_0_compat; lra]).
+            unfold reflected, height, velocity in *. cbn [fst snd] in again. rewrite touch in again. lra.
+          + exists b. split; [unfold above_at; rewrite touch; nra|reflexivity].
+        - exists b. split; [|reflexivity]. assert (far : (r - velocity b) * T <= height b)
+            by (apply Rnot_lt_le; intro less; apply no; now apply (strikes_is g r g_positive r_positive)).
+          unfold above_at, above_ground in *. destruct (Rle_dec r (velocity b)); nra. }
+      destruct other as (c & above_c & same). exists (motion_of start c). split; [now apply motion_is_execution|].
+      assert (next : forall k, at_bounce c (S k) = at_bounce b (S k)).
+      { intro k. unfold at_bounce. rewrite !iterate_step. f_equal.
+        rewrite <- (in_period_T _ _ g_positive r_positive _ (- start) c), <- (in_period_T _ _ g_positive r_positive _ 0 b) by (assumption || lra).
+        apply same. lra. }
+      intros k t inside late. rewrite motion_in_period by assumption. destruct k as [|k]; [apply same; cbn in late; lra|]. now rewrite next.
     Qed.
   End Ball.
 
@@ -185,9 +212,9 @@ Section Existence.
     assert (above : above_at r (- start) (fly g start b)).
     { rewrite <- here in high. replace 0 with (start + INR 0 * T + - start) in high by (cbn; ring).
       rewrite table_is in high by (cbn; lra). unfold above_at, fly, height, velocity in *. cbn [fst snd] in *. lra. }
-    rewrite <- (Ropp_involutive start) in table_is. exists (motion_of (- - start) (fly g start b)).
-    split; [apply motion_is_execution; [lra|exact table_is|exact above]|].
-    replace 0 with (- - start + INR 0 * T + - start) by (cbn; ring). rewrite motion_in_period; [|lra|exact above|lra|cbn; lra].
+    exists (motion_of start (fly g start b)).
+    split; [now apply motion_is_execution|].
+    replace 0 with (start + INR 0 * T + - start) by (cbn; ring). rewrite motion_in_period by (assumption || cbn; lra).
     rewrite (in_period_start _ _ g_positive r_positive _ (- start)); [exact here|lra|exact above].
   Qed.
 
@@ -196,9 +223,8 @@ Section Existence.
   Proof.
     intros moves first second same t late. destruct (table_has_period g r g_positive r_positive table moves) as (start & range & table_is).
     destruct (number_is start T t T_positive ltac:(lra)) as [low high]. set (k := number start T t) in *.
-    rewrite <- (Ropp_involutive start) in table_is. assert (phase : 0 <= - start < T) by lra.
-    replace t with (- - start + INR k * T + (t - (start + INR k * T))) by ring.
-    rewrite (proj2 (execution_is_motion _ _ phase table_is ball first)), (proj2 (execution_is_motion _ _ phase table_is other second)) by lra.
+    replace t with (start + INR k * T + (t - (start + INR k * T))) by ring.
+    rewrite (proj2 (execution_is_motion _ _ range table_is ball first)), (proj2 (execution_is_motion _ _ range table_is other second)) by lra.
     now rewrite same.
   Qed.
 End Existence.
