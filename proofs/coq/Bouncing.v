@@ -110,6 +110,9 @@ Section Bouncing.
   (* Above the table, or on it, at the time p of the period, unless the ball has met the table before. *)
   Definition above_at (p : R) (b : State) : Prop := 0 <= height b + (velocity b - r) * p.
 
+  Lemma above_at_0 b : above_ground b -> above_at 0 b.
+  Proof. unfold above_at, above_ground. lra. Qed.
+
   Variable alpha : R.
   Hypothesis alpha_positive : 0 < alpha.
 

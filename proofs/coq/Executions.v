@@ -1,27 +1,24 @@
-(* Flight and impact in continuous time: what an execution is, and what every execution has.
-
+(* Flight and impact in continuous time: what an execution of ball and table is, and what it is to settle.
    State, height, velocity, energy and period are those of Map.v and Physical.v: a pair, its parts, and the paper's terms.
 
-   Defined:  Motion, a state for each time; fly, the parabola of free flight (equation 1); meets, a body touches what is below it and approaches it;
-             rebound, the impact law with restitution alpha (equations 2 and 3); no_impact between two times;
-             execution of a body over a surface; table, a body that bounces on the ground without loss (section 3.1),
-             launched at r; execution of a ball over the table.
-   Proved:   parabolas compose; no_impact_until, what holds at the first impact holds before an end without impact;
+   Defined:  Motion; fly, the parabola of free flight (equation 1); meets, a body touches what is below it and approaches it;
+             rebound, the impact law with restitution alpha (equations 2 and 3); execution, a body above a surface; is_table,
+             a lossless bouncing ball on the ground (section 3.1); is_ball, the ball over a table; tends_to; settles.
+   Proved:   parabolas compose; no_impact_until, no impact happens in an interval in which no first one can happen;
              execution_by_periods, a motion that obeys the laws in each period is an execution. *)
 
 From Coq Require Import Reals ZArith Lra Lia.
 From Juggleproof Require Import Map Physical.
 Open Scope R_scope.
 
-(* A state for each time t >= 0: where an impact happens, that just before it. *)
+(* The state at each time t >= 0; where an impact happens, the state just before it. *)
 Definition Motion : Type := R -> State.
 
 Definition fly (g t : R) (b : State) : State := (height b + velocity b * t - g * t ^ 2 / 2, velocity b - g * t).
 
-(* The body touches what is below it, and approaches it. *)
 Definition meets (below body : State) : Prop := height body = height below /\ velocity body < velocity below.
 
-(* The impact law: the relative velocity is reversed and multiplied by alpha; what is below is not affected. *)
+(* The relative velocity is reversed and multiplied by alpha; what is below is not affected. *)
 Definition rebound (alpha : R) (below body : State) : State :=
   (height body, velocity below - alpha * (velocity body - velocity below)).
 
@@ -31,30 +28,39 @@ Proof.
   destruct (Rlt_dec (velocity body) (velocity below)) as [falls|rises]; [left|right]; tauto.
 Defined.
 
-(* The state just after the time at which the body is in the second state. *)
+(* The state of the body just after a time, from the two states at that time. *)
 Definition after (alpha : R) (below body : State) : State := if meets_dec below body then rebound alpha below body else body.
 
 Definition no_impact (surface body : Motion) (s t : R) : Prop :=
   forall time, s < time < t -> ~ meets (surface time) (body time).
 
-(* A body above a surface, from the time 0 on, under gravity g and with restitution alpha at impacts. *)
+(* A body above a surface, from the time 0 on, under gravity g and with restitution alpha:
+   it is never below the surface; between impacts it flies; and after each time there is an interval without an impact. *)
 Record execution (g alpha : R) (surface body : Motion) : Prop := {
-  (* it is never below the surface, *)
   stays_above : forall t, 0 <= t -> height (surface t) <= height (body t);
-  (* as long as no impact happens it flies, from the state just after the time s, *)
   flies : forall s t, 0 <= s < t -> no_impact surface body s t -> body t = fly g (t - s) (after alpha (surface s) (body s));
-  (* and after each time some time passes without an impact. *)
   impacts_are_apart : forall s, 0 <= s -> exists t, s < t /\ no_impact surface body s t }.
 
 Definition ground : Motion := fun _ => (0, 0).
 
-(* The table bounces on the ground without loss, in any phase; its energy (equation 14) is that of a launch at r. *)
-Definition is_table (g r : R) (table : Motion) : Prop :=
-  execution g 1 ground table /\ energy g (table 0) = r ^ 2 / 2.
+(* The table bounces on the ground without loss, in any phase, with the energy (equation 14) of a launch at velocity r. *)
+Definition is_table (g r : R) (table : Motion) : Prop := execution g 1 ground table /\ energy g (table 0) = r ^ 2 / 2.
 
-(* The ball meets the table as it is just after a bounce at the same time. *)
+(* Where the ball meets the table at the moment of a bounce, it meets the table just after the bounce (equation 5). *)
 Definition surface_of (table : Motion) : Motion := fun t => after 1 (ground t) (table t).
 Definition is_ball (g alpha : R) (table ball : Motion) : Prop := execution g alpha (surface_of table) ball.
+
+(* Heights converge, and so do velocities, except within epsilon of the impacts of the limit. *)
+Definition tends_to (surface body limit : Motion) : Prop :=
+  forall epsilon, 0 < epsilon -> exists from, forall t, from <= t ->
+  Rabs (height (body t) - height (limit t)) < epsilon /\
+  ((forall s, Rabs (s - t) <= epsilon -> ~ meets (surface s) (limit s)) ->
+   Rabs (velocity (body t) - velocity (limit t)) < epsilon).
+
+(* Every execution of the ball over the table tends to one execution, which has the period of the table. *)
+Definition settles (g alpha r : R) (table : Motion) : Prop :=
+  exists limit, is_ball g alpha table limit /\ (forall t, 0 <= t -> limit (t + period r g) = limit t) /\
+  forall ball, is_ball g alpha table ball -> tends_to (surface_of table) ball limit.
 
 (* ---------------------------------------------------------------- parabolas, and single impacts *)
 

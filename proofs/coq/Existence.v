@@ -181,15 +181,17 @@ Section Existence.
     Theorem execution_through b : above_ground b -> exists body, execution g alpha surface body /\
       forall k t, 0 <= t <= T -> 0 <= start + INR k * T + t -> body (start + INR k * T + t) = in_period alpha r g (at_bounce b k) t.
     Proof.
-      intro above. assert (above_0 : above_at r 0 b) by (unfold above_at; unfold above_ground in above; lra).
+      intro above. pose proof (above_at_0 r b above) as above_0.
       assert (other : exists c, above_at r (- start) c /\ forall t, (- start) <= t <= T -> in_period alpha r g c t = in_period alpha r g b t).
       { destruct (Rlt_dec (height b * g / 2 + r * velocity b) (r ^ 2)) as [hits|no].
         - destruct (contact g r g_positive r_positive 0 b) as (falls & high & order & touch); try assumption; [lra|].
           set (d := contact_time r b) in *. destruct (Rlt_dec d (- start)) as [past|before].
-          + exists (reflected alpha r b). assert (ahead : 0 <= alpha * ((r - velocity b) * ((- start) - d))) by (apply Rmult_le_pos; [lra|apply Rmult_le_pos; lra]).
+          + exists (reflected alpha r b).
+            assert (ahead : 0 <= alpha * ((r - velocity b) * (- start - d))) by (apply Rmult_le_pos; [lra|apply Rmult_le_pos; lra]).
             split; [unfold above_at, reflected, height, velocity in *; cbn [fst snd]; rewrite touch; lra|].
             intros t inside. rewrite (in_period_after _ _ _ b) by (assumption || fold d; lra). apply in_period_before. intros [again _].
-            apply (strikes_is g r g_positive r_positive) in again. assert (0 < alpha * ((r - velocity b) * (T - d))) by (apply Rmult_lt_0_compat; [lra|apply Rmult_lt_0_compat; lra]).
+            apply (strikes_is g r g_positive r_positive) in again.
+            assert (0 < alpha * ((r - velocity b) * (T - d))) by (apply Rmult_lt_0_compat; [lra|apply Rmult_lt_0_compat; lra]).
             unfold reflected, height, velocity in *. cbn [fst snd] in again. rewrite touch in again. lra.
           + exists b. split; [unfold above_at; rewrite touch; nra|reflexivity].
         - exists b. split; [|reflexivity]. assert (far : (r - velocity b) * T <= height b)

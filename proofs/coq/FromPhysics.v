@@ -1,24 +1,15 @@
 (* The theorem from physics: for 0 < alpha < 1/3 every execution of the ball over the table settles, in continuous time.
 
-   Defined:  tends_to: heights converge, and velocities do at any distance from the impacts of the limit; settles: every
-             execution of the ball tends to one that has the period of the table.
-   Proved:   settling_bound          k periods on, heights are within 2 r T (2 alpha)^k of those of the limit, the impact
-                                     within 5/2 T (2 alpha)^k, and velocities elsewhere within r (2 alpha)^k;
+   Proved:   settling_bound          n + k bounces after the first, n given by the rank, heights are within
+                                     2 r T (2 alpha)^k of those of the limit for a whole period, the impact is within
+                                     5/2 T (2 alpha)^k of its impact, and velocities elsewhere within r (2 alpha)^k;
              theorem_from_physics    for 0 < alpha < 1/3 the ball settles over each table;
-             sharp_from_physics      for 0 < alpha < 1 it does so exactly for alpha < 1/3. *)
+             sharp_from_physics      for 0 < alpha < 1 it does so exactly for alpha < 1/3.
+   What the theorems speak of is defined in Executions.v; that there are such executions is proved in Existence.v. *)
 
 From Coq Require Import Reals Lra Lia.
 From Juggleproof Require Import Rules Map Neighbourhood Ranking GlobalStability Transfer Physical Executions Bouncing Existence.
 Open Scope R_scope.
-
-Definition tends_to (surface body limit : Motion) : Prop :=
-  forall epsilon, 0 < epsilon -> exists from, forall t, from <= t ->
-  Rabs (height (body t) - height (limit t)) < epsilon /\
-  ((forall s, Rabs (s - t) <= epsilon -> ~ meets (surface s) (limit s)) -> Rabs (velocity (body t) - velocity (limit t)) < epsilon).
-
-Definition settles (g alpha r : R) (table : Motion) : Prop :=
-  exists limit, is_ball g alpha table limit /\ (forall t, 0 <= t -> limit (t + period r g) = limit t) /\
-  forall ball, is_ball g alpha table ball -> tends_to (surface_of table) ball limit.
 
 Section FromPhysics.
   Variables g r alpha : R.
@@ -61,7 +52,9 @@ Section FromPhysics.
 
   (* The impact of the periodic ball is before a quarter of the period is over for alpha < 1/3. *)
   Lemma e1_contact : contact_time r e = alpha / (1 + alpha) * T /\ height e = (r - velocity e) * contact_time r e.
-  Proof. destruct e1_strikes as (_ & _ & falls). unfold contact_time. split; [|field; lra]. unfold e1, period, height, velocity. cbn [fst snd]. field. lra. Qed.
+  Proof.
+    destruct e1_strikes as (_ & _ & falls). unfold contact_time. split; [|field; lra]. unfold e1, period, height, velocity. cbn [fst snd]. field. lra.
+  Qed.
 
   (* ---------------------------------------------------------------- two balls with close states at a bounce *)
 
@@ -74,8 +67,7 @@ Section FromPhysics.
 
     Let b_falls : velocity b < r /\ height b = (r - velocity b) * contact_time r b.
     Proof.
-      destruct (contact g r g_positive r_positive 0 b) as (falls & _ & _ & same); [lra|unfold above_at; unfold above_ground in above; lra|exact hits|].
-      now split.
+      destruct (contact g r g_positive r_positive 0 b) as (falls & _ & _ & same); [lra|now apply above_at_0|exact hits|]. now split.
     Qed.
 
     Lemma close_heights t : 0 <= t <= T -> Rabs (height (in_period alpha r g b t) - height (in_period alpha r g e t)) <= 2 * r * T * q.
@@ -169,8 +161,8 @@ Section FromPhysics.
     Lemma limit_exists : exists limit, is_ball g alpha table limit /\
       forall k t, 0 <= t <= T -> 0 <= start + INR k * T + t -> limit (start + INR k * T + t) = in_period alpha r g e t.
     Proof.
-      destruct (execution_through g r g_positive r_positive alpha alpha_positive _ _ range table_is e) as (limit & moves & known); [apply e1_strikes|]. exists limit. split; [exact moves|].
-      intros k t inside late. now rewrite known, e1_is_fixed.
+      destruct (execution_through g r g_positive r_positive alpha alpha_positive _ _ range table_is e) as (limit & moves & known);
+        [apply e1_strikes|]. exists limit. split; [exact moves|]. intros k t inside late. now rewrite known, e1_is_fixed.
     Qed.
 
     Theorem settling_bound body n k t : alpha < 1 / 3 -> is_ball g alpha table body -> rank (scaling r g (body bounce)) + 3 <= INR n -> 0 <= t <= T ->
@@ -183,7 +175,7 @@ Section FromPhysics.
       intros small moves late inside. destruct (orbit_at_bounces body moves) as [above known]. rewrite known by exact inside.
       destruct (physical_bound r g r_positive g_positive alpha (body bounce) n k ltac:(lra) above late) as [heights velocities].
       assert (trapped : trap alpha (iterate (f alpha) (n + k) (scaling r g (body bounce)))).
-      { apply only_impacts; [lra|exact (proj1 (above_ground_scaled r g r_positive g_positive _) above)|]. rewrite plus_INR. pose proof (pos_INR k). lra. }
+      { apply only_impacts; [lra|now apply (proj1 (above_ground_scaled r g r_positive g_positive _))|]. rewrite plus_INR. pose proof (pos_INR k). lra. }
       rewrite <- (carries_iterates (scaling r g) (ball alpha r g) (f alpha) (conjugate r g r_positive g_positive alpha)) in trapped.
       set (b := iterate (ball alpha r g) (n + k) (body bounce)) in *. set (q := (2 * alpha) ^ k) in *.
       assert (high : above_ground b) by (apply (above_ground_scaled r g r_positive g_positive); apply trapped).
@@ -193,10 +185,8 @@ Section FromPhysics.
       repeat split.
       - now apply close_heights.
       - now apply close_velocities.
-      - intros before hit. replace (bounce + INR (n + k) * T + t) with (start + INR (S (n + k)) * T + t) in hit by (now rewrite (proj1 (bounces_late (n + k)))).
-        rewrite table_is in hit by (pose proof (bounces_late (n + k)); lra).
-        apply (one_impact g r g_positive r_positive alpha alpha_positive 0) in hit as [_ ->]; [now apply close_contact|lra| |lra].
-        unfold above_at. unfold above_ground in high. lra.
+      - intros before hit. rewrite (proj1 (bounces_late (n + k))), table_is in hit by (pose proof (bounces_late (n + k)); lra).
+        apply (one_impact g r g_positive r_positive alpha alpha_positive 0) in hit as [_ ->]; [now apply close_contact|lra|now apply above_at_0|lra].
     Qed.
 
     Theorem every_ball_tends body limit : alpha < 1 / 3 -> is_ball g alpha table body ->
@@ -218,20 +208,19 @@ Section FromPhysics.
       assert (power : 0 <= q) by (apply pow_le; lra).
       assert (bound : q * scale < epsilon).
       { specialize (decays k ltac:(unfold k; lia)). fold q in decays. rewrite Rabs_right in decays by lra.
-        apply Rmult_lt_compat_r with (r := scale) in decays; [|unfold scale; lra]. now replace (epsilon / scale * scale) with epsilon in decays by (field; unfold scale; lra). }
+        apply Rmult_lt_compat_r with (r := scale) in decays; [|unfold scale; lra].
+        now replace (epsilon / scale * scale) with epsilon in decays by (field; unfold scale; lra). }
       assert (parts : 0 <= q * (r * T) /\ 0 <= q * r /\ 0 <= q * T) by (repeat split; apply Rmult_le_pos; lra). unfold scale in bound.
       assert (limit_is : forall u, 0 <= u <= T -> limit (bounce + INR (n + k) * T + u) = in_period alpha r g e u).
       { intros u in_range. destruct (bounces_late (n + k)) as [-> later]. apply known; lra. }
-      rewrite limit_is by lra. destruct (settling_bound body n k time small moves late ltac:(lra)) as (heights & velocities & _). fold q in heights, velocities.
-      split; [lra|]. intro clear_. apply Rle_lt_trans with (r * q); [|lra]. apply velocities. apply Rnot_le_lt. intro near.
+      rewrite limit_is by lra. destruct (settling_bound body n k time small moves late ltac:(lra)) as (heights & velocities & _).
+      fold q in heights, velocities. split; [lra|]. intro clear_. apply Rle_lt_trans with (r * q); [|lra]. apply velocities. apply Rnot_le_lt. intro near.
       destruct e1_strikes as (above & hits & _).
-      assert (above_0 : above_at r 0 e) by (unfold above_at; unfold above_ground in above; lra).
-      destruct (contact g r g_positive r_positive 0 e) as (_ & _ & order & _); [lra|exact above_0|exact hits|].
+      apply above_at_0 with (r := r) in above. destruct (contact g r g_positive r_positive 0 e) as (_ & _ & order & _); [lra|exact above|exact hits|].
       set (c := contact_time r e) in *. apply (clear_ (bounce + INR (n + k) * T + c)).
       - replace (bounce + INR (n + k) * T + c - (bounce + INR (n + k) * T + time)) with (- (time - c)) by ring. rewrite Rabs_Ropp. lra.
-      - rewrite limit_is by lra. replace (bounce + INR (n + k) * T + c) with (start + INR (S (n + k)) * T + c) by (now rewrite (proj1 (bounces_late (n + k)))).
-        rewrite table_is by (pose proof (bounces_late (n + k)); lra).
-        apply (one_impact g r g_positive r_positive alpha alpha_positive 0); [lra|exact above_0|exact order|now split].
+      - rewrite limit_is by lra. rewrite (proj1 (bounces_late (n + k))), table_is by (pose proof (bounces_late (n + k)); lra).
+        apply (one_impact g r g_positive r_positive alpha alpha_positive 0); [lra|exact above|exact order|now split].
     Qed.
   End Over.
 End FromPhysics.
@@ -278,7 +267,7 @@ Proof.
     assert (above_d : above_ground d).
     { apply (above_ground_scaled r g r_positive g_positive). rewrite scaled_d, <- first. now apply H_invariant. }
     assert (here : forall b, above_ground b -> in_period alpha r g b 0 = b).
-    { intros b above. rewrite in_period_start; try assumption; [apply fly_0|lra|unfold above_at; unfold above_ground in above; lra]. }
+    { intros b above. rewrite in_period_start; try assumption; [apply fly_0|lra|now apply above_at_0]. }
     rewrite !here, (height_is d), (height_is (e1 alpha r g)), scaled_d, e1_scaled by assumption. now split. }
   assert (gap : 0 < fst (impact alpha (e_2 alpha)) - fst (e_1 alpha)).
   { unfold impact, e_1, e_2. cbn [fst snd]. replace (_ - _) with ((4 - 2 * alpha) * alpha / (alpha + 1) ^ 2) by (field; lra).
