@@ -4,6 +4,7 @@
    Proved:   table_exists            there is a table in each phase;
              motion_is_execution     motion_of is an execution;
              execution_is_motion     every execution is such a one;
+             execution_is_orbit      from bounce to bounce it goes by the map, with one impact at most between two bounces;
              execution_through       there is an execution through each state at a bounce;
              ball_exists             there is an execution of the ball from each state on or above the table;
              ball_is_unique          and only one. *)
@@ -85,6 +86,13 @@ Section Existence.
     Hypothesis range : - T < start <= 0.
     Hypothesis table_is : forall k t, 0 <= t < T -> 0 <= start + INR k * T + t -> surface (start + INR k * T + t) = fly g t launch.
 
+    Lemma ball_above q b : 0 <= q < T -> above_at r q b -> above_ground (ball alpha r g b).
+    Proof.
+      intros low here. rewrite <- (in_period_T _ _ g_positive r_positive _ q) by assumption.
+      pose proof (in_period_above _ _ g_positive r_positive _ alpha_positive q b T low here ltac:(lra)) as high.
+      rewrite (launch_back g r g_positive r_positive) in high. exact high.
+    Qed.
+
     Lemma above_at_bounces b k : above_at r (- start) b ->
       exists q, 0 <= q < T /\ above_at r q (at_bounce b k) /\ 0 <= start + INR k * T + q /\
         forall t, 0 <= t -> 0 <= start + INR k * T + t -> q <= t.
@@ -92,10 +100,7 @@ Section Existence.
       intro above. induction k as [|k (q & low & here & _)].
       - exists (- start). cbn. repeat split; try exact above; intros; lra.
       - exists 0. repeat split; try lra.
-        + change (at_bounce b (S k)) with (ball alpha r g (at_bounce b k)).
-          rewrite <- (in_period_T g r g_positive r_positive alpha q) by assumption.
-          pose proof (in_period_above _ _ g_positive r_positive _ alpha_positive q (at_bounce b k) T low here ltac:(lra)) as high.
-          unfold above_at. rewrite (launch_back g r g_positive r_positive) in high. unfold height at 1 in high. cbn [fst] in high. lra.
+        + now apply above_at_0, (ball_above q).
         + rewrite S_INR. pose proof (pos_INR k). nra.
         + intros; assumption.
     Qed.
@@ -175,6 +180,39 @@ Section Existence.
           rewrite (all k q) by (assumption || lra). now apply (in_period_T g r g_positive r_positive alpha q). }
       intros k t inside late. destruct (bounces k) as (q & range_q & above_q & late_q & least & now_).
       apply (all k q); try assumption. split; [apply least|]; lra.
+    Qed.
+
+    Lemma bounces_late k : start + T + INR k * T = start + INR (S k) * T /\ 0 <= start + INR (S k) * T.
+    Proof. rewrite S_INR. pose proof (pos_INR k). split; [ring|nra]. Qed.
+
+    Lemma orbit_from_bounce body : execution g alpha surface body -> above_ground (body (start + T)) /\ forall k t, 0 <= t <= T ->
+      body (start + T + INR k * T + t) = in_period alpha r g (at_bounce (body (start + T)) k) t.
+    Proof.
+      intro moves. destruct (execution_is_motion body moves) as [above known]. set (b := fly g start (body 0)) in *.
+      assert (one : body (start + T) = ball alpha r g b).
+      { rewrite <- (in_period_T _ _ g_positive r_positive _ (- start)) by (assumption || lra).
+        replace (start + T) with (start + INR 0 * T + T) by (cbn; ring). apply (known 0%nat); cbn; lra. }
+      split.
+      - pose proof (stays_above _ _ _ _ moves (start + T) ltac:(lra)) as high.
+        replace (start + T) with (start + INR 1 * T + 0) in high at 1 by (cbn; ring). rewrite table_is, fly_0 in high by (cbn; lra). exact high.
+      - intros k t inside. rewrite one. unfold at_bounce. rewrite <- iterate_step. destruct (bounces_late k) as [-> late]. apply (known (S k)); lra.
+    Qed.
+
+    (* From the first bounce after the time 0 on: the map takes the ball from bounce to bounce, and between two it has an impact where
+       inequality (7) holds, one, at the time (6). *)
+    Theorem execution_is_orbit body k : execution g alpha surface body ->
+      let b := iterate (ball alpha r g) k (body (start + T)) in
+      body (start + T + INR k * T) = b /\
+      forall t, 0 <= t < T -> meets (surface (start + T + INR k * T + t)) (body (start + T + INR k * T + t)) <->
+        strikes r g b /\ t = contact_time r b.
+    Proof.
+      intros moves b. destruct (orbit_from_bounce body moves) as [first known].
+      assert (above : above_at r 0 b).
+      { apply above_at_0, iterate_keeps; [|exact first]. intros c above. apply (ball_above 0); [lra|now apply above_at_0]. }
+      split.
+      - rewrite <- (Rplus_0_r (_ + _)), known, in_period_start by (exact above || lra). apply fly_0.
+      - intros t inside. rewrite known by lra. destruct (bounces_late k) as [-> late]. rewrite table_is by lra.
+        now apply (one_impact _ _ g_positive r_positive _ alpha_positive 0); [lra| |].
     Qed.
 
     (* There is an execution through each state on or above the table at a bounce; before the first bounce it may be past its impact. *)

@@ -138,25 +138,7 @@ Section FromPhysics.
     Let bounce : R := start + T.
 
     Let bounces_late k : bounce + INR k * T = start + INR (S k) * T /\ 0 <= start + INR (S k) * T.
-    Proof. unfold bounce. rewrite S_INR. pose proof (pos_INR k). split; [ring|nra]. Qed.
-
-    Lemma orbit_at_bounces body : is_ball g alpha table body -> above_ground (body bounce) /\ forall k t, 0 <= t <= T ->
-      body (bounce + INR k * T + t) = in_period alpha r g (iterate (ball alpha r g) k (body bounce)) t.
-    Proof.
-      intro moves. destruct (execution_is_motion g r g_positive r_positive alpha alpha_positive _ _ range table_is body moves) as [above known].
-      set (b := fly g start (body 0)) in *.
-      assert (high : above_ground (body bounce)).
-      { pose proof (stays_above _ _ _ _ moves bounce ltac:(unfold bounce; lra)) as high.
-        replace bounce with (start + INR 1 * T + 0) in high at 1 by (unfold bounce; cbn; ring).
-        rewrite table_is, fly_0 in high by (cbn; lra). exact high. }
-      assert (one : body bounce = ball alpha r g b).
-      { rewrite <- (in_period_T g r g_positive r_positive alpha (- start)) by (assumption || lra).
-        replace bounce with (start + INR 0 * T + T) by (unfold bounce; cbn; ring). apply (known 0%nat); cbn; lra. }
-      split; [exact high|]. intros k t inside. rewrite one, <- iterate_step. rewrite <- (known (S k)).
-      - f_equal. unfold bounce. rewrite S_INR. ring.
-      - exact inside.
-      - rewrite S_INR. pose proof (pos_INR k). nra.
-    Qed.
+    Proof. now apply bounces_late. Qed.
 
     Lemma limit_exists : exists limit, is_ball g alpha table limit /\
       forall k t, 0 <= t <= T -> 0 <= start + INR k * T + t -> limit (start + INR k * T + t) = in_period alpha r g e t.
@@ -172,7 +154,8 @@ Section FromPhysics.
       (t < T -> meets (surface_of table (bounce + INR (n + k) * T + t)) (body (bounce + INR (n + k) * T + t)) ->
         Rabs (t - contact_time r e) <= 5 / 2 * T * (2 * alpha) ^ k).
     Proof.
-      intros small moves late inside. destruct (orbit_at_bounces body moves) as [above known]. rewrite known by exact inside.
+      intros small moves late inside. destruct (orbit_from_bounce g r g_positive r_positive alpha alpha_positive _ _ range table_is body moves) as [above known].
+      fold bounce in above, known. rewrite known by exact inside.
       destruct (physical_bound r g r_positive g_positive alpha (body bounce) n k ltac:(lra) above late) as [heights velocities].
       assert (trapped : trap alpha (iterate (f alpha) (n + k) (scaling r g (body bounce)))).
       { apply only_impacts; [lra|now apply (proj1 (above_ground_scaled r g r_positive g_positive _))|]. rewrite plus_INR. pose proof (pos_INR k). lra. }

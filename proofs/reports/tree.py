@@ -89,7 +89,8 @@ def theorem_line(
             if decided
             else ""
         )
-        + "\n         `make coq` proves the same from the definition of the map alone"
+        + "\n         `make coq` proves the same from the definition of the map alone, and from"
+        "\n         flight and impact that ball and table settle in continuous time"
     )
 
 
