@@ -80,6 +80,14 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: P
         "Lyapunov.into_attraction",
         "Lyapunov.into_stability",
         "Lyapunov.exactly_or_unstable",
+        "Bouncing.table_has_period",
+        "Existence.execution_is_orbit",
+        "Existence.table_exists",
+        "Existence.ball_exists",
+        "Existence.ball_is_unique",
+        "FromPhysics.settling_bound",
+        "FromPhysics.theorem_from_physics",
+        "FromPhysics.sharp_from_physics",
     ]
     asked = [f"Statements.{name}" for name in names] + rules
     assert len(names) > 40
@@ -87,6 +95,9 @@ def test_the_theorems_rest_on_the_axioms_of_the_reals_alone_holds(development: P
     text = (
         "From Juggleproof Require Rules Lists RulesInFull Lyapunov Statements.\n"
         f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
+        "From Juggleproof Require Rules Lists RulesInFull Statements Bouncing Existence FromPhysics."
+        "\nDefinition everything :="
+        f" ({everything}).\nPrint Assumptions everything.\n"
     )
     result = compiled(development, "Asked.v", text)
     assert result.returncode == 0 and result.stdout.startswith("Axioms:\n"), result.stderr
