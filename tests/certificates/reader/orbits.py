@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
+from itertools import repeat
 
 from tests.certificates.reader.statements import Line, Statement
 from tests.certificates.reader.syntax import Tree, names_in, renamed, require, substitute
@@ -61,20 +62,45 @@ class Setting:
         return [*self.params(*self.state, *more), Line("given", self.space), *self.moving]
 
     def step(
-        self, k: int, *given: Tree, more: tuple[str, ...] = (), stays: bool = True
+        self, k: int, *given: Tree | Line, more: tuple[str, ...] = (), stays: bool = True
     ) -> list[Line]:
         guard, terms = self.pieces[k]
-        lines = [*self.at_state(*more), *(Line("given", tree) for tree in given)]
+        rows = (one if isinstance(one, Line) else Line("given", one) for one in given)
+        lines = [*self.at_state(*more), *rows]
         lines.append(Line("given", guard))
-        lines += [Line("let", (self.next[x], term)) for x, term in zip(self.state, terms)]
+        lines += self.lets(terms)
         if stays:
-            lines.append(Line("given", self.moved(self.space)))
-            for _, (name, term) in self.moving:
-                lines.append(Line("root", (self.next[name], self.moved(term))))
+            lines += [Line("given", self.moved(self.space)), *self.roots_there()]
         return lines
 
     def moved(self, tree: Tree) -> Tree:
         return renamed(tree, self.next)
+
+    def lets(self, terms: Iterable[Tree]) -> list[Line]:
+        return [Line("let", (self.next[x], term)) for x, term in zip(self.state, terms)]
+
+    def roots_there(self) -> list[Line]:
+        return [
+            Line("root", (self.next[name], self.moved(term))) for _, (name, term) in self.moving
+        ]
+
+    def at_point(self, point: Iterable[Tree], *roots: Line) -> list[Line]:
+        show = Line("show", self.moved(self.space))
+        return [*self.params(), *roots, *self.lets(point), show]
+
+    def within(
+        self,
+        distance: Tree,
+        point: Iterable[Tree],
+        names: Iterable[Tree] | None = None,
+        weights: Iterable[Tree] = repeat(ONE),
+    ) -> Tree:
+        links: list[Tree] = []
+        for name, e, weight in zip(names or self.here, point, weights):
+            gap = ("-", name, e)
+            links.append(("<=", ("*", ("-", distance), weight), gap))
+            links.append(("<=", gap, ("*", distance, weight)))
+        return conjunction(links)
 
     def own_domain(self) -> Premises:
         lines = [
@@ -160,12 +186,7 @@ def of_contraction(statement: Statement, statements: Mapping[str, Statement]) ->
         require(names_in(tree) <= fixed, "a term in parameters only")
 
     def within(distance: Tree, names: Iterable[Tree] = setting.here) -> Tree:
-        links: list[Tree] = []
-        for name, e, weight in zip(names, point, weights):
-            gap = ("-", name, e)
-            links.append(("<=", ("*", ("-", distance), weight), gap))
-            links.append(("<=", gap, ("*", distance, weight)))
-        return conjunction(links)
+        return setting.within(distance, point, names, weights)
 
     premises = {**setting.own_domain(), **setting.inside()}
     positive = [(">", weight, ZERO) for weight in weights]
@@ -173,9 +194,7 @@ def of_contraction(statement: Statement, statements: Mapping[str, Statement]) ->
         [(">=", rate, ZERO), ("<", rate, ONE), *positive, (">", radius, ZERO), (">", size, ZERO)]
     )
     premises |= [setting.premise("constants", [*setting.params(), Line("show", constants)])]
-    lets = [Line("let", (setting.next[x], e)) for x, e in zip(setting.state, point)]
-    lines = [*setting.params(), *lets, Line("show", setting.moved(setting.space))]
-    premises |= [setting.premise("point", lines)]
+    premises |= [setting.premise("point", setting.at_point(point))]
     lines = [*setting.at_state(), Line("given", within(radius)), Line("show", inside)]
     premises |= [setting.premise("surrounds", lines)]
     lines = [*setting.at_state(), Line("given", inside), Line("show", within(size))]
@@ -200,15 +219,161 @@ def other_roots(one: Setting, other: Setting) -> tuple[list[Line], list[Line]]:
     )
 
 
+def values_of(statement: Statement) -> list[tuple[tuple[Tree, ...], Tree]]:
+    """The guards, one or none, and the term of each line `value`, which do not name `value`."""
+    values = statement.all("value")
+    for guards, term in values:
+        require(not any("value" in names_in(tree) for tree in (*guards, term)), "value in a value")
+    return values
+
+
+def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    point, values = statement.one("point"), values_of(statement)
+    words = ("on", "loss", "least", "upper", "radius")
+    inside, loss, least, upper, radius = (statement.one(word) for word in words)
+    fixed = {*setting.parameters, *(name for _, (name, _) in setting.fixed)}
+    require(len(point) == len(setting.state), "a term for each variable")
+    for tree in (*point, upper, radius):
+        require(names_in(tree) <= fixed, "a term in parameters only")
+    value, distance, level = (("name", name) for name in ("value", "distance", "level"))
+    given = Line("given", inside)
+    here = [given]
+    for guards, term in values:
+        reached = [*(("not", guard) for guard in guards), ("<=", term, value)]
+        here.append(Line("given", disjunction(reached)))
+    positive = [
+        Line("given", (">=", value, ZERO)),
+        Line("given", (">", ("+", ONE, value), ZERO)),
+    ]
+    bounded, names = [*here, *positive], ("value",)
+    before, more = bounded, names
+    if len(values) == 1 and not values[0][0]:
+        before, more = [given, Line("let", ("value", values[0][1])), *positive], ()
+    any_level = [
+        Line("given", (">", distance, ZERO)),
+        Line("given", (">=", level, ZERO)),
+        Line("given", (">", ("+", ONE, level), ZERO)),
+    ]
+    far: list[Tree] = []
+    for name, e in zip(setting.here, point):
+        side = ("-", name, e)
+        far += [(">=", side, distance), ("<=", side, ("-", distance))]
+    close = [
+        Line("given", (">=", distance, ZERO)),
+        Line("given", setting.within(distance, point)),
+        Line("given", ("<=", distance, radius)),
+    ]
+    premises = {**setting.own_domain(), **setting.inside()}
+    shown = conjunction([(">", radius, ZERO), (">", upper, ZERO)])
+    premises |= [setting.premise("constants", [*setting.params(), Line("show", shown)])]
+    lines = [*setting.params("distance", "level"), *any_level, Line("show", (">", least, ZERO))]
+    premises |= [setting.premise("positive", lines)]
+    premises |= [setting.premise("point", setting.at_point(point))]
+    lines = [*setting.at_state(), Line("given", setting.within(radius, point))]
+    premises |= [setting.premise("surrounds", [*lines, Line("show", inside)])]
+    lines = [*setting.at_state("value"), *here, Line("show", (">=", value, ZERO))]
+    premises |= [setting.premise("bounded", lines)]
+    lines = [*setting.at_state(*more), *before, Line("show", (">=", loss, ZERO))]
+    premises |= [setting.premise("loss", lines)]
+    lines = [*setting.at_state("value", "distance", "level"), *bounded, *any_level]
+    lines += [Line("given", disjunction(far)), Line("given", (">=", level, value))]
+    premises |= [setting.premise("least", [*lines, Line("show", (">=", loss, least))])]
+    for i, (guards, term) in enumerate(values):
+        lines = [*setting.at_state("distance"), *close, *(Line("given", one) for one in guards)]
+        lines.append(Line("show", ("<=", term, ("*", upper, distance))))
+        premises |= [setting.premise(f"small-{i + 1}", lines)]
+    for k in range(len(setting.pieces)):
+        lines = [*setting.step(k, inside), Line("show", setting.moved(inside))]
+        premises |= [setting.premise(f"stays-{k + 1}", lines)]
+        for i, (guards, term) in enumerate(values):
+            falls: Tree = ("<=", setting.moved(term), ("-", value, loss))
+            shown = disjunction([*(("not", setting.moved(one)) for one in guards), falls])
+            lines = [*setting.step(k, *before, more=more), Line("show", shown)]
+            premises |= [setting.premise(f"falls-{k + 1}-{i + 1}", lines)]
+    return premises
+
+
+def of_unstable(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    point, curve, values = statement.one("point"), statement.one("direction"), values_of(statement)
+    rate, radius, upper = (statement.one(word) for word in ("rate", "radius", "upper"))
+    fixed = {*setting.parameters, *(name for _, (name, _) in setting.fixed)}
+    require(len(point) == len(curve) == len(setting.state), "a term for each variable")
+    for tree in (*point, rate, radius, upper):
+        require(names_in(tree) <= fixed, "a term in parameters only")
+    require(all(names_in(tree) <= {*fixed, "distance"} for tree in curve), "a curve")
+    distance = ("name", "distance")
+
+    def next_value(relation: str, bound: Tree) -> Tree:
+        return disjunction(
+            conjunction([*map(setting.moved, guards), (relation, setting.moved(term), bound)])
+            for guards, term in values
+        )
+
+    premises = {**setting.own_domain(), **setting.inside()}
+    constants = conjunction([(">", rate, ONE), (">", radius, ZERO), (">", upper, ZERO)])
+    premises |= [setting.premise("constants", [*setting.params(), Line("show", constants)])]
+    lines = [*setting.params("distance"), Line("given", (">", distance, ZERO))]
+    lines += [Line("given", ("<=", distance, radius)), *setting.lets(curve)]
+    lines += [Line("have", setting.moved(setting.space)), *setting.roots_there()]
+    near = setting.within(distance, point, setting.there)
+    lines.append(Line("show", conjunction([near, next_value(">", ZERO)])))
+    premises |= [setting.premise("direction", lines)]
+    for i, (guards, term) in enumerate(values):
+        given = [setting.within(radius, point), *guards, (">", term, ZERO)]
+        lines = [*setting.at_state(), *(Line("given", one) for one in given)]
+        lines.append(Line("show", ("<=", term, upper)))
+        premises |= [setting.premise(f"bounded-{i + 1}", lines)]
+        for k in range(len(setting.pieces)):
+            grows = Line("show", next_value(">=", ("*", rate, term)))
+            lines = [*setting.step(k, *(Line("given", one) for one in given)), grows]
+            premises |= [setting.premise(f"grows-{k + 1}-{i + 1}", lines)]
+    return premises
+
+
+def around(statement: Statement, statements: Mapping[str, Statement]) -> Statement:
+    """The contraction or Lyapunov function under an attraction."""
+    other = statements[statement.lines[1].says]
+    return around(other, statements) if other.kind in ("attracts", "into") else other
+
+
+def of_into(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    descent = statements[statement.one("descent")]
+    attraction = statements[statement.one("attraction")]
+    first = Setting(descent, statements)
+    second = Setting(statements[attraction.one("descent")], statements)
+    other = around(attraction, statements)
+    for word in ("over", "state", "piece"):
+        require(first.map.all(word) == second.map.all(word), "a map with other pieces")
+    point, radius = other.one("point"), statement.one("radius")
+    roots = other_roots(first, Setting(other, statements))[0]
+    positive = Line("show", (">", radius, ZERO))
+    near = Line("given", first.within(radius, point))
+    inner = Line("show", second.space)
+    last = Line("given", descent.all("stage")[-1])
+    premises = {
+        "inside": [*first.params(), Line("show", second.domain)],
+        "constants": [*first.params(), *roots, positive],
+        "point": first.at_point(point, *roots),
+        "surrounds": [*first.at_state(), *roots, near, inner],
+        "enters": [*first.at_state(), last, inner],
+    }
+    return {
+        name: Statement(f"{statement.name}.{name}", "universal", tuple(lines))
+        for name, lines in premises.items()
+    }
+
+
 def of_attraction(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     descent = statements[statement.one("descent")]
-    contraction = statements[statement.one("contraction")]
-    first, second = Setting(descent, statements), Setting(contraction, statements)
+    other = around(statement, statements)
+    first, second = Setting(descent, statements), Setting(other, statements)
     require(first.map.name == second.map.name, "another map")
     lines = [*first.params(), Line("show", second.domain)]
     premises = [(("inside"), Statement(f"{statement.name}.inside", "universal", tuple(lines)))]
     lines = [*first.at_state(), *(line for some in other_roots(first, second) for line in some)]
-    lines += [Line("given", descent.all("stage")[-1]), Line("show", contraction.one("on"))]
+    lines += [Line("given", descent.all("stage")[-1]), Line("show", other.one("on"))]
     premises.append(("enters", Statement(f"{statement.name}.enters", "universal", tuple(lines))))
     return dict(premises)
 
@@ -246,15 +411,16 @@ def of_escape(statement: Statement, statements: Mapping[str, Statement]) -> Prem
 def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     attraction = statements[statement.one("attraction")]
     descent = Setting(statements[attraction.one("descent")], statements)
-    contraction_statement = statements[attraction.one("contraction")]
-    contraction = Setting(contraction_statement, statements)
-    escape_statement = statements[statement.one("escape")]
+    other = around(attraction, statements)
+    word = statement.lines[1].word
+    escape_statement = statements[statement.one(word)]
     escape = Setting(escape_statement, statements)
     require(descent.map.name == escape.map.name, "another map")
     whole = Setting(escape.map, statements)
     lines = [*whole.params(), Line("show", ("or", descent.domain, escape.domain))]
-    points = equal(contraction_statement.one("point"), escape_statement.one("point"))
-    same = [*escape.params(), *other_roots(escape, contraction)[0], Line("show", points)]
+    points = equal(other.one("point"), escape_statement.one("point"))
+    roots = other_roots(escape, Setting(other, statements))[0]
+    same = [*escape.params(), *roots, Line("show", points)]
     return {
         name: Statement(f"{statement.name}.{name}", "universal", tuple(some))
         for name, some in (("covers", lines), ("same-point", same))
@@ -266,7 +432,10 @@ PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = 
     "iterates": of_iterates,
     "descends": of_descent,
     "contracts": of_contraction,
+    "lyapunov": of_lyapunov,
+    "unstable": of_unstable,
     "attracts": of_attraction,
+    "into": of_into,
     "escapes": of_escape,
     "exactly": of_exactly,
 }

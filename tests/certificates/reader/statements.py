@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from typing import Any, NamedTuple
 
 from tests.certificates.reader.syntax import (
@@ -28,15 +28,28 @@ ORDERS = {
     "map": "over domain state space (piece )+",
     "descends": "map domain (root )*rank (stage )+",
     "contracts": "map domain (root )*on point weights rate radius size ",
-    "attracts": "descent contraction ",
+    "lyapunov": "map domain (root )*on point (value )+loss least upper radius ",
+    "unstable": "map domain (root )*point direction (value )+rate radius upper ",
+    "attracts": "descent (contraction|lyapunov) ",
+    "into": "descent attraction radius ",
     "escapes": "map domain (root )*point start word ",
-    "exactly": "attraction escape ",
+    "exactly": "attraction (escape|unstable) ",
 }
 NAMES = ("forall", "integer", "exists", "over", "state")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")
-TERMS = ("rank", "rate", "radius", "size")
-TUPLES = ("point", "weights", "start")
-OTHERS = ("map", "descent", "contraction", "attraction", "escape")
+TERMS = ("rank", "rate", "radius", "size", "loss", "least", "upper")
+TUPLES = ("point", "weights", "start", "direction")
+OTHERS = {  # the kinds of statements that a line may name
+    "map": ("map",),
+    "descent": ("descends",),
+    "contraction": ("contracts",),
+    "lyapunov": ("lyapunov",),
+    "attraction": ("attracts", "into"),
+    "escape": ("escapes",),
+    "unstable": ("unstable",),
+}
+# the names that a line may use beside those declared before it
+OWN = {"loss": {"value"}, "least": {"distance", "level"}, "direction": {"distance"}}
 STATEMENT_NAME = re.compile(r"[A-Za-z0-9_.-]+/[A-Za-z0-9_.-]+")
 
 
@@ -89,6 +102,15 @@ def read_statements(text: str) -> dict[str, Statement]:
     return statements
 
 
+def names_below(statement: Statement, earlier: Mapping[str, Statement]) -> set[str]:
+    """The parameters and roots of a statement and of those that it names."""
+    names = {*statement.names("over"), *(name for name, _ in statement.all("root"))}
+    for line in statement.lines:
+        if line.word in OTHERS:
+            names |= names_below(earlier[line.says], earlier)
+    return names
+
+
 def read_statement(
     block: list[str], known: Mapping[str, Definition], earlier: Mapping[str, Statement]
 ) -> Statement:
@@ -123,16 +145,20 @@ class Scope:
         if word == "integer":
             return self._listed(text)
         if word in NAMES:
-            names = self._listed(text)
+            names = self._listed(text) if text or word != "over" else ()
             for name in names:
                 self._declare(name, hidden=word == "exists")
             return names
         if word in FORMULAS:
             return require_formula(self._tree(text))
         if word in TERMS:
-            return require_term(self._tree(text))
+            return require_term(self._tree(text, OWN.get(word, set())))
         if word in TUPLES:
-            return self._parts(text)
+            return self._parts(text, OWN.get(word, set()))
+        if word == "value":
+            *guard, term = self._arrow(text) if " -> " in text else [text]
+            tree = require_term(self._tree(term))
+            return tuple(require_formula(self._tree(one)) for one in guard), tree
         if word == "let":
             name, term = self._equation(text)
             tree = require_term(self._tree(term))
@@ -191,17 +217,18 @@ class Scope:
         require(len(sides) == 2, f"one arrow: {text!r}")
         return sides
 
-    def _tree(self, text: str) -> Tree:
+    def _tree(self, text: str, own: Set[str] = frozenset()) -> Tree:
         parser = Parser(text, self.known)
         tree = parser.disjunction()
         parser.end()
-        require(names_in(tree) <= self.names, f"{names_in(tree) - self.names} are not declared")
+        known = self.names | own
+        require(names_in(tree) <= known, f"{names_in(tree) - known} are not declared")
         require(parser.used <= self.names - self.hidden, "a definition is over other names")
         return tree
 
-    def _parts(self, text: str) -> tuple[Tree, ...]:
+    def _parts(self, text: str, own: Set[str] = frozenset()) -> tuple[Tree, ...]:
         """Terms with commas between them, in parentheses or not."""
-        tree = self._tree(f"({text},)")
+        tree = self._tree(f"({text},)", own)
         return tuple(flat(tree[1:]))
 
     def _number(self, text: str) -> tuple[str, Tree, Tree, Tree]:
@@ -213,11 +240,16 @@ class Scope:
         return name, parts[0], parts[1], parts[2]
 
     def _other(self, word: str, name: str) -> str:
-        """An earlier statement; parameters and state of a map are declared by naming it."""
-        kind = {"descent": "descends", "contraction": "contracts", "attraction": "attracts"}
-        kind = {**kind, "escape": "escapes", "map": "map"}
-        if name not in self.earlier or self.earlier[name].kind != kind[word]:
-            raise Rejected(f"{name} is no earlier statement of kind {kind[word]}")
+        """An earlier statement; parameters and state of a map are declared by naming it.  What a
+        descent and an attraction name a radius may name, without definitions.
+        """
+        kinds = OTHERS[word]
+        if name not in self.earlier or self.earlier[name].kind not in kinds:
+            raise Rejected(f"{name} is no earlier statement of kind {' or '.join(kinds)}")
+        if word in ("descent", "attraction"):
+            known = names_below(self.earlier[name], self.earlier)
+            self.names |= known
+            self.hidden |= known
         if word == "map":
             other = self.earlier[name]
             for own in (*other.names("over"), *other.names("state")):
