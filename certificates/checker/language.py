@@ -398,10 +398,10 @@ ORDERS = {
     "descends": r"map domain (root )*rank (stage )+",
     "contracts": r"map domain (root )*on point weights rate radius size ",
     "lyapunov": r"map domain (root )*on point (value )+loss least upper radius ",
-    "unstable": r"map domain (root )*point direction (value )+rate radius upper ",
     "attracts": r"descent (contraction|lyapunov) ",
     "into": r"descent attraction radius ",
     "escapes": r"map domain (root )*point start word ",
+    "unstable": r"map domain (root )*point direction (value )+rate radius upper ",
     "exactly": r"attraction (escape|unstable) ",
 }
 

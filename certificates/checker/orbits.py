@@ -319,47 +319,6 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     return f.with_domain(premises)
 
 
-def premises_of_instability(statement: Statement, known: Known, work: Work) -> Premises:
-    """A Chetaev function W: W(s) is the greatest of the terms `value` whose guard, if they have
-    one, holds at s; e is the point, |s - e| = max |s_j - e_j|, and s(d) the state given by the
-    terms `direction`, in which d is named `distance`.  For all parameters in the domain and 0 < d
-    <= radius: s(d) is in the space, |s(d) - e| <= d, and |f^n(s(d)) - e| > radius for some integer
-    n >= 0.  So e is not stable.
-
-    Premises: rate > 1, radius > 0 and upper > 0, in the parameters alone; for 0 < d <= radius s(d)
-    is in the space, |s(d) - e| <= d and W(s(d)) > 0; and for all states s of the space with |s - e|
-    <= radius and W(s) > 0, W(s) <= upper and W(f(s)) >= rate W(s).  If the orbit stayed,
-    W(f^n(s(d))) >= rate^n W(s(d)) would exceed upper.
-    """
-    f = Orbits(statement, known, work)
-    (rate,), (radius,), (upper,) = map(statement.get, ("rate", "radius", "upper"))
-    point, curve, values = f.terms("point"), f.terms("direction", "distance"), f.values()
-
-    def next_value(bound: str) -> str:
-        """W of the next state meets a lower bound."""
-        parts = [[*map(f.next, guards), f"({f.next(term)}) {bound}"] for guards, term in values]
-        return all_of(map(all_of, parts), " or ")
-
-    # what is shown to be a state of the space has the roots that are of the state
-    start = ["have " + f.next(f.space), *map(f.next, f.roots)]
-    small = ["given distance > 0", f"given distance <= ({radius})", *f.let_next(curve), *start]
-    # no f.next of it: a state variable may have the name `distance`
-    show = "show " + all_of([f.within("distance", point, after="_next"), next_value("> 0")])
-    constants = all_of([f"({rate}) > 1", f"({radius}) > 0", f"({upper}) > 0"])
-    premises = {
-        "constants": f.for_all(f"show {constants}"),
-        "direction": f.for_all(*small, show, extra=["distance"]),
-    }
-    for i, (guards, term) in enumerate(values):
-        here = [f.within(radius, point), *guards, f"({term}) > 0"]
-        given = [f"given {one}" for one in here]
-        premises[f"bounded-{i + 1}"] = f.at(*given, f"show ({term}) <= ({upper})")
-        for k in range(len(f.pieces)):
-            grows = f.step(k, *given, show=next_value(f">= ({rate})*({term})"))
-            premises[f"grows-{k + 1}-{i + 1}"] = grows
-    return f.with_domain(premises)
-
-
 def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Premises:
     """A descent whose last stage lies in the set `on` of a contraction, or of a Lyapunov function,
     of the same map.  For all parameters in the descent's domain, the point is stable and f^n(s)
@@ -438,6 +397,47 @@ def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premis
     return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
 
 
+def premises_of_instability(statement: Statement, known: Known, work: Work) -> Premises:
+    """A Chetaev function W: W(s) is the greatest of the terms `value` whose guard, if they have
+    one, holds at s; e is the point, |s - e| = max |s_j - e_j|, and s(d) the state given by the
+    terms `direction`, in which d is named `distance`.  For all parameters in the domain and 0 < d
+    <= radius: s(d) is in the space, |s(d) - e| <= d, and |f^n(s(d)) - e| > radius for some integer
+    n >= 0.  So e is not stable.
+
+    Premises: rate > 1, radius > 0 and upper > 0, in the parameters alone; for 0 < d <= radius s(d)
+    is in the space, |s(d) - e| <= d and W(s(d)) > 0; and for all states s of the space with |s - e|
+    <= radius and W(s) > 0, W(s) <= upper and W(f(s)) >= rate W(s).  If the orbit stayed,
+    W(f^n(s(d))) >= rate^n W(s(d)) would exceed upper.
+    """
+    f = Orbits(statement, known, work)
+    (rate,), (radius,), (upper,) = map(statement.get, ("rate", "radius", "upper"))
+    point, curve, values = f.terms("point"), f.terms("direction", "distance"), f.values()
+
+    def next_value(bound: str) -> str:
+        """W of the next state meets a lower bound."""
+        parts = [[*map(f.next, guards), f"({f.next(term)}) {bound}"] for guards, term in values]
+        return all_of(map(all_of, parts), " or ")
+
+    # what is shown to be a state of the space has the roots that are of the state
+    start = ["have " + f.next(f.space), *map(f.next, f.roots)]
+    small = ["given distance > 0", f"given distance <= ({radius})", *f.let_next(curve), *start]
+    # no f.next of it: a state variable may have the name `distance`
+    show = "show " + all_of([f.within("distance", point, after="_next"), next_value("> 0")])
+    constants = all_of([f"({rate}) > 1", f"({radius}) > 0", f"({upper}) > 0"])
+    premises = {
+        "constants": f.for_all(f"show {constants}"),
+        "direction": f.for_all(*small, show, extra=["distance"]),
+    }
+    for i, (guards, term) in enumerate(values):
+        here = [f.within(radius, point), *guards, f"({term}) > 0"]
+        given = [f"given {one}" for one in here]
+        premises[f"bounded-{i + 1}"] = f.at(*given, f"show ({term}) <= ({upper})")
+        for k in range(len(f.pieces)):
+            grows = f.step(k, *given, show=next_value(f">= ({rate})*({term})"))
+            premises[f"grows-{k + 1}-{i + 1}"] = grows
+    return f.with_domain(premises)
+
+
 def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Premises:
     """An attraction, and an escape from the same point of the same map, or its instability, on
     domains that make up the map's.  For all parameters in the map's domain: the point is stable and
@@ -464,10 +464,10 @@ ORBIT_RULES = {
     "descends": premises_of_descent,
     "contracts": premises_of_contraction,
     "lyapunov": premises_of_lyapunov,
-    "unstable": premises_of_instability,
     "attracts": premises_of_attraction,
     "into": premises_of_attraction_into,
     "escapes": premises_of_escape,
+    "unstable": premises_of_instability,
     "exactly": premises_of_sharpness,
 }
 
