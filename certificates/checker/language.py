@@ -387,6 +387,8 @@ LINES = {  # how what follows each keyword is read
     ),
     **dict.fromkeys(("point", "weights", "start", "direction"), listed),
 }
+# what only these lines may name, beside parameters, state and roots
+OWN = {"loss": ["value"], "least": ["distance", "level"], "direction": ["distance"]}
 # the lines that each kind of statement has, in this order, so that none can be overlooked
 ORDERS = {
     "universal": (
@@ -450,7 +452,7 @@ class Statement:
             bound = said
         else:
             bound = [said[0]] if keyword in ("let", "root", "number") else []
-        for name in bound:
+        for name in [*bound, *OWN.get(keyword, [])]:
             definitions.bind(name)
         if keyword == "map" and text in statements:
             bound = statements[text].declared

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Set
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from tests.certificates.reader.syntax import (
@@ -49,7 +49,11 @@ OTHERS = {  # the kinds of statements that a line may name
     "unstable": ("unstable",),
 }
 # the names that a line may use beside those declared before it
-OWN = {"loss": {"value"}, "least": {"distance", "level"}, "direction": {"distance"}}
+OWN = {
+    "loss": frozenset({"value"}),
+    "least": frozenset({"distance", "level"}),
+    "direction": frozenset({"distance"}),
+}
 STATEMENT_NAME = re.compile(r"[A-Za-z0-9_.-]+/[A-Za-z0-9_.-]+")
 
 
@@ -152,9 +156,9 @@ class Scope:
         if word in FORMULAS:
             return require_formula(self._tree(text))
         if word in TERMS:
-            return require_term(self._tree(text, OWN.get(word, set())))
+            return require_term(self._tree(text, OWN.get(word, frozenset())))
         if word in TUPLES:
-            return self._parts(text, OWN.get(word, set()))
+            return self._parts(text, OWN.get(word, frozenset()))
         if word == "value":
             *guard, term = self._arrow(text) if " -> " in text else [text]
             tree = require_term(self._tree(term))
@@ -217,16 +221,17 @@ class Scope:
         require(len(sides) == 2, f"one arrow: {text!r}")
         return sides
 
-    def _tree(self, text: str, own: Set[str] = frozenset()) -> Tree:
+    def _tree(self, text: str, own: frozenset[str] = frozenset()) -> Tree:
         parser = Parser(text, self.known)
         tree = parser.disjunction()
         parser.end()
+        require(own.isdisjoint(self.known), "a definition of what a line names")
         known = self.names | own
         require(names_in(tree) <= known, f"{names_in(tree) - known} are not declared")
         require(parser.used <= self.names - self.hidden, "a definition is over other names")
         return tree
 
-    def _parts(self, text: str, own: Set[str] = frozenset()) -> tuple[Tree, ...]:
+    def _parts(self, text: str, own: frozenset[str] = frozenset()) -> tuple[Tree, ...]:
         """Terms with commas between them, in parentheses or not."""
         tree = self._tree(f"({text},)", own)
         return tuple(flat(tree[1:]))
