@@ -364,9 +364,20 @@ def guarded(text: str, read: Reader) -> tuple[list[str], list[str]]:
     return mapping(text, read) if " -> " in text else ([], listed(text, read))
 
 
+NAMED = {  # the kinds of statements that a line may name
+    "map": ["map"],
+    "relation": ["relation"],
+    "descent": ["descends"],
+    "contraction": ["contracts"],
+    "lyapunov": ["lyapunov"],
+    "attraction": ["attracts", "into"],
+    "escape": ["escapes"],
+    "unstable": ["unstable"],
+}
 LINES = {  # how what follows each keyword is read
     **dict.fromkeys(
-        ("forall", "integer", "exists", "over", "sharp", "state"), lambda text, read: text.split()
+        ("forall", "integer", "exists", "over", "sharp", "state", "input"),
+        lambda text, read: text.split(),
     ),
     "let": equation,
     "root": lambda text, read: call(text, read, "sqrt(term)"),
@@ -377,10 +388,7 @@ LINES = {  # how what follows each keyword is read
     **dict.fromkeys(("iterates", "after", "piece"), mapping),
     "value": guarded,
     "word": lambda text, read: [int(k) for k in text.split()],
-    **dict.fromkeys(
-        ("map", "descent", "contraction", "lyapunov", "attraction", "escape", "unstable"),
-        lambda text, read: text,
-    ),
+    **dict.fromkeys(NAMED, lambda text, read: text),
     **dict.fromkeys(
         ("space", "rank", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
         lambda text, read: written(read(text)),
@@ -397,9 +405,10 @@ ORDERS = {
     "sharp": r"sharp over domain (number )*holds ",
     "iterates": r"forall integer (let )*iterates after ",
     "map": r"over domain state space (piece )+",
-    "descends": r"map domain (root )*rank (stage )+",
-    "contracts": r"map domain (root )*on point weights rate radius size ",
-    "lyapunov": r"map domain (root )*on point (value )+loss least upper radius ",
+    "relation": r"over domain state (input )?space (piece )+",
+    "descends": r"(map|relation) domain (root )*rank (stage )+",
+    "contracts": r"(map|relation) domain (root )*on point weights rate radius size ",
+    "lyapunov": r"(map|relation) domain (root )*on point (value )+loss least upper radius ",
     "attracts": r"descent (contraction|lyapunov) ",
     "into": r"descent attraction radius ",
     "escapes": r"map domain (root )*point start word ",
@@ -448,13 +457,13 @@ class Statement:
         self.lines.append((keyword, said))
         self.texts.append(text)
         self.plain.append(out)
-        if keyword in ("forall", "over", "state", "exists"):
+        if keyword in ("forall", "over", "state", "input", "exists"):
             bound = said
         else:
             bound = [said[0]] if keyword in ("let", "root", "number") else []
         for name in [*bound, *OWN.get(keyword, [])]:
             definitions.bind(name)
-        if keyword == "map" and text in statements:
+        if keyword in ("map", "relation") and text in statements:
             bound = statements[text].declared
         if keyword != "exists":
             self.declared.update(bound)

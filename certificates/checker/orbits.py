@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from .algebra import Kind, Rejected, Work, require
-from .language import Known, Statement, read_statements
+from .language import NAMED, Known, Statement, read_statements
 from .rules import Hint, at, prove
 from .text import names_in, put
 
@@ -53,19 +53,20 @@ def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Prem
 
 
 class Orbits:
-    """A map with the lines of a statement about it, from which the text of the premises is
-    written.
+    """A map, or a relation, with the lines of a statement about it, from which the text of the
+    premises is written.
     """
 
     def __init__(self, statement: Statement, known: Known, work: Work) -> None:
         self.own = statement
         self.work = work
-        if statement.kind == "map":
+        if statement.kind in ("map", "relation"):
             self.map = statement
         else:
-            self.map = earlier(statement, known, "map")
+            self.map = earlier(statement, known, "map", "relation")
         (self.parameters,) = self.map.get("over")
         (self.state,) = self.map.get("state")
+        self.inputs = [name for line in self.map.get("input") for name in line]
         (self.space,) = self.map.get("space")
         (self.domain,) = statement.rows("domain")
         self.pieces = self.map.get("piece")
@@ -82,9 +83,10 @@ class Orbits:
         fits = all(
             len(guard) == 1 and len(images) == len(self.state) for guard, images in self.pieces
         )
-        # nothing but parameters and state: x_next in a guard would mean the image itself
+        # nothing but parameters, state and inputs: x_next in a guard would mean the image itself
         named = names_in(*(text for piece in self.pieces for side in piece for text in side))
-        require(fits and named <= {*self.parameters, *self.state}, Kind.PIECE, self.map.name)
+        known_names = {*self.parameters, *self.state, *self.inputs}
+        require(fits and named <= known_names, Kind.PIECE, self.map.name)
 
     def next(self, text: str) -> str:
         """The same of the next state."""
@@ -102,15 +104,16 @@ class Orbits:
         return self.for_all(f"given {self.space}", *self.roots, *rows, extra=[*self.state, *extra])
 
     def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
-        """Where the k-th piece applies: something of the next state, which is in the space by the
-        map's premises.
+        """Where the k-th piece applies, for all inputs: something of the next state; the map's
+        premises say that it is in the space.
         """
         (guard,), images = self.pieces[k]
         known = []
         if self.own is not self.map:  # else the map would be assumed to do what is to be shown
             known = ["given " + self.next(self.space), *map(self.next, self.roots)]
         image = self.let_next(images)
-        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
+        every = [*extra, *self.inputs]
+        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=every)
 
     def let_next(self, terms: Sequence[str]) -> list[str]:
         """The lines that name the terms of the next state, or of any other."""
@@ -165,17 +168,6 @@ class Orbits:
         return {"possible": possible, **inside, **premises}
 
 
-NAMED = {  # the kinds of statements that a line may name
-    "map": ["map"],
-    "descent": ["descends"],
-    "contraction": ["contracts"],
-    "lyapunov": ["lyapunov"],
-    "attraction": ["attracts", "into"],
-    "escape": ["escapes"],
-    "unstable": ["unstable"],
-}
-
-
 def earlier(statement: Statement, known: Known, *keywords: str) -> Statement:
     """What the line with one of these keywords names: an earlier statement, certified, of the kind
     that the line needs.
@@ -198,12 +190,29 @@ def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
     """
     f = Orbits(statement, known, work)
     guards = [guard for (guard,), _ in f.pieces]
-    premises = {"covers": f.at("show " + all_of(guards, " or "))}
+    apart = {}
     for i, guard in enumerate(guards):
         for k in range(i):
             both = f"given {guard}", f"given {guards[k]}"
-            premises[f"apart-{i + 1}-{k + 1}"] = f.at(*both, "show 0 = 1")
-    for k in range(len(guards)):
+            apart[f"apart-{i + 1}-{k + 1}"] = f.at(*both, "show 0 = 1")
+    return premises_of_relation(statement, known, work, apart)
+
+
+def premises_of_relation(
+    statement: Statement, known: Known, work: Work, apart: Premises | None = None
+) -> Premises:
+    """A relation F between states of the space: for all parameters in the domain, each state s of
+    the space has a next state, that is, a piece whose guard holds for some inputs, and all its next
+    states are in the space: the images under each piece, for all inputs for which its guard holds.
+
+    What `descends`, `contracts`, `lyapunov`, `attracts` and `into` say of f^n(s), they say of s_n
+    for every execution s_0 = s, s_(n + 1) in F(s_n) of a relation, with F(e) = {e} for f(e) = e.
+    """
+    f = Orbits(statement, known, work)
+    some = [f"exists {' '.join(f.inputs)}"] if f.inputs else []
+    covers = f.at(*some, "show " + all_of((guard for (guard,), _ in f.pieces), " or "))
+    premises = {"covers": covers, **(apart or {})}
+    for k in range(len(f.pieces)):
         premises[f"stays-{k + 1}"] = f.step(k, show=f.next(f.space))
     return f.with_domain(premises)
 
@@ -219,6 +228,7 @@ def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premi
     f = Orbits(statement, known, work)
     (rank,) = statement.get("rank")
     stages = statement.get("stage")
+    require(not names_in(*stages) & set(f.inputs), Kind.STAGE_INPUT, statement.name)
     outside = f"given not ({all_of(stages, ' or ')})"
     premises = {"bounded": f.at(f"show ({rank}) >= 0")}
     for k in range(len(f.pieces)):
@@ -288,8 +298,8 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     # > 0, so that loss and least may divide by them
     bounded = [*here, "given value >= 0", "given 1 + value > 0"]
     before, extra = bounded, ["value"]
-    if len(values) == 1 and not values[0][0]:
-        before, extra = [here[0], f"let value = {values[0][1]}", *bounded[-2:]], []
+    if len(values) == 1:  # its guard holds on the set, where `bounded` does
+        before, extra = [here[0], f"let value = {values[0][1]}", *bounded[2:]], []
     any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
     sides = [f"{name} - ({e})" for name, e in zip(f.state, point)]
     far = all_of((f"{d} >= distance or {d} <= -distance" for d in sides), " or ")
@@ -351,8 +361,8 @@ def premises_of_attraction_into(statement: Statement, known: Known, work: Work) 
 
     Premises: the descent's domain is part of the attraction's; e is in f's space; radius > 0, in
     the parameters alone; the states of f's space that are in the last stage, or have |s - e| =
-    max |s_j - e_j| <= radius, are in g's space.  f = g where both are defined, since one guard at
-    most holds there: an orbit of f that enters g's space is from there on an orbit of g.
+    max |s_j - e_j| <= radius, are in g's space.  f = g where both are defined, by the same pieces:
+    an orbit of f that enters g's space is from there on an orbit of g.
     """
     f = Orbits(earlier(statement, known, "descent"), known, work)
     attraction = earlier(statement, known, "attraction")
@@ -461,6 +471,7 @@ def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Pre
 ORBIT_RULES = {
     "iterates": premises_of_iterates,
     "map": premises_of_map,
+    "relation": premises_of_relation,
     "descends": premises_of_descent,
     "contracts": premises_of_contraction,
     "lyapunov": premises_of_lyapunov,

@@ -22,7 +22,7 @@ from pathlib import Path
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import settling
 from juggleproof.certificates.store import certificate_lines
-from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, SUBTRACT, searched
+from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, searched
 from tests.certificates.checker.rules import TABLES
 
 MEMORY, SECONDS = 2 << 30, 20
@@ -32,7 +32,7 @@ BITS += ("sqrt(", "root(", "implies(", "iff(", "not ", " and ", " or ", "<", "="
 BITS += ("\nstatement a/b\n", "\ndefine f(x) := f(x)\n", "\nexists x\n", "\x00", "\r", "\u2028")
 BITS += ("value", "distance", "x_next", " -> ", "\nover\n", "\nradius distance\n")
 BITS += ("[" * 3000, "{", "}", "]", '"', "null", "true", "1.5", "1e9", "-1", '"x"', "[]", "[[]]")
-MAPS = (SUBTRACT, FLIP, NEST, DOUBLE)
+MAPS = (SUBTRACT, FLIP, NEST, DOUBLE, PUSH)
 
 
 def folders() -> list[tuple[str, str]]:
