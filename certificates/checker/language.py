@@ -405,7 +405,7 @@ ORDERS = {
     "sharp": r"sharp over domain (number )*holds ",
     "iterates": r"forall integer (let )*iterates after ",
     "map": r"over domain state space (piece )+",
-    "relation": r"over domain state (input )?space (piece )+",
+    "relation": r"over domain state input space (piece )+",
     "descends": r"(map|relation) domain (root )*rank (stage )+",
     "contracts": r"(map|relation) domain (root )*on point weights rate radius size ",
     "lyapunov": r"(map|relation) domain (root )*on point (value )+loss least upper radius ",

@@ -93,6 +93,8 @@ CHANGES = [
     ("example/map", "piece x < 1", "piece x <= 1", "x = 1 has two pieces"),
     ("example/map", "x - 1", "x - 2", "x = 1 leaves the space"),
     ("example/map", '"apart-2-1"', '"apart-1-2"', "no premise of this name"),
+    ("example/relation", '"u": "0"', '"u": "2"', "no guard holds"),
+    ("example/relation", "u >= 0 and u <= 1", "u <= 1", "x = 2 leaves the space for u = -1"),
     ("example/descends", "rank x", "rank x/2", "falls by 1/2"),
     ("example/descends", "stage x < 1", "stage x < 1/2", "the rank of 3/4 does not fall"),
     ("example/descends", "map example/map", "map example/none", "no earlier map"),

@@ -277,6 +277,28 @@ descent push/descends
 lyapunov push/lyapunov
 """
 
+# Without inputs, where the pieces overlap: a state is halved, or taken to a third.
+SWITCH = """
+statement switch/relation
+over
+domain 0 = 0
+state x
+input
+space 0 = 0
+piece x >= -1 -> x/2
+piece x <= 1 -> -x/3
+
+statement switch/contracts
+relation switch/relation
+domain 0 = 0
+on x^2 <= 1
+point 0
+weights 1
+rate 1/2
+radius 1
+size 1
+"""
+
 # No parameter: a state is doubled.
 DOUBLE = """
 statement double/map

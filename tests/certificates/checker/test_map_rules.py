@@ -23,6 +23,7 @@ from tests.certificates.checker.maps import (
     NEST,
     PUSH,
     SUBTRACT,
+    SWITCH,
     TURN,
     checked,
     edited,
@@ -116,6 +117,11 @@ FAILING_OF_A_RELATION = [
     ("contracts", "rate 1/2", "rate 1/4", "closer-1"),
     ("lyapunov", "loss value/2", "loss value", "falls-1-1"),
 ]
+FAILING_WITHOUT_INPUTS = [
+    ("relation", "piece x >= -1", "piece x > 2", "covers"),
+    ("contracts", "rate 1/2", "rate 1/3", "closer-1"),
+    ("contracts", "rate 1/2", "rate 1", "constants"),
+]
 FAILING_INTO = [("into", "radius 1", "radius 0", "constants")]
 # What joins two statements fails through the one or the other: (statement changed, from, to,
 # statement that fails, premise)
@@ -137,7 +143,7 @@ JOINS_INTO = [
 ]
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH])
+@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH])
 def test_every_rule_holds_on_another_map(text: str) -> None:
     results = checked(text, searched(text))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
@@ -156,6 +162,7 @@ def named(text: str, kind: str) -> str:
         *((FLIP, *row) for row in FAILING_WITH_GUARDS),
         *((DOUBLE, *row) for row in FAILING_IN_A_SPACE),
         *((PUSH, *row) for row in FAILING_OF_A_RELATION),
+        *((SWITCH, *row) for row in FAILING_WITHOUT_INPUTS),
         *((NEST, *row) for row in FAILING_INTO),
     ],
 )

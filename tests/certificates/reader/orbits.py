@@ -29,9 +29,10 @@ class Setting:
     """A statement about a map: its parameters, state, pieces, domain and `root` lines."""
 
     def __init__(self, statement: Statement, statements: Mapping[str, Statement]) -> None:
-        is_map = statement.kind == "map"
+        is_map = statement.kind in ("map", "relation")
         self.name = statement.name
-        self.map = statement if is_map else statements[statement.one("map")]
+        self.map = statement if is_map else statements[statement.lines[0].says]
+        self.inputs = self.map.names("input")
         self.parameters = self.map.one("over")
         self.state = self.map.one("state")
         self.domain: Tree = statement.one("domain")
@@ -66,7 +67,7 @@ class Setting:
     ) -> list[Line]:
         guard, terms = self.pieces[k]
         rows = (one if isinstance(one, Line) else Line("given", one) for one in given)
-        lines = [*self.at_state(*more), *rows]
+        lines = [*self.at_state(*more, *self.inputs), *rows]
         lines.append(Line("given", guard))
         lines += self.lets(terms)
         if stays:
@@ -119,11 +120,11 @@ def of_map(statement: Statement, statements: Mapping[str, Statement]) -> Premise
     setting = Setting(statement, statements)
     guards = [guard for guard, _ in setting.pieces]
     premises = setting.own_domain()
-    premises |= [
-        setting.premise("covers", [*setting.at_state(), Line("show", disjunction(guards))])
-    ]
+    some = [Line("exists", setting.inputs)] if setting.inputs else []
+    covers = [*setting.at_state(), *some, Line("show", disjunction(guards))]
+    premises |= [setting.premise("covers", covers)]
     for i in range(len(guards)):
-        for k in range(i):
+        for k in range(i if statement.kind == "map" else 0):
             lines = [*setting.at_state(), Line("given", guards[i]), Line("given", guards[k])]
             lines.append(Line("show", ("=", ZERO, ONE)))
             premises |= [setting.premise(f"apart-{i + 1}-{k + 1}", lines)]
@@ -159,6 +160,7 @@ def of_iterates(statement: Statement, statements: Mapping[str, Statement]) -> Pr
 def of_descent(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     setting = Setting(statement, statements)
     rank, stages = statement.one("rank"), statement.all("stage")
+    require(not any(names_in(stage) & {*setting.inputs} for stage in stages), "an input")
     premises = {**setting.own_domain(), **setting.inside()}
     lines = [*setting.at_state(), Line("show", (">=", rank, ZERO))]
     premises |= [setting.premise("bounded", lines)]
@@ -429,6 +431,7 @@ def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Pre
 
 PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = {
     "map": of_map,
+    "relation": of_map,
     "iterates": of_iterates,
     "descends": of_descent,
     "contracts": of_contraction,

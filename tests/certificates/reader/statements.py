@@ -26,21 +26,23 @@ ORDERS = {
     "sharp": "sharp over domain (number )*holds ",
     "iterates": "forall integer (let )*iterates after ",
     "map": "over domain state space (piece )+",
-    "descends": "map domain (root )*rank (stage )+",
-    "contracts": "map domain (root )*on point weights rate radius size ",
-    "lyapunov": "map domain (root )*on point (value )+loss least upper radius ",
+    "relation": "over domain state input space (piece )+",
+    "descends": "(map|relation) domain (root )*rank (stage )+",
+    "contracts": "(map|relation) domain (root )*on point weights rate radius size ",
+    "lyapunov": "(map|relation) domain (root )*on point (value )+loss least upper radius ",
     "unstable": "map domain (root )*point direction (value )+rate radius upper ",
     "attracts": "descent (contraction|lyapunov) ",
     "into": "descent attraction radius ",
     "escapes": "map domain (root )*point start word ",
     "exactly": "attraction (escape|unstable) ",
 }
-NAMES = ("forall", "integer", "exists", "over", "state")
+NAMES = ("forall", "integer", "exists", "over", "state", "input")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")
 TERMS = ("rank", "rate", "radius", "size", "loss", "least", "upper")
 TUPLES = ("point", "weights", "start", "direction")
 OTHERS = {  # the kinds of statements that a line may name
     "map": ("map",),
+    "relation": ("relation",),
     "descent": ("descends",),
     "contraction": ("contracts",),
     "lyapunov": ("lyapunov",),
@@ -149,7 +151,7 @@ class Scope:
         if word == "integer":
             return self._listed(text)
         if word in NAMES:
-            names = self._listed(text) if text or word != "over" else ()
+            names = self._listed(text) if text or word not in ("over", "input") else ()
             for name in names:
                 self._declare(name, hidden=word == "exists")
             return names
@@ -255,7 +257,7 @@ class Scope:
             known = names_below(self.earlier[name], self.earlier)
             self.names |= known
             self.hidden |= known
-        if word == "map":
+        if word in ("map", "relation"):
             other = self.earlier[name]
             for own in (*other.names("over"), *other.names("state")):
                 self._declare(own)
