@@ -149,6 +149,16 @@ def test_every_rule_holds_on_another_map(text: str) -> None:
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
 
 
+def test_every_rule_holds_of_a_map_without_parameters() -> None:
+    text = SUBTRACT.split("statement demo/escapes")[0].replace("over a", "over")
+    for domain in ("a > 0 and a <= 1", "a > 0 and a < 1"):
+        text = text.replace(f"domain {domain}", "domain 0 = 0")
+    for old, new in (("a*x", "x/2"), ("rate a", "rate 1/2"), ("(1 - a)", "1/2")):
+        text = text.replace(old, new)
+    results = checked(text, searched(text))
+    assert len(results) == 6 and {outcome for outcome, _ in results.values()} == {"certified"}
+
+
 def named(text: str, kind: str) -> str:
     """The name of the statement of this kind."""
     (name,) = (name for name in read(text) if name.split("/")[1] == kind)
