@@ -15,7 +15,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Rejected
 from tests.certificates.checker.evaluator import formula_at, term_at
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused, refuted, verdict
-from tests.certificates.checker.maps import DOUBLE, NEST, SUBTRACT, checked, edited, searched
+from tests.certificates.checker.maps import DOUBLE, NEST, PUSH, SUBTRACT, checked, edited, searched
 from tests.certificates.checker.rules import sharp
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
@@ -187,6 +187,14 @@ def test_rejects_a_definition_of_what_a_line_names(text: str, name: str) -> None
         with pytest.raises(Rejected) as info:
             checker.read_statements(whole)
         assert refused(info.value, (kind, name))
+
+
+def test_a_definition_may_be_over_what_a_relation_declares() -> None:
+    above = "define times(z) over u := u*z\ndefine inside over x := x >= -2 and x <= 2\n\n"
+    text = edited(PUSH, "relation", "-> u*x\n", "-> times(x)\n")
+    text = above + edited(text, "contracts", "x >= -2 and x <= 2", "inside")
+    results = checked(text, searched(PUSH))
+    assert {outcome for outcome, _ in results.values()} == {"certified"}
 
 
 # what a definition could hide from a rule that looks for names: the state, the number of iterations
