@@ -4,6 +4,7 @@ auditor can read.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -184,7 +185,8 @@ class Iterates:
 @dataclass(frozen=True)
 class MapRule:
     """What holds of every orbit of a map, by a rule of the checker that writes its own premises:
-    the lines as (keyword, text), and the terms and formulas that the texts are written from.
+    the lines as (keyword, text), the terms and formulas that the texts are written from, and file
+    and line of the call that made it.
 
     >>> over = (("over", "a"), ("domain", "a > 0"))
     >>> map = (("state", "x"), ("space", "x >= 0"), ("piece", "x >= 0 -> x/2"))
@@ -200,6 +202,12 @@ class MapRule:
     name: str
     rows: tuple[tuple[str, str], ...]
     made_of: tuple[Term | Formula, ...] = field(default=(), compare=False)
+    place: tuple[str, int] | None = field(default=None, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if self.place is None:
+            caller = sys._getframe(2)  # above this function and the __init__ of the dataclass
+            object.__setattr__(self, "place", (caller.f_code.co_filename, caller.f_lineno))
 
     def text(self) -> str:
         """The statement as the checker reads it."""

@@ -8,6 +8,7 @@ In reading order, each importing those before it only:
 - `encoding`: SymPy expressions as terms.
 - `correcting`, `rules`, `ranges`: prints that may mend a refuted one; ranges of the parameters.
 - `evaluating`: terms and formulas at rational values; counterexamples at simple ones.
+- `orbit_rules`: the checker's rules for orbits in words, and why a premise of one has no proof.
 - `judgement`, `judging`: one claim, stated, settled by the checker, corrected, with its sharp
   range.
 - `register`: the verdicts that stand.

@@ -198,12 +198,7 @@ class Claim:
         if isinstance(self.read, FixedBody):
             return self.read.where
         code = self.read.__code__
-        path = Path(code.co_filename)
-        try:
-            shown = path.relative_to(Path.cwd())
-        except ValueError:
-            shown = path
-        return f"{shown}:{code.co_firstlineno}"
+        return place_in_file(code.co_filename, code.co_firstlineno)
 
     def body(self, printed: meaning.Printed | None = None) -> Body:
         """What the claim asserts, with its own print or with another one in its place.
@@ -223,6 +218,12 @@ class Claim:
     def read_print(self, latex: str = "") -> meaning.Printed:
         """The print, or another LaTeX text, as the reader reads it."""
         return meaning.read(latex or self.printed)
+
+
+def place_in_file(file: str, line: int) -> str:
+    """File and line, the file relative to the working directory where it is below it."""
+    path = Path(file)
+    return f"{path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path}:{line}"
 
 
 def as_body(returned: object, claim_id: str) -> Body:

@@ -17,6 +17,7 @@ from juggleproof.certificates.language import Statement, Term, equal, names_in, 
 from juggleproof.certificates.nodes import Counterexample
 
 Point = Mapping[str, Fraction]
+Ends = tuple[Fraction, Fraction]  # of an interval; one number twice where that is exact
 ARITHMETIC: Mapping[type, Callable[[Fraction, Fraction], Fraction]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -137,6 +138,70 @@ def _all_numbers(node: ast.AST, point: Point) -> str:
     if not isinstance(node, ast.Compare):
         raise KeyError(ast.dump(node))
     return _numbers(node, point)
+
+
+# -------------------------------------------------------------------------------------------------
+# Terms at values that are known between rational ends, as roots are.
+
+
+def ends_of(node: ast.AST, point: Mapping[str, Ends]) -> Ends:
+    """Ends between which a term lies, by interval arithmetic; its value twice where those of its
+    names are exact.  Raises KeyError for a name without ends, ZeroDivisionError for a divisor that
+    may be 0.
+
+    >>> root_of_2 = {"z": (Fraction(7, 5), Fraction(3, 2))}
+    >>> [str(end) for end in ends_of(checker.parse("1 - z^2"), root_of_2)]
+    ['-5/4', '-24/25']
+    """
+    if isinstance(node, ast.Name):
+        return point[node.id]
+    if isinstance(node, ast.UnaryOp):
+        low, high = ends_of(node.operand, point)
+        return -high, -low
+    if not isinstance(node, ast.BinOp):
+        value = _value(node, {})
+        return value, value
+    left = ends_of(node.left, point)
+    if isinstance(node.op, ast.Pow):
+        power = ast.literal_eval(node.right)
+        inner = [Fraction(0)] if left[0] < 0 < left[1] else []
+        values = [Fraction(end**power) for end in (*left, *inner)]
+        return min(values), max(values)
+    right = ends_of(node.right, point)
+    if isinstance(node.op, ast.Div) and right[0] <= 0 <= right[1]:
+        raise ZeroDivisionError
+    values = [ARITHMETIC[type(node.op)](a, b) for a in left for b in right]
+    return min(values), max(values)
+
+
+def is_surely(truth: bool, node: ast.AST, point: Mapping[str, Ends]) -> bool:
+    """Whether a formula of relations, `and`, `or` and `not` is true, or is false, for all values
+    between these ends.
+
+    >>> root_of_2 = {"z": (Fraction(7, 5), Fraction(3, 2))}
+    >>> formula = checker.parse("z^2 <= 1 or not z < 2")
+    >>> is_surely(False, formula, root_of_2), is_surely(False, checker.parse("z^2 < 2"), root_of_2)
+    (True, False)
+    """
+    if isinstance(node, ast.BoolOp):
+        each = (is_surely(truth, part, point) for part in node.values)
+        return all(each) if truth == isinstance(node.op, ast.And) else any(each)
+    if isinstance(node, ast.UnaryOp):
+        return is_surely(not truth, node.operand, point)
+    if not isinstance(node, ast.Compare):
+        return False
+    ends = [ends_of(side, point) for side in (node.left, *node.comparators)]
+    each = (
+        _is_surely_related(truth, type(sign), a, b) for sign, a, b in zip(node.ops, ends, ends[1:])
+    )
+    return all(each) if truth else any(each)
+
+
+def _is_surely_related(truth: bool, sign: type, left: Ends, right: Ends) -> bool:
+    if sign in (ast.Eq, ast.NotEq):
+        apart = left[1] < right[0] or right[1] < left[0]
+        return apart if truth == (sign is ast.NotEq) else len({*left, *right}) == 1
+    return all(RELATIONS[sign][1](a, b) == truth for a in left for b in right)
 
 
 # -------------------------------------------------------------------------------------------------

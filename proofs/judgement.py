@@ -157,7 +157,7 @@ class Judgement:
     processes.
 
     Statements with their texts are in order; certificates, outcomes and votes are by the name of
-    the statement.
+    the statement, as are the texts of the premises of map rules for which no proof was found.
     """
 
     id: str
@@ -165,6 +165,7 @@ class Judgement:
     certificates: dict[str, Certificate] = field(default_factory=dict)
     outcomes: dict[str, str] = field(default_factory=dict)
     votes: dict[str, Sequence[Vote]] = field(default_factory=dict)
+    unproved: dict[str, list[str]] = field(default_factory=dict)
     sharp: dict[str, Sharp] = field(default_factory=dict)  # by the prefix of an assertion
     verdict: Verdict = field(default_factory=lambda: Verdict("unknown"))
     correction: Correction | None = None

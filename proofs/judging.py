@@ -22,12 +22,13 @@ from juggleproof.certificates.language import (
     rests_on,
 )
 from juggleproof.certificates.nodes import Certificate, Counterexample
-from juggleproof.certificates.search.certificate import search_certificate, search_map_rule
+from juggleproof.certificates.search.certificate import search_certificate, search_premises
 from juggleproof.certificates.search.closing import search_closing
 from juggleproof.certificates.search.points import search_values
 from juggleproof.certificates.states import State, state_of
 from juggleproof.certificates.votes.casting import cast_votes
 from juggleproof.certificates.votes.vote import Vote, agree
+from juggleproof.certificates.votes.z3 import Model, vote_and_model
 from juggleproof.certificates.work import Budget, Exhausted, unfolded
 from juggleproof.proofs.claims import (
     REMARK,
@@ -41,6 +42,7 @@ from juggleproof.proofs.claims import (
     assertions,
     named_statements,
     outcome_of,
+    place_in_file,
     stated_texts,
     verdict_of,
 )
@@ -52,6 +54,7 @@ from juggleproof.proofs.forms import (
     speaks_of_range,
 )
 from juggleproof.proofs.judgement import Finding, Judgement, Resources, Sharp, digest
+from juggleproof.proofs.orbit_rules import premises_of, read_rule, why
 from juggleproof.proofs.ranges import search_sharp_range, text_of_range
 from juggleproof.proofs.rules import range_of_rule, whole_text
 
@@ -67,12 +70,13 @@ def judge(claim: Claim, resources: Resources) -> Judgement:
     Raises ClaimError, one line that names the claim, where it cannot be stated; Disagreement where
     a route contradicts the checker.
     """
+    judge = Judge(claim, resources)
     try:
-        return Judge(claim, resources).run()
+        return judge.run()
     except (checker.Rejected, ClaimError) as problem:
         text = str(problem)
         raise ClaimError(
-            f"{claim.where}: " + (text if text.startswith(claim.id) else f"{claim.id}: {text}")
+            f"{judge.where}: " + (text if text.startswith(claim.id) else f"{claim.id}: {text}")
         ) from None
 
 
@@ -169,6 +173,7 @@ class Judge:
         self.claim, self.resources, self.judgement = claim, resources, Judgement(claim.id)
         self.known: dict[str, checker.Statement] = {}
         self.is_trial = False
+        self.where = claim.where  # file and line of what is settled
 
     @property
     def finding(self) -> Finding:
@@ -253,9 +258,15 @@ class Judge:
         """The outcome of one statement, by a stored certificate that is still valid or by a
         search; what was unknown is searched again, by this budget and from what is known now.
         """
+        rests: list[str] = []
+        if isinstance(statement, MapRule):
+            self.where = self.place_of(statement)
+            rests = rests_on(read_rule(statement))
         name, text = statement.name, statement.text()
         store = self.resources.store
         certificate: Certificate | None = store.certificate(name, text) if store else None
+        if not self.known.keys() >= {*rests}:  # what was certified of other rules says nothing
+            certificate = None
         outcome = self.stored_outcome(name, text, certificate)
         if certificate is None or outcome in ("rejected", "unknown"):
             parsed = read(text, name)
@@ -278,6 +289,45 @@ class Judge:
         elif outcome == "certified" and name in self.claim.hints.get("uses", ()):
             self.known[name] = read(text, name)
         return outcome
+
+    def place_of(self, rule: MapRule) -> str:
+        """File and line of a rule, where it stands in the file of the claim; else of the claim."""
+        place = place_in_file(*rule.place) if rule.place else ""
+        own = self.claim.where.rpartition(":")[0]
+        return place if place.rpartition(":")[0] == own else self.claim.where
+
+    def search_rule(self, rule: checker.Statement) -> Certificate:
+        """A proof of each premise of a map rule, or why some have none.
+
+        Raises ClaimError where the premises cannot be written.
+        """
+        stated = {**self.judgement.outcomes, **self.known}
+        premises = premises_of(rule, self.known, stated)
+        if isinstance(premises, str):
+            return {"unknown": premises}
+        answers: dict[str, tuple[Vote, Model | None]] = {}
+
+        def is_false(name: str) -> bool:
+            answers[name] = vote_and_model(premises[name])
+            return answers[name][1] is not None
+
+        hints, budget = self.claim.hints.get("premises"), self.resources.budget
+        try:
+            found = dict(search_premises(premises, self.known, budget, hints, is_false))
+        except checker.Rejected as reason:
+            raise ClaimError(f"{rule.name}: {reason}") from None
+        proofs = {name: proof for name, proof in found.items() if proof is not None}
+        if proofs.keys() == found.keys():
+            return {"certified": proofs}
+        reasons = {
+            name: why(rule.kind, name, premises[name], answers[name], budget)
+            for name in found
+            if name not in proofs
+        }
+        self.judgement.unproved[rule.name] = [premises[name].text() for name in reasons]
+        count = f"{len(reasons)} of the {len(premises)} premises of `{rule.kind}`:"
+        between = "\n  " if len(reasons) > 1 else " "
+        return {"unknown": between.join([count, *reasons.values()])}
 
     def stored_outcome(self, name: str, text: str, certificate: Certificate | None) -> str:
         """The checker's outcome of the stored certificate when it read the store; it is asked again
@@ -329,7 +379,7 @@ class Judge:
         """
         hints, budget = self.claim.hints, self.resources.budget
         if isinstance(statement, (Iterates, MapRule)):
-            return search_map_rule(parsed, self.known, budget, hints.get("premises"))
+            return self.search_rule(parsed)
         certificate: Certificate
         try:
             certificate = search_certificate(

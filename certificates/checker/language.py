@@ -408,11 +408,13 @@ ORDERS = {
     "relation": r"over domain state input space (piece )+",
     "descends": r"(map|relation) domain (root )*rank (stage )+",
     "contracts": r"(map|relation) domain (root )*on point weights rate radius size ",
-    "lyapunov": r"(map|relation) domain (root )*on point (value )+loss least upper radius ",
+    "lyapunov": (
+        r"(map|relation) domain (root )*on point (have )*(value )+loss least upper radius "
+    ),
     "attracts": r"descent (contraction|lyapunov) ",
     "into": r"descent attraction radius ",
     "escapes": r"map domain (root )*point start word ",
-    "unstable": r"map domain (root )*point direction (value )+rate radius upper ",
+    "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
     "exactly": r"attraction (escape|unstable) ",
 }
 
@@ -452,7 +454,7 @@ class Statement:
         require(keyword in LINES, Kind.LINE, f"{keyword} {text}")
         said = LINES[keyword](text, lambda part: definitions.read(part, self.declared))
         out = text
-        if keyword in ("let", "root", "domain") and definitions.occur_in(text):
+        if keyword in ("let", "root", "domain", "have") and definitions.occur_in(text):
             out = written_line(keyword, said)
         self.lines.append((keyword, said))
         self.texts.append(text)
@@ -470,8 +472,8 @@ class Statement:
 
 
 def written_line(keyword: str, said: Said) -> str:
-    """The text of a line `let`, `root` or `domain`."""
-    if keyword == "domain":
+    """The text of a line `let`, `root`, `domain` or `have`."""
+    if keyword in ("domain", "have"):
         return written(said)
     name, value = said
     return f"{name} = " + (written(value) if keyword == "let" else f"sqrt({written(value[0])})")

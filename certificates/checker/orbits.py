@@ -70,6 +70,10 @@ class Orbits:
         (self.space,) = self.map.get("space")
         (self.domain,) = statement.rows("domain")
         self.pieces = self.map.get("piece")
+        # the names of the point, and the variables in place of the state's where they are used
+        self.point = [name + "_point" for name in self.state]
+        self.gaps: list[str] = []
+        self.have = [f"given {line}" for line in statement.rows("have")]
         self.moving = set(self.state)  # what has another value at the next state
         self.roots = []
         self.fixed = []
@@ -93,15 +97,22 @@ class Orbits:
         return put(text, {name: name + "_next" for name in self.moving})
 
     def for_all(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
-        """For all parameters in the domain, with the roots of parameters."""
-        forall = "forall " + " ".join([*self.parameters, *extra])
+        """For all parameters in the domain, with the roots of parameters; around a point, for all
+        points with what the lines `have` say.
+        """
+        named = self.point if self.have else []
+        forall = "forall " + " ".join([*self.parameters, *named, *extra])
+        known = [*self.fixed, *(self.have or self.let_point())]
         # a map of 1,500 pieces has a million pairs of them: the text is counted as it grows
-        self.work.spend(PER_LETTER * sum(map(len, [*self.fixed, self.domain, *rows])))
-        return [forall, f"range {self.domain}", *self.fixed, *rows]
+        self.work.spend(PER_LETTER * sum(map(len, [*known, self.domain, *rows])))
+        return [forall, f"range {self.domain}", *known, *rows]
 
     def at(self, *rows: str, extra: Sequence[str] = ()) -> list[str]:
         """For all parameters in the domain and all states of the space."""
-        return self.for_all(f"given {self.space}", *self.roots, *rows, extra=[*self.state, *extra])
+        sums = zip(self.state, self.point, self.gaps)
+        places = [f"let {name} = {point} + {gap}" for name, point, gap in sums]
+        names = [*(self.gaps or self.state), *extra]
+        return self.for_all(*places, f"given {self.space}", *self.roots, *rows, extra=names)
 
     def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
         """Where the k-th piece applies, for all inputs: something of the next state; the map's
@@ -117,7 +128,44 @@ class Orbits:
 
     def let_next(self, terms: Sequence[str]) -> list[str]:
         """The lines that name the terms of the next state, or of any other."""
-        return [f"let {name}_next = {term}" for name, term in zip(self.state, terms)]
+        lets = [f"let {name}_next = {term}" for name, term in zip(self.state, terms)]
+        gaps = zip(self.gaps, self.state, self.point)
+        return lets + [f"let {gap}_next = {name}_next - {point}" for gap, name, point in gaps]
+
+    def around(self) -> Orbits:
+        """The same around the point: NAME_gap is NAME - NAME_point, and the variable in place of
+        NAME.
+        """
+        self.gaps = [name + "_gap" for name in self.state]
+        self.moving.update(self.gaps)
+        return self
+
+    def let_point(self) -> list[str]:
+        """Around a point: its names stand for its terms."""
+        terms = self.terms("point") if self.gaps else []
+        return [f"let {name} = {term}" for name, term in zip(self.point, terms)]
+
+    def let_names(self, text: str) -> list[str]:
+        """For premises of others: what a text's names of the point and of gaps stand for."""
+        if not names_in(text) & {*self.point, *(name + "_gap" for name in self.state)}:
+            return []
+        gaps = zip(self.around().gaps, self.state, self.point)
+        return [*self.let_point(), *(f"let {gap} = {name} - {at}" for gap, name, at in gaps)]
+
+    def at_the_point(self) -> list[str]:
+        """The point, which has its terms, is in the space, and what the lines `have` say is so."""
+        shown = [put(self.space, dict(zip(self.state, self.point))), *self.own.rows("have")]
+        forall = "forall " + " ".join(self.parameters)
+        lets = [*self.fixed, *self.let_point()]
+        return [forall, f"range {self.domain}", *lets, "show " + all_of(shown)]
+
+    def within_gaps(self, distance: str, after: str = "") -> str:
+        """|s - e| <= distance, e the point, in the sup norm, around it; of the next state where
+        after is "_next".
+        """
+        reach = f"({distance})"
+        gaps = [gap + after for gap in self.gaps]
+        return all_of(f"-{reach} <= {gap} and {gap} <= {reach}" for gap in gaps)
 
     def in_space(self, point: Sequence[str], *roots: str) -> list[str]:
         """A point is in the space."""
@@ -277,19 +325,23 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     of these n, for every d > 0; and all states of the space with |s - e| <= radius are in it.  So e
     is stable, and attracts the set.
 
-    Premises: radius > 0 and upper > 0, in the parameters alone; least(distance, level) > 0 for
-    distance > 0 and level >= 0; e is in the space; `on` holds where |s - e| <= radius; V(s) <=
-    upper distance where |s - e| <= distance <= radius; and on the set, which is taken into itself,
-    V(s) >= 0, loss >= 0, V(f(s)) <= V(s) - loss, and loss >= least(distance, level) where |s - e|
-    >= distance and V(s) <= level.  The loss may name V(s), as `value`.
+    In all lines but `point` NAME_point names the point, and NAME_gap is NAME - NAME_point.  What
+    the lines `have` say of the point is all that the premises know of it, if there are any.
+
+    Premises: e is in the space, and what the lines `have` say is so; radius > 0 and upper > 0, in
+    the parameters alone; least(distance, level) > 0 for distance > 0 and level >= 0; `on` holds
+    where |s - e| <= radius; V(s) <= upper distance where |s - e| <= distance <= radius; and on the
+    set, which is taken into itself, V(s) >= 0, loss >= 0, V(f(s)) <= V(s) - loss, and loss >=
+    least(distance, level) where |s - e| >= distance and V(s) <= level.  The loss may name V(s), as
+    `value`.
 
     Stable: where |s - e| >= d and V(s) <= c = upper radius, V(s) >= loss >= least(d, c).  So where
     V(s) is less than both, |f^n(s) - e| < d for all n.  V(e) = 0, so V(f(e)) = 0 and f(e) = e.
     """
-    f = Orbits(statement, known, work)
+    f = Orbits(statement, known, work).around()
     (on,), (loss,), (least,) = map(statement.get, ("on", "loss", "least"))
     (upper,), (radius,) = map(statement.get, ("upper", "radius"))
-    point, values = f.terms("point"), f.values()
+    values = f.values()
     here = [f"given {on}"]
     for guards, term in values:
         reached = [*(f"not ({guard})" for guard in guards), f"({term}) <= value"]
@@ -301,18 +353,17 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     if len(values) == 1:  # its guard holds on the set, where `bounded` does
         before, extra = [here[0], f"let value = {values[0][1]}", *bounded[2:]], []
     any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
-    sides = [f"{name} - ({e})" for name, e in zip(f.state, point)]
-    far = all_of((f"{d} >= distance or {d} <= -distance" for d in sides), " or ")
+    far = all_of((f"{gap} >= distance or {gap} <= -distance" for gap in f.gaps), " or ")
     far_off = [*any_level, f"given {far}", "given level >= value", f"show ({loss}) >= ({least})"]
-    within = "given " + f.within("distance", point)
+    within = "given " + f.within_gaps("distance")
     near = ["given distance >= 0", within, f"given distance <= ({radius})"]
     both = ["distance", "level"]
     premises = {
         # apart from `least`: a radius that names `distance` would be as small as it likes
         "constants": f.for_all("show " + all_of([f"({radius}) > 0", f"({upper}) > 0"])),
         "positive": f.for_all(*any_level, f"show ({least}) > 0", extra=both),
-        "point": f.in_space(point),
-        "surrounds": f.at("given " + f.within(radius, point), f"show {on}"),
+        "point": f.at_the_point(),
+        "surrounds": f.at("given " + f.within_gaps(radius), f"show {on}"),
         "bounded": f.at(*here, "show value >= 0", extra=["value"]),
         "loss": f.at(*before, f"show ({loss}) >= 0", extra=extra),
         "least": f.at(*bounded, *far_off, extra=["value", *both]),
@@ -344,7 +395,7 @@ def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Pr
     last, on = f.own.get("stage")[-1], other.own.get("on")[0]
     return {
         "inside": f.for_all(f"show {other.domain}"),
-        "enters": f.at(*roots, f"given {last}", f"show {on}"),
+        "enters": f.at(*roots, *other.let_names(on), f"given {last}", f"show {on}"),
     }
 
 
@@ -414,14 +465,15 @@ def premises_of_instability(statement: Statement, known: Known, work: Work) -> P
     <= radius: s(d) is in the space, |s(d) - e| <= d, and |f^n(s(d)) - e| > radius for some integer
     n >= 0.  So e is not stable.
 
-    Premises: rate > 1, radius > 0 and upper > 0, in the parameters alone; for 0 < d <= radius s(d)
-    is in the space, |s(d) - e| <= d and W(s(d)) > 0; and for all states s of the space with |s - e|
-    <= radius and W(s) > 0, W(s) <= upper and W(f(s)) >= rate W(s).  If the orbit stayed,
-    W(f^n(s(d))) >= rate^n W(s(d)) would exceed upper.
+    Premises, with the point's names and the lines `have` as for a Lyapunov function: e is in the
+    space; rate > 1, radius > 0 and upper > 0, in the parameters alone; for 0 < d <= radius s(d) is
+    in the space, |s(d) - e| <= d and W(s(d)) > 0; and for all states s of the space with |s - e| <=
+    radius and W(s) > 0, W(s) <= upper and W(f(s)) >= rate W(s).  If the orbit stayed, W(f^n(s(d)))
+    >= rate^n W(s(d)) would exceed upper.
     """
-    f = Orbits(statement, known, work)
+    f = Orbits(statement, known, work).around()
     (rate,), (radius,), (upper,) = map(statement.get, ("rate", "radius", "upper"))
-    point, curve, values = f.terms("point"), f.terms("direction", "distance"), f.values()
+    curve, values = f.terms("direction", "distance", *f.point), f.values()
 
     def next_value(bound: str) -> str:
         """W of the next state meets a lower bound."""
@@ -432,14 +484,15 @@ def premises_of_instability(statement: Statement, known: Known, work: Work) -> P
     start = ["have " + f.next(f.space), *map(f.next, f.roots)]
     small = ["given distance > 0", f"given distance <= ({radius})", *f.let_next(curve), *start]
     # no f.next of it: a state variable may have the name `distance`
-    show = "show " + all_of([f.within("distance", point, after="_next"), next_value("> 0")])
+    show = "show " + all_of([f.within_gaps("distance", "_next"), next_value("> 0")])
     constants = all_of([f"({rate}) > 1", f"({radius}) > 0", f"({upper}) > 0"])
     premises = {
         "constants": f.for_all(f"show {constants}"),
+        "point": f.at_the_point(),
         "direction": f.for_all(*small, show, extra=["distance"]),
     }
     for i, (guards, term) in enumerate(values):
-        here = [f.within(radius, point), *guards, f"({term}) > 0"]
+        here = [f.within_gaps(radius), *guards, f"({term}) > 0"]
         given = [f"given {one}" for one in here]
         premises[f"bounded-{i + 1}"] = f.at(*given, f"show ({term}) <= ({upper})")
         for k in range(len(f.pieces)):

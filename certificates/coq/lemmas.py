@@ -41,13 +41,13 @@ def lemmas(statement: checker.Statement, certificate: Certificate, known: Known)
             return _refuted(statement, certificate["refuted"], known)
         proof: Hint = certificate["certified"]
         if statement.kind == "universal":
-            return _certified(statement, proof, known) + _possible(
+            return certified(statement, proof, known) + _possible(
                 lemma_name(statement.name), statement, certificate["point"], known
             )
         if statement.kind == "sharp":
             return _sharp(statement, proof, known)
         premises = checker.premises_of(statement, known)
-        return "\n".join(_certified(premises[name], proof[name], known) for name in premises)
+        return "\n".join(certified(premises[name], proof[name], known) for name in premises)
     except NotWritten:
         raise
     except (checker.Rejected, LookupError, TypeError, ValueError) as problem:
@@ -61,7 +61,8 @@ def _lemma(name: str, comment: str, text: str, rows: Sequence[str]) -> str:
     )
 
 
-def _certified(statement: checker.Statement, proof: Hint, known: Known) -> str:
+def certified(statement: checker.Statement, proof: Hint, known: Known) -> str:
+    """The lemma of a statement that is for all, with the proof of a certificate."""
     form = Form(statement)
     count = [0]
     branch = Branch(State(form.unfolding.context), known, count)

@@ -197,13 +197,16 @@ class Transfer:
         else:
             sides = [_apart(share.denominator, below), _apart(share.numerator, above)]
         lemma = {">": "scale_gt", ">=": "scale_ge", "=": "scale_eq", "!=": "scale_ne"}[relation]
-        same = "field; repeat split; assumption" if "/" in text else "ring"
         proof = self.branch.fresh()
         self.rows += [
             f"assert ({proof} : {atom(text, relation)} <-> {atom(wanted, relation)}).",
-            f"{{ refine ({lemma} _ _ _ _ {' '.join(sides)} _). {same}. }}",
+            f"{{ refine ({lemma} _ _ _ _ {' '.join(sides)} _). {self.equal(text)}. }}",
         ]
         return atom(wanted, relation), proof
+
+    def equal(self, text: str) -> str:
+        """The tactic that shows that a multiple of the text is one of a polynomial."""
+        return "field; repeat split; assumption" if "/" in text else "ring"
 
     def _multiple(
         self, value: checker.Poly, target: checker.Poly

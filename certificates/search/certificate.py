@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import NO_ROLES, Roles, rests_on
@@ -292,14 +292,43 @@ def search_proof(
 # Certificates of the map rules: a proof for each premise that the checker writes.
 
 
+def search_premises(
+    premises: Mapping[str, checker.Statement],
+    known: dict[str, checker.Statement],
+    budget: int,
+    hints: Mapping[str, Hints] | None = None,
+    is_false: Callable[[str], bool] = lambda name: False,
+) -> Iterator[tuple[str, Proof | None]]:
+    """The premises of a map rule in order, each with a proof or None; each may take the whole
+    budget, and one that `is_false`, which is asked after a cheap attempt, takes no more.
+
+    Raises Rejected, with the name of the premise, where one cannot be read.
+    """
+    for name, premise in premises.items():
+        proof = None
+        for effort in (1, 2, SQUARED):
+            if effort > 1 and (proof is not None or is_false(name)):
+                break
+            if effort == SQUARED and premise.get("exists"):
+                break
+            try:
+                proof = search_proof(
+                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
+                )
+            except Exhausted:
+                continue
+            except checker.Rejected as reason:
+                raise reason.within(f"premise {name}") from None
+        yield name, proof
+
+
 def search_map_rule(
     statement: checker.Statement,
     known: dict[str, checker.Statement],
     budget: int,
     hints: Mapping[str, Hints] | None = None,
 ) -> Certificate:
-    """{"certified": {premise: proof}}, or {"unknown": the premise for which no proof was found};
-    each premise may take the whole budget.
+    """{"certified": {premise: proof}}, or {"unknown": the first premise without a proof}.
 
     >>> text = "statement demo/halves\\nover a\\ndomain a > 0\\nstate x\\n"
     >>> text += "space x >= 0\\npiece x >= 0 -> x/2"
@@ -307,19 +336,11 @@ def search_map_rule(
     >>> sorted(search_map_rule(statement, {}, 10**6)["certified"])
     ['covers', 'possible', 'stays-1']
     """
-    proofs: dict[str, Proof] = {}
     for name in rests_on(statement):
         if name not in known:
             return {"unknown": f"it rests on {name}, which is not certified"}
-    for name, premise in checker.premises_of(statement, known).items():
-        proof = None
-        for effort in (1, 2):
-            try:
-                proof = proof or search_proof(
-                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
-                )
-            except Exhausted:
-                continue
+    proofs: dict[str, Proof] = {}
+    for name, proof in search_premises(checker.premises_of(statement, known), known, budget, hints):
         if proof is None:
             return {"unknown": f"no proof of the premise {name} was found"}
         proofs[name] = proof

@@ -19,6 +19,7 @@ from juggleproof.certificates.algebra.numbers import (
 from juggleproof.certificates.algebra.polynomials import Ring
 from juggleproof.certificates.nodes import Adjoined, Node, Sign
 from juggleproof.certificates.search.psatz.facts import Pool
+from juggleproof.certificates.search.psatz.forms import search_forms
 from juggleproof.certificates.search.psatz.linear import (
     DEEP,
     FIRST,
@@ -30,6 +31,7 @@ from juggleproof.certificates.search.psatz.linear import (
     close_by_equations,
     search,
 )
+from juggleproof.certificates.search.psatz.orthant import search_orthant
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.states import State
@@ -201,8 +203,36 @@ class Closing:
             and self.effort
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
-            node = self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
+            factors = two_factors(problem)
+            node = (
+                (self.by_factors(inside, factors, depth) if factors else None)
+                or self.usual(problem, False)
+                or (None if depth else search_forms(inside, problem.ring, self.budget))
+                or self.with_lemmas(inside, problem, depth)
+            )
         return wrapped(rounded, node)
+
+    def by_factors(self, state: State, factors: Sequence[str], depth: int) -> Node | None:
+        """Cases by the signs of the two factors of an equation, as of that of sqrt(term^2): in each
+        of them one is 0, and the same for the next equation.
+        """
+        first, *rest = factors
+        nodes: list[Node | None] = []
+        for place, case in enumerate(state.by_sign(first)):
+            node: Node | None = ("close",) if case.closed else None
+            if node is None:
+                problem = self.problem(case)
+                problem.divide()
+                node = close_by_equations(problem) or search(problem, QUICK, self.budget)
+                if node is None and place != 1 and rest:
+                    node = self.by_factors(case, rest, depth)
+                elif node is None:
+                    more = two_factors(problem)
+                    node = self.by_factors(case, more, depth) if more else self.leaf(case, depth)
+            if node is None:
+                return None
+            nodes.append(node)
+        return sign_node(first, nodes)
 
     def usual(self, problem: Problem, again: bool) -> Node | None:
         """Products of two facts, and single facts times squares; then the same with facts divided
@@ -218,6 +248,9 @@ class Closing:
         cases by sign.
         """
         lemmas: list[Lemma] = []
+        node = search_orthant(problem, self.budget)
+        if node is not None:
+            return node
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
             before = len(lemmas)
             stages = BOTH if kind == "variables" and len(problem.facts) <= MOST_FOR_BOTH else FIRST
@@ -323,6 +356,15 @@ def under(lemmas: list[Lemma], node: Node | None) -> Node | None:
             lemma.text, [own if k == lemma.place else case for k, case in enumerate(lemma.nodes)]
         )
     return node
+
+
+def two_factors(problem: Problem) -> list[str]:
+    """The factors of the first equation that has two; none where there is none."""
+    for equation in problem.reduction.left:
+        factors = problem.ring.factors(equation.poly)
+        if len(factors) == 2:
+            return [problem.homogeneous_text(factor) for factor, _ in factors]
+    return []
 
 
 def candidates(state: State, problem: Problem, kind: str) -> list[str]:

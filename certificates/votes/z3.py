@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib import import_module
 from itertools import islice, product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber, root_number, sign_at
@@ -53,6 +53,15 @@ class Reply:
     answer: str
     point: dict[str, Exact] | None = None
     how: str = ""
+
+
+class Model(NamedTuple):
+    """Values at which a line of a statement fails, by exact evaluation of our own polynomials;
+    `part` names the line as the question does, "goal" or "obligation N".
+    """
+
+    part: str
+    point: Mapping[str, Exact]
 
 
 class Session:
@@ -140,8 +149,21 @@ def vote(
     >>> str(vote(read_statement("statement demo/root\\nforall x\\ngiven x > 0\\nshow x^2 != 2")))
     'z3 says fails at x = the root of z^2 - 2 in [181/128, 5793/4096] (goal: sat by nlsat)'
     """
+    return vote_and_model(statement, earlier, budget, asked)[0]
+
+
+def vote_and_model(
+    statement: checker.Statement,
+    earlier: Mapping[str, checker.Statement] | None = None,
+    budget: Budget | None = None,
+    asked: Sequence[Question] | None = None,
+) -> tuple[Vote, Model | None]:
+    """Z3's vote, and the values at which what is shown fails, or else a line before it; None where
+    there are none, or where Z3 alone says that nothing exists there.
+    """
     session = Session((budget or Budget()).rlimit)
     asked, notes, open_lines = asked or questions(statement, earlier), [], False
+    model: Model | None = None
     for question in asked:
         if question.beyond_routes:
             open_lines = True
@@ -149,14 +171,17 @@ def vote(
             continue
         reply = decide(session, question)
         notes.append(f"{question.part}: {reply.how}")
-        if reply.answer == "sat" and question.refutes:
-            return _failure(session, question, reply)
+        if reply.answer == "sat":
+            failure = _failure(session, question, reply)
+            if failure.decided and not question.quantified:
+                model = model or Model(question.part, reply.point or {})
+            if question.refutes:
+                return failure, model
         open_lines = open_lines or reply.answer != "unsat"
     if open_lines:
-        return Vote(
-            "z3", "unknown", "; ".join(note for note in notes if "unsat" not in note), session.spent
-        )
-    return Vote("z3", "holds", "; ".join(dict.fromkeys(notes)), session.spent)
+        detail = "; ".join(note for note in notes if "unsat" not in note)
+        return Vote("z3", "unknown", detail, session.spent), model
+    return Vote("z3", "holds", "; ".join(dict.fromkeys(notes)), session.spent), None
 
 
 def _failure(session: Session, question: Question, reply: Reply) -> Vote:

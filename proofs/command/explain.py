@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,8 +14,10 @@ from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.proofs.claims import Claim, claim_named
 from juggleproof.proofs.command.outputs import busy
 from juggleproof.proofs.command.theorem import explain_bounds, explain_state
+from juggleproof.proofs.forms import read
 from juggleproof.proofs.judgement import statements_of
 from juggleproof.proofs.ledger.places import place_of
+from juggleproof.proofs.orbit_rules import RULES, conclusion
 from juggleproof.proofs.paper import paper_claims
 from juggleproof.proofs.paper.derivations import derivations_of
 from juggleproof.proofs.reports.errata import counterexample, words_of
@@ -22,6 +25,12 @@ from juggleproof.proofs.reports.results import reading_of, sharp_range
 from juggleproof.proofs.reports.tree import print_tree
 from juggleproof.proofs.run import claims_of_files, judge_some, store_of
 
+WIDTH = 96  # of what a rule concludes
+OF_THEOREM = (
+    "docs/theorem.md; `juggleproof explain theorem-by-hand` has its lines, `juggleproof report`"
+    " prints them"
+)
+OF_RULES = "docs/theorem.md says why each rule concludes so; for any map, proofs/coq/Rules.v"
 NO_RANGE = "none: the claim has no range of alpha to settle"
 
 
@@ -73,9 +82,14 @@ def explain(
     for one in derivations_of(statements_of(claim, judgement.correction)):
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(claim.body())}")
+    texts = {**Store(store).texts, **dict(judgement.statements)}
     for name, text in judgement.statements:
         outcome, certificate = judgement.outcomes[name], judgement.certificates[name]
-        _statement(text, outcome, certificate, of_paper=not files)
+        kind = read(text, name).kind
+        concluded = conclusion(kind, name, texts) if kind in RULES else ""
+        _statement(text, outcome, certificate, not files, concluded)
+        for premise in judgement.unproved.get(name, ()):
+            print("\n" + textwrap.indent(premise, " " * 8))
     sharp, verdict = sharp_range(judgement, claim), judgement.verdict
     if judgement.sharp or not files:
         print(f"sharp range {sharp if judgement.sharp else NO_RANGE}")
@@ -83,6 +97,8 @@ def explain(
         print(f"correction  {judgement.correction['text']}")
     print(f"verdict     {verdict.word}" + (f"; {verdict.detail}" if verdict.detail else ""))
     print_tree(claim.id, judgement.rests_on, Store(store), with_premises)
+    if any(read(text, name).kind in RULES for name, text in judgement.statements):
+        print(f"proof       {OF_RULES if files else OF_THEOREM}")
     return 0
 
 
@@ -96,7 +112,9 @@ def _print_of(claim: Claim) -> None:
         print(f"repeats     {claim.repeats}")
 
 
-def _statement(text: str, outcome: str, certificate: Certificate, of_paper: bool) -> None:
+def _statement(
+    text: str, outcome: str, certificate: Certificate, of_paper: bool, concluded: str
+) -> None:
     print()
     for line in text.splitlines():
         print(f"    {line}")
@@ -107,7 +125,11 @@ def _statement(text: str, outcome: str, certificate: Certificate, of_paper: bool
         if words:
             print(f"       {words}")
     elif outcome != "certified":
-        print(f"    -> {outcome}: {certificate.get('unknown', 'the checker rejects it')}")
+        reason = certificate.get("unknown", "the checker rejects it").replace("\n", "\n    ")
+        print(f"    -> {outcome}: {reason}")
+    elif concluded:
+        row = textwrap.wrap(f"-> certified: {concluded}", WIDTH, subsequent_indent=" " * 3)
+        print(textwrap.indent("\n".join(row), " " * 4))
     else:
         shown = json.dumps(certificate["certified"], separators=(",", ":"))
         if of_paper and len(shown) >= 400:

@@ -10,7 +10,7 @@ from pathlib import Path
 from rich.console import Console
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.coq import PRELUDE, export
+from juggleproof.certificates.coq import PRELUDE, NotWritten, export
 from juggleproof.certificates.language import ClaimError
 from juggleproof.certificates.store import DEFAULT, Store, canonical, write_file
 from juggleproof.certificates.votes.smtlib import script
@@ -22,6 +22,8 @@ from juggleproof.proofs.register import load_register
 from juggleproof.proofs.reports.contents import entries_of, errata_text
 from juggleproof.proofs.reports.tables import draw
 from juggleproof.proofs.reports.tex import equation
+from juggleproof.proofs.run import claims_of_files, judge_some, store_of
+from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
 
 # -------------------------------------------------------------------------------------------------
 # `juggleproof list` and `errata`: what is stored, without a search.
@@ -125,8 +127,14 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
     """Writes the statements named (or all) as Coq lemmas with proofs, after those that their
     certificates use; says on standard error how many of each class, and which it cannot write.
 
-    Raises ClaimError for an unknown name, or where nothing at all can be written.
+    Of Python files of claims, writes the theorems on the orbits of maps, each whole.  Raises
+    ClaimError for an unknown name, or where nothing at all can be written.
     """
+    files = [Path(one) for one in ids if one.endswith(".py")]
+    if files and len(files) < len(ids):
+        raise ClaimError("files and claims of the paper together; export them one after the other")
+    if files:
+        return export_theorems(files, folder)
     store = Store(DEFAULT)
     names = _names(store, ids)
     with busy("writing the statements for Coq"):
@@ -143,6 +151,43 @@ def export_coq(ids: Sequence[str], folder: Path | None) -> int:
             content = "\n".join([PRELUDE, *(texts or [exported.texts[name]])])
             write_file(folder / (_file_name(name) + ".v"), content.encode())
     return 0
+
+
+def export_theorems(files: Sequence[Path], folder: Path | None) -> int:
+    """Writes each certified theorem on the orbits of a map on which no other of the files rests, as
+    a file that coqc accepts by itself; 1 where one cannot be written, with a line that says why.
+
+    Raises ClaimError for files without such a claim, and for several without a folder.
+    """
+    claims = claims_of_files(files)
+    with busy("judging the claims"):
+        judgements = judge_some(claims, claims, store_of(files))
+    texts = {name: text for one in judgements for name, text in one.statements}
+    outcomes = {name: word for one in judgements for name, word in one.outcomes.items()}
+    certificates = {name: entry for one in judgements for name, entry in one.certificates.items()}
+    statements = checker.read_statements("\n\n".join(texts.values()))
+    names, where = theorems_in(statements), ", ".join(map(str, files))
+    if not names:
+        raise ClaimError(
+            f"{where}: no claim on the orbits of a map; add a MapRule that concludes one"
+        )
+    if len(names) > 1 and not folder:
+        raise ClaimError(f"{where}: several theorems, {', '.join(names)}; give -o DIR")
+    written = 0
+    for name in names:
+        try:
+            if outcomes[name] != "certified":
+                raise NotWritten(f"it is {outcomes[name]}; `juggleproof certify {where}` says why")
+            text = theorem(name, statements, certificates)
+        except NotWritten as problem:
+            print(f"juggleproof: {where}: {name}: {problem}", file=sys.stderr)
+            continue
+        written += 1
+        if folder:
+            write_file(folder / (_file_name(name) + ".v"), text.encode())
+        else:
+            print(text, end="")
+    return int(written < len(names))
 
 
 def export_latex(ids: Sequence[str], folder: Path | None) -> int:

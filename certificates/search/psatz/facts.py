@@ -91,7 +91,13 @@ class Reduction:
         kept: frozenset[int] = frozenset(),
     ) -> None:
         self.ring, self.signed, self.kept, self.steps = ring, signed, kept, list[Step]()
-        self.left = [Equation(poly, {index: ring.one}, ring.one, ()) for index, poly in equations]
+        self.left = [
+            Equation(poly, {index: ring.one}, ring.one, ())
+            for index, poly in equations
+            if not any(
+                len(other) < len(poly) and not divmod(poly, other)[1] for _, other in equations
+            )
+        ]
         self.contradiction: Equation | None = None
         while self.left and self._divide_one():
             pass

@@ -68,7 +68,7 @@ MANY = 7  # facts, from which on those in the goal's variables are tried first
 
 class Problem:
     """What a leaf of a proof has to contradict; `whole`, with the facts too that seem only to
-    define a root.
+    define a root; without `quotients`, equations give only what they need not divide for.
 
     >>> from juggleproof.certificates import checker
     >>> context = checker.Context()
@@ -80,7 +80,9 @@ class Problem:
     [('x - 1', False), ('-x + 1', True)]
     """
 
-    def __init__(self, state: State, ring: Ring, whole: bool = False) -> None:
+    def __init__(
+        self, state: State, ring: Ring, whole: bool = False, quotients: bool = True
+    ) -> None:
         self.ring = ring
         polys = [ring.read(poly) for poly, _ in state.facts]
         relations = [relation for _, relation in state.facts]
@@ -121,7 +123,7 @@ class Problem:
             k for k, name in enumerate(ring.names) if name in state.context.integers
         )
         kept = integers | self._bounded_variables(lowered, relations)
-        self.reduction = Reduction(ring, equations, signed if equations else [], kept)
+        self.reduction = Reduction(ring, equations, signed if equations and quotients else [], kept)
         self.facts: list[Fact] = []
         self.rows: dict[int, tuple[fmpz_mpoly, Keys, NDArray[np.float64]]] = {}
         self.contradiction: Fact | None = None

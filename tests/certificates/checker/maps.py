@@ -408,9 +408,11 @@ map asked/map
 domain a > 2
 root c = sqrt(a)
 root h = sqrt(y^2)
-on h < 1
+on h < 1 and x_gap < y_point
 point c, b
-value h > 2 -> x + h
+have x_point^2 = a
+have y_point < 1
+value h > 2 -> x + h*y_gap
 value c*y
 loss value*x
 least level + distance
@@ -438,8 +440,9 @@ domain a > 3
 root c = sqrt(a)
 root h = sqrt(y^2)
 point c, b
-direction c + distance, b
-value h > 1 -> x
+direction x_point + distance, b
+have x_point = c
+value h > 1 -> x_gap
 value x*h
 rate c
 radius b

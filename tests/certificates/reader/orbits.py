@@ -50,17 +50,54 @@ class Setting:
                 self.moving.append(Line("root", root))
             else:
                 self.fixed.append(Line("root", root))
-        self.next = {name: f"{name}_next" for name in moved}
+        self.have: list[Tree] = []
+        self.points: tuple[str, ...] = ()
+        self.gaps: tuple[str, ...] = ()
+        self.point: tuple[Tree, ...] = ()
+        if statement.kind in ("lyapunov", "unstable"):
+            self.have = statement.all("have")
+            self.point = statement.one("point")
+            self.points = tuple(f"{name}_point" for name in self.state)
+            self.gaps = tuple(f"{name}_gap" for name in self.state)
+        self.next = {name: f"{name}_next" for name in (*moved, *self.gaps)}
         self.there = tuple(("name", self.next[name]) for name in self.state)
 
     def premise(self, name: str, lines: list[Line]) -> tuple[str, Statement]:
         return name, Statement(f"{self.name}.{name}", "universal", tuple(lines))
 
     def params(self, *more: str) -> list[Line]:
-        return [Line("forall", (*self.parameters, *more)), Line("range", self.domain), *self.fixed]
+        names = (*self.parameters, *(self.points if self.have else ()), *more)
+        known = [Line("given", one) for one in self.have] or self.let_point()
+        return [Line("forall", names), Line("range", self.domain), *self.fixed, *known]
 
     def at_state(self, *more: str) -> list[Line]:
-        return [*self.params(*self.state, *more), Line("given", self.space), *self.moving]
+        places = [
+            Line("let", (name, ("+", ("name", point), ("name", gap))))
+            for name, point, gap in zip(self.state, self.points, self.gaps)
+        ]
+        lines = [*self.params(*(self.gaps or self.state), *more), *places]
+        return [*lines, Line("given", self.space), *self.moving]
+
+    def let_point(self) -> list[Line]:
+        return [Line("let", pair) for pair in zip(self.points, self.point)]
+
+    def let_gaps(self, end: str = "") -> list[Line]:
+        return [
+            Line("let", (gap + end, ("-", ("name", name + end), ("name", point))))
+            for gap, name, point in zip(self.gaps, self.state, self.points)
+        ]
+
+    def around_point(self) -> list[Line]:
+        lines = [Line("forall", self.parameters), Line("range", self.domain), *self.fixed]
+        space = renamed(self.space, dict(zip(self.state, self.points)))
+        return [*lines, *self.let_point(), Line("show", conjunction([space, *self.have]))]
+
+    def within_gaps(self, distance: Tree, end: str = "") -> Tree:
+        links: list[Tree] = []
+        for gap in self.gaps:
+            name = ("name", gap + end)
+            links += [("<=", ("-", distance), name), ("<=", name, distance)]
+        return conjunction(links)
 
     def step(
         self, k: int, *given: Tree | Line, more: tuple[str, ...] = (), stays: bool = True
@@ -78,7 +115,8 @@ class Setting:
         return renamed(tree, self.next)
 
     def lets(self, terms: Iterable[Tree]) -> list[Line]:
-        return [Line("let", (self.next[x], term)) for x, term in zip(self.state, terms)]
+        lets = [Line("let", (self.next[x], term)) for x, term in zip(self.state, terms)]
+        return [*lets, *self.let_gaps("_next")]
 
     def roots_there(self) -> list[Line]:
         return [
@@ -229,15 +267,24 @@ def values_of(statement: Statement) -> list[tuple[tuple[Tree, ...], Tree]]:
     return values
 
 
+def require_constants(setting: Setting, *trees: Tree) -> set[str]:
+    """The names of constants: the terms have no others, and the point has none of its own."""
+    fixed = {*setting.parameters, *(name for _, (name, _) in setting.fixed)}
+    require(len(setting.point) == len(setting.state), "a term for each variable")
+    for tree in setting.point:
+        require(names_in(tree) <= fixed, "a point in parameters only")
+    fixed |= {*setting.points}
+    for tree in trees:
+        require(names_in(tree) <= fixed, "a term in parameters only")
+    return fixed
+
+
 def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     setting = Setting(statement, statements)
-    point, values = statement.one("point"), values_of(statement)
+    values = values_of(statement)
     words = ("on", "loss", "least", "upper", "radius")
     inside, loss, least, upper, radius = (statement.one(word) for word in words)
-    fixed = {*setting.parameters, *(name for _, (name, _) in setting.fixed)}
-    require(len(point) == len(setting.state), "a term for each variable")
-    for tree in (*point, upper, radius):
-        require(names_in(tree) <= fixed, "a term in parameters only")
+    require_constants(setting, upper, radius)
     value, distance, level = (("name", name) for name in ("value", "distance", "level"))
     given = Line("given", inside)
     here = [given]
@@ -258,12 +305,12 @@ def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Pr
         Line("given", (">", ("+", ONE, level), ZERO)),
     ]
     far: list[Tree] = []
-    for name, e in zip(setting.here, point):
-        side = ("-", name, e)
+    for gap in setting.gaps:
+        side = ("name", gap)
         far += [(">=", side, distance), ("<=", side, ("-", distance))]
     close = [
         Line("given", (">=", distance, ZERO)),
-        Line("given", setting.within(distance, point)),
+        Line("given", setting.within_gaps(distance)),
         Line("given", ("<=", distance, radius)),
     ]
     premises = {**setting.own_domain(), **setting.inside()}
@@ -271,8 +318,8 @@ def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Pr
     premises |= [setting.premise("constants", [*setting.params(), Line("show", shown)])]
     lines = [*setting.params("distance", "level"), *any_level, Line("show", (">", least, ZERO))]
     premises |= [setting.premise("positive", lines)]
-    premises |= [setting.premise("point", setting.at_point(point))]
-    lines = [*setting.at_state(), Line("given", setting.within(radius, point))]
+    premises |= [setting.premise("point", setting.around_point())]
+    lines = [*setting.at_state(), Line("given", setting.within_gaps(radius))]
     premises |= [setting.premise("surrounds", [*lines, Line("show", inside)])]
     lines = [*setting.at_state("value"), *here, Line("show", (">=", value, ZERO))]
     premises |= [setting.premise("bounded", lines)]
@@ -298,12 +345,10 @@ def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Pr
 
 def of_unstable(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     setting = Setting(statement, statements)
-    point, curve, values = statement.one("point"), statement.one("direction"), values_of(statement)
+    curve, values = statement.one("direction"), values_of(statement)
     rate, radius, upper = (statement.one(word) for word in ("rate", "radius", "upper"))
-    fixed = {*setting.parameters, *(name for _, (name, _) in setting.fixed)}
-    require(len(point) == len(curve) == len(setting.state), "a term for each variable")
-    for tree in (*point, rate, radius, upper):
-        require(names_in(tree) <= fixed, "a term in parameters only")
+    fixed = require_constants(setting, rate, radius, upper)
+    require(len(curve) == len(setting.state), "a term for each variable")
     require(all(names_in(tree) <= {*fixed, "distance"} for tree in curve), "a curve")
     distance = ("name", "distance")
 
@@ -319,11 +364,12 @@ def of_unstable(statement: Statement, statements: Mapping[str, Statement]) -> Pr
     lines = [*setting.params("distance"), Line("given", (">", distance, ZERO))]
     lines += [Line("given", ("<=", distance, radius)), *setting.lets(curve)]
     lines += [Line("have", setting.moved(setting.space)), *setting.roots_there()]
-    near = setting.within(distance, point, setting.there)
+    near = setting.within_gaps(distance, "_next")
     lines.append(Line("show", conjunction([near, next_value(">", ZERO)])))
+    premises |= [setting.premise("point", setting.around_point())]
     premises |= [setting.premise("direction", lines)]
     for i, (guards, term) in enumerate(values):
-        given = [setting.within(radius, point), *guards, (">", term, ZERO)]
+        given = [setting.within_gaps(radius), *guards, (">", term, ZERO)]
         lines = [*setting.at_state(), *(Line("given", one) for one in given)]
         lines.append(Line("show", ("<=", term, upper)))
         premises |= [setting.premise(f"bounded-{i + 1}", lines)]
@@ -375,6 +421,8 @@ def of_attraction(statement: Statement, statements: Mapping[str, Statement]) -> 
     lines = [*first.params(), Line("show", second.domain)]
     premises = [(("inside"), Statement(f"{statement.name}.inside", "universal", tuple(lines)))]
     lines = [*first.at_state(), *(line for some in other_roots(first, second) for line in some)]
+    if names_in(other.one("on")) & {*second.points, *second.gaps}:
+        lines += [*second.let_point(), *second.let_gaps()]
     lines += [Line("given", descent.all("stage")[-1]), Line("show", other.one("on"))]
     premises.append(("enters", Statement(f"{statement.name}.enters", "universal", tuple(lines))))
     return dict(premises)

@@ -29,8 +29,8 @@ ORDERS = {
     "relation": "over domain state input space (piece )+",
     "descends": "(map|relation) domain (root )*rank (stage )+",
     "contracts": "(map|relation) domain (root )*on point weights rate radius size ",
-    "lyapunov": "(map|relation) domain (root )*on point (value )+loss least upper radius ",
-    "unstable": "map domain (root )*point direction (value )+rate radius upper ",
+    "lyapunov": "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
+    "unstable": "map domain (root )*point direction (have )*(value )+rate radius upper ",
     "attracts": "descent (contraction|lyapunov) ",
     "into": "descent attraction radius ",
     "escapes": "map domain (root )*point start word ",
@@ -127,7 +127,7 @@ def read_statement(
     order = "".join(f"{word} " for word, _, _ in pairs)
     kinds = [kind for kind, wanted in ORDERS.items() if re.fullmatch(wanted, order)]
     require(len(kinds) == 1, f"{name}: no kind of statement has these lines")
-    scope = Scope(known, earlier)
+    scope = Scope(known, earlier, around=kinds[0] in ("lyapunov", "unstable"))
     lines = tuple(scope.line(word, text) for word, _, text in pairs)
     statement = Statement(name, kinds[0], lines)
     variables = {*statement.names("forall"), *statement.names("exists")}
@@ -138,9 +138,16 @@ def read_statement(
 class Scope:
     """The names that the lines of one statement have declared."""
 
-    def __init__(self, known: Mapping[str, Definition], earlier: Mapping[str, Statement]) -> None:
+    def __init__(
+        self,
+        known: Mapping[str, Definition],
+        earlier: Mapping[str, Statement],
+        around: bool = False,
+    ) -> None:
         self.known = known
         self.earlier = earlier
+        self.around = around  # whether the lines may speak of a point, and of the gap to it
+        self.near: set[str] = set()
         self.names: set[str] = set()
         self.hidden: set[str] = set()  # of these no definition is over
 
@@ -228,7 +235,7 @@ class Scope:
         tree = parser.disjunction()
         parser.end()
         require(own.isdisjoint(self.known), "a definition of what a line names")
-        known = self.names | own
+        known = self.names | self.near | own
         require(names_in(tree) <= known, f"{names_in(tree) - known} are not declared")
         require(parser.used <= self.names - self.hidden, "a definition is over other names")
         return tree
@@ -261,6 +268,9 @@ class Scope:
             other = self.earlier[name]
             for own in (*other.names("over"), *other.names("state")):
                 self._declare(own)
+            if self.around:
+                ends = ("point", "gap")
+                self.near = {f"{name}_{end}" for name in other.names("state") for end in ends}
         return name
 
     def _sharp(self, text: str) -> tuple[str, ...]:

@@ -1,0 +1,187 @@
+"""Polytope norms that every piece of a piecewise affine map contracts: max |l_i (s - e)| over rows
+l_i, found by carrying rows back through the pieces (Brayton and Tong 1979), in floats, and rounded.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+import highspy
+import numpy as np
+import sympy
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.given import Map, symbols
+from juggleproof.proofs.stability.samples import Arrays, Floats
+from juggleproof.proofs.stability.values import Function, Setting, program, signed
+
+MOST_ROWS = 24
+CORNERS = 24  # parameters at which rows are carried back
+DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 50, 100)
+SHARES = (0.5, 0.75, 0.9, 0.97)  # of the way from the spectral radius to 1, for the rate
+
+
+def is_affine(system: Map) -> bool:
+    """Whether every piece is affine in the state."""
+    state = symbols(system.state)
+    matrices = [sympy.Matrix(images).jacobian(state) for images in system.images]
+    return all(not matrix.free_symbols & set(state) for matrix in matrices)
+
+
+def matrices_of(system: Map, parameters: Arrays, count: int) -> Floats:
+    """The matrices of all pieces at all parameters, (pieces times parameters, n, n)."""
+    state = symbols(system.state)
+    names = symbols(system.parameters)
+    found = []
+    for images in system.images:
+        entries = list(sympy.Matrix(images).jacobian(state))
+        numbers = sympy.lambdify(names, entries, "numpy")(*parameters.values())
+        stack = [np.broadcast_to(np.asarray(number, float), (count,)) for number in numbers]
+        found.append(np.stack(stack, axis=1).reshape(count, len(state), len(state)))
+    return np.concatenate(found)
+
+
+def corners(setting: Setting) -> Arrays:
+    """The samples of the parameters that lie farthest out in some direction."""
+    names = setting.system.parameters
+    if not names:
+        return {}
+    values = np.stack([setting.parameters[name] for name in names])
+    scaled = (values.T - values.mean(axis=1)) / (values.std(axis=1) + 1e-12)
+    signs = np.array(list(itertools.product((-1.0, 0.3, 1.0), repeat=len(names))))[: 4 * CORNERS]
+    chosen = sorted({int(np.argmax(scaled @ sign)) for sign in signs})[:CORNERS]
+    return {name: setting.parameters[name][chosen] for name in names}
+
+
+def gauge(row: Floats, rows: Floats) -> float:
+    """The least sum of |c_i| with sum c_i l_i = row; infinite where there is none."""
+    count, n = rows.shape
+    matrix = np.hstack([rows.T, -rows.T])
+    found = program(
+        np.vstack([matrix, -matrix]),
+        np.concatenate([row, -row]) - 1e-12,
+        np.zeros(2 * count),
+        np.full(2 * count, highspy.kHighsInf),
+        np.ones(2 * count),
+    )
+    return np.inf if found is None else float(found.sum())
+
+
+def first_rows(matrix: Floats) -> Iterator[Floats]:
+    """Rows to begin with: the coordinates, and those in which the matrix is block diagonal, pairs
+    of complex eigenvalues turned through several angles.
+    """
+    n = len(matrix)
+    yield np.eye(n)
+    values, vectors = np.linalg.eig(matrix.T)
+    for turns in (2, 3, 4):
+        rows: list[Floats] = []
+        for k, number in enumerate(values):
+            vector = vectors[:, k]
+            if abs(number.imag) < 1e-9:
+                rows.append(vector.real)
+            elif number.imag > 0:
+                for j in range(turns):
+                    rows.append((vector * np.exp(1j * np.pi * j / turns)).real)
+        stacked = np.array([row / np.abs(row).max() for row in rows])
+        if np.linalg.matrix_rank(stacked, 1e-6) == n:
+            yield stacked
+
+
+def invariant_rows(matrices: Floats, start: Floats, rate: float) -> Floats | None:
+    """Rows with |l_i A| <= rate times the norm for all matrices; None where they get too many."""
+    rows = start
+    frontier = list(start)
+    while frontier:
+        row = frontier.pop(0)
+        for matrix in matrices:
+            image = row @ matrix / rate
+            if np.abs(image).max() < 1e-9 or gauge(image, rows) <= 1 + 1e-9:
+                continue
+            rows = np.vstack([rows, image])
+            frontier.append(image)
+            if len(rows) > MOST_ROWS:
+                return None
+    kept = list(range(len(rows)))
+    for k in list(kept):
+        rest = [j for j in kept if j != k]
+        if len(rest) >= rows.shape[1] and gauge(rows[k], rows[rest]) <= 1 + 1e-9:
+            kept = rest
+    return rows[kept]
+
+
+def rounded_rows(rows: Floats, matrices: Floats) -> Iterator[tuple[list[list[Fraction]], Fraction]]:
+    """The rows as rationals, the simplest first, with a rate below 1 at the matrices."""
+    scaled = rows / np.abs(rows).max()
+    seen = set()
+    for denominator in DENOMINATORS:
+        exact = [[Fraction(round(x * denominator), denominator) for x in row] for row in scaled]
+        key = tuple(tuple(row) for row in exact)
+        floats = np.array([[float(x) for x in row] for row in exact])
+        if key in seen or np.linalg.matrix_rank(floats) < rows.shape[1]:
+            continue
+        seen.add(key)
+        worst = max(gauge(row @ matrix, floats) for row in floats for matrix in matrices)
+        if worst < 1 - 1e-6:
+            yield exact, _simple_above(worst)
+
+
+def _simple_above(number: float) -> Fraction:
+    """A simple fraction above the number and below 1."""
+    denominator = 2
+    while True:
+        found = Fraction(int(number * denominator) + 1, denominator)
+        if found < 1:
+            return found
+        denominator *= 2
+
+
+def linear_form(row: Sequence[Fraction], names: Sequence[str]) -> str:
+    """A linear form as text."""
+    parts = [
+        name if c == 1 else f"-{name}" if c == -1 else f"{signed(c)}*{name}"
+        for c, name in zip(row, names)
+        if c
+    ]
+    return " + ".join(parts).replace("+ -", "- ")
+
+
+def norm_rules(setting: Setting, on: str, name: str) -> Iterator[MapRule]:
+    """The statements `lyapunov` whose function is a polytope norm."""
+    system = setting.system
+    far = corners(setting)
+    count = len(next(iter(far.values()))) if far else 1
+    matrices = matrices_of(system, far, count)
+    radius = max(float(np.abs(np.linalg.eigvals(matrix)).max()) for matrix in matrices)
+    if radius >= 1:
+        return
+    gaps = [f"{name}_gap" for name in system.state]
+    found = 0
+    for share in SHARES:
+        rate = max(radius + share * (1 - radius), 1e-3)
+        for start in first_rows(matrices[0]):
+            rows = invariant_rows(matrices, start, rate)
+            if rows is None:
+                continue
+            for exact, factor in rounded_rows(rows, matrices):
+                floats = np.array([[float(x) for x in row] for row in exact])
+                # |gap_j| <= V times the gauge of the j-th coordinate
+                most = max(gauge(unit, floats) for unit in np.eye(len(gaps)))
+                least = Fraction(1, int(most * float(1 / (1 - factor))) + 1)
+                upper = max(sum(abs(x) for x in row) for row in exact)
+                forms = [linear_form(row, gaps) for row in exact]
+                forms += [linear_form([-x for x in row], gaps) for row in exact]
+                rows_ = [
+                    ("on", on),
+                    ("loss", f"({1 - factor})*value"),
+                    ("least", f"({least})*distance"),
+                    ("upper", str(upper)),
+                    ("radius", "1"),
+                ]
+                yield setting.rule(name, Function(tuple(forms)), rows_)
+                found += 1
+                if found >= 3:
+                    return
+                break

@@ -1,0 +1,218 @@
+"""Samples of parameters and states in floats, and orbits of them: hints for the searches, which
+nothing that is proved rests on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+import sympy
+from numpy.typing import NDArray
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.language import bounds_of
+from juggleproof.proofs.stability.given import (
+    Expr,
+    Map,
+    atoms,
+    conjunction,
+    expression,
+    holds,
+    symbols,
+    value,
+    written,
+)
+
+Floats = NDArray[np.float64]
+Arrays = dict[str, Floats]
+
+SEED = 1995  # of all samples, so that every run searches in one way
+ROUNDS = 40  # of drawing, before fewer samples than were asked for do
+FAR = 2.5  # powers of ten that unbounded variables run over
+
+
+def ends_of(formula: str, name: str) -> tuple[float | None, float | None]:
+    """The interval that a formula's conditions on one variable make, as floats."""
+    try:
+        found = bounds_of(formula, name)
+    except checker.Rejected:  # it divides
+        found = None
+    low, high = found or (None, None)
+    return (
+        float(Fraction(low[0])) if low else None,
+        float(Fraction(high[0])) if high else None,
+    )
+
+
+def drawn(rng: np.random.Generator, low: float | None, high: float | None, count: int) -> Floats:
+    """Numbers between the ends, dense towards them; over several powers of ten where an end is
+    missing.
+    """
+    share = rng.random(count)
+    side = rng.integers(0, 3, count)
+    if low is not None and high is not None:
+        part = np.where(side == 0, share, np.where(side == 1, share**4, 1 - share**4))
+        return np.asarray(low + (high - low) * part)
+    size = 10 ** (FAR * (2 * share - 1))
+    if low is not None:
+        return np.asarray(low + size)
+    if high is not None:
+        return np.asarray(high - size)
+    return np.asarray(np.where(side % 2 == 0, size, -size))
+
+
+def region(formula: str, names: Sequence[str], count: int, given: Arrays | None = None) -> Arrays:
+    """Points in a region, (count,) floats a name or fewer; `given` has other names' values, one a
+    point, from which it takes as many as it keeps.
+    """
+    rng = np.random.default_rng(SEED)
+    ends = {name: ends_of(formula, name) for name in names}
+    kept: list[Arrays] = []
+    total = 0
+    for _ in range(ROUNDS):
+        point = {name: drawn(rng, *ends[name], count) for name in names}
+        if given:
+            chosen = rng.integers(0, len(next(iter(given.values()))), count)
+            point |= {name: values[chosen] for name, values in given.items()}
+        with np.errstate(all="ignore"):
+            inside = np.broadcast_to(holds(formula, point), (count,))
+        kept.append({name: values[inside] for name, values in point.items()})
+        total += int(inside.sum())
+        if total >= count:
+            break
+    names_kept = kept[0].keys()
+    return {name: np.concatenate([part[name] for part in kept])[:count] for name in names_kept}
+
+
+# -------------------------------------------------------------------------------------------------
+# What is divided by: the checker takes a division where a fact says that its divisor is not 0.
+
+
+def with_licences(system: Map) -> Map:
+    """The map whose images are quotients of polynomials, and whose domain and guards say of each
+    divisor that it is > 0.
+    """
+    domain, pieces = system.domain, []
+    for guard, images in system.pieces:
+        terms = []
+        for image in images:
+            above, below = sympy.fraction(sympy.together(expression(image)))
+            constant, divisors = sympy.factor_list(below)
+            terms.append(image if not divisors else written(sympy.factor(above) / below))
+            for divisor, _ in divisors:
+                if divisor.free_symbols & set(symbols(system.state)):
+                    facts = conjunction(domain, system.space, guard)
+                    guard = conjunction(guard, licence(divisor, facts))
+                else:
+                    domain = conjunction(domain, licence(divisor, domain))
+        pieces.append((guard, tuple(terms)))
+    return replace(system, domain=domain, pieces=tuple(pieces))
+
+
+def licence(divisor: Expr, facts: str) -> str:
+    """That the divisor is > 0, < 0 or not 0, as it is at samples, where no fact says so."""
+    for fact, strict in atoms(facts):
+        ratio = sympy.cancel(fact / divisor)
+        if strict and ratio.is_Rational and ratio != 0:
+            return ""
+    names = sorted(checker.names_in(facts) | {str(symbol) for symbol in divisor.free_symbols})
+    at = value(written(divisor), region(facts, names, 200))
+    if (at > 0).all():
+        return f"{written(divisor)} > 0"
+    return f"{written(-divisor)} > 0" if (at < 0).all() else f"{written(divisor)} != 0"
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point that moves with the parameters: terms as text, with the roots in them."""
+
+    terms: tuple[str, ...]
+    roots: tuple[tuple[str, str], ...] = ()  # (name, what is under the root)
+
+    def at(self, parameters: Mapping[str, Floats]) -> list[Floats]:
+        """The point for arrays of parameters."""
+        known: Arrays = self.with_roots(parameters)
+        size = len(next(iter(known.values()))) if known else 1
+        return [np.broadcast_to(np.asarray(value(t, known), float), (size,)) for t in self.terms]
+
+    def with_roots(self, parameters: Mapping[str, Floats]) -> Arrays:
+        """The parameters with the values of the roots."""
+        known: Arrays = dict(parameters)
+        for name, under in self.roots:
+            known[name] = np.sqrt(np.asarray(value(under, known), float))
+        return known
+
+
+@dataclass(frozen=True)
+class Samples:
+    """States with parameters, roots, the point (NAME_point) and the distances to it (NAME_gap),
+    (count,) floats a name, and the number of the parameters that each state comes with.
+    """
+
+    points: Arrays
+    which: NDArray[np.int64]
+
+    def least(self, values: Floats, count: int) -> Floats:
+        """The least of the values at each of the parameters, (count,); infinite where there is
+        none.
+        """
+        found = np.full(count, np.inf)
+        np.minimum.at(found, self.which, values)
+        return found
+
+    def where(self, mask: NDArray[np.bool_]) -> Samples:
+        """The samples at which the mask is true."""
+        return Samples({name: v[mask] for name, v in self.points.items()}, self.which[mask])
+
+
+def around(system: Map, point: Point, parameters: Arrays, count: int, within: str = "") -> Samples:
+    """For each of the parameters, some `count` states of the space: half of them at distances of
+    many sizes from the point, half of the whole space, or of the set `within`.
+    """
+    rng = np.random.default_rng(SEED + 1)
+    space = within or system.space
+    size = len(next(iter(parameters.values()))) if parameters else 1
+    which = np.repeat(np.arange(size), count)
+    known = point.with_roots(parameters)
+    picked = {name: values[which] for name, values in known.items()}
+    middle = [np.broadcast_to(e, (size,))[which] for e in point.at(parameters)]
+    direction = rng.uniform(-1, 1, (len(system.state), len(which)))
+    direction /= np.abs(direction).max(axis=0)
+    reach = 10 ** rng.uniform(-3, FAR - 0.5, len(which))
+    ends = {name: ends_of(space, name) for name in system.state}
+    everywhere = rng.random(len(which)) < 0.5
+    states: Arrays = dict(picked)
+    for k, name in enumerate(system.state):
+        close = middle[k] + reach * direction[k]
+        far = drawn(rng, *ends[name], len(which))
+        states[name] = np.where(everywhere, far, close)
+        states[name + "_point"] = middle[k]
+        states[name + "_gap"] = states[name] - middle[k]
+    with np.errstate(all="ignore"):
+        inside = np.broadcast_to(holds(space, states), (len(which),))
+    return Samples(states, which).where(inside)
+
+
+def after(system: Map, points: Arrays) -> Arrays:
+    """The next states, with their distances to the point."""
+    found = dict(points)
+    for name, values in zip(system.state, system.next({n: points[n] for n in system.names})):
+        found[name] = values
+        found[name + "_gap"] = values - points[name + "_point"]
+    return found
+
+
+def orbit_ends(system: Map, points: Arrays, steps: int) -> Floats:
+    """The distance to the point after so many steps, relative to 1 + the point's size, for each
+    state; infinite where the orbit leaves all pieces.
+    """
+    now = dict(points)
+    with np.errstate(all="ignore"):
+        for _ in range(steps):
+            now = after(system, now)
+        gaps = [np.abs(now[n + "_gap"]) / (1 + np.abs(now[n + "_point"])) for n in system.state]
+    worst = np.max(gaps, axis=0)
+    return np.where(np.isfinite(worst), worst, np.inf)

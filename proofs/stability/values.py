@@ -1,0 +1,443 @@
+"""Lyapunov functions by linear programs on samples, rounded to simple rationals.
+
+Everything here is in floats and believed by nobody: what it proposes is a statement of the checker,
+for which certificates are then sought.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import highspy
+import numpy as np
+
+from juggleproof.certificates.language import MapRule
+from juggleproof.proofs.stability.given import Map, atoms, holds, value, written
+from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Samples, after
+
+DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 32, 64, 100, 256, 1000)
+LEAST_MARGIN = 1e-7  # of a sample, as a share of its row's length
+LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
+TURNS = 6  # of adding the samples that are missed
+
+
+@dataclass(frozen=True)
+class Template:
+    """A function V = sum of a_i b_i over a divisor: the b_i as text; where V has one part for each
+    piece, the guards, and the b_i of each part.
+    """
+
+    basis: tuple[str, ...]
+    divisor: str = "1"
+    parts: tuple[str, ...] = ()  # guards
+    bases: tuple[tuple[str, ...], ...] = ()
+
+    def columns(self, point: Arrays) -> Floats:
+        """The terms at each state, shape (states, unknowns)."""
+        size = len(next(iter(point.values())))
+        below = np.broadcast_to(np.asarray(value(self.divisor, point), float), (size,))
+        blocks = []
+        for guard, basis in zip(self.parts or ("0 < 1",), self.bases or (self.basis,)):
+            inside = np.broadcast_to(holds(guard, point), (size,))
+            for b in basis:
+                column = np.broadcast_to(np.asarray(value(b, point), float), (size,))
+                blocks.append(np.where(inside, column / below, 0.0))
+        return np.stack(blocks, axis=1)
+
+    def terms(self, numbers: Sequence[Fraction]) -> list[str]:
+        """V as text, one term or one for each part."""
+        texts = []
+        start = 0
+        for basis in self.bases or (self.basis,):
+            parts = [
+                f"{signed(c)}*{b}" if c != 1 else b
+                for c, b in zip(numbers[start : start + len(basis)], basis)
+                if c
+            ]
+            start += len(basis)
+            total = " + ".join(parts) or "0"
+            texts.append(total if self.divisor == "1" else f"({total})/({self.divisor})")
+        return texts
+
+
+def signed(number: Fraction) -> str:
+    return f"({number})" if number < 0 or number.denominator > 1 else str(number)
+
+
+def quadratic_templates(system: Map, piece: int, positive: Sequence[str]) -> Iterator[Template]:
+    """Quadratic forms in the differences, of constant coefficients first, then of coefficients that
+    are linear in the parameters, of a part for each piece, and divided by what is positive.  piece:
+    the one that the point is in.
+    """
+    gaps = [name + "_gap" for name in system.state]
+    pairs = list(itertools.combinations_with_replacement(gaps, 2))
+    squares = tuple(f"{a}^2" if a == b else f"{a}*{b}" for a, b in pairs)
+    moving = tuple(f"{name}*{square}" for name in system.parameters for square in squares)
+    yield Template(squares)
+    for divisor in positive:
+        yield Template(squares, divisor)
+    if moving:
+        yield Template((*squares, *moving))
+    if len(system.pieces) > 1:
+        guards = tuple(guard for guard, _ in system.pieces)
+        whole = (*squares, *gaps, "1")
+        bases = tuple(squares if k == piece else whole for k in range(len(guards)))
+        yield Template(squares, "1", guards, (squares,) * len(guards))
+        yield Template(squares, "1", guards, bases)
+    quartic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 4))
+    cubic = tuple("*".join(parts) for parts in itertools.combinations_with_replacement(gaps, 3))
+    if len(gaps) <= 2:
+        yield Template((*squares, *cubic, *quartic))
+        if moving and len(gaps) == 1:
+            more = tuple(f"{n}*{b}" for n in system.parameters for b in (*cubic, *quartic))
+            yield Template((*squares, *cubic, *quartic, *moving, *more))
+
+
+# -------------------------------------------------------------------------------------------------
+# The linear program.
+
+
+def margins(template: Template, system: Map, states: Arrays) -> tuple[Floats, Floats]:
+    """The rows that ask V(s) - V(f(s)) > 0 and V(s) > 0, scaled to length 1, and which states they
+    are of.
+    """
+    with np.errstate(all="ignore"):
+        here = template.columns(states)
+        there = template.columns(after(system, states))
+        rows = np.concatenate([here - there, here])
+        length = np.linalg.norm(rows, axis=1)
+        rows = rows / length[:, None]
+    fits = np.isfinite(rows).all(axis=1) & (length > 1e-30)
+    return rows[fits], np.tile(np.arange(len(here)), 2)[fits]
+
+
+def best_weights(rows: Floats, simple: bool = True) -> Floats | None:
+    """Weights between -1 and 1 with the greatest least margin; then, where `simple`, those of least
+    sum that keep a quarter of it.  None where no margin is positive.
+    """
+    count, unknowns = rows.shape
+    found = program(
+        np.hstack([rows, -np.ones((count, 1))]),
+        np.zeros(count),
+        np.array([-1.0] * unknowns + [-1.0]),
+        np.array([1.0] * (unknowns + 1)),
+        np.array([0.0] * unknowns + [-1.0]),
+    )
+    if found is None or found[-1] < LEAST_MARGIN:
+        return None
+    if not simple:
+        return found[:-1]
+    sizes = np.block(
+        [
+            [rows, np.zeros_like(rows)],
+            [np.eye(unknowns), np.eye(unknowns)],
+            [-np.eye(unknowns), np.eye(unknowns)],
+        ]
+    )
+    least = np.concatenate([np.full(count, found[-1] / 4), np.zeros(2 * unknowns)])
+    sparse = program(
+        sizes,
+        least,
+        np.array([-1.0] * unknowns + [0.0] * unknowns),
+        np.ones(2 * unknowns),
+        np.array([0.0] * unknowns + [1.0] * unknowns),
+    )
+    return found[:-1] if sparse is None else sparse[:unknowns]
+
+
+def program(
+    matrix: Floats, least: Floats, low: Floats, high: Floats, costs: Floats
+) -> Floats | None:
+    """The point of least cost with matrix x >= least between the bounds."""
+    rows, columns = matrix.shape
+    model = highspy.HighsLp()
+    model.num_col_, model.num_row_ = columns, rows
+    model.col_cost_, model.col_lower_, model.col_upper_ = costs, low, high
+    model.row_lower_, model.row_upper_ = least, np.full(rows, highspy.kHighsInf)
+    at_row, at_column = np.nonzero(matrix)
+    model.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+    model.a_matrix_.start_ = np.searchsorted(at_row, np.arange(rows + 1)).astype(np.int32)
+    model.a_matrix_.index_ = at_column.astype(np.int32)
+    model.a_matrix_.value_ = matrix[at_row, at_column]
+    solver = highspy.Highs()
+    for option, setting in (("output_flag", False), ("threads", 1), ("random_seed", 1)):
+        solver.setOptionValue(option, setting)
+    solver.passModel(model)
+    solver.run()
+    if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+        return None
+    return np.array(solver.getSolution().col_value)
+
+
+def rounded(weights: Floats, rows: Floats) -> Iterator[list[Fraction]]:
+    """The weights as rationals, the simplest first, that keep every margin positive."""
+    largest = np.abs(weights).max()
+    seen = set()
+    for denominator in DENOMINATORS:
+        numbers = [Fraction(round(w / largest * denominator), denominator) for w in weights]
+        floats = np.array([float(n) for n in numbers])
+        if tuple(numbers) not in seen and (rows @ floats > 0).all():
+            seen.add(tuple(numbers))
+            yield numbers
+
+
+def lyapunov_functions(
+    template: Template, system: Map, states: Arrays, tests: Arrays
+) -> Iterator[list[str]]:
+    """Candidates for V as text, that fall at all samples but the point; simplest first."""
+    chosen, _ = margins(template, system, states)
+    every, _ = margins(template, system, tests)
+    if not len(chosen) or not len(every):
+        return
+    for _ in range(TURNS):
+        weights = best_weights(chosen)
+        if weights is None:
+            return
+        missed = every @ weights <= 0
+        if not missed.any():
+            break
+        chosen = np.concatenate([chosen, every[missed][:200]])
+    else:
+        return
+    count = 0
+    for numbers in rounded(weights, every):
+        yield template.terms(numbers)
+        count += 1
+        if count == 2:
+            return
+
+
+# -------------------------------------------------------------------------------------------------
+# Constants that depend on the parameters: a number times powers of what is positive on the domain.
+
+
+def positive_factors(system: Map, domain: str, parameters: Arrays) -> list[str]:
+    """Terms in the parameters that are positive on the domain, the nearest to its ends first."""
+    found = [written(poly) for poly, strict in atoms(domain) if strict]
+    found += list(system.parameters)
+    texts = []
+    for text in dict.fromkeys(found):
+        with np.errstate(all="ignore"):
+            worst = np.min(np.asarray(value(text, parameters), float))
+        if worst > 0:
+            texts.append(text)
+    return texts
+
+
+def power_products(
+    factors: Sequence[str], parameters: Arrays, size: int
+) -> list[tuple[str, Floats]]:
+    """Products of powers of the factors, the simplest first, as text and at the parameters."""
+    values = [np.broadcast_to(np.asarray(value(f, parameters), float), (size,)) for f in factors]
+    found = []
+    limit = 2 if len(factors) <= 3 else 1 if len(factors) <= 6 else 0
+    every = itertools.product(range(-limit, limit + 1), repeat=len(factors))
+    for powers in sorted(every, key=lambda p: (sum(map(abs, p)), sum(p) < 0, p)):
+        if sum(map(abs, powers)) > 4:
+            continue
+        total = np.ones(size)
+        for v, p in zip(values, powers):
+            total = total * v**p
+        above = "*".join(_power(f, p) for f, p in zip(factors, powers) if p > 0)
+        below = "*".join(_power(f, -p) for f, p in zip(factors, powers) if p < 0)
+        found.append((f"{above or 1}/({below})" if below else above or "1", total))
+    return found
+
+
+def _power(text: str, exponent: int) -> str:
+    base = text if text.isidentifier() else f"({text})"
+    return base if exponent == 1 else f"{base}^{exponent}"
+
+
+def bounded_below(
+    least: Floats, products: Sequence[tuple[str, Floats]], most: int = 2
+) -> list[str]:
+    """Terms in the parameters that are positive and below what is least at each of these; those
+    first that follow it closely and are simple.
+    """
+    used = np.isfinite(least)
+    if not used.any() or least[used].min() <= 0:
+        return []
+    ranked = []
+    for text, values in products:
+        with np.errstate(all="ignore"):
+            shares = np.log(least[used] / values[used])
+        if np.isfinite(shares).all():
+            ranked.append((np.ptp(shares) + len(text) / 16, text, float(np.exp(shares.min()))))
+    found = []
+    for _, text, number in sorted(ranked)[:most]:
+        constant = _floor(number * 0.75)
+        if constant == 1:
+            found.append(text)
+        else:
+            found.append(_times(constant, text))
+    return found
+
+
+def _times(number: Fraction, text: str) -> str:
+    """A number times a product of powers, as one quotient."""
+    above, slash, below = text.partition("/")
+    above = above if number.numerator == 1 else f"{number.numerator}*{above}"
+    above = above.removesuffix("*1")
+    if number.denominator == 1:
+        return above + slash + below
+    return f"{above}/({number.denominator}*{below})" if slash else f"{above}/{number.denominator}"
+
+
+def _floor(number: float) -> Fraction:
+    """A simple number below: 4 at most, a whole number or a power of 1/2."""
+    if number >= 1:
+        return Fraction(int(min(number, 4.0)))
+    return Fraction(1, 2 ** int(np.ceil(-np.log2(number))))
+
+
+# -------------------------------------------------------------------------------------------------
+# The statement.
+
+
+@dataclass(frozen=True)
+class Function:
+    """V: the greatest of the terms whose guard holds, without guards the greatest of all."""
+
+    terms: tuple[str, ...]
+    guards: tuple[str, ...] = ()
+    divisor: str = "1"
+
+    def at(self, points: Arrays, count: int) -> Floats:
+        """Its values at so many states."""
+        parts = [np.broadcast_to(np.asarray(value(t, points), float), (count,)) for t in self.terms]
+        if self.guards:
+            inside = [np.broadcast_to(holds(g, points), (count,)) for g in self.guards]
+            parts = [np.where(mask, v, -np.inf) for mask, v in zip(inside, parts)]
+        found: Floats = np.max(parts, axis=0)
+        return found
+
+    def lines(self) -> list[tuple[str, str]]:
+        """The lines `value`."""
+        guards = self.guards or ("",) * len(self.terms)
+        return [("value", f"{g} -> {t}" if g else t) for g, t in zip(guards, self.terms)]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A map with the point in question, the domain on which something is sought, and samples."""
+
+    system: Map
+    point: Point
+    piece: int  # that the point is in
+    have: tuple[str, ...]  # what premises know of the point; nothing where its terms are simple
+    domain: str
+    parameters: Arrays
+    states: Samples
+
+    @cached_property
+    def count(self) -> int:
+        """How many samples of the parameters there are."""
+        return len(next(iter(self.parameters.values()))) if self.parameters else 1
+
+    @cached_property
+    def products(self) -> list[tuple[str, Floats]]:
+        """What constants are sought among."""
+        known = self.point.with_roots(self.parameters)
+        return power_products(positive_factors(self.system, self.domain, known), known, self.count)
+
+    def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
+        """A statement `lyapunov`."""
+        return MapRule(
+            name,
+            (
+                ("map", name.rpartition("/")[0] + "/map"),
+                ("domain", self.domain),
+                *(("root", f"{root} = sqrt({under})") for root, under in self.point.roots),
+                *rows[:1],
+                ("point", ", ".join(self.point.terms)),
+                *(("have", line) for line in self.have),
+                *function.lines(),
+                *rows[1:],
+            ),
+        )
+
+
+def lyapunov_rules(setting: Setting, function: Function, on: str, name: str) -> Iterator[MapRule]:
+    """The statements that V proves stability and attraction of the set, for candidates of the loss
+    and of the constants.
+    """
+    system, samples = setting.system, setting.states
+    count = len(samples.which)
+    with np.errstate(all="ignore"):
+        here = function.at(samples.points, count)
+        there = function.at(after(system, samples.points), count)
+        gaps = [name + "_gap" for name in system.state]
+        square = np.sum([samples.points[gap] ** 2 for gap in gaps], axis=0)
+    fits = np.isfinite(here) & np.isfinite(there) & (square > 1e-12)
+    samples = samples.where(fits)
+    total = " + ".join(f"{g}^2" for g in gaps)
+    total = total if len(gaps) == 1 else f"({total})"
+    ball = small_ball(setting, function)
+    if not ball:
+        return
+    radius, upper = ball
+    for power in LOSS_POWERS:
+        shares = ((here - there) / square * (1 + here) ** power)[fits]
+        least = samples.least(shares, setting.count)
+        for constant in bounded_below(least, setting.products):
+            start = (
+                "" if constant == "1" else f"({constant})*" if "/" in constant else f"{constant}*"
+            )
+            divide = {0: "", 1: "/(1 + {})", 2: "/(1 + {})^2"}[power]
+            rows = [
+                ("on", on),
+                ("loss", start + total + divide.format("value")),
+                ("least", start + "distance^2" + divide.format("level")),
+                ("upper", upper),
+                ("radius", radius),
+            ]
+            yield setting.rule(name, function, rows)
+
+
+def small_ball(setting: Setting, function: Function) -> tuple[str, str] | None:
+    """Terms `radius` and `upper` with V <= upper |s - e| where |s - e| <= radius, at samples."""
+    rng = np.random.default_rng(SEED)
+    each = 200
+    which = np.repeat(np.arange(setting.count), each)
+    known = setting.point.with_roots(setting.parameters)
+    points = {name: values[which] for name, values in known.items()}
+    middle = [
+        np.broadcast_to(e, (setting.count,))[which] for e in setting.point.at(setting.parameters)
+    ]
+    direction = rng.uniform(-1, 1, (len(middle), len(which)))
+    direction /= np.abs(direction).max(axis=0)
+    reach = np.where(rng.random(len(which)) < 0.5, 1.0, rng.random(len(which)))
+    candidates = ["1"] if function.divisor == "1" else []
+    if function.divisor != "1":
+        candidates += [f"({e})/2" for e in setting.point.terms]
+    candidates += [text for text, _ in setting.products[:8] if text != "1"]
+    for radius in candidates:
+        with np.errstate(all="ignore"):
+            size = np.broadcast_to(np.asarray(value(radius, known), float), (setting.count,))
+            if not (size > 0).all():
+                continue
+            states = dict(points)
+            for name, e, d in zip(setting.system.state, middle, direction):
+                states |= {name: e + size[which] * reach * d, name + "_point": e}
+                states[name + "_gap"] = size[which] * reach * d
+            inside = np.broadcast_to(holds(setting.system.space, states), (len(which),))
+            v = function.at(states, len(which))[inside]
+        if not np.isfinite(v).all() or (v < -1e-12).any():
+            continue
+        shares = (size[which] * reach)[inside] / np.maximum(v, 1e-12)
+        least = Samples({}, which[inside]).least(shares, setting.count)
+        for under in bounded_below(least, setting.products, 1):
+            return radius, _inverse(under)
+    return None
+
+
+def _inverse(text: str) -> str:
+    """1 over a quotient."""
+    above, _, below = text.partition("/")
+    below = below.removeprefix("(").removesuffix(")") if below.count("(") == 1 else below
+    return below if above == "1" and below else f"{below or 1}/({above})"

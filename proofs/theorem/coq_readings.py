@@ -1,0 +1,295 @@
+"""The premises of rules on orbits as Coq lemmas in the words of the statements, with quotients and
+square roots; each is proved from its polynomial lemma, which a certificate proves.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from math import prod
+from typing import NamedTuple
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.coq import NotWritten, lemmas
+from juggleproof.certificates.coq.branch import Branch, Hint, Known
+from juggleproof.certificates.coq.lemmas import certified
+from juggleproof.certificates.coq.text import coq_name, lemma_name, polynomial, proposition
+from juggleproof.certificates.coq.transfer import Form, Transfer
+from juggleproof.certificates.states import State
+from juggleproof.proofs.theorem.coq_terms import ATOM, formula_of, term_of
+
+
+def reading_name(name: str) -> str:
+    """The name of the lemma in the words of a statement."""
+    return "of_" + lemma_name(name)
+
+
+def readings(statement: checker.Statement, certificate: Hint, known: Known) -> str:
+    """The premises of a rule on orbits, each as a polynomial lemma and in its own words.
+
+    Raises NotWritten where a certificate has what is not written for Coq.
+    """
+    written = [lemmas(statement, certificate, known)]
+    roots: dict[str, str] = {}
+    for name, premise in checker.premises_of(statement, known).items():
+        written.append(Reading(premise, certificate["certified"][name], known, roots).text())
+    return "\n".join(written)
+
+
+class _Read(NamedTuple):
+    """A proof of `reads N P Q` (Readings.v): a formula, and what it and its negation are as
+    polynomial formulas.
+    """
+
+    holds: str
+    fails: str
+    proof: str
+
+
+class _Texts(Transfer):
+    """Atoms about terms as they stand, in which a name may be a `let` of the goal."""
+
+    lets: Sequence[str] = ()
+
+    def equal(self, text: str) -> str:
+        unfolded = f"unfold {', '.join(reversed(self.lets))}; " if self.lets else ""
+        return f"{unfolded}field; nonzero" if self.lets or "/" in text else "ring"
+
+
+class Reading:
+    """A statement for all, in the words of its lines, as a lemma that its polynomial lemma proves.
+
+    A root is written as `sqrt`; that it is one needs the sign of what is under it, which the
+    certificate proves and which has a lemma of its own; roots: {lines before it: this lemma}.
+    """
+
+    def __init__(
+        self, statement: checker.Statement, proof: Hint, known: Known, roots: dict[str, str]
+    ) -> None:
+        self.statement = statement
+        self.proof = proof
+        self.known = known
+        self.roots = roots
+        self.form = Form(statement)
+        if self.form.integers or statement.get("have"):
+            raise NotWritten("a premise is about integers, or has a line `have`")
+        self.branch = Branch(State(self.form.unfolding.context), known, [0])
+        self.walk = checker.Context()  # the values of names, line by line
+        self.stated: list[str] = []  # what is stated, up to the line
+        self.rows: list[str] = []
+        self.universal: list[str] = []
+        self.assumed: list[str] = []  # names of the lines assumed, as they stand
+        self.premises: list[str] = []  # and as polynomial formulas
+        self.lets: list[str] = []
+        self.before: list[str] = []  # lemmas on what stands under roots
+
+    def text(self) -> str:
+        """The lemmas."""
+        name = self.statement.name
+        for count, (keyword, said) in enumerate(self.statement.lines):
+            if keyword == "forall" and said:
+                self.stated.append(f"forall {' '.join(map(coq_name, said))} : R,")
+                self.rows.append(f"intros {' '.join(map(coq_name, said))}.")
+                self.universal += map(coq_name, said)
+                self._declare(said)
+            elif keyword in ("range", "given"):
+                self._assume(said)
+            elif keyword == "let":
+                self._let(*said)
+            elif keyword == "root":
+                self._root(count, said[0], said[1][0])
+        if self.form.existential:
+            self._exhibit()
+        else:
+            self._show()
+        rows = ["Proof.", *self.rows, "Qed."]
+        head = f"Lemma {reading_name(name)} :\n  " + "\n  ".join(self.stated) + "."
+        return "\n".join([*self.before, head, *rows]) + "\n"
+
+    def _declare(self, names: Sequence[str]) -> None:
+        for name in names:
+            self.walk.declare(name)
+
+    def _let(self, name: str, term: ast.expr) -> None:
+        self.stated.append(f"let {coq_name(name)} := {term_of(term, 0)} in")
+        self.rows.append(f"intro {coq_name(name)}.")
+        self.walk.define(name, self.walk.value(term))
+        self.lets.append(coq_name(name))
+
+    def _assume(self, node: ast.expr) -> None:
+        own, formula = self.branch.fresh(), self.walk.formula(node)
+        self.stated.append(f"({formula_of(node, 0)}) ->")
+        self.rows.append(f"intro {own}.")
+        self.assumed.append(own)
+        self._hold(f"(proj1 {self._same(node, formula)} {own})", formula)
+
+    def _hold(self, proof: str, formula: checker.Formula) -> None:
+        """Takes a premise, as a polynomial formula, into the branch."""
+        held, copy = self.branch.fresh(), self.branch.fresh()
+        self.rows += [f"pose proof {proof} as {held}.", f"pose proof {held} as {copy}."]
+        self.rows += self.branch.assume(formula, copy)
+        self.premises.append(held)
+        self.walk.license(formula)
+
+    def _root(self, count: int, name: str, under: ast.expr) -> None:
+        """A root: it is not negative, and its square is what stands under it."""
+        own, below = coq_name(name), self._under(count, under)
+        radicand, value = term_of(under, 0), self.walk.value(under)
+        signed, squared = self.branch.fresh(), self.branch.fresh()
+        self.stated.append(f"let {own} := sqrt ({radicand}) in")
+        self.rows += [
+            f"intro {own}.",
+            f"assert ({signed} : 0 <= {own}) by apply sqrt_pos.",
+            f"assert ({squared} : {own} * {own} = {radicand})"
+            f" by exact (sqrt_sqrt _ (Rge_le _ _ {below})).",
+            f"clearbody {own}.",
+        ]
+        self._declare([name])
+        self.universal.append(own)
+        root, zero = self.walk.values[name], self.walk.number(0)
+        self._hold(signed, self.walk.atom(root, ">=", zero))
+        square = ast.BinOp(ast.Name(name), ast.Mult(), ast.Name(name))
+        node = ast.Compare(square, [ast.Eq()], [under])
+        formula = self.walk.atom(root * root, "=", value)
+        self._hold(f"(proj1 {self._same(node, formula)} {squared})", formula)
+
+    def _under(self, count: int, under: ast.expr) -> str:
+        """A proof that what stands under a root is not negative; its lemma is written before."""
+        lines = self.statement.text().splitlines()[1 : count + 1]
+        text = "\n".join([*lines, f"show {ast.unparse(under).replace('**', '^')} >= 0"])
+        if text not in self.roots:
+            name = f"{self.statement.name}.root-{count}"
+            part = checker.read_statements(f"statement {name}\n{text}")[name]
+            before = sum(line.startswith("root ") for line in lines)
+            proof = ["proof", self.proof[1][:before], self.proof[1][before]]
+            self.before.append(certified(part, proof, self.known))
+            self.before.append(Reading(part, proof, self.known, self.roots).text())
+            self.roots[text] = reading_name(name)
+        arguments = [*map(coq_name, self._variables()), *self.assumed]
+        return f"({' '.join([self.roots[text], *arguments])})"
+
+    def _variables(self) -> list[str]:
+        """The variables that are not roots."""
+        return [name for line in self.statement.get("forall") for name in line]
+
+    def _show(self) -> None:
+        """What is shown, from the polynomial lemma."""
+        (node,) = self.statement.get("show")
+        self.stated.append(formula_of(node, 0))
+        same = self._same(node, self.form.unfolding.goal(True))
+        applied = " ".join([lemma_name(self.statement.name), *self.universal, *self.premises])
+        self.rows.append(f"exact (proj2 {same} ({applied})).")
+
+    def _exhibit(self) -> None:
+        """What exists, from the polynomial lemma."""
+        names, own = [*map(coq_name, self.form.existential)], self.branch.fresh()
+        self._declare(self.form.existential)
+        nodes = [said for keyword, said in self.statement.lines if keyword in ("with", "show")]
+        node = nodes[0] if len(nodes) == 1 else ast.BoolOp(ast.And(), nodes)
+        formula, kept = self.form.unfolding.goal(True), self.branch.fresh()
+        self.stated.append(f"exists {' '.join(names)} : R, {formula_of(node, 0)}")
+        self.rows += [
+            f"destruct {lemma_name(self.statement.name)} as ({' & '.join([*names, own])}).",
+            f"pose proof {own} as {kept}.",
+            *self.branch.assume(formula, kept),
+        ]
+        self.walk.license(formula)
+        same = self._same(node, formula)
+        self.rows += [*(f"exists {name}." for name in names), f"exact (proj2 {same} {own})."]
+
+    # -------------------------------------------------------------------------------------------
+    # A formula as it stands, and the polynomial formula that it is.
+
+    def _same(self, node: ast.expr, formula: checker.Formula) -> str:
+        """A proof that a formula as it stands is equivalent to its polynomial formula."""
+        texts = _Texts(self.branch, {}, {})
+        texts.lets = self.lets
+        read = self._read(node, texts)
+        self.rows += texts.rows
+        target = proposition(self.branch.names, formula)
+        proof = f"(holds _ _ _ {read.proof})"
+        if read.holds == target:
+            return proof
+        same = self.branch.fresh()
+        self.rows.append(f"assert ({same} : {read.holds} <-> {target}) by equivalent.")
+        return f"(iff_trans {proof} {same})"
+
+    def _read(self, node: ast.expr, texts: _Texts) -> _Read:
+        if isinstance(node, ast.UnaryOp):
+            part = self._read(node.operand, texts)
+            return _Read(part.fails, part.holds, f"(reads_not _ _ _ {part.proof})")
+        if isinstance(node, ast.BoolOp):
+            joined = isinstance(node.op, ast.And)
+            parts = [self._read(part, texts) for part in node.values]
+            return _chain(parts, "reads_and" if joined else "reads_or")
+        if isinstance(node, ast.Compare):
+            sides = [node.left, *node.comparators]
+            atoms = [
+                self._atom(left, type(op), right, texts)
+                for left, op, right in zip(sides, node.ops, sides[1:])
+            ]
+            return _chain(atoms, "reads_and")
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            left, right = (self._read(part, texts) for part in node.args)
+            return _joined(left, right, f"reads_{node.func.id}")
+        raise NotWritten(f"no Coq proposition for {ast.unparse(node)}")
+
+    def _atom(self, left: ast.expr, op: type[ast.cmpop], right: ast.expr, texts: _Texts) -> _Read:
+        if op in (ast.Lt, ast.Gt):
+            low, high = (left, right) if op is ast.Lt else (right, left)
+            pair, order, lemma, relation = (high, low), (low, high), "reads_lt", ">"
+        elif op in (ast.LtE, ast.GtE):
+            pair = (right, left) if op is ast.LtE else (left, right)
+            order, lemma, relation = (left, right), f"reads_{'le' if op is ast.LtE else 'ge'}", ">="
+        else:
+            pair, order = (left, right), (left, right)
+            lemma, relation = ("reads_eq", "=") if op is ast.Eq else ("reads_ne", "!=")
+        more, less = (self.walk.value(side) for side in pair)
+        value = more - less
+        target = _numerator(value, relation)
+        text = f"({term_of(pair[0], 1)} - {term_of(pair[1], 2)})"
+        holds, same = texts.atom(text, value, relation, target)
+        arguments = [term_of(side, ATOM) for side in order]
+        names = self.branch.names
+        arguments.append(f"({polynomial(names, target)})")
+        fails = proposition(names, checker.negate(("atom", target, relation)))
+        arguments.append(same)
+        if ">" in relation:
+            arguments.insert(-1, f"({polynomial(names, -target)})")
+            arguments.append("ltac:(ring)")
+        return _Read(holds, fails, f"({' '.join([lemma, *arguments])})")
+
+
+def _numerator(value: checker.Poly, relation: str) -> checker.Poly:
+    """The polynomial whose sign, or vanishing, is that of a quotient, as the checker has it."""
+    signless = [
+        licence
+        for (licence, positive), exponent in value.under.items()
+        if exponent % 2 and not positive and ">" in relation
+    ]
+    return prod(signless, start=value.over({}))
+
+
+def _chain(parts: Sequence[_Read], lemma: str) -> _Read:
+    """A conjunction or disjunction of several."""
+    last = parts[-1]
+    for part in reversed(parts[:-1]):
+        last = _joined(part, last, lemma)
+    return last
+
+
+def _joined(one: _Read, two: _Read, lemma: str) -> _Read:
+    """Two formulas joined as the lemma of Readings.v says."""
+    yes = f"({one.holds}) {{}} ({two.holds})"
+    no = f"({one.fails}) {{}} ({two.fails})"
+    mixed, other = f"({one.fails}) \\/ ({two.holds})", f"({one.holds}) /\\ ({two.fails})"
+    holds, fails = {
+        "reads_and": (yes.format("/\\"), no.format("\\/")),
+        "reads_or": (yes.format("\\/"), no.format("/\\")),
+        "reads_implies": (mixed, other),
+        "reads_iff": (
+            f"({mixed}) /\\ (({one.holds}) \\/ ({two.fails}))",
+            f"({other}) \\/ (({one.fails}) /\\ ({two.holds}))",
+        ),
+    }[lemma]
+    return _Read(holds, fails, f"({lemma} _ _ _ _ _ _ {one.proof} {two.proof})")
