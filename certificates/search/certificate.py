@@ -309,6 +309,8 @@ def search_premises(
         for effort in (1, 2) if premise.get("exists") else (1, 2, SQUARED):
             if proof is not None or effort == 2 and is_false(name):
                 break
+            if effort == SQUARED and premise.get("exists"):
+                break
             try:
                 proof = search_proof(
                     premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
