@@ -39,7 +39,6 @@ from juggleproof.certificates.search.psatz.sums_of_squares import (
     FactBlock,
     Square,
     SquaresProgram,
-    search_squares,
 )
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
@@ -245,25 +244,24 @@ class QuadraticForm:
         return None
 
     def _choices(self, free: bool) -> Iterator[tuple[list[Guard], list[Guard]]]:
-        """Facts of degree 1 and 2 in z, `free` of parameters or all: forms in the goal's variables
-        first.
+        """Facts of degree 1 and 2 in z, `free` of parameters or all: forms alone, then all; where
+        they are many, those in the goal's variables.
         """
-        tried: list[list[int]] = []
-        for alone, forms in choices((True, False), (True, False)):
-            linear, quadratic = (
-                [
-                    one
-                    for one in self.guards[height]
-                    if not (forms and not one.homogeneous)
-                    and not (alone and self._used(one) - self.own)
-                    and not (free and self._used(one) & set(self.parameters))
-                ]
-                for height in (1, 2)
-            )
-            key = [one.fact for one in (*linear, *quadratic)]
-            if key not in tried and len(key) <= MOST_GUARDS:
-                tried.append(key)
-                yield linear, quadratic
+        for forms in (True, False) if self.form.homogeneous else (False,):
+            for alone in (False, True):
+                linear, quadratic = (
+                    [
+                        one
+                        for one in self.guards[height]
+                        if not (forms and not one.homogeneous)
+                        and not (alone and self._used(one) - self.own)
+                        and not (free and self._used(one) & set(self.parameters))
+                    ]
+                    for height in (1, 2)
+                )
+                if len(linear) + len(quadratic) <= MOST_GUARDS:
+                    yield linear, quadratic
+                    break
 
     @staticmethod
     def _used(one: Guard) -> set[int]:
@@ -418,9 +416,8 @@ class QuadraticForm:
         inside = InnerProgram(
             self.ring, [goal, squares, *blocks], [], kept, total, count=1, completed=completed
         )
-        search_squares(
-            [inside, SquaresProgram(self.ring, [goal, squares, *blocks], [], kept, total)], budget
-        )
+        if inside.node(budget) is None and inside.solved:
+            SquaresProgram(self.ring, inside.blocks, [], kept, total).node(budget)
         return result[0] if result else None
 
     def _halving(self, axes: Sequence[Axis]) -> str:
@@ -511,8 +508,10 @@ class QuadraticForm:
         inside = InnerProgram(
             self.ring, blocks, cofactors, whole_lift, total, count=len(base), completed=completed
         )
-        programs = [inside, SquaresProgram(self.ring, blocks, cofactors, whole_lift, total)]
-        return search_squares(programs[: 1 if more else 2], budget)
+        node = inside.node(budget)
+        if node is None and inside.solved and not more:
+            node = SquaresProgram(self.ring, blocks, cofactors, whole_lift, total).node(budget)
+        return node
 
     def _times_bounds(
         self, block: FactBlock, axes: Sequence[Axis], degrees: Sequence[int]
@@ -548,6 +547,7 @@ class InnerProgram(SquaresProgram):
     kernels: Sequence[float] = ()
     count: int = 0
     completed: Callable[[list[Square], list[fmpz_mpoly], Form], Node | None] = lambda *_: None
+    solved: bool = False  # whether there are floating matrices
 
     def _rounded(
         self,
@@ -557,6 +557,7 @@ class InnerProgram(SquaresProgram):
         budget: Budget,
     ) -> Node | None:
         """The node of rational matrices near the floating ones, shorter ones first."""
+        self.solved = True
         for denominator in denominators:
             budget.spend(50 + len(linear.entries))
             used, roots = list[Square](), list[fmpz_mpoly]()
