@@ -148,6 +148,11 @@ def split_variables(
     if best is None:
         return None
     parameters = sorted({*best[1], *fixed})
+    for v in fixed:  # what facts have squared, and in no higher term, is no parameter to them
+        rest = [w for w in sorted(used) if w == v or w not in parameters]
+        polys = [poly for poly in problem.polys() if degree_in(poly, v)]
+        if max(degree_in(p, v) for p in polys) == 2 >= max(degree_in_all(p, rest) for p in polys):
+            parameters.remove(v)
     return parameters, [v for v in sorted(used) if v not in parameters]
 
 
@@ -610,7 +615,12 @@ def search_forms(state: State, ring: Ring, budget: Budget, halvings: int = HALVI
         return ("close",)
     problem = Problem(state, ring, quotients=False)
     problem.divide()
-    goals = [k for k, f in enumerate(problem.facts) if f.strict and total_degree(f.poly) > 1]
+    last = len(problem.facts) - 1
+    goals = [
+        k
+        for k, f in enumerate(problem.facts)
+        if f.strict and (k == last or total_degree(f.poly) > 1)
+    ]
     for goal in goals[: -MOST_GOALS - 1 : -1]:
         form = QuadraticForm(problem, goal)
         node = form.node(budget)
