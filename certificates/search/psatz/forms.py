@@ -18,11 +18,11 @@ from fractions import Fraction
 from functools import partial
 from itertools import combinations
 from itertools import product as choices
-from math import comb, gcd, lcm, prod
+from math import gcd, lcm, prod
 
-from flint import fmpq_poly, fmpz_mpoly
+from flint import fmpz_mpoly
 
-from juggleproof.certificates.algebra.numbers import bernstein, fraction
+from juggleproof.certificates.algebra.numbers import polynomial_text
 from juggleproof.certificates.algebra.polynomials import (
     Monomial,
     Ring,
@@ -32,8 +32,14 @@ from juggleproof.certificates.algebra.polynomials import (
 )
 from juggleproof.certificates.algebra.semidefinite import Floats, LinearEquations, as_squares
 from juggleproof.certificates.nodes import Node
-from juggleproof.certificates.search.psatz.facts import Factors, merge
+from juggleproof.certificates.search.psatz.facts import merge
 from juggleproof.certificates.search.psatz.lifting import MonomialCofactor, lift
+from juggleproof.certificates.search.psatz.parameters import (
+    Axis,
+    bounds,
+    degree_in_all,
+    split_variables,
+)
 from juggleproof.certificates.search.psatz.problem import Problem
 from juggleproof.certificates.search.psatz.sums_of_squares import (
     FactBlock,
@@ -43,117 +49,17 @@ from juggleproof.certificates.search.psatz.sums_of_squares import (
 from juggleproof.certificates.states import State
 from juggleproof.certificates.work import Budget
 
-MOST_PARAMETERS = 8
 MOST_PARTS = 100  # Bernstein polynomials of one box
 MOST_COUPLED = 40  # the same, where all are parts of one program
-MOST_GUARDS = 6  # facts that are linear in z
-HALVINGS = 3  # of a box, one inside another
+MOST_GUARDS = 6  # facts of degree 1 or 2 in z
 MOST_GOALS = 3
-RAISED = 3
-FINE = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
-INNER = ((1e-4, 1e-5), (1e-6, 1e-6))
+RAISED = 3  # by how much a degree is raised
+HALVINGS = 3  # of a box, one inside another
+DENOMINATORS = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
+MIDDLES = ((1e-4, 1e-5), (1e-6, 1e-6))  # as `sums_of_squares.GOALS`, but in the middle of the cone
 
 Form = dict[Monomial, Fraction]  # exponents of all variables: coefficient
 Found = tuple[list[Square], list[fmpz_mpoly]]  # with the roots
-
-
-@dataclass(frozen=True)
-class Axis:
-    """A parameter with the numbers of the facts low <= parameter, parameter <= high; one of them
-    may be missing.
-    """
-
-    variable: int
-    low: int | None
-    high: int | None
-
-    def factors(self, k: int, degree: int) -> Factors:
-        """The k-th of the products of powers of the bounds: a basis of the polynomials of at most
-        this degree.
-        """
-        powers = [(self.low, k), (self.high, degree - k if self.low is not None else k)]
-        return tuple((fact, e) for fact, e in powers if fact is not None and e)
-
-    def row(self, problem: Problem, exponent: int, degree: int) -> list[Fraction]:
-        """The coefficients of parameter^exponent in this basis."""
-        size = {
-            fact: abs(constant_of(problem.facts[fact].poly.derivative(self.variable)) or 1)
-            for fact in (self.low, self.high)
-            if fact is not None
-        }
-        if self.low is not None and self.high is not None:
-            low, high = (problem.facts[k].end(self.variable) for k in (self.low, self.high))
-            values = bernstein(fmpq_poly([0] * exponent + [1]), low, high, degree)
-            return [
-                fraction(b)
-                * comb(degree, k)
-                / (high - low) ** degree
-                / size[self.low] ** k
-                / size[self.high] ** (degree - k)
-                for k, b in enumerate(values)
-            ]
-        (fact,) = size
-        end, sign = problem.facts[fact].end(self.variable), 1 if self.high is None else -1
-        return [
-            comb(exponent, k) * end ** (exponent - k) * Fraction(sign, size[fact]) ** k
-            if k <= exponent
-            else Fraction(0)
-            for k in range(degree + 1)
-        ]
-
-
-def bounds(problem: Problem) -> dict[int, Axis]:
-    """The variables that facts in them alone bound, with the tightest bounds."""
-    low: dict[int, int] = {}
-    high: dict[int, int] = {}
-    for k, fact in enumerate(problem.facts):
-        degrees = [int(d) for d in fact.poly.degrees()]
-        if sum(degrees) != 1:
-            continue
-        v = degrees.index(1)
-        above = (constant_of(fact.poly.derivative(v)) or 0) > 0
-        side = low if above else high
-        if v not in side or (fact.end(v) > problem.facts[side[v]].end(v)) == above:
-            side[v] = k
-    return {v: Axis(v, low.get(v), high.get(v)) for v in sorted({*low, *high})}
-
-
-def degree_in_all(poly: fmpz_mpoly, variables: Sequence[int]) -> int:
-    """The total degree in some of the variables."""
-    return max((sum(int(m[v]) for v in variables) for m in poly.monoms()), default=0)
-
-
-def split_variables(
-    problem: Problem, goal: fmpz_mpoly, axes: dict[int, Axis]
-) -> tuple[list[int], list[int]] | None:
-    """(parameters, others), so that the goal is of degree 2 at most in the others, if possible of
-    degree 2 in each term; None where there are none.
-    """
-    degrees = [int(d) for d in goal.degrees()]
-    used = {v for poly in problem.polys() for v, d in enumerate(poly.degrees()) if d}
-    both = {v for v, axis in axes.items() if axis.low is not None and axis.high is not None}
-    fixed = [v for v in sorted(used) if not degrees[v] and v in both]
-    open_ = [v for v in axes if degrees[v]]
-    if len(open_) > 2 * MOST_PARAMETERS:
-        return None
-    monomials = [[int(e) for e in m] for m in goal.monoms()]
-    best: tuple[tuple[int, bool, int], tuple[int, ...]] | None = None
-    for count in range(min(len(open_), MOST_PARAMETERS) + 1):
-        for chosen in combinations(open_, count):
-            rest = [v for v in range(len(degrees)) if v not in chosen]
-            heights = {sum(m[v] for v in rest) for m in monomials}
-            rank = sum(v not in both for v in chosen), heights != {2}, count
-            if max(heights) <= 2 and (best is None or rank < best[0]):
-                best = rank, chosen
-    if best is None:
-        return None
-    parameters = sorted({*best[1], *fixed})
-    for v in fixed:  # what facts have squared, and in no higher term, is no parameter to them
-        rest = [w for w in sorted(used) if w == v or w not in parameters]
-        polys = [poly for poly in problem.polys() if degree_in(poly, v)]
-        if max(degree_in(p, v) for p in polys) == 2 >= max(degree_in_all(p, rest) for p in polys):
-            parameters.remove(v)
-    return parameters, [v for v in sorted(used) if v not in parameters]
 
 
 @dataclass(frozen=True)
@@ -294,8 +200,10 @@ class QuadraticForm:
         blocks = list(self._products(linear, quadratic))
         for more in range(RAISED + 1):
             degrees = [degree_in(self.form.poly, axis.variable) + more for axis in axes]
-            if more and (not axes or prod(n + 1 for n in degrees) > MOST_PARTS):
+            count = prod(n + 1 for n in degrees)
+            if more and not axes or count > MOST_PARTS:
                 break
+            budget.spend(count * len(basis))
             found, at_vertex = self._each(
                 terms_of(self.form.poly, Fraction(-1)),
                 axes,
@@ -366,13 +274,14 @@ class QuadraticForm:
             ]
             for one in exponents
         ]
-        squares = as_squares(gram)
+        top = max((abs(c) for row in gram for c in row), default=Fraction(0)) or Fraction(1)
+        squares = as_squares([[c / top for c in row] for row in gram])  # which fit into floats
         if squares is None:
             return None
         roots = [
             sum((b * c for b, c in zip(basis, row) if c), self.ring.zero) for _, row in squares
         ]
-        return [(((), k), weight) for k, (weight, _) in enumerate(squares)], roots
+        return [(((), k), weight * top) for k, (weight, _) in enumerate(squares)], roots
 
     def _products(self, linear: list[Guard], quadratic: list[Guard]) -> Iterator[FactBlock]:
         """Products of two facts that are linear in z, and facts of degree 2, or of degree 1 where
@@ -448,8 +357,9 @@ class QuadraticForm:
             if bend > best:
                 middle = sum(both, Fraction(0)) / 2
                 best = bend
-                text = f"{middle.denominator}*{self.ring.names[v]} - {middle.numerator}"
-        return text.replace("- -", "+ ")
+                name = self.ring.names[v]
+                text = polynomial_text([-middle.numerator, middle.denominator], name)
+        return text
 
     # -------------------------------------------------------- all coefficients in one program
 
@@ -461,7 +371,7 @@ class QuadraticForm:
         whole = [self.form, *linear, *quadratic]
         if not alone and not self.equations:
             if not any(self._used(g) & set(self.parameters) for g in whole[1:]):
-                return None
+                return None  # each coefficient was tried apart
         products = list(self._products(linear, quadratic))
         axes = self._axes([g.poly for g in (*whole, *alone)])
         polys = [self.form.poly, *(b.poly for b in products), *(g.poly for g in alone)]
@@ -499,6 +409,7 @@ class QuadraticForm:
                     monomial = prod(parts, start=z)
                     exponents = tuple(map(int, monomial.monoms()[0]))
                     cofactors.append(((place, exponents), poly * monomial))
+        budget.spend(10 * len(blocks))
         total = Fraction(1, max(abs(int(c)) for c in self.form.poly.coeffs()))
 
         def completed(used: list[Square], roots: list[fmpz_mpoly], left: Form) -> Node | None:
@@ -547,8 +458,8 @@ class InnerProgram(SquaresProgram):
     are not rounded, but `completed` from what the rounded ones leave.
     """
 
-    goals: Sequence[tuple[float, float]] = INNER
-    denominators: Sequence[int] = FINE
+    goals: Sequence[tuple[float, float]] = MIDDLES
+    denominators: Sequence[int] = DENOMINATORS
     kernels: Sequence[float] = ()
     count: int = 0
     completed: Callable[[list[Square], list[fmpz_mpoly], Form], Node | None] = lambda *_: None
