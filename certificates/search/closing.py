@@ -45,7 +45,7 @@ DEPTH = 2  # of cases by sign below one another
 CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
-FEW, MANY = 5000, 60_000  # units of work for quadratic forms, before cases by sign and after
+FEW, MANY = 600, 25_000  # units of work for quadratic forms, before cases by sign and after
 MOST_FOR_BOTH = 9  # facts
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 

@@ -5,7 +5,7 @@ which the checker takes certificates.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -34,7 +34,6 @@ from juggleproof.proofs.stability.refuting import escape_rules, instability_rule
 from juggleproof.proofs.stability.samples import (
     Point,
     around,
-    ends_of,
     licence,
     region,
     with_licences,
@@ -110,8 +109,8 @@ def with_point_licences(domain: str, point: Point) -> str:
 
 
 def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...]:
-    """What premises are to know of a point whose terms are not simple: that it is a fixed point, and
-    on which side of the guard and of the bounds of the space it lies.
+    """What premises are to know of a point whose terms are not simple: that it is a fixed point,
+    and on which side of the guard and of the bounds of the space it lies.
     """
     simple = all("/" not in term for term in fixed.point.terms) and not fixed.point.roots
     if simple:
@@ -130,8 +129,12 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
             with np.errstate(all="ignore"):
                 worst = float(np.min(np.asarray(value(written(poly), at_point), float)))
             lines.append(f"{written(poly)} {'>' if worst > 0 else '>='} 0")
-    put = [re.sub(r"[A-Za-z]\w*", lambda m: names.get(m[0], m[0]), line) for line in lines]
-    return tuple(dict.fromkeys(put))
+    return tuple(dict.fromkeys(renamed(line, names) for line in lines))
+
+
+def renamed(text: str, names: Mapping[str, str]) -> str:
+    """The text with other names in place of some."""
+    return re.sub(r"[A-Za-z]\w*", lambda found: names.get(found[0], found[0]), text)
 
 
 def setting_of(system: Map, fixed: FixedPoint, domain: str) -> Setting:
@@ -304,13 +307,29 @@ def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, repo
     return fault
 
 
+def divisors(setting: Setting) -> list[str]:
+    """What is positive inside the space, for functions that grow without bound at its ends: each
+    of its strict bounds times the same at the point, which has no units, then their product.
+    """
+    system = setting.system
+    put = {name: f"{name}_point" for name in system.state}
+    found = []
+    for poly, strict in atoms(system.space):
+        text = written(poly)
+        if strict and poly.is_polynomial() and checker.names_in(text) & set(system.state):
+            found.append(text if text.isidentifier() else f"({text})")
+    several = ["*".join(found)] if len(found) > 1 else []
+    both = [f"{one}*{renamed(one, put)}" for one in found if setting.have]
+    return several + found + both
+
+
 def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
-    """Statements `lyapunov` that samples do not refute, each with a number that is small where it is
-    simple and fits well.
+    """Statements `lyapunov` that samples do not refute, each with a number that is small where it
+    is simple and fits well.
     """
     system, point = setting.system, setting.point
     tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
-    positive = [n for n in system.state if ends_of(system.space, n)[0] == 0]
+    positive = divisors(setting)
     for kind, template in enumerate(quadratic_templates(system, setting.piece, positive)):
         for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
             function = Function(tuple(terms), template.parts, template.divisor)

@@ -15,6 +15,7 @@ from functools import cached_property
 import highspy
 import numpy as np
 
+from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.proofs.stability.given import Map, atoms, holds, value, written
 from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Samples, after
@@ -22,6 +23,7 @@ from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Sa
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 32, 64, 100, 256, 1000)
 LEAST_MARGIN = 1e-7  # of a sample, as a share of its row's length
 LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
+ORDERS = (2, 4)  # of the loss in the distance: 4 at a multiplier on the unit circle
 SMALLEST = 1e-5  # of a constant
 TURNS = 6  # of adding the samples that are missed
 
@@ -217,14 +219,18 @@ def lyapunov_functions(
 
 
 def positive_factors(system: Map, domain: str, parameters: Arrays) -> list[str]:
-    """Terms in the parameters that are positive on the domain, the nearest to its ends first."""
+    """Terms in the parameters and in the point's names that are positive on the domain, those first
+    that are close to its ends.
+    """
     found = [written(poly) for poly, strict in atoms(domain) if strict]
-    found += list(system.parameters)
+    found += [*system.parameters, *(f"{name}_point" for name in system.state)]
     texts = []
     for text in dict.fromkeys(found):
+        if not checker.names_in(text) <= parameters.keys():
+            continue
         with np.errstate(all="ignore"):
-            worst = np.min(np.asarray(value(text, parameters), float))
-        if worst > 0:
+            at = np.asarray(value(text, parameters), float)
+        if at.min() > 0 and np.ptp(at) > 0:
             texts.append(text)
     return texts
 
@@ -343,6 +349,9 @@ class Setting:
     def products(self) -> list[tuple[str, Floats]]:
         """What constants are sought among."""
         known = self.point.with_roots(self.parameters)
+        if self.have:
+            values = zip(self.system.state, self.point.at(self.parameters))
+            known |= {f"{name}_point": np.broadcast_to(v, (self.count,)) for name, v in values}
         return power_products(positive_factors(self.system, self.domain, known), known, self.count)
 
     def rule(self, name: str, function: Function, rows: Sequence[tuple[str, str]]) -> MapRule:
@@ -373,32 +382,31 @@ def lyapunov_rules(
     with np.errstate(all="ignore"):
         here = function.at(samples.points, count)
         there = function.at(after(system, samples.points), count)
-        gaps = [name + "_gap" for name in system.state]
-        square = np.sum([samples.points[gap] ** 2 for gap in gaps], axis=0)
+    square = np.sum([samples.points[f"{name}_gap"] ** 2 for name in system.state], axis=0)
     fits = np.isfinite(here) & np.isfinite(there) & (square > 1e-12)
     samples = samples.where(fits)
-    total = " + ".join(f"{g}^2" for g in gaps)
-    total = total if len(gaps) == 1 else f"({total})"
     ball = small_ball(setting, function)
     if not ball:
         return
     radius, upper = ball
-    for power in LOSS_POWERS:
-        shares = ((here - there) / square * (1 + here) ** power)[fits]
+    for order, power in itertools.product(ORDERS, LOSS_POWERS):
+        size = np.sum([samples.points[f"{name}_gap"] ** order for name in system.state], axis=0)
+        shares = (here - there)[fits] / size * (1 + here[fits]) ** power
         least = samples.least(shares, setting.count)
+        total = " + ".join(f"{name}_gap^{order}" for name in system.state)
+        total = total if len(system.state) == 1 else f"({total})"
         for rank, constant in bounded_below(least, setting.products):
-            start = (
-                "" if constant == "1" else f"({constant})*" if "/" in constant else f"{constant}*"
-            )
+            bare = constant.isidentifier()
+            start = "" if constant == "1" else f"{constant}*" if bare else f"({constant})*"
             divide = {0: "", 1: "/(1 + {})", 2: "/(1 + {})^2"}[power]
             rows = [
                 ("on", on),
                 ("loss", start + total + divide.format("value")),
-                ("least", start + "distance^2" + divide.format("level")),
+                ("least", start + f"distance^{order}" + divide.format("level")),
                 ("upper", upper),
                 ("radius", radius),
             ]
-            yield rank + power / 4, setting.rule(name, function, rows)
+            yield rank + power / 4 + order - 2, setting.rule(name, function, rows)
 
 
 def small_ball(setting: Setting, function: Function) -> tuple[str, str] | None:
