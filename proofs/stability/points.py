@@ -34,9 +34,9 @@ class FixedPoint:
         return np.broadcast_to(inside, states[system.state[0]].shape)
 
     def stable_share(self, system: Map, parameters: Arrays) -> float:
-        """The share of the parameters for which it exists, with multipliers below 1 in size."""
+        """The share of the parameters for which it exists, with multipliers of size 1 at most."""
         exists = self.exists(system, parameters)
-        return float(np.mean(exists & (self.multiplier(system, parameters) < 1)))
+        return float(np.mean(exists & (self.multiplier(system, parameters) < 1 + 1e-9)))
 
     def is_at(self, terms: Sequence[str]) -> bool:
         """Whether these terms are the point."""

@@ -41,6 +41,7 @@ from juggleproof.proofs.stability.samples import (
 from juggleproof.proofs.stability.values import (
     Function,
     Setting,
+    equation_rules,
     lyapunov_functions,
     lyapunov_rules,
     quadratic_templates,
@@ -291,6 +292,9 @@ def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
         for rule in norm_rules(setting, space, name):
             if not tried(proof, rule, EFFORTS, BUDGET, log):
                 return True
+    for rule in equation_rules(setting, space, name):
+        if not tried(proof, rule, EFFORTS, BUDGET, log):
+            return True
     found = sorted(candidates(setting, space, name), key=lambda one: one[0])[:MOST_CANDIDATES]
     for efforts, budget in ROUNDS:
         for _, rule in found:
