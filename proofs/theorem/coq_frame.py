@@ -27,7 +27,7 @@ class Frame:
         self.known = known
         self.names = state
         self.state = [*map(coq_name, state)]
-        self.axes = [f"Map.axis_{name}" for name in state]
+        self.axes = [f"States.axis_{name}" for name in state]
         self.pieces = range(1, len(own.get("piece")) + 1)
         names = " ".join(map(coq_name, parameters))
         self.bound = f" ({names} : R)" if names else ""
