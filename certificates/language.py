@@ -216,13 +216,9 @@ class MapRule:
         )
 
 
-# the lines that name an earlier statement
-RESTING = ("attraction", "escape", "unstable", "descent", "contraction", "lyapunov", "map")
-
-
 def rests_on(statement: checker.Statement) -> list[str]:
     """The map rules that a parsed map rule names."""
-    return [name for keyword, name in statement.lines if keyword in RESTING]
+    return [name for keyword, name in statement.lines if keyword in checker.NAMED]
 
 
 def lemmas_of(certificate: object) -> set[str]:

@@ -17,7 +17,6 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
 from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.language import (
-    RESTING,
     ClaimError,
     MapRule,
     bounds_of,
@@ -84,7 +83,7 @@ class Lines:
 
     def roots(self) -> list[str]:
         """The root lines of this statement, and of those that it rests on."""
-        inner = [root for key, _ in self.rows if key in RESTING for root in self.named(key).roots()]
+        inner = [root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()]
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
     def point(self) -> str:
@@ -193,11 +192,11 @@ def _greatest(f: Lines) -> str:
 def _of_lyapunov(f: Lines) -> str:
     return (
         f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts"
-        f" {_set('the set `on`', f.one('on'))}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)),"
-        f" and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s"
-        f" of the space in the set and every distance > 0, where V(s) = {_greatest(f)}; least ="
-        f" {f.one('least')} with level = V(s); {LARGEST}; all states of the space with |s - e| <="
-        f" {f.one('radius')} are in the set"
+        f" {_set('the set `on`', f.one('on'))}, which f takes into itself:"
+        f" V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= distance for at most V(s)/least"
+        f" integers n >= 0, for every state s of the space in the set and every distance > 0,"
+        f" where V(s) = {_greatest(f)}; least = {f.one('least')} with level = V(s); {LARGEST};"
+        f" all states of the space with |s - e| <= {f.one('radius')} are in the set"
     )
 
 
@@ -445,10 +444,10 @@ def premises_of(
     Raises ClaimError for a name that is not stated before it, or is that of another kind of rule;
     and for lines of which the checker makes no premises.
     """
-    for keyword, name in ((key, text) for key, text in rule.lines if key in RESTING):
+    for keyword, name in ((key, text) for key, text in rule.lines if key in checker.NAMED):
         if name not in stated:
             similar = get_close_matches(name, stated, 1)
-            hint = f"did you mean {similar[0]}?" if similar else "state it first"
+            hint = f"did you mean {similar[0]}?" if similar else "state it first, in this claim"
             raise ClaimError(
                 f"{rule.name}: the line `{keyword} {name}` names no rule that stands before it;"
                 f" {hint}"

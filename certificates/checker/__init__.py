@@ -30,7 +30,7 @@ from .algebra import (
 )
 from .text import Definitions, names_in, parse, rational
 from .language import (
-    Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
+    NAMED, Atom, Context, Formula, Join, Statement, Unfolding, conjuncts, fold, join, negate,
     read_statements, univariate, variables_of,
 )
 from .rules import State, close, find, prove
@@ -47,7 +47,7 @@ __all__ = [
     "premises_of", "prove", "read_certificates", "report", "verdict",
     # the language: text, statements and polynomials, for who writes statements or searches
     "Atom", "BITS", "Context", "Definitions", "Formula", "Join", "MAX_VARIABLES", "MAX_WORK",
-    "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "fold",
+    "NAMED", "Poly", "Statement", "Unfolding", "Work", "bernstein", "conjuncts", "fold",
     "join", "names_in", "negate", "number", "parse", "rational", "read_statements",
     "univariate", "variable", "variables_of",
 ]

@@ -97,6 +97,7 @@ class Kind(Enum):
     ITERATES_COUNT = "a map that is iterated cannot depend on the number of iterations"
     ITERATES_NAME = "an undeclared name in a map"
     PIECE = "a piece gives one term in parameters and state for each state variable"
+    STAGE_INPUT = "a stage names an input, which has another value at each step"
     VALUE = "a term in parameters and state is expected, or a guard and such a term"
     STATE_TERMS = "one term in the parameters for each state variable is expected"
     EARLIER = "no earlier certified statement of this kind and name"

@@ -364,9 +364,20 @@ def guarded(text: str, read: Reader) -> tuple[list[str], list[str]]:
     return mapping(text, read) if " -> " in text else ([], listed(text, read))
 
 
+NAMED = {  # the kinds of statements that a line may name
+    "map": ["map"],
+    "relation": ["relation"],
+    "descent": ["descends"],
+    "contraction": ["contracts"],
+    "lyapunov": ["lyapunov"],
+    "attraction": ["attracts", "into"],
+    "escape": ["escapes"],
+    "unstable": ["unstable"],
+}
 LINES = {  # how what follows each keyword is read
     **dict.fromkeys(
-        ("forall", "integer", "exists", "over", "sharp", "state"), lambda text, read: text.split()
+        ("forall", "integer", "exists", "over", "sharp", "state", "input"),
+        lambda text, read: text.split(),
     ),
     "let": equation,
     "root": lambda text, read: call(text, read, "sqrt(term)"),
@@ -377,16 +388,15 @@ LINES = {  # how what follows each keyword is read
     **dict.fromkeys(("iterates", "after", "piece"), mapping),
     "value": guarded,
     "word": lambda text, read: [int(k) for k in text.split()],
-    **dict.fromkeys(
-        ("map", "descent", "contraction", "lyapunov", "attraction", "escape", "unstable"),
-        lambda text, read: text,
-    ),
+    **dict.fromkeys(NAMED, lambda text, read: text),
     **dict.fromkeys(
         ("space", "rank", "stage", "on", "rate", "radius", "size", "loss", "least", "upper"),
         lambda text, read: written(read(text)),
     ),
     **dict.fromkeys(("point", "weights", "start", "direction"), listed),
 }
+# what only these lines may name, beside parameters, state and roots
+OWN = {"loss": ["value"], "least": ["distance", "level"], "direction": ["distance"]}
 # the lines that each kind of statement has, in this order, so that none can be overlooked
 ORDERS = {
     "universal": (
@@ -395,13 +405,16 @@ ORDERS = {
     "sharp": r"sharp over domain (number )*holds ",
     "iterates": r"forall integer (let )*iterates after ",
     "map": r"over domain state space (piece )+",
-    "descends": r"map domain (root )*rank (stage )+",
-    "contracts": r"map domain (root )*on point weights rate radius size ",
-    "lyapunov": r"map domain (root )*on point (have )*(value )+loss least upper radius ",
-    "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
+    "relation": r"over domain state input space (piece )+",
+    "descends": r"(map|relation) domain (root )*rank (stage )+",
+    "contracts": r"(map|relation) domain (root )*on point weights rate radius size ",
+    "lyapunov": (
+        r"(map|relation) domain (root )*on point (have )*(value )+loss least upper radius "
+    ),
     "attracts": r"descent (contraction|lyapunov) ",
     "into": r"descent attraction radius ",
     "escapes": r"map domain (root )*point start word ",
+    "unstable": r"map domain (root )*point direction (have )*(value )+rate radius upper ",
     "exactly": r"attraction (escape|unstable) ",
 }
 
@@ -441,26 +454,26 @@ class Statement:
         require(keyword in LINES, Kind.LINE, f"{keyword} {text}")
         said = LINES[keyword](text, lambda part: definitions.read(part, self.declared))
         out = text
-        if keyword in ("let", "root", "domain") and definitions.occur_in(text):
+        if keyword in ("let", "root", "domain", "have") and definitions.occur_in(text):
             out = written_line(keyword, said)
         self.lines.append((keyword, said))
         self.texts.append(text)
         self.plain.append(out)
-        if keyword in ("forall", "over", "state", "exists"):
+        if keyword in ("forall", "over", "state", "input", "exists"):
             bound = said
         else:
             bound = [said[0]] if keyword in ("let", "root", "number") else []
-        for name in bound:
+        for name in [*bound, *OWN.get(keyword, [])]:
             definitions.bind(name)
-        if keyword == "map" and text in statements:
+        if keyword in ("map", "relation") and text in statements:
             bound = statements[text].declared
         if keyword != "exists":
             self.declared.update(bound)
 
 
 def written_line(keyword: str, said: Said) -> str:
-    """The text of a line `let`, `root` or `domain`."""
-    if keyword == "domain":
+    """The text of a line `let`, `root`, `domain` or `have`."""
+    if keyword in ("domain", "have"):
         return written(said)
     name, value = said
     return f"{name} = " + (written(value) if keyword == "let" else f"sqrt({written(value[0])})")

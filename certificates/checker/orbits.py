@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from .algebra import Kind, Rejected, Work, require
-from .language import Known, Statement, read_statements
+from .language import NAMED, Known, Statement, read_statements
 from .rules import Hint, at, prove
 from .text import names_in, put
 
@@ -53,19 +53,20 @@ def premises_of_iterates(statement: Statement, known: Known, work: Work) -> Prem
 
 
 class Orbits:
-    """A map with the lines of a statement about it, from which the text of the premises is
-    written.
+    """A map, or a relation, with the lines of a statement about it, from which the text of the
+    premises is written.
     """
 
     def __init__(self, statement: Statement, known: Known, work: Work) -> None:
         self.own = statement
         self.work = work
-        if statement.kind == "map":
+        if statement.kind in ("map", "relation"):
             self.map = statement
         else:
-            self.map = earlier(statement, known, "map")
+            self.map = earlier(statement, known, "map", "relation")
         (self.parameters,) = self.map.get("over")
         (self.state,) = self.map.get("state")
+        self.inputs = [name for line in self.map.get("input") for name in line]
         (self.space,) = self.map.get("space")
         (self.domain,) = statement.rows("domain")
         self.pieces = self.map.get("piece")
@@ -86,9 +87,10 @@ class Orbits:
         fits = all(
             len(guard) == 1 and len(images) == len(self.state) for guard, images in self.pieces
         )
-        # nothing but parameters and state: x_next in a guard would mean the image itself
+        # nothing but parameters, state and inputs: x_next in a guard would mean the image itself
         named = names_in(*(text for piece in self.pieces for side in piece for text in side))
-        require(fits and named <= {*self.parameters, *self.state}, Kind.PIECE, self.map.name)
+        known_names = {*self.parameters, *self.state, *self.inputs}
+        require(fits and named <= known_names, Kind.PIECE, self.map.name)
 
     def next(self, text: str) -> str:
         """The same of the next state."""
@@ -113,15 +115,16 @@ class Orbits:
         return self.for_all(*places, f"given {self.space}", *self.roots, *rows, extra=names)
 
     def step(self, k: int, *rows: str, show: str, extra: Sequence[str] = ()) -> list[str]:
-        """Where the k-th piece applies: something of the next state, which is in the space by the
-        map's premises.
+        """Where the k-th piece applies, for all inputs: something of the next state; the map's
+        premises say that it is in the space.
         """
         (guard,), images = self.pieces[k]
         known = []
         if self.own is not self.map:  # else the map would be assumed to do what is to be shown
             known = ["given " + self.next(self.space), *map(self.next, self.roots)]
         image = self.let_next(images)
-        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=extra)
+        every = [*extra, *self.inputs]
+        return self.at(*rows, f"given {guard}", *image, *known, f"show {show}", extra=every)
 
     def let_next(self, terms: Sequence[str]) -> list[str]:
         """The lines that name the terms of the next state, or of any other."""
@@ -213,17 +216,6 @@ class Orbits:
         return {"possible": possible, **inside, **premises}
 
 
-NAMED = {  # the kinds of statements that a line may name
-    "map": ["map"],
-    "descent": ["descends"],
-    "contraction": ["contracts"],
-    "lyapunov": ["lyapunov"],
-    "attraction": ["attracts", "into"],
-    "escape": ["escapes"],
-    "unstable": ["unstable"],
-}
-
-
 def earlier(statement: Statement, known: Known, *keywords: str) -> Statement:
     """What the line with one of these keywords names: an earlier statement, certified, of the kind
     that the line needs.
@@ -246,12 +238,29 @@ def premises_of_map(statement: Statement, known: Known, work: Work) -> Premises:
     """
     f = Orbits(statement, known, work)
     guards = [guard for (guard,), _ in f.pieces]
-    premises = {"covers": f.at("show " + all_of(guards, " or "))}
+    apart = {}
     for i, guard in enumerate(guards):
         for k in range(i):
             both = f"given {guard}", f"given {guards[k]}"
-            premises[f"apart-{i + 1}-{k + 1}"] = f.at(*both, "show 0 = 1")
-    for k in range(len(guards)):
+            apart[f"apart-{i + 1}-{k + 1}"] = f.at(*both, "show 0 = 1")
+    return premises_of_relation(statement, known, work, apart)
+
+
+def premises_of_relation(
+    statement: Statement, known: Known, work: Work, apart: Premises | None = None
+) -> Premises:
+    """A relation F between states of the space: for all parameters in the domain, each state s of
+    the space has a next state, that is, a piece whose guard holds for some inputs, and all its next
+    states are in the space: the images under each piece, for all inputs for which its guard holds.
+
+    What `descends`, `contracts`, `lyapunov`, `attracts` and `into` say of f^n(s), they say of s_n
+    for every execution s_0 = s, s_(n + 1) in F(s_n) of a relation, with F(e) = {e} for f(e) = e.
+    """
+    f = Orbits(statement, known, work)
+    some = [f"exists {' '.join(f.inputs)}"] if f.inputs else []
+    covers = f.at(*some, "show " + all_of((guard for (guard,), _ in f.pieces), " or "))
+    premises = {"covers": covers, **(apart or {})}
+    for k in range(len(f.pieces)):
         premises[f"stays-{k + 1}"] = f.step(k, show=f.next(f.space))
     return f.with_domain(premises)
 
@@ -267,6 +276,7 @@ def premises_of_descent(statement: Statement, known: Known, work: Work) -> Premi
     f = Orbits(statement, known, work)
     (rank,) = statement.get("rank")
     stages = statement.get("stage")
+    require(not names_in(*stages) & set(f.inputs), Kind.STAGE_INPUT, statement.name)
     outside = f"given not ({all_of(stages, ' or ')})"
     premises = {"bounded": f.at(f"show ({rank}) >= 0")}
     for k in range(len(f.pieces)):
@@ -340,8 +350,8 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
     # > 0, so that loss and least may divide by them
     bounded = [*here, "given value >= 0", "given 1 + value > 0"]
     before, extra = bounded, ["value"]
-    if len(values) == 1 and not values[0][0]:
-        before, extra = [here[0], f"let value = {values[0][1]}", *bounded[-2:]], []
+    if len(values) == 1:  # its guard holds on the set, where `bounded` does
+        before, extra = [here[0], f"let value = {values[0][1]}", *bounded[2:]], []
     any_level = ["given distance > 0", "given level >= 0", "given 1 + level > 0"]
     far = all_of((f"{gap} >= distance or {gap} <= -distance" for gap in f.gaps), " or ")
     far_off = [*any_level, f"given {far}", "given level >= value", f"show ({loss}) >= ({least})"]
@@ -368,6 +378,84 @@ def premises_of_lyapunov(statement: Statement, known: Known, work: Work) -> Prem
             show = all_of([*(f"not ({f.next(guard)})" for guard in guards), less], " or ")
             premises[f"falls-{k + 1}-{i + 1}"] = f.step(k, *before, show=show, extra=extra)
     return f.with_domain(premises)
+
+
+def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Premises:
+    """A descent whose last stage lies in the set `on` of a contraction, or of a Lyapunov function,
+    of the same map.  For all parameters in the descent's domain, the point is stable and f^n(s)
+    tends to it for all states s of the space; with a contraction |f^(N+k)(s) - e| <= rate^k size
+    for all integers N >= rank(s) + m - 1, k >= 0.
+    """
+    f = Orbits(earlier(statement, known, "descent"), known, work)
+    other = Orbits(around(statement, known), known, work)
+    # the very statement: two maps may have the same text, and other certificates
+    require(f.map is other.map, Kind.OTHER_MAP, statement.name)
+    # a root of one name for two terms is declared twice, and refused
+    roots = [root for root in other.fixed + other.roots if root not in f.fixed + f.roots]
+    last, on = f.own.get("stage")[-1], other.own.get("on")[0]
+    return {
+        "inside": f.for_all(f"show {other.domain}"),
+        "enters": f.at(*roots, *other.let_names(on), f"given {last}", f"show {on}"),
+    }
+
+
+def around(statement: Statement, known: Known) -> Statement:
+    """What an attraction says of a neighbourhood of its point."""
+    one = earlier(statement, known, "contraction", "lyapunov", "attraction")
+    return around(one, known) if one.kind in NAMED["attraction"] else one
+
+
+def premises_of_attraction_into(statement: Statement, known: Known, work: Work) -> Premises:
+    """A descent of a map f, and an attraction of a map g with the same parameters, state and pieces
+    on another space.  For all parameters in the descent's domain, the attraction's point e is a
+    fixed point of f, it is stable, and f^n(s) tends to it for all states s of f's space.
+
+    Premises: the descent's domain is part of the attraction's; e is in f's space; radius > 0, in
+    the parameters alone; the states of f's space that are in the last stage, or have |s - e| =
+    max |s_j - e_j| <= radius, are in g's space.  f = g where both are defined, by the same pieces:
+    an orbit of f that enters g's space is from there on an orbit of g.
+    """
+    f = Orbits(earlier(statement, known, "descent"), known, work)
+    attraction = earlier(statement, known, "attraction")
+    g = Orbits(earlier(attraction, known, "descent"), known, work)
+    other = Orbits(around(attraction, known), known, work)
+    same = all(f.map.get(keyword) == g.map.get(keyword) for keyword in ("over", "state", "piece"))
+    require(same, Kind.OTHER_MAP, statement.name)
+    (radius,), point = statement.get("radius"), other.terms("point")
+    roots = [root for root in other.fixed if root not in f.fixed]
+    return {
+        "inside": f.for_all(f"show {g.domain}"),
+        "constants": f.for_all(*roots, f"show ({radius}) > 0"),
+        "point": f.in_space(point, *roots),
+        "surrounds": f.at(*roots, "given " + f.within(radius, point), f"show {g.space}"),
+        "enters": f.at(f"given {f.own.get('stage')[-1]}", f"show {g.space}"),
+    }
+
+
+def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premises:
+    """A periodic orbit: for all parameters in the domain the start is in the space, f^n(start) =
+    start for the length n of the word of pieces, and start is not the point; so the orbit of the
+    start does not tend to the point.
+    """
+    f = Orbits(statement, known, work)
+    (word,) = statement.get("word")
+    require(word, Kind.WORD, statement.name)  # after no step, every start is back
+    here = f.terms("start")
+    rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
+    first = {name: f"{name}_0" for name in f.state}
+    apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
+    shown = [put(f.space, first)]
+    for count, piece in enumerate(word):
+        (guard,), images = at(f.pieces, piece - 1)
+        now = {name: f"{name}_{count}" for name in f.state}
+        work.spend(PER_LETTER * sum(map(len, [guard, *here, *images])))
+        rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
+        shown.append(put(guard, now))
+        if count == 0:
+            shown.append(apart)
+        here = [put(image, now) for image in images]
+    shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
+    return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
 
 
 def premises_of_instability(statement: Statement, known: Known, work: Work) -> Premises:
@@ -413,84 +501,6 @@ def premises_of_instability(statement: Statement, known: Known, work: Work) -> P
     return f.with_domain(premises)
 
 
-def premises_of_attraction(statement: Statement, known: Known, work: Work) -> Premises:
-    """A descent whose last stage lies in the set `on` of a contraction, or of a Lyapunov function,
-    of the same map.  For all parameters in the descent's domain, the point is stable and f^n(s)
-    tends to it for all states s of the space; with a contraction |f^(N+k)(s) - e| <= rate^k size
-    for all integers N >= rank(s) + m - 1, k >= 0.
-    """
-    f = Orbits(earlier(statement, known, "descent"), known, work)
-    other = Orbits(around(statement, known), known, work)
-    # the very statement: two maps may have the same text, and other certificates
-    require(f.map is other.map, Kind.OTHER_MAP, statement.name)
-    # a root of one name for two terms is declared twice, and refused
-    roots = [root for root in other.fixed + other.roots if root not in f.fixed + f.roots]
-    last, on = f.own.get("stage")[-1], other.own.get("on")[0]
-    return {
-        "inside": f.for_all(f"show {other.domain}"),
-        "enters": f.at(*roots, *other.let_names(on), f"given {last}", f"show {on}"),
-    }
-
-
-def around(statement: Statement, known: Known) -> Statement:
-    """What an attraction says of a neighbourhood of its point."""
-    one = earlier(statement, known, "contraction", "lyapunov", "attraction")
-    return around(one, known) if one.kind in NAMED["attraction"] else one
-
-
-def premises_of_attraction_into(statement: Statement, known: Known, work: Work) -> Premises:
-    """A descent of a map f, and an attraction of a map g with the same parameters, state and pieces
-    on another space.  For all parameters in the descent's domain, the attraction's point e is a
-    fixed point of f, it is stable, and f^n(s) tends to it for all states s of f's space.
-
-    Premises: the descent's domain is part of the attraction's; e is in f's space; radius > 0, in
-    the parameters alone; the states of f's space that are in the last stage, or have |s - e| =
-    max |s_j - e_j| <= radius, are in g's space.  f = g where both are defined, since one guard at
-    most holds there: an orbit of f that enters g's space is from there on an orbit of g.
-    """
-    f = Orbits(earlier(statement, known, "descent"), known, work)
-    attraction = earlier(statement, known, "attraction")
-    g = Orbits(earlier(attraction, known, "descent"), known, work)
-    other = Orbits(around(attraction, known), known, work)
-    same = all(f.map.get(keyword) == g.map.get(keyword) for keyword in ("over", "state", "piece"))
-    require(same, Kind.OTHER_MAP, statement.name)
-    (radius,), point = statement.get("radius"), other.terms("point")
-    roots = [root for root in other.fixed if root not in f.fixed]
-    return {
-        "inside": f.for_all(f"show {g.domain}"),
-        "constants": f.for_all(*roots, f"show ({radius}) > 0"),
-        "point": f.in_space(point, *roots),
-        "surrounds": f.at(*roots, "given " + f.within(radius, point), f"show {g.space}"),
-        "enters": f.at(f"given {f.own.get('stage')[-1]}", f"show {g.space}"),
-    }
-
-
-def premises_of_escape(statement: Statement, known: Known, work: Work) -> Premises:
-    """A periodic orbit: for all parameters in the domain the start is in the space, f^n(start) =
-    start for the length n of the word of pieces, and start is not the point; so the orbit of the
-    start does not tend to the point.
-    """
-    f = Orbits(statement, known, work)
-    (word,) = statement.get("word")
-    require(word, Kind.WORD, statement.name)  # after no step, every start is back
-    here = f.terms("start")
-    rows = [f"let {name}_point = {e}" for name, e in zip(f.state, f.terms("point"))]
-    first = {name: f"{name}_0" for name in f.state}
-    apart = all_of((f"{name}_0 != {name}_point" for name in f.state), " or ")
-    shown = [put(f.space, first)]
-    for count, piece in enumerate(word):
-        (guard,), images = at(f.pieces, piece - 1)
-        now = {name: f"{name}_{count}" for name in f.state}
-        work.spend(PER_LETTER * sum(map(len, [guard, *here, *images])))
-        rows += [f"let {now[name]} = {term}" for name, term in zip(f.state, here)]
-        shown.append(put(guard, now))
-        if count == 0:
-            shown.append(apart)
-        here = [put(image, now) for image in images]
-    shown += [f"{name}_0 = ({last})" for name, last in zip(f.state, here)]
-    return f.with_domain({"start": f.for_all(*rows, "show " + all_of(shown))})
-
-
 def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Premises:
     """An attraction, and an escape from the same point of the same map, or its instability, on
     domains that make up the map's.  For all parameters in the map's domain: the point is stable and
@@ -514,13 +524,14 @@ def premises_of_sharpness(statement: Statement, known: Known, work: Work) -> Pre
 ORBIT_RULES = {
     "iterates": premises_of_iterates,
     "map": premises_of_map,
+    "relation": premises_of_relation,
     "descends": premises_of_descent,
     "contracts": premises_of_contraction,
     "lyapunov": premises_of_lyapunov,
-    "unstable": premises_of_instability,
     "attracts": premises_of_attraction,
     "into": premises_of_attraction_into,
     "escapes": premises_of_escape,
+    "unstable": premises_of_instability,
     "exactly": premises_of_sharpness,
 }
 

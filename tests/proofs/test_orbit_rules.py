@@ -37,8 +37,8 @@ CONCLUSIONS = {
     " space and every integer N >= rank(s), where rank = x",
     "demo/contracts": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
     " `on` {x < 1}: |f^n(s) - e| <= a^n |s - e| <= a^n for every state s of the space in the set"
-    " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all states"
-    " of the space with |s - e| <= 1/2 are in it",
+    " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all"
+    " states of the space with |s - e| <= 1/2 are in it",
     "demo/attracts": "for 0 < a < 1: e = 0 is stable and attracts every state s of the space:"
     " |f^(N + k)(s) - e| <= a^k for all integers k >= 0 and N >= rank(s), where rank = x,"
     " |s - e| = |x - e|",
@@ -355,6 +355,21 @@ def test_an_open_rule_is_explained_with_the_text_of_its_premise_holds(
     assert "psatz" not in out and "proof       docs/theorem.md" in out
 
 
+def test_a_rule_on_the_map_of_another_claim_is_explained_before_it_is_stored_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = file_of(tmp_path)
+    near = [("domain", "0 < a and 2*a < 1") if row[0] == "domain" else row for row in NEAR]
+    with path.open("a", encoding="utf-8") as file:
+        file.write(
+            "\n\n@claim('other', hints={'uses': ['mine/map']})\ndef too():\n"
+            f"    '''It settles.'''\n    return MapRule('near', {tuple(near)!r})\n"
+        )
+    assert run(["explain", "other", str(path)]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert "certified: for 0 < a < 1/2: e = 0 is a fixed point, is stable, and attracts" in out
+
+
 def test_reasons_are_the_same_from_run_to_run_holds(tmp_path: Path) -> None:
     path = file_of(tmp_path, put(NEAR, "rate", "a/2"))
     stored = []
@@ -393,7 +408,7 @@ FAULTS: dict[str, tuple[Rows, str]] = {
     ),
     "no name": (
         put(NEAR, "map", "other"),
-        "the line `map other` names no rule that stands before it; state it first",
+        "the line `map other` names no rule that stands before it; state it first, in this claim",
     ),
     "itself": (put(NEAR, "map", "mine/near"), "names no rule that stands before it"),
     "no term": (

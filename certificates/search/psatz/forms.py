@@ -116,6 +116,9 @@ def bounds(problem: Problem) -> dict[int, Axis]:
         side = low if above else high
         if v not in side or (fact.end(v) > problem.facts[side[v]].end(v)) == above:
             side[v] = k
+    for v in low.keys() & high.keys():
+        if problem.facts[low[v]].end(v) >= problem.facts[high[v]].end(v):
+            del high[v]  # one value or none: no interval to write polynomials on
     return {v: Axis(v, low.get(v), high.get(v)) for v in sorted({*low, *high})}
 
 

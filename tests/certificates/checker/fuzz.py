@@ -22,6 +22,7 @@ from pathlib import Path
 from juggleproof.certificates import checker
 from juggleproof.certificates.checker import settling
 from juggleproof.certificates.store import certificate_lines
+from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH, SUBTRACT, searched
 from tests.certificates.checker.rules import TABLES
 
 MEMORY, SECONDS = 2 << 30, 20
@@ -29,11 +30,13 @@ WORK = 3 * 10**6  # for a folder, so that what is counted ends within seconds
 BITS = ("(", ")", "^4000", "^99999", "*", "/", "-", " ", "\n", "\n\n", ",", "0", "1/0", "x", "n")
 BITS += ("sqrt(", "root(", "implies(", "iff(", "not ", " and ", " or ", "<", "=", "9" * 5000)
 BITS += ("\nstatement a/b\n", "\ndefine f(x) := f(x)\n", "\nexists x\n", "\x00", "\r", "\u2028")
+BITS += ("value", "distance", "x_next", " -> ", "\nover\n", "\nradius distance\n")
 BITS += ("[" * 3000, "{", "}", "]", '"', "null", "true", "1.5", "1e9", "-1", '"x"', "[]", "[[]]")
+MAPS = (SUBTRACT, FLIP, NEST, DOUBLE, PUSH)
 
 
 def folders() -> list[tuple[str, str]]:
-    """The statements and the certificates of every accepted case, as files."""
+    """The statements and the certificates of every accepted case and map, as files."""
     found = []
     for module in TABLES.values():
         for case in module.ACCEPTED:
@@ -44,6 +47,7 @@ def folders() -> list[tuple[str, str]]:
             )
             entries = {**case.earlier, name: case.certificate}
             found.append((case.text, certificate_lines(entries).decode()))
+    found += [(text, certificate_lines(searched(text)).decode()) for text in MAPS]
     return found
 
 

@@ -232,6 +232,73 @@ attraction nest/into-twice
 escape nest/escapes
 """
 
+# Several next states: a state is drawn to 0 by a factor that may be another one at each step.
+PUSH = """
+statement push/relation
+over a
+domain a >= 0 and a < 1
+state x
+input u
+space 0 = 0
+piece u >= -a and u <= a and x > -1 -> u*x
+piece u >= -a and u <= a and x < 1 -> -u*x/2
+piece x > 5 -> x/6
+
+statement push/descends
+relation push/relation
+domain a >= 0 and a < 1/2
+rank 0
+stage 0 = 0
+
+statement push/contracts
+relation push/relation
+domain a >= 0 and a < 1/2
+on x >= -2 and x <= 2
+point 0
+weights 1
+rate 1/2
+radius 2
+size 2
+
+statement push/lyapunov
+relation push/relation
+domain a >= 0 and a < 1/2
+on 0 = 0
+point 0
+value x
+value -x
+loss value/2
+least distance/2
+upper 1
+radius 1
+
+statement push/attracts
+descent push/descends
+lyapunov push/lyapunov
+"""
+
+# Without inputs, where the pieces overlap: a state is halved, or taken to a third.
+SWITCH = """
+statement switch/relation
+over
+domain 0 = 0
+state x
+input
+space 0 = 0
+piece x >= -1 -> x/2
+piece x <= 1 -> -x/3
+
+statement switch/contracts
+relation switch/relation
+domain 0 = 0
+on x^2 <= 1
+point 0
+weights 1
+rate 1/2
+radius 1
+size 1
+"""
+
 # No parameter: a state is doubled.
 DOUBLE = """
 statement double/map
@@ -341,9 +408,11 @@ map asked/map
 domain a > 2
 root c = sqrt(a)
 root h = sqrt(y^2)
-on h < 1
+on h < 1 and x_gap < y_point
 point c, b
-value h > 2 -> x + h
+have x_point^2 = a
+have y_point < 1
+value h > 2 -> x + h*y_gap
 value c*y
 loss value*x
 least level + distance
@@ -355,7 +424,7 @@ map asked/map
 domain a > 4
 on x < 1
 point a, b
-value x^2
+value x > 0 -> x^2
 loss value
 least distance
 upper a
@@ -371,8 +440,9 @@ domain a > 3
 root c = sqrt(a)
 root h = sqrt(y^2)
 point c, b
-direction c + distance, b
-value h > 1 -> x
+direction x_point + distance, b
+have x_point = c
+value h > 1 -> x_gap
 value x*h
 rate c
 radius b
@@ -395,6 +465,7 @@ stage y < 1
 statement asked/inner-contracts
 map asked/inner
 domain a > 6
+root c = sqrt(a)
 root k = sqrt(a + 1)
 on y < 2
 point k, b
@@ -415,6 +486,22 @@ radius k
 statement asked/exactly-unstable
 attraction asked/into
 unstable asked/unstable
+
+statement asked/relation
+over a b
+domain a > 0
+state x y
+input u w
+space x >= 0
+piece x >= u -> x - 1, w
+piece u < b -> a*y, b
+
+statement asked/descends-related
+relation asked/relation
+domain a > 7
+root d = sqrt(x)
+rank d
+stage x < 1
 
 statement asked/escapes
 map asked/map

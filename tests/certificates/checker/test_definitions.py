@@ -15,7 +15,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.checker import Kind, Rejected
 from tests.certificates.checker.evaluator import formula_at, term_at
 from tests.certificates.checker.harness import CLOSE, lines, proof, refused, refuted, verdict
-from tests.certificates.checker.maps import SUBTRACT, checked, edited, searched
+from tests.certificates.checker.maps import DOUBLE, NEST, PUSH, SUBTRACT, checked, edited, searched
 from tests.certificates.checker.rules import sharp
 
 MANY = settings(max_examples=60, deadline=None, derandomize=True)
@@ -165,7 +165,7 @@ def test_rejects_a_definition_that_a_map_cannot_use(body: str, kind: Kind, place
 def test_names_of_premises_are_no_definitions() -> None:
     """A definition cannot change what a rule writes: x_next and distance are names of premises."""
     above = "define x_next := 0\ndefine distance := 0\ndefine x_0 := 0\n\n"
-    results = checked(above + SUBTRACT, searched(SUBTRACT))
+    results = checked(above + NEST, searched(NEST))
     assert {outcome for outcome, _ in results.values()} == {"certified"}
 
 
@@ -176,6 +176,25 @@ def test_a_division_is_licensed_at_the_place_of_use_alone() -> None:
     certificate = {"rule/case": proof(CLOSE, at={"x": "1", "y": "0"})}
     assert verdict(good, certificate)["rule/case"] == ("certified", None)
     assert refused(verdict(bad, certificate)["rule/case"][1], (Kind.DIVISION, "y"))
+
+
+@pytest.mark.parametrize(
+    ("text", "name"), [(SUBTRACT, "value"), (SUBTRACT, "level"), (DOUBLE, "distance")]
+)
+def test_rejects_a_definition_of_what_a_line_names(text: str, name: str) -> None:
+    above = (f"define {name} := 1\n{text}", Kind.SHADOWS)
+    for whole, kind in (above, (f"{text}\ndefine {name} := 1\n", Kind.REDEFINED)):
+        with pytest.raises(Rejected) as info:
+            checker.read_statements(whole)
+        assert refused(info.value, (kind, name))
+
+
+def test_a_definition_may_be_over_what_a_relation_declares() -> None:
+    above = "define times(z) over u := u*z\ndefine inside over x := x >= -2 and x <= 2\n\n"
+    text = edited(PUSH, "relation", "-> u*x\n", "-> times(x)\n")
+    text = above + edited(text, "contracts", "x >= -2 and x <= 2", "inside")
+    results = checked(text, searched(PUSH))
+    assert {outcome for outcome, _ in results.values()} == {"certified"}
 
 
 # what a definition could hide from a rule that looks for names: the state, the number of iterations

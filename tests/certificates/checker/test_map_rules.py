@@ -21,7 +21,9 @@ from tests.certificates.checker.maps import (
     DOUBLE,
     FLIP,
     NEST,
+    PUSH,
     SUBTRACT,
+    SWITCH,
     TURN,
     checked,
     edited,
@@ -105,6 +107,21 @@ FAILING_WITH_GUARDS = [
 FAILING_IN_A_SPACE = [
     ("unstable", "direction distance", "direction -distance", "direction"),
 ]
+FAILING_OF_A_RELATION = [
+    ("relation", "domain a >= 0 and a < 1", "domain a >= 0 and a < 0", "possible"),
+    ("relation", "a and x > -1", "a and x > 2", "covers"),
+    ("relation", "u <= a and x > -1", "u < -a and x > -1", "covers"),
+    ("relation", "space 0 = 0", "space x >= -1", "stays-1"),
+    ("relation", "space 0 = 0", "space x <= 9", "stays-2"),
+    ("descends", "stage 0 = 0", "stage x < 1", "falls-1"),
+    ("contracts", "rate 1/2", "rate 1/4", "closer-1"),
+    ("lyapunov", "loss value/2", "loss value", "falls-1-1"),
+]
+FAILING_WITHOUT_INPUTS = [
+    ("relation", "piece x >= -1", "piece x > 2", "covers"),
+    ("contracts", "rate 1/2", "rate 1/3", "closer-1"),
+    ("contracts", "rate 1/2", "rate 1", "constants"),
+]
 FAILING_INTO = [("into", "radius 1", "radius 0", "constants")]
 # What joins two statements fails through the one or the other: (statement changed, from, to,
 # statement that fails, premise)
@@ -126,10 +143,20 @@ JOINS_INTO = [
 ]
 
 
-@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE])
+@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH])
 def test_every_rule_holds_on_another_map(text: str) -> None:
     results = checked(text, searched(text))
     assert {outcome for outcome, _ in results.values()} == {"certified"}, results
+
+
+def test_every_rule_holds_of_a_map_without_parameters() -> None:
+    text = SUBTRACT.split("statement demo/escapes")[0].replace("over a", "over")
+    for domain in ("a > 0 and a <= 1", "a > 0 and a < 1"):
+        text = text.replace(f"domain {domain}", "domain 0 = 0")
+    for old, new in (("a*x", "x/2"), ("rate a", "rate 1/2"), ("(1 - a)", "1/2")):
+        text = text.replace(old, new)
+    results = checked(text, searched(text))
+    assert len(results) == 6 and {outcome for outcome, _ in results.values()} == {"certified"}
 
 
 def named(text: str, kind: str) -> str:
@@ -144,6 +171,8 @@ def named(text: str, kind: str) -> str:
         *((SUBTRACT, *row) for row in FAILING),
         *((FLIP, *row) for row in FAILING_WITH_GUARDS),
         *((DOUBLE, *row) for row in FAILING_IN_A_SPACE),
+        *((PUSH, *row) for row in FAILING_OF_A_RELATION),
+        *((SWITCH, *row) for row in FAILING_WITHOUT_INPUTS),
         *((NEST, *row) for row in FAILING_INTO),
     ],
 )
@@ -214,6 +243,28 @@ def test_rejects_an_attraction_of_a_map_with_other_lines(old: str, new: str) -> 
     outcome, reason = results["nest/into"]
     assert outcome == "rejected"
     assert refused(reason, (Kind.OTHER_MAP, "nest/into"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("stage 0 = 0", "stage x < u", (Kind.STAGE_INPUT, "push/descends")),
+        ("rank 0", "rank u", (Kind.UNDECLARED, "u", "premise bounded of push/descends")),
+        ("rank 0", "root h = sqrt(u)\nrank 0", (Kind.UNDECLARED, "u")),
+        ("relation push/relation", "map push/relation", (Kind.EARLIER, "map push/relation")),
+    ],
+)
+def test_rejects_a_descent_of_a_relation(old: str, new: str, expected: Expected) -> None:
+    outcome, reason = checked(edited(PUSH, "descends", old, new), searched(PUSH))["push/descends"]
+    assert outcome == "rejected"
+    assert refused(reason, expected), reason
+
+
+def test_rejects_a_periodic_orbit_of_a_relation() -> None:
+    text = edited(SUBTRACT, "escapes", "map demo/map", "relation demo/map")
+    with pytest.raises(checker.Rejected) as info:
+        read(text)
+    assert refused(info.value, (Kind.ORDER, "demo/escapes"))
 
 
 def test_rejects_a_loss_that_is_negative_at_the_point() -> None:
@@ -452,6 +503,7 @@ MALFORMED = [
     ("lyapunov", "value x", "value value", Kind.VALUE),
     ("lyapunov", "value x", "value value < 1 -> x", Kind.VALUE),
     ("lyapunov", "value x", "value x, x", Kind.VALUE),
+    ("lyapunov", "value x", "value x\nvalue x, x", Kind.VALUE),
     ("lyapunov", "value x", "value (x > 0, x < 1) -> x", Kind.VALUE),
     ("lyapunov", "point 0", "point x", Kind.STATE_TERMS),
     (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
+from itertools import repeat
 
 from tests.certificates.reader.statements import Line, Statement
 from tests.certificates.reader.syntax import Tree, names_in, renamed, require, substitute
@@ -28,9 +29,10 @@ class Setting:
     """A statement about a map: its parameters, state, pieces, domain and `root` lines."""
 
     def __init__(self, statement: Statement, statements: Mapping[str, Statement]) -> None:
-        is_map = statement.kind == "map"
+        is_map = statement.kind in ("map", "relation")
         self.name = statement.name
-        self.map = statement if is_map else statements[statement.one("map")]
+        self.map = statement if is_map else statements[statement.lines[0].says]
+        self.inputs = self.map.names("input")
         self.parameters = self.map.one("over")
         self.state = self.map.one("state")
         self.domain: Tree = statement.one("domain")
@@ -48,33 +50,96 @@ class Setting:
                 self.moving.append(Line("root", root))
             else:
                 self.fixed.append(Line("root", root))
-        self.next = {name: f"{name}_next" for name in moved}
+        self.have: list[Tree] = []
+        self.points: tuple[str, ...] = ()
+        self.gaps: tuple[str, ...] = ()
+        self.point: tuple[Tree, ...] = ()
+        if statement.kind in ("lyapunov", "unstable"):
+            self.have = statement.all("have")
+            self.point = statement.one("point")
+            self.points = tuple(f"{name}_point" for name in self.state)
+            self.gaps = tuple(f"{name}_gap" for name in self.state)
+        self.next = {name: f"{name}_next" for name in (*moved, *self.gaps)}
         self.there = tuple(("name", self.next[name]) for name in self.state)
 
     def premise(self, name: str, lines: list[Line]) -> tuple[str, Statement]:
         return name, Statement(f"{self.name}.{name}", "universal", tuple(lines))
 
     def params(self, *more: str) -> list[Line]:
-        return [Line("forall", (*self.parameters, *more)), Line("range", self.domain), *self.fixed]
+        names = (*self.parameters, *(self.points if self.have else ()), *more)
+        known = [Line("given", one) for one in self.have] or self.let_point()
+        return [Line("forall", names), Line("range", self.domain), *self.fixed, *known]
 
     def at_state(self, *more: str) -> list[Line]:
-        return [*self.params(*self.state, *more), Line("given", self.space), *self.moving]
+        places = [
+            Line("let", (name, ("+", ("name", point), ("name", gap))))
+            for name, point, gap in zip(self.state, self.points, self.gaps)
+        ]
+        lines = [*self.params(*(self.gaps or self.state), *more), *places]
+        return [*lines, Line("given", self.space), *self.moving]
+
+    def let_point(self) -> list[Line]:
+        return [Line("let", pair) for pair in zip(self.points, self.point)]
+
+    def let_gaps(self, end: str = "") -> list[Line]:
+        return [
+            Line("let", (gap + end, ("-", ("name", name + end), ("name", point))))
+            for gap, name, point in zip(self.gaps, self.state, self.points)
+        ]
+
+    def around_point(self) -> list[Line]:
+        lines = [Line("forall", self.parameters), Line("range", self.domain), *self.fixed]
+        space = renamed(self.space, dict(zip(self.state, self.points)))
+        return [*lines, *self.let_point(), Line("show", conjunction([space, *self.have]))]
+
+    def within_gaps(self, distance: Tree, end: str = "") -> Tree:
+        links: list[Tree] = []
+        for gap in self.gaps:
+            name = ("name", gap + end)
+            links += [("<=", ("-", distance), name), ("<=", name, distance)]
+        return conjunction(links)
 
     def step(
-        self, k: int, *given: Tree, more: tuple[str, ...] = (), stays: bool = True
+        self, k: int, *given: Tree | Line, more: tuple[str, ...] = (), stays: bool = True
     ) -> list[Line]:
         guard, terms = self.pieces[k]
-        lines = [*self.at_state(*more), *(Line("given", tree) for tree in given)]
+        rows = (one if isinstance(one, Line) else Line("given", one) for one in given)
+        lines = [*self.at_state(*more, *self.inputs), *rows]
         lines.append(Line("given", guard))
-        lines += [Line("let", (self.next[x], term)) for x, term in zip(self.state, terms)]
+        lines += self.lets(terms)
         if stays:
-            lines.append(Line("given", self.moved(self.space)))
-            for _, (name, term) in self.moving:
-                lines.append(Line("root", (self.next[name], self.moved(term))))
+            lines += [Line("given", self.moved(self.space)), *self.roots_there()]
         return lines
 
     def moved(self, tree: Tree) -> Tree:
         return renamed(tree, self.next)
+
+    def lets(self, terms: Iterable[Tree]) -> list[Line]:
+        lets = [Line("let", (self.next[x], term)) for x, term in zip(self.state, terms)]
+        return [*lets, *self.let_gaps("_next")]
+
+    def roots_there(self) -> list[Line]:
+        return [
+            Line("root", (self.next[name], self.moved(term))) for _, (name, term) in self.moving
+        ]
+
+    def at_point(self, point: Iterable[Tree], *roots: Line) -> list[Line]:
+        show = Line("show", self.moved(self.space))
+        return [*self.params(), *roots, *self.lets(point), show]
+
+    def within(
+        self,
+        distance: Tree,
+        point: Iterable[Tree],
+        names: Iterable[Tree] | None = None,
+        weights: Iterable[Tree] = repeat(ONE),
+    ) -> Tree:
+        links: list[Tree] = []
+        for name, e, weight in zip(names or self.here, point, weights):
+            gap = ("-", name, e)
+            links.append(("<=", ("*", ("-", distance), weight), gap))
+            links.append(("<=", gap, ("*", distance, weight)))
+        return conjunction(links)
 
     def own_domain(self) -> Premises:
         lines = [
@@ -93,11 +158,11 @@ def of_map(statement: Statement, statements: Mapping[str, Statement]) -> Premise
     setting = Setting(statement, statements)
     guards = [guard for guard, _ in setting.pieces]
     premises = setting.own_domain()
-    premises |= [
-        setting.premise("covers", [*setting.at_state(), Line("show", disjunction(guards))])
-    ]
+    some = [Line("exists", setting.inputs)] if setting.inputs else []
+    covers = [*setting.at_state(), *some, Line("show", disjunction(guards))]
+    premises |= [setting.premise("covers", covers)]
     for i in range(len(guards)):
-        for k in range(i):
+        for k in range(i if statement.kind == "map" else 0):
             lines = [*setting.at_state(), Line("given", guards[i]), Line("given", guards[k])]
             lines.append(Line("show", ("=", ZERO, ONE)))
             premises |= [setting.premise(f"apart-{i + 1}-{k + 1}", lines)]
@@ -133,6 +198,7 @@ def of_iterates(statement: Statement, statements: Mapping[str, Statement]) -> Pr
 def of_descent(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     setting = Setting(statement, statements)
     rank, stages = statement.one("rank"), statement.all("stage")
+    require(not any(names_in(stage) & {*setting.inputs} for stage in stages), "an input")
     premises = {**setting.own_domain(), **setting.inside()}
     lines = [*setting.at_state(), Line("show", (">=", rank, ZERO))]
     premises |= [setting.premise("bounded", lines)]
@@ -160,12 +226,7 @@ def of_contraction(statement: Statement, statements: Mapping[str, Statement]) ->
         require(names_in(tree) <= fixed, "a term in parameters only")
 
     def within(distance: Tree, names: Iterable[Tree] = setting.here) -> Tree:
-        links: list[Tree] = []
-        for name, e, weight in zip(names, point, weights):
-            gap = ("-", name, e)
-            links.append(("<=", ("*", ("-", distance), weight), gap))
-            links.append(("<=", gap, ("*", distance, weight)))
-        return conjunction(links)
+        return setting.within(distance, point, names, weights)
 
     premises = {**setting.own_domain(), **setting.inside()}
     positive = [(">", weight, ZERO) for weight in weights]
@@ -173,9 +234,7 @@ def of_contraction(statement: Statement, statements: Mapping[str, Statement]) ->
         [(">=", rate, ZERO), ("<", rate, ONE), *positive, (">", radius, ZERO), (">", size, ZERO)]
     )
     premises |= [setting.premise("constants", [*setting.params(), Line("show", constants)])]
-    lets = [Line("let", (setting.next[x], e)) for x, e in zip(setting.state, point)]
-    lines = [*setting.params(), *lets, Line("show", setting.moved(setting.space))]
-    premises |= [setting.premise("point", lines)]
+    premises |= [setting.premise("point", setting.at_point(point))]
     lines = [*setting.at_state(), Line("given", within(radius)), Line("show", inside)]
     premises |= [setting.premise("surrounds", lines)]
     lines = [*setting.at_state(), Line("given", inside), Line("show", within(size))]
@@ -200,15 +259,171 @@ def other_roots(one: Setting, other: Setting) -> tuple[list[Line], list[Line]]:
     )
 
 
+def values_of(statement: Statement) -> list[tuple[tuple[Tree, ...], Tree]]:
+    """The guards, one or none, and the term of each line `value`, which do not name `value`."""
+    values = statement.all("value")
+    for guards, term in values:
+        require(not any("value" in names_in(tree) for tree in (*guards, term)), "value in a value")
+    return values
+
+
+def require_constants(setting: Setting, *trees: Tree) -> set[str]:
+    """The names of constants: the terms have no others, and the point has none of its own."""
+    fixed = {*setting.parameters, *(name for _, (name, _) in setting.fixed)}
+    require(len(setting.point) == len(setting.state), "a term for each variable")
+    for tree in setting.point:
+        require(names_in(tree) <= fixed, "a point in parameters only")
+    fixed |= {*setting.points}
+    for tree in trees:
+        require(names_in(tree) <= fixed, "a term in parameters only")
+    return fixed
+
+
+def of_lyapunov(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    values = values_of(statement)
+    words = ("on", "loss", "least", "upper", "radius")
+    inside, loss, least, upper, radius = (statement.one(word) for word in words)
+    require_constants(setting, upper, radius)
+    value, distance, level = (("name", name) for name in ("value", "distance", "level"))
+    given = Line("given", inside)
+    here = [given]
+    for guards, term in values:
+        reached = [*(("not", guard) for guard in guards), ("<=", term, value)]
+        here.append(Line("given", disjunction(reached)))
+    positive = [
+        Line("given", (">=", value, ZERO)),
+        Line("given", (">", ("+", ONE, value), ZERO)),
+    ]
+    bounded, names = [*here, *positive], ("value",)
+    before, more = bounded, names
+    if len(values) == 1:
+        before, more = [given, Line("let", ("value", values[0][1])), *positive], ()
+    any_level = [
+        Line("given", (">", distance, ZERO)),
+        Line("given", (">=", level, ZERO)),
+        Line("given", (">", ("+", ONE, level), ZERO)),
+    ]
+    far: list[Tree] = []
+    for gap in setting.gaps:
+        side = ("name", gap)
+        far += [(">=", side, distance), ("<=", side, ("-", distance))]
+    close = [
+        Line("given", (">=", distance, ZERO)),
+        Line("given", setting.within_gaps(distance)),
+        Line("given", ("<=", distance, radius)),
+    ]
+    premises = {**setting.own_domain(), **setting.inside()}
+    shown = conjunction([(">", radius, ZERO), (">", upper, ZERO)])
+    premises |= [setting.premise("constants", [*setting.params(), Line("show", shown)])]
+    lines = [*setting.params("distance", "level"), *any_level, Line("show", (">", least, ZERO))]
+    premises |= [setting.premise("positive", lines)]
+    premises |= [setting.premise("point", setting.around_point())]
+    lines = [*setting.at_state(), Line("given", setting.within_gaps(radius))]
+    premises |= [setting.premise("surrounds", [*lines, Line("show", inside)])]
+    lines = [*setting.at_state("value"), *here, Line("show", (">=", value, ZERO))]
+    premises |= [setting.premise("bounded", lines)]
+    lines = [*setting.at_state(*more), *before, Line("show", (">=", loss, ZERO))]
+    premises |= [setting.premise("loss", lines)]
+    lines = [*setting.at_state("value", "distance", "level"), *bounded, *any_level]
+    lines += [Line("given", disjunction(far)), Line("given", (">=", level, value))]
+    premises |= [setting.premise("least", [*lines, Line("show", (">=", loss, least))])]
+    for i, (guards, term) in enumerate(values):
+        lines = [*setting.at_state("distance"), *close, *(Line("given", one) for one in guards)]
+        lines.append(Line("show", ("<=", term, ("*", upper, distance))))
+        premises |= [setting.premise(f"small-{i + 1}", lines)]
+    for k in range(len(setting.pieces)):
+        lines = [*setting.step(k, inside), Line("show", setting.moved(inside))]
+        premises |= [setting.premise(f"stays-{k + 1}", lines)]
+        for i, (guards, term) in enumerate(values):
+            falls: Tree = ("<=", setting.moved(term), ("-", value, loss))
+            shown = disjunction([*(("not", setting.moved(one)) for one in guards), falls])
+            lines = [*setting.step(k, *before, more=more), Line("show", shown)]
+            premises |= [setting.premise(f"falls-{k + 1}-{i + 1}", lines)]
+    return premises
+
+
+def of_unstable(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    setting = Setting(statement, statements)
+    curve, values = statement.one("direction"), values_of(statement)
+    rate, radius, upper = (statement.one(word) for word in ("rate", "radius", "upper"))
+    fixed = require_constants(setting, rate, radius, upper)
+    require(len(curve) == len(setting.state), "a term for each variable")
+    require(all(names_in(tree) <= {*fixed, "distance"} for tree in curve), "a curve")
+    distance = ("name", "distance")
+
+    def next_value(relation: str, bound: Tree) -> Tree:
+        return disjunction(
+            conjunction([*map(setting.moved, guards), (relation, setting.moved(term), bound)])
+            for guards, term in values
+        )
+
+    premises = {**setting.own_domain(), **setting.inside()}
+    constants = conjunction([(">", rate, ONE), (">", radius, ZERO), (">", upper, ZERO)])
+    premises |= [setting.premise("constants", [*setting.params(), Line("show", constants)])]
+    lines = [*setting.params("distance"), Line("given", (">", distance, ZERO))]
+    lines += [Line("given", ("<=", distance, radius)), *setting.lets(curve)]
+    lines += [Line("have", setting.moved(setting.space)), *setting.roots_there()]
+    near = setting.within_gaps(distance, "_next")
+    lines.append(Line("show", conjunction([near, next_value(">", ZERO)])))
+    premises |= [setting.premise("point", setting.around_point())]
+    premises |= [setting.premise("direction", lines)]
+    for i, (guards, term) in enumerate(values):
+        given = [setting.within_gaps(radius), *guards, (">", term, ZERO)]
+        lines = [*setting.at_state(), *(Line("given", one) for one in given)]
+        lines.append(Line("show", ("<=", term, upper)))
+        premises |= [setting.premise(f"bounded-{i + 1}", lines)]
+        for k in range(len(setting.pieces)):
+            grows = Line("show", next_value(">=", ("*", rate, term)))
+            lines = [*setting.step(k, *(Line("given", one) for one in given)), grows]
+            premises |= [setting.premise(f"grows-{k + 1}-{i + 1}", lines)]
+    return premises
+
+
+def around(statement: Statement, statements: Mapping[str, Statement]) -> Statement:
+    """The contraction or Lyapunov function under an attraction."""
+    other = statements[statement.lines[1].says]
+    return around(other, statements) if other.kind in ("attracts", "into") else other
+
+
+def of_into(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
+    descent = statements[statement.one("descent")]
+    attraction = statements[statement.one("attraction")]
+    first = Setting(descent, statements)
+    second = Setting(statements[attraction.one("descent")], statements)
+    other = around(attraction, statements)
+    for word in ("over", "state", "piece"):
+        require(first.map.all(word) == second.map.all(word), "a map with other pieces")
+    point, radius = other.one("point"), statement.one("radius")
+    roots = other_roots(first, Setting(other, statements))[0]
+    positive = Line("show", (">", radius, ZERO))
+    near = Line("given", first.within(radius, point))
+    inner = Line("show", second.space)
+    last = Line("given", descent.all("stage")[-1])
+    premises = {
+        "inside": [*first.params(), Line("show", second.domain)],
+        "constants": [*first.params(), *roots, positive],
+        "point": first.at_point(point, *roots),
+        "surrounds": [*first.at_state(), *roots, near, inner],
+        "enters": [*first.at_state(), last, inner],
+    }
+    return {
+        name: Statement(f"{statement.name}.{name}", "universal", tuple(lines))
+        for name, lines in premises.items()
+    }
+
+
 def of_attraction(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     descent = statements[statement.one("descent")]
-    contraction = statements[statement.one("contraction")]
-    first, second = Setting(descent, statements), Setting(contraction, statements)
+    other = around(statement, statements)
+    first, second = Setting(descent, statements), Setting(other, statements)
     require(first.map.name == second.map.name, "another map")
     lines = [*first.params(), Line("show", second.domain)]
     premises = [(("inside"), Statement(f"{statement.name}.inside", "universal", tuple(lines)))]
     lines = [*first.at_state(), *(line for some in other_roots(first, second) for line in some)]
-    lines += [Line("given", descent.all("stage")[-1]), Line("show", contraction.one("on"))]
+    if names_in(other.one("on")) & {*second.points, *second.gaps}:
+        lines += [*second.let_point(), *second.let_gaps()]
+    lines += [Line("given", descent.all("stage")[-1]), Line("show", other.one("on"))]
     premises.append(("enters", Statement(f"{statement.name}.enters", "universal", tuple(lines))))
     return dict(premises)
 
@@ -246,15 +461,16 @@ def of_escape(statement: Statement, statements: Mapping[str, Statement]) -> Prem
 def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Premises:
     attraction = statements[statement.one("attraction")]
     descent = Setting(statements[attraction.one("descent")], statements)
-    contraction_statement = statements[attraction.one("contraction")]
-    contraction = Setting(contraction_statement, statements)
-    escape_statement = statements[statement.one("escape")]
+    other = around(attraction, statements)
+    word = statement.lines[1].word
+    escape_statement = statements[statement.one(word)]
     escape = Setting(escape_statement, statements)
     require(descent.map.name == escape.map.name, "another map")
     whole = Setting(escape.map, statements)
     lines = [*whole.params(), Line("show", ("or", descent.domain, escape.domain))]
-    points = equal(contraction_statement.one("point"), escape_statement.one("point"))
-    same = [*escape.params(), *other_roots(escape, contraction)[0], Line("show", points)]
+    points = equal(other.one("point"), escape_statement.one("point"))
+    roots = other_roots(escape, Setting(other, statements))[0]
+    same = [*escape.params(), *roots, Line("show", points)]
     return {
         name: Statement(f"{statement.name}.{name}", "universal", tuple(some))
         for name, some in (("covers", lines), ("same-point", same))
@@ -263,10 +479,14 @@ def of_exactly(statement: Statement, statements: Mapping[str, Statement]) -> Pre
 
 PREMISES: dict[str, Callable[[Statement, Mapping[str, Statement]], Premises]] = {
     "map": of_map,
+    "relation": of_map,
     "iterates": of_iterates,
     "descends": of_descent,
     "contracts": of_contraction,
+    "lyapunov": of_lyapunov,
+    "unstable": of_unstable,
     "attracts": of_attraction,
+    "into": of_into,
     "escapes": of_escape,
     "exactly": of_exactly,
 }

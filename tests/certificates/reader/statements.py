@@ -26,17 +26,36 @@ ORDERS = {
     "sharp": "sharp over domain (number )*holds ",
     "iterates": "forall integer (let )*iterates after ",
     "map": "over domain state space (piece )+",
-    "descends": "map domain (root )*rank (stage )+",
-    "contracts": "map domain (root )*on point weights rate radius size ",
-    "attracts": "descent contraction ",
+    "relation": "over domain state input space (piece )+",
+    "descends": "(map|relation) domain (root )*rank (stage )+",
+    "contracts": "(map|relation) domain (root )*on point weights rate radius size ",
+    "lyapunov": "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
+    "unstable": "map domain (root )*point direction (have )*(value )+rate radius upper ",
+    "attracts": "descent (contraction|lyapunov) ",
+    "into": "descent attraction radius ",
     "escapes": "map domain (root )*point start word ",
-    "exactly": "attraction escape ",
+    "exactly": "attraction (escape|unstable) ",
 }
-NAMES = ("forall", "integer", "exists", "over", "state")
+NAMES = ("forall", "integer", "exists", "over", "state", "input")
 FORMULAS = ("range", "given", "have", "with", "show", "domain", "holds", "space", "stage", "on")
-TERMS = ("rank", "rate", "radius", "size")
-TUPLES = ("point", "weights", "start")
-OTHERS = ("map", "descent", "contraction", "attraction", "escape")
+TERMS = ("rank", "rate", "radius", "size", "loss", "least", "upper")
+TUPLES = ("point", "weights", "start", "direction")
+OTHERS = {  # the kinds of statements that a line may name
+    "map": ("map",),
+    "relation": ("relation",),
+    "descent": ("descends",),
+    "contraction": ("contracts",),
+    "lyapunov": ("lyapunov",),
+    "attraction": ("attracts", "into"),
+    "escape": ("escapes",),
+    "unstable": ("unstable",),
+}
+# the names that a line may use beside those declared before it
+OWN = {
+    "loss": frozenset({"value"}),
+    "least": frozenset({"distance", "level"}),
+    "direction": frozenset({"distance"}),
+}
 STATEMENT_NAME = re.compile(r"[A-Za-z0-9_.-]+/[A-Za-z0-9_.-]+")
 
 
@@ -89,6 +108,15 @@ def read_statements(text: str) -> dict[str, Statement]:
     return statements
 
 
+def names_below(statement: Statement, earlier: Mapping[str, Statement]) -> set[str]:
+    """The parameters and roots of a statement and of those that it names."""
+    names = {*statement.names("over"), *(name for name, _ in statement.all("root"))}
+    for line in statement.lines:
+        if line.word in OTHERS:
+            names |= names_below(earlier[line.says], earlier)
+    return names
+
+
 def read_statement(
     block: list[str], known: Mapping[str, Definition], earlier: Mapping[str, Statement]
 ) -> Statement:
@@ -99,7 +127,7 @@ def read_statement(
     order = "".join(f"{word} " for word, _, _ in pairs)
     kinds = [kind for kind, wanted in ORDERS.items() if re.fullmatch(wanted, order)]
     require(len(kinds) == 1, f"{name}: no kind of statement has these lines")
-    scope = Scope(known, earlier)
+    scope = Scope(known, earlier, around=kinds[0] in ("lyapunov", "unstable"))
     lines = tuple(scope.line(word, text) for word, _, text in pairs)
     statement = Statement(name, kinds[0], lines)
     variables = {*statement.names("forall"), *statement.names("exists")}
@@ -110,9 +138,16 @@ def read_statement(
 class Scope:
     """The names that the lines of one statement have declared."""
 
-    def __init__(self, known: Mapping[str, Definition], earlier: Mapping[str, Statement]) -> None:
+    def __init__(
+        self,
+        known: Mapping[str, Definition],
+        earlier: Mapping[str, Statement],
+        around: bool = False,
+    ) -> None:
         self.known = known
         self.earlier = earlier
+        self.around = around  # whether the lines may speak of a point, and of the gap to it
+        self.near: set[str] = set()
         self.names: set[str] = set()
         self.hidden: set[str] = set()  # of these no definition is over
 
@@ -123,16 +158,20 @@ class Scope:
         if word == "integer":
             return self._listed(text)
         if word in NAMES:
-            names = self._listed(text)
+            names = self._listed(text) if text or word not in ("over", "input") else ()
             for name in names:
                 self._declare(name, hidden=word == "exists")
             return names
         if word in FORMULAS:
             return require_formula(self._tree(text))
         if word in TERMS:
-            return require_term(self._tree(text))
+            return require_term(self._tree(text, OWN.get(word, frozenset())))
         if word in TUPLES:
-            return self._parts(text)
+            return self._parts(text, OWN.get(word, frozenset()))
+        if word == "value":
+            *guard, term = self._arrow(text) if " -> " in text else [text]
+            tree = require_term(self._tree(term))
+            return tuple(require_formula(self._tree(one)) for one in guard), tree
         if word == "let":
             name, term = self._equation(text)
             tree = require_term(self._tree(term))
@@ -191,17 +230,19 @@ class Scope:
         require(len(sides) == 2, f"one arrow: {text!r}")
         return sides
 
-    def _tree(self, text: str) -> Tree:
+    def _tree(self, text: str, own: frozenset[str] = frozenset()) -> Tree:
         parser = Parser(text, self.known)
         tree = parser.disjunction()
         parser.end()
-        require(names_in(tree) <= self.names, f"{names_in(tree) - self.names} are not declared")
+        require(own.isdisjoint(self.known), "a definition of what a line names")
+        known = self.names | self.near | own
+        require(names_in(tree) <= known, f"{names_in(tree) - known} are not declared")
         require(parser.used <= self.names - self.hidden, "a definition is over other names")
         return tree
 
-    def _parts(self, text: str) -> tuple[Tree, ...]:
+    def _parts(self, text: str, own: frozenset[str] = frozenset()) -> tuple[Tree, ...]:
         """Terms with commas between them, in parentheses or not."""
-        tree = self._tree(f"({text},)")
+        tree = self._tree(f"({text},)", own)
         return tuple(flat(tree[1:]))
 
     def _number(self, text: str) -> tuple[str, Tree, Tree, Tree]:
@@ -213,15 +254,23 @@ class Scope:
         return name, parts[0], parts[1], parts[2]
 
     def _other(self, word: str, name: str) -> str:
-        """An earlier statement; parameters and state of a map are declared by naming it."""
-        kind = {"descent": "descends", "contraction": "contracts", "attraction": "attracts"}
-        kind = {**kind, "escape": "escapes", "map": "map"}
-        if name not in self.earlier or self.earlier[name].kind != kind[word]:
-            raise Rejected(f"{name} is no earlier statement of kind {kind[word]}")
-        if word == "map":
+        """An earlier statement; parameters and state of a map are declared by naming it.  What a
+        descent and an attraction name a radius may name, without definitions.
+        """
+        kinds = OTHERS[word]
+        if name not in self.earlier or self.earlier[name].kind not in kinds:
+            raise Rejected(f"{name} is no earlier statement of kind {' or '.join(kinds)}")
+        if word in ("descent", "attraction"):
+            known = names_below(self.earlier[name], self.earlier)
+            self.names |= known
+            self.hidden |= known
+        if word in ("map", "relation"):
             other = self.earlier[name]
             for own in (*other.names("over"), *other.names("state")):
                 self._declare(own)
+            if self.around:
+                ends = ("point", "gap")
+                self.near = {f"{name}_{end}" for name in other.names("state") for end in ends}
         return name
 
     def _sharp(self, text: str) -> tuple[str, ...]:

@@ -21,7 +21,17 @@ import pytest
 from juggleproof.certificates import checker
 from juggleproof.certificates.store import DEFAULT
 from tests.certificates.checker.harness import Case
-from tests.certificates.checker.maps import ASKED
+from tests.certificates.checker.maps import (
+    ASKED,
+    DOUBLE,
+    FLIP,
+    NEST,
+    PUSH,
+    SUBTRACT,
+    SWITCH,
+    TURN,
+    searched,
+)
 from tests.certificates.checker.rules import TABLES
 from tests.certificates.checker.test_tampering import AT_LIMITS, altered, places, tampered
 from tests.certificates.reader.orbits import PREMISES
@@ -150,6 +160,22 @@ def test_rejects_stored_entries_under_another_outcome() -> None:
         assert outcome(name, other) == "rejected", name
         if len(entry) == 2:
             assert outcome(name, {"certified": entry["certified"]}) == "rejected", name
+
+
+def until(text: str) -> Iterator[str]:
+    """The beginnings of a text, up to each of its statements."""
+    blocks = text.strip().split("\n\n")
+    return ("\n\n".join(blocks[:k]) + "\n" for k in range(1, len(blocks) + 1))
+
+
+@pytest.mark.parametrize("text", [SUBTRACT, TURN, FLIP, NEST, DOUBLE, PUSH, SWITCH])
+def test_changes_of_orbit_rules_have_the_checkers_outcome_hold(text: str) -> None:
+    certificates = searched(text)
+    assert by_reader(text, certificates) == "certified"
+    changes = [change for beginning in until(text) for change in altered(beginning)]
+    for change in changes[len(text) % SHARE :: SHARE]:
+        found = by_reader(change, certificates)
+        assert found == by_checker(change, certificates), change
 
 
 def flat(tree: Tree) -> Tree:

@@ -10,6 +10,7 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.store import DEFAULT, Store
 from juggleproof.certificates.votes.questions import questions, read_statement
 from juggleproof.certificates.votes.smtlib import logic, script
+from tests.certificates.checker.maps import DOUBLE, FLIP, NEST, PUSH
 from tests.certificates.votes.corpus import ITERATES, SHARP, STATEMENTS
 
 
@@ -264,6 +265,7 @@ def test_a_solver_reads_the_whole_script_as_it_is_meant(
 
 
 STORED = checker.read_statements("\n\n".join(Store(DEFAULT).texts.values()))
+MAPS = checker.read_statements("\n".join([FLIP, NEST, DOUBLE, PUSH]))
 SPECIAL = [
     name
     for name, statement in STORED.items()
@@ -273,10 +275,12 @@ SPECIAL = [
 
 def test_both_solvers_accept_the_scripts_of_stored_statements() -> None:
     z3 = pytest.importorskip("z3")
-    chosen = dict.fromkeys([*SPECIAL, *list(STORED)[::20]])
-    assert {STORED[name].kind for name in chosen} == {"universal", "sharp", *checker.orbit_rules()}
+    statements = {**STORED, **MAPS}
+    chosen = dict.fromkeys([*SPECIAL, *list(STORED)[::20], *MAPS])
+    kinds = {statements[name].kind for name in chosen}
+    assert kinds == {"universal", "sharp", *checker.orbit_rules()}
     for name in chosen:
-        text = script(STORED[name], STORED).replace("(check-sat)\n", "")
+        text = script(statements[name], statements).replace("(check-sat)\n", "")
         for block in text.split("(reset)\n")[1:]:
             z3.parse_smt2_string(block, ctx=z3.Context())  # raises where it is not well formed
         assert not by_cvc5(text), name
