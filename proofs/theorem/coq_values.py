@@ -114,15 +114,16 @@ def lyapunov_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
         choice = "destruct {} as [of_no|of_le]; [destruct (of_no of_guard)|exact of_le]"
         rows += f.by_pieces(
             own,
-            f"falls _{k}",
+            "falls",
             f"{before} {given} of_g of_next",
+            value=f"_{k}",
             point=f"{around.points} {around.gaps}{extra}",
             places=" in of_next, of_guard |- *",
             case=choice if guard else "exact {}",
         )
         falls.append(rows + " }")
         small.append(
-            f"apply (of_near_point_is$a _ _) in of_close; {f.words['open'].replace('. ', '; ')}"
+            f"apply (of_near_point_is$a _ _) in of_close; ${{opening}}"
             f"exact (${{P}}_small_{k}$a{around.points} {around.gaps} of_d of_dom{around.proofs}"
             f" {around.sums} of_there (Rle_ge _ _ of_1) of_close of_2{' of_here' if guard else ''})"
         )
@@ -201,15 +202,15 @@ def instability_proofs(f: Frame, own: checker.Statement) -> Iterator[str]:
     for k, guard in enumerate(around.guards, 1):
         given = f"of_dom{around.proofs} {around.sums} of_there of_close"
         given += " of_here of_1" if guard else " of_1"
-        opened = f.words["open"].replace(". ", "; ")
         bounded.append(
-            f"apply (of_near_centre_is$a _ _) in of_close; {opened}"
+            f"apply (of_near_centre_is$a _ _) in of_close; ${{opening}}"
             f"exact (${{P}}_bounded_{k}$a{around.points} {around.gaps} {given})"
         )
         by = f.by_pieces(
             own,
-            f"grows _{k}",
+            "grows",
             f"{given} of_g of_next",
+            value=f"_{k}",
             point=f"{around.points} {around.gaps}",
             case=f"pose proof {{}} as {later}; [{grows}]",
         )
