@@ -174,6 +174,24 @@ def test_rejects_what_cannot_be_written_in_one_line(
     )
 
 
+INEQUALITY = """
+from juggleproof import always, claim, real
+
+@claim("square")
+def squares_are_not_negative():
+    '''No square is negative.'''
+    return always(real("x")**2 >= 0)
+"""
+
+
+def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
+    own = tmp_path / "own.py"
+    own.write_text(INEQUALITY)
+    says = f"{own}: no claim on the orbits of a map; add a MapRule that concludes one"
+    with pytest.raises(ClaimError, match=re.escape(says)):
+        export_coq([str(own)], None)
+
+
 @pytest.mark.parametrize(
     "names, says",
     [
