@@ -37,7 +37,7 @@ from juggleproof.proofs.theorem.coq_values import (
 
 COQ = Path(__file__).resolve().parents[1] / "coq"
 # what says nothing of the orbits that tend to a point, or is a part of what does
-NO_THEOREM = ("universal", "sharp", "iterates", "map", "escapes")
+NO_THEOREM = ("universal", "sharp", "iterates", "map", "relation", "escapes")
 
 
 def theorems_in(statements: Known) -> list[str]:
