@@ -22,6 +22,7 @@ from juggleproof.proofs.command.show import export_coq
 from juggleproof.proofs.run import claims_of_file, judge_some
 from juggleproof.proofs.theorem import coq_rules
 from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
+from tests.docs.pages import ROOT, blocks, code
 from tests.proofs.coq.development import coqc
 from tests.proofs.coq.test_development import REALS
 
@@ -206,3 +207,12 @@ def test_rejects_a_file_without_a_theorem(tmp_path: Path) -> None:
 def test_rejects_what_is_no_question(names: list[str], says: str) -> None:
     with pytest.raises(ClaimError, match=re.escape(says)):
         export_coq(names, None)
+
+
+def test_the_theorem_that_the_page_shows_is_written_holds(tmp_path: Path) -> None:
+    page = ROOT / "docs/your-own.md"
+    (source,) = (block.text for block in blocks(page) if block.title == "map.py")
+    (tmp_path / "map.py").write_text(source)
+    assert run(["export", "coq", str(tmp_path / "map.py"), "-o", str(tmp_path)]) == 0
+    (shown,) = code(page, "coq")
+    assert shown in (tmp_path / "S_halving_near.v").read_text()
