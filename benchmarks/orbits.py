@@ -164,7 +164,12 @@ def memory() -> float:
     return float(after)
 
 
-if __name__ == "__main__":
+def main() -> None:
+    """Prints all of it."""
     by_steps()
     by_states()
     memory()
+
+
+if __name__ == "__main__":
+    main()

@@ -51,6 +51,7 @@ COMMANDS = (
     Timed('juggleproof bound "x^2 - x*y + y^2/2" --box x=-1..1,y=0..1 --width 0'),
     Timed("juggleproof export smt2 eq-37"),
     Timed("juggleproof export coq eq-37"),
+    Timed("juggleproof export coq tests/proofs/coq/maps.py -o DIR"),
     Timed("juggleproof export latex eq-37"),
     Timed("juggleproof report --format json -o DIR"),
     Timed("juggleproof report --format markdown -o DIR"),

@@ -182,9 +182,9 @@ def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expressio
     for one in definitions:
         if isinstance(one.body, tuple):
             continue
-        values: dict[str, Term] = {}
-        if _matches(one.body, thing, values, frozenset(one.parameters)):
-            return type(thing)("call", _call(one, values, definitions))
+        whole = _instance(one, thing, definitions)
+        if whole is not None:
+            return whole
         if thing.op == one.body.op == "and":
             within = _part_of_conjunction(one, thing, definitions)
             if within is not None:
@@ -194,6 +194,22 @@ def shortened(thing: Expression, definitions: Sequence[Definition]) -> Expressio
         for part in thing.args
     )
     return type(thing)(thing.op, *args)
+
+
+def instance(thing: Term, definitions: Sequence[Definition]) -> Term:
+    """The term by the first definition whose body it is; any other term as it is."""
+    alike = (one for one in definitions if isinstance(one.body, Term) and one.body.op == thing.op)
+    wholes = (_instance(one, thing, definitions) for one in alike)
+    return next((one for one in wholes if isinstance(one, Term)), thing)
+
+
+def _instance(
+    one: Definition, thing: Expression, definitions: Sequence[Definition]
+) -> Expression | None:
+    values: dict[str, Term] = {}
+    if not _matches(one.body, thing, values, frozenset(one.parameters)):
+        return None
+    return type(thing)("call", _call(one, values, definitions))
 
 
 def _part_of_conjunction(

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
+from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict, TypeVar, Union, get_args
@@ -205,9 +206,13 @@ class Claim:
 
         Raises ClaimError, naming the claim, where what it returns is not a claim.
         """
-        if not self.printed:
-            return as_body(self.read(), self.id)
-        return as_body(self.read(self.read_print() if printed is None else printed), self.id)
+        if printed is None or not self.printed:
+            return self._own_body
+        return as_body(self.read(printed), self.id)
+
+    @cached_property
+    def _own_body(self) -> Body:
+        return as_body(self.read(self.read_print()) if self.printed else self.read(), self.id)
 
     def shown_beside(self) -> Assertion | None:
         """What its remark states, if it states something."""

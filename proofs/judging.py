@@ -70,13 +70,13 @@ def judge(claim: Claim, resources: Resources) -> Judgement:
     Raises ClaimError, one line that names the claim, where it cannot be stated; Disagreement where
     a route contradicts the checker.
     """
-    judge = Judge(claim, resources)
+    one = Judge(claim, resources)
     try:
-        return judge.run()
+        return one.run()
     except (checker.Rejected, ClaimError) as problem:
         text = str(problem)
         raise ClaimError(
-            f"{judge.where}: " + (text if text.startswith(claim.id) else f"{claim.id}: {text}")
+            f"{one.where}: " + (text if text.startswith(claim.id) else f"{claim.id}: {text}")
         ) from None
 
 
@@ -259,6 +259,7 @@ class Judge:
         search; what was unknown is searched again, by this budget and from what is known now.
         """
         rests: list[str] = []
+        self.where = self.claim.where
         if isinstance(statement, MapRule):
             self.where = self.place_of(statement)
             rests = rests_on(read_rule(statement))

@@ -62,8 +62,9 @@ class Lines:
         return f"for {every}: " if names else ""
 
     def of_map(self) -> Lines:
-        """The map that the statement is about, or is."""
-        return self.named("map") if self.all("map") else self
+        """The map or relation that the statement is about, or is."""
+        keyword = next((key for key, _ in self.rows if key in ("map", "relation", "descent")), "")
+        return self.named(keyword).of_map() if keyword else self
 
     def around(self) -> Lines:
         """What an attraction rests on around its point."""
@@ -130,7 +131,7 @@ def _bound(contraction: Lines, exponent: str) -> str:
 
 
 def _norm(contraction: Lines) -> str:
-    names = contraction.named("map").one("state").split()
+    names = contraction.of_map().one("state").split()
     parts = []
     for name, weight in zip(names, _terms(contraction.one("weights"))):
         apart = f"|{name} - e_{name}|" if len(names) > 1 else f"|{name} - e|"
@@ -156,6 +157,17 @@ def _of_map(f: Lines) -> str:
     return (
         f"{f.for_domain()}f maps {_set('the space', f.one('space'))} into itself, and exactly"
         f" one piece applies at each of its states: {'; '.join(images)}"
+    )
+
+
+def _of_relation(f: Lines) -> str:
+    state = ", ".join(f.one("state").split())
+    inputs = f", for all {', '.join(f.one('input').split())}" if f.one("input") else ""
+    pieces = [piece.split(" -> ") for piece in f.all("piece")]
+    images = [f"{_vector(image)} where {guard}" for guard, image in pieces]
+    return (
+        f"{f.for_domain()}each state {state} of {_set('the space', f.one('space'))} has a next"
+        f" state, and all next states are in it: {'; '.join(images)}{inputs}"
     )
 
 
@@ -193,11 +205,11 @@ def _greatest(f: Lines) -> str:
 def _of_lyapunov(f: Lines) -> str:
     return (
         f"{f.for_domain()}{f.point()} is a fixed point, is stable, and attracts"
-        f" {_set('the set `on`', f.one('on'))}, which f takes into itself: V(f^(n + 1)(s)) <= V(f^n(s)),"
-        f" and |f^n(s) - e| >= distance for at most V(s)/least integers n >= 0, for every state s"
-        f" of the space in the set and every distance > 0, where V(s) = {_greatest(f)}; least ="
-        f" {f.one('least')} with level = V(s); {LARGEST}; all states of the space with |s - e| <="
-        f" {f.one('radius')} are in the set"
+        f" {_set('the set `on`', f.one('on'))}, which f takes into itself:"
+        f" V(f^(n + 1)(s)) <= V(f^n(s)), and |f^n(s) - e| >= distance for at most V(s)/least"
+        f" integers n >= 0, for every state s of the space in the set and every distance > 0,"
+        f" where V(s) = {_greatest(f)}; least = {f.one('least')} with level = V(s); {LARGEST};"
+        f" all states of the space with |s - e| <= {f.one('radius')} are in the set"
     )
 
 
@@ -288,8 +300,17 @@ RULES = {
             "stays": "piece {0} takes the space into itself",
         },
     ),
+    "relation": Rule(
+        "over domain state input space (piece )+",
+        _of_relation,
+        {
+            "possible": OF_DOMAIN["possible"],
+            "covers": "the guard of some piece holds at each state of the space, for some inputs",
+            "stays": "piece {0} takes the space into itself, for all inputs",
+        },
+    ),
     "descends": Rule(
-        "map domain (root )*rank (stage )+",
+        "(map|relation) domain (root )*rank (stage )+",
         _of_descent,
         {
             **OF_DOMAIN,
@@ -299,7 +320,7 @@ RULES = {
         },
     ),
     "contracts": Rule(
-        "map domain (root )*on point weights rate radius size ",
+        "(map|relation) domain (root )*on point weights rate radius size ",
         _of_contraction,
         {
             **OF_DOMAIN,
@@ -313,7 +334,7 @@ RULES = {
         },
     ),
     "lyapunov": Rule(
-        "map domain (root )*on point (have )*(value )+loss least upper radius ",
+        "(map|relation) domain (root )*on point (have )*(value )+loss least upper radius ",
         _of_lyapunov,
         {
             **OF_DOMAIN,
@@ -393,6 +414,8 @@ def conclusion(kind: str, name: str, texts: Mapping[str, str]) -> str:
     """
     lines = Lines(name, texts)
     said = RULES[kind].concludes(lines)
+    if kind != "relation" and any(key == "input" for key, _ in lines.of_map().rows):
+        said += "; f^n(s) is any state that the relation leads to from s in n steps"
     for root in reversed(lines.roots()):  # a root may be of one above it
         if root.partition(" = ")[0] in checker.names_in(said):
             said += f"; {root}"
@@ -448,7 +471,7 @@ def premises_of(
     for keyword, name in ((key, text) for key, text in rule.lines if key in RESTING):
         if name not in stated:
             similar = get_close_matches(name, stated, 1)
-            hint = f"did you mean {similar[0]}?" if similar else "state it first"
+            hint = f"did you mean {similar[0]}?" if similar else "state it first, in this claim"
             raise ClaimError(
                 f"{rule.name}: the line `{keyword} {name}` names no rule that stands before it;"
                 f" {hint}"

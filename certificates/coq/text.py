@@ -157,7 +157,8 @@ Ltac equivalent := split; let taken := fresh "of_taken" in
 # prime, which no name of a statement has.
 TAKEN = frozenset(
     "as at cofix else end exists exists2 fix for forall fun if IF in let match mod return Set"
-    " Prop SProp Type then using where with by R IZR pow True False I eq_refl".split()
+    " Prop SProp Type then using where with by R IZR pow True False I eq_refl"
+    " State coordinate space on point weights S length nil pair conj INR".split()
 ) | frozenset(re.findall(r"^(?:Lemma|Definition|Ltac) (\w+)", PRELUDE, re.MULTILINE))
 
 

@@ -306,8 +306,8 @@ def search_premises(
     """
     for name, premise in premises.items():
         proof = None
-        for effort in (1, 2, SQUARED):
-            if effort > 1 and (proof is not None or is_false(name)):
+        for effort in (1, 2) if premise.get("exists") else (1, 2, SQUARED):
+            if proof is not None or effort == 2 and is_false(name):
                 break
             if effort == SQUARED and premise.get("exists"):
                 break

@@ -270,7 +270,11 @@ class Closing:
                     break
                 problem = self.problem(state)
             if len(lemmas) > before:
-                node = close_by_equations(problem) or self.usual(problem, True)
+                node = (
+                    close_by_equations(problem)
+                    or self.usual(problem, True)
+                    or search_orthant(problem, self.budget)
+                )
                 if node is not None:
                     return under(lemmas, node)
         node = search(problem, TRIPLES, self.budget) if self.effort > 1 and depth < DEPTH else None

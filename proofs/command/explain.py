@@ -23,7 +23,7 @@ from juggleproof.proofs.paper.derivations import derivations_of
 from juggleproof.proofs.reports.errata import counterexample, words_of
 from juggleproof.proofs.reports.results import reading_of, sharp_range
 from juggleproof.proofs.reports.tree import print_tree
-from juggleproof.proofs.run import claims_of_files, judge_some, store_of
+from juggleproof.proofs.run import claims_of_files, judge_some, lemmas, store_of
 
 WIDTH = 96  # of what a rule concludes
 OF_THEOREM = (
@@ -82,11 +82,13 @@ def explain(
     for one in derivations_of(statements_of(claim, judgement.correction)):
         print(f"derived     {one.line}")
     print(f"reading     {reading_of(claim.body())}")
-    texts = {**Store(store).texts, **dict(judgement.statements)}
+    used = lemmas([*claims.values()], [claim])
+    texts = {**Store(store).texts, **used, **dict(judgement.statements)}
     for name, text in judgement.statements:
         outcome, certificate = judgement.outcomes[name], judgement.certificates[name]
         kind = read(text, name).kind
-        concluded = conclusion(kind, name, texts) if kind in RULES else ""
+        is_proved = outcome == "certified" and kind in RULES
+        concluded = conclusion(kind, name, texts) if is_proved else ""
         _statement(text, outcome, certificate, not files, concluded)
         for premise in judgement.unproved.get(name, ()):
             print("\n" + textwrap.indent(premise, " " * 8))

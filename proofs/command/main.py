@@ -217,7 +217,12 @@ def build_parser() -> argparse.ArgumentParser:
     )
     export = commands.add_parser("export", help="statements for other tools")
     export.add_argument("format", choices=["smt2", "coq", "latex"])
-    export.add_argument("ids", nargs="*", metavar="ID")
+    export.add_argument(
+        "ids",
+        nargs="*",
+        metavar="ID",
+        help="claims or statements (default: all); with `coq` also a file of your own, FILE.py",
+    )
     export.add_argument(
         "-o",
         "--output",

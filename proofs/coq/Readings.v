@@ -4,7 +4,8 @@
    Proved:   reads_lt, .., reads_iff   what is read of atoms and of formulas made of them;
              decide_.., for the tactic `decidable`: such a formula or its negation, as a map by pieces asks;
              `nonzero`, for what a quotient divides by;
-             bounded_by   an absolute value by a product is two inequalities;
+             bounded_by, within_is, far_is   an absolute value by inequalities;
+             sum_is, one_more   steps of premises around a point;
              bounds_of    finitely many positive numbers lie between two. *)
 
 From Coq Require Import Reals Lra List.
@@ -12,7 +13,7 @@ Open Scope R_scope.
 
 Definition reads (N P Q : Prop) : Prop := (N /\ P /\ ~ Q) \/ (~ N /\ ~ P /\ Q).
 
-Lemma holds N P Q : reads N P Q -> (N <-> P).
+Lemma reads_holds N P Q : reads N P Q -> (N <-> P).
 Proof. unfold reads. tauto. Qed.
 
 Lemma reads_and A P Q B S T : reads A P Q -> reads B S T -> reads (A /\ B) (P /\ S) (Q \/ T).
@@ -86,6 +87,15 @@ Ltac nonzero := lazymatch goal with
 
 Lemma bounded_by a c w : Rabs a <= c * w <-> - c * w <= a /\ a <= c * w.
 Proof. unfold Rabs. destruct (Rcase_abs a); lra. Qed.
+
+Lemma within_is a c : Rabs a <= c <-> - c <= a /\ a <= c.
+Proof. unfold Rabs. destruct (Rcase_abs a); lra. Qed.
+Lemma far_is a c : c <= Rabs a -> a >= c \/ a <= - c.
+Proof. unfold Rabs. destruct (Rcase_abs a); lra. Qed.
+Lemma sum_is a b : a = b + (a - b).
+Proof. ring. Qed.
+Lemma one_more a : 0 <= a -> 1 + a > 0.
+Proof. lra. Qed.
 
 Lemma bounds_of {Index : Type} (weight : Index -> R) (all : list Index) : (forall j, In j all) -> (forall j, 0 < weight j) ->
   exists low high, 0 < low /\ forall j, low <= weight j <= high.

@@ -53,7 +53,6 @@ from juggleproof.proofs.paper.states import (
     b1_is_where_the_ball_strikes,
     b2_is_where_it_does_not,
     b_0,
-    flown,
     is_fixed_point,
     is_the_map,
     is_the_period,
@@ -62,6 +61,7 @@ from juggleproof.proofs.paper.states import (
     narrow_band_stays,
     next_bounce,
     offset_with,
+    since_launch,
     strikes_from,
     strikes_from_region,
     tells_b1,
@@ -135,16 +135,18 @@ def time_to_collision_again(printed: Printed) -> Statement:
 )
 def period_solves_an_equation(printed: Printed) -> Statement:
     """The table is on the ground again when the nonzero solution of this equation has passed."""
-    names = PAPER.extended({r"\dot\rho": speed(table_at(flown)), "T": flown})
-    return always(iff(LANDS, printed.formula(names)), given=[flown > 0])
+    names = PAPER.extended({r"\dot\rho": speed(table_at(since_launch)), "T": since_launch})
+    return always(iff(LANDS, printed.formula(names)), given=[since_launch > 0])
 
 
 @claim("sB.1-so-that", "B.1", "line 742", printed=rf"{_PERIOD_EQUATION} \text{{so that}} {_PERIOD}")
 def period_follows_from_the_equation(printed: Printed) -> Argument:
     """The printed period is the nonzero solution of the equation that is printed before it."""
     equation, period = pieces(printed, 2)
-    names = LAUNCH_SPEED.extended({"T": flown})
-    step = always(period.formula(names), given=[different(flown, 0), equation.formula(names)])
+    names = LAUNCH_SPEED.extended({"T": since_launch})
+    step = always(
+        period.formula(names), given=[different(since_launch, 0), equation.formula(names)]
+    )
     return Argument(
         {"so-that": Assertion((step,))},
         conclusion=Assertion((is_the_period(period),)),
@@ -316,7 +318,7 @@ def map_on_b1_again(printed: Printed) -> list[Statement]:
 def map_on_b2_again(printed: Printed) -> Statement:
     """The dynamics on B2, which have to be what free flight makes of a state until the next bounce.
 
-    f_1 is the map on B1, as the section has it; x, which it does not introduce, is taken for the
+    f1 is the map on B1, as the section has it; x, which it does not introduce, is taken for the
     state.
     """
     names: dict[str, Value] = {

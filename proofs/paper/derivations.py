@@ -8,7 +8,7 @@ import inspect
 import re
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from types import CodeType
 from typing import NamedTuple, TypeVar, Union
 
@@ -140,15 +140,23 @@ def _term(expression: Expr) -> Term:
 class Derivation:
     """A derived expression: the function of `symbolic` with its arguments, its docstring's first
     sentence, its entries, what it calls.
-
-    `shown` has the entries in the paper's manner, where T stands for 2 r/g.
     """
 
-    function: str
+    origin: Origin
     sentence: str
     rows: Rows
-    shown: Rows
     uses: tuple[str, ...]
+
+    @property
+    def function(self) -> str:
+        """The function with its arguments."""
+        name, arguments = self.origin
+        return name + (f"({', '.join(map(str, arguments))})" if arguments else "")
+
+    @cached_property
+    def shown(self) -> Rows:
+        """The entries in the paper's manner, where T stands for 2 r/g."""
+        return _rows(_result(self.origin), paper_form)
 
     @property
     def line(self) -> str:
@@ -177,20 +185,18 @@ def derivation(origin: Origin) -> Derivation:
     >>> derivation(Origin("launch_state")).line
     'symbolic.launch_state: The table as it leaves the ground: r_0 = (0, r) (section 3.1). (0, r)'
     """
-    name, arguments = origin
-    value = _result(origin)
-    entries = list(value) if isinstance(value, MatrixBase) else [value]  # by rows
-    width = value.shape[1] if isinstance(value, MatrixBase) and value.shape[1] > 1 else len(entries)
-    starts = range(0, len(entries), width)
-    terms, manner = [map(str, map(_term, entries)), map(str, map(paper_form, entries))]
-    rows, shown = (
-        tuple(listed[start : start + width] for start in starts)
-        for listed in (tuple(terms), tuple(manner))
-    )
+    name = origin.function
     summary = (inspect.getdoc(getattr(symbolic, name)) or "").partition("\n\n")[0]
     sentence = " ".join(summary.split())
-    given = f"({', '.join(map(str, arguments))})" if arguments else ""
-    return Derivation(name + given, sentence, rows, shown, made_from(name))
+    return Derivation(origin, sentence, _rows(_result(origin), _term), made_from(name))
+
+
+def _rows(value: Expr | MatrixBase, written: Callable[[Expr], Term]) -> Rows:
+    """The entries of a value as text, in rows; those of a column in one."""
+    entries = list(value) if isinstance(value, MatrixBase) else [value]  # by rows
+    width = value.shape[1] if isinstance(value, MatrixBase) and value.shape[1] > 1 else len(entries)
+    texts = tuple(str(written(one)) for one in entries)
+    return tuple(texts[start : start + width] for start in range(0, len(texts), width))
 
 
 @cache

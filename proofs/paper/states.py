@@ -445,8 +445,8 @@ AROUND_E1 = Environment(
 # What the paper says in several places, in one formal reading: what B1 and B2 are, the line between
 # them, and the table's period.
 
-flown = real("flown")  # a time since the launch of the table
-LANDS = equal(height(table_at(flown)), 0)
+since_launch = real("time")  # a name that no print has
+LANDS = equal(height(table_at(since_launch)), 0)
 IN_PERIOD = (t >= 0) & (t < T)
 
 
@@ -506,7 +506,8 @@ def is_the_period(printed: Printed) -> Statement:
     """After its launch the table is on the ground again exactly at the time that is printed for
     T.
     """
-    return always(iff(LANDS, printed.formula(PAPER.extended({"T": flown}))), given=[flown > 0])
+    names = PAPER.extended({"T": since_launch})
+    return always(iff(LANDS, printed.formula(names)), given=[since_launch > 0])
 
 
 def b1_by_time_while_closing() -> list[Statement]:

@@ -232,9 +232,10 @@ def errata_text() -> str:
         name: [(*part, one.certificates[part[0]]) for part in one.statements]
         for name, one in judged.items()
     }
-    lines = [errata.HEAD, *errata.first_page(claims, register, findings, settled)]
+    groups = {claim.id: errata.group_of(claim, register, findings) for claim in claims}
+    lines = [errata.HEAD, *errata.first_page(claims, register, groups, findings, settled)]
     for group, title in errata.GROUPS.items():
-        members = [claim for claim in claims if errata.group_of(claim, register, findings) == group]
+        members = [claim for claim in claims if groups[claim.id] == group]
         lines.append(f"{title} ({len(members)})\n")
         for claim in members:
             own = settled[claim.id]

@@ -251,6 +251,7 @@ def why_restored(claim: Claim) -> str:
 def first_page(
     claims: Sequence[Claim],
     register: Register,
+    groups: Mapping[str, str],
     findings: Mapping[str, Finding],
     settled: Mapping[str, Sequence[Settled]],
 ) -> list[str]:
@@ -258,9 +259,7 @@ def first_page(
     each as what is said, why it is wrong, and what is true.
     """
     lines = [f"{FIRST}\n", theorem_stands(claims, register), ""]
-    for claim in what_matters(
-        claims, {one.id: group_of(one, register, findings) for one in claims}
-    ):
+    for claim in what_matters(claims, groups):
         lines.append(f"{claim.id}, {place_of(claim)}")
         three = three_lines_of(claim, register, findings[claim.id], settled[claim.id])
         for one in three:

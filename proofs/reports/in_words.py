@@ -15,7 +15,7 @@ from functools import cache, cached_property
 from typing import NamedTuple
 
 from juggleproof.certificates import checker
-from juggleproof.certificates.definitions import Definition, formula_of, shortened
+from juggleproof.certificates.definitions import Definition, formula_of, instance
 from juggleproof.certificates.formulas import (
     RELATIONS,
     Expression,
@@ -58,7 +58,7 @@ NOUNS = {  # of definitions, of `named_terms`, and of variables that mean one th
     "v0": "the velocity",
     "chi_dot": "the relative velocity before the impact",
     "chi_dot_after": "the relative velocity after the impact",
-    "flown": "the time since the launch",
+    "time": "the time since the launch",
 }
 # The left and the right side of statements that compare longer terms.
 SIDES = {
@@ -146,7 +146,7 @@ class Named(NamedTuple):
 
 def call_of(part: Term) -> ast.Call | ast.Name | None:
     """The variable that this is, or the named term with its arguments; None of anything else."""
-    named = shortened(part, named_terms())
+    named = instance(part, named_terms())
     tree = ast.parse(str(named), mode="eval").body if named.op in ("call", "var") else None
     return tree if isinstance(tree, (ast.Call, ast.Name)) else None
 

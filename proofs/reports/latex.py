@@ -202,6 +202,8 @@ class _Printer:
             word, parts = node.func.id, node.args
         else:
             raise TypeError(f"no formula: {ast.dump(node)}")
+        if word not in JOINED:  # a function, such as E(t)
+            raise TypeError(f"no formula: {ast.dump(node)}")
         own, sign = JOINED[word]
         text = f" {sign} ".join(self.formula(part, own + 1 + (word == "or")) for part in parts)
         return rf"({text})" if own < level else text

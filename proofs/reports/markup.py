@@ -10,7 +10,7 @@ from html import escape
 
 from juggleproof.proofs.reports.latex import NOTATION, glyph, latex_of
 from juggleproof.proofs.reports.mathml import mathml
-from juggleproof.proofs.reports.words import WORDS, parts_of, pieces
+from juggleproof.proofs.reports.words import SIGN, WORDS, parts_of, pieces
 
 # -------------------------------------------------------------------------------------------------
 # Sentences, statements and values with their formulas as MathML.
@@ -83,14 +83,11 @@ def shown(text: str, longest: int) -> str:
     return formula(text) if len(text) <= longest else f"<code>{escape(text, quote=False)}</code>"
 
 
-MARK = re.compile(r"(\\[A-Za-z]+(?:\{[^{}]*\})*(?:_\w)?|\b[A-Za-z]\b|[<>])")
-
-
 def change(text: str) -> str:
     """What a correction changes: the letters and signs in it as formulas."""
     return "".join(
         mathml(part) if i % 2 else escape(part, quote=False)
-        for i, part in enumerate(MARK.split(text))
+        for i, part in enumerate(SIGN.split(text))
     )
 
 
@@ -290,7 +287,7 @@ LETTERS = {  # names in statements that the notation lacks -> what they stand fo
     "chi_dot": "velocity of the ball relative to the table",
     "chi_after": "height of the ball above the table after the impact",
     "chi_dot_after": "velocity of the ball relative to the table after the impact",
-    "flown": "time since the launch",
+    "time": "time since the launch",
     "lam": "Lagrange's multiplier",
     "mu": "coefficient of friction",
     "sigma": "direction of sliding, 1 or -1",

@@ -75,9 +75,10 @@ def printed_wrongly() -> str:
     corrections as LaTeX."""
     register, store, findings = load_register(), Store(DEFAULT), findings_in(DEFAULT)
     claims = paper_claims()
-    lines = _first_page(claims, register, findings, store)
+    groups = {one.id: errata.group_of(one, register, findings) for one in claims}
+    lines = _first_page(claims, register, groups, findings, store)
     for group, title in errata.GROUPS.items():
-        members = [one for one in claims if errata.group_of(one, register, findings) == group]
+        members = [one for one in claims if groups[one.id] == group]
         lines += [f"## {title} ({len(members)})", ""]
         for claim in members:
             lines += _entry(claim, register, findings.get(claim.id, {}), store)
@@ -87,11 +88,11 @@ def printed_wrongly() -> str:
 def _first_page(
     claims: Sequence[Claim],
     register: Register,
+    groups: Mapping[str, str],
     findings: Mapping[str, Finding],
     store: Store,
 ) -> list[str]:
     lines = [f"## {errata.FIRST}", "", errata.theorem_stands(claims, register), ""]
-    groups = {one.id: errata.group_of(one, register, findings) for one in claims}
     for claim in errata.what_matters(claims, groups):
         settled = errata.stored(claim, store)
         three = errata.three_lines_of(claim, register, findings.get(claim.id, {}), settled)

@@ -10,6 +10,7 @@ from itertools import starmap
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import ClaimError
 from juggleproof.proofs.claims import Claim
+from juggleproof.proofs.correcting import note_of
 from juggleproof.proofs.ledger.places import place_of
 from juggleproof.proofs.ledger.remarks import NAMES, PROSE, meanings, names_of
 from juggleproof.proofs.paper.derivations import Derivation
@@ -18,7 +19,7 @@ from juggleproof.proofs.reading.tree import Operator, Tree, spelled
 from juggleproof.proofs.reports.contents import Entry
 from juggleproof.proofs.reports.errata import WRONG, is_latex
 from juggleproof.proofs.reports.latex import NOTATION, latex_of, narrow, with_macros
-from juggleproof.proofs.reports.words import pieces
+from juggleproof.proofs.reports.words import SIGN, pieces
 
 SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -176,11 +177,12 @@ def corrected(entry: Entry) -> str:
 
 
 def change(entry: Entry) -> str:
-    """What the correction changes, the signs set as mathematics."""
-    text = entry.correction["change"].partition(" at column")[0] if entry.correction else ""
-    if text.startswith("marks: "):
-        return f"marks: {code(text.removeprefix('marks: '))}"
-    return re.sub(r"\\[A-Za-z]+|[<>]", lambda match: f"${match.group()}$", text)
+    """What the correction changes, the letters and signs in it as formulas."""
+    text = note_of(entry.correction["change"]) if entry.correction else ""
+    return "".join(
+        f"${with_macros(part)}$" if i % 2 else plain(part)
+        for i, part in enumerate(SIGN.split(text))
+    )
 
 
 def number(claim: Claim) -> str:

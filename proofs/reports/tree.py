@@ -89,7 +89,7 @@ def theorem_line(
             if decided
             else ""
         )
-        + "\n         `make coq` proves the same from the definition of the map alone"
+        + "\n         `make coq` in a checkout proves the same from the definition of the map alone"
     )
 
 

@@ -44,6 +44,7 @@ NAMED = {
     "b_0": r"\bar b_0",
     "r_0": "r_0",
     "z_k": "z_k",
+    "t_R": r"t_{\mathcal{R}}",
     "A_T": "A_T",
     "A_t": "A_t",
     "R_alpha": r"R_\alpha",
@@ -100,6 +101,9 @@ WORD = re.compile(
   | \d+(?:/\d+)? | <=|>=|=|<|>|\+|-|\*|/|\^|\(|\)|, | \S
 """,
     re.VERBOSE,
+)
+SIGN = re.compile(  # a letter or sign in what a correction changes, where `a` is the article
+    r"(\\[A-Za-z]+(?:\{[^{}]*\})*(?:_\w)?|\b[A-Zb-z]\b|[<>])"
 )
 JOINING = {
     "<=": r"\le",

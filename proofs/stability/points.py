@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import sympy
 
-from juggleproof.proofs.stability.given import Expr, Map, holds, symbols, written
+from juggleproof.proofs.stability.given import Expr, Map, expression, holds, symbols, written
 from juggleproof.proofs.stability.samples import Arrays, Floats, Point
 
 
@@ -32,6 +32,16 @@ class FixedPoint:
                 holds(system.space, {**known, **states}), holds(guard, {**known, **states})
             )
         return np.broadcast_to(inside, states[system.state[0]].shape)
+
+    def stable_share(self, system: Map, parameters: Arrays) -> float:
+        """The share of the parameters for which it exists, with multipliers below 1 in size."""
+        exists = self.exists(system, parameters)
+        return float(np.mean(exists & (self.multiplier(system, parameters) < 1)))
+
+    def is_at(self, terms: Sequence[str]) -> bool:
+        """Whether these terms are the point."""
+        given = map(expression, terms)
+        return all(sympy.simplify(a - b) == 0 for a, b in zip(self.terms, given))
 
     def multiplier(self, system: Map, parameters: Arrays) -> Floats:
         """The largest modulus of an eigenvalue of the derivative of its piece there."""
@@ -70,13 +80,13 @@ def _found(system: Map) -> Iterator[FixedPoint]:
             terms = tuple(sympy.simplify(solution.get(s, s)) for s in state)
             if any(t.free_symbols & set(state) for t in terms) or terms in seen:
                 continue
-            point = _as_point(terms)
+            point = as_point(terms)
             if point is not None:
                 seen.add(terms)
                 yield FixedPoint(point, k, terms)
 
 
-def _as_point(terms: tuple[Expr, ...]) -> Point | None:
+def as_point(terms: tuple[Expr, ...]) -> Point | None:
     """The terms as text, with square roots named; None where there are others."""
     roots: list[tuple[str, str]] = []
     names = {}

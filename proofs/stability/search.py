@@ -5,8 +5,9 @@ which the checker takes certificates.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 
 import numpy as np
 import sympy
@@ -14,7 +15,10 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Certificate
-from juggleproof.certificates.search.certificate import search_map_rule
+from juggleproof.certificates.search.certificate import search_proof
+from juggleproof.certificates.search.closing import SQUARED
+from juggleproof.certificates.work import Budget, Exhausted
+from juggleproof.proofs.stability.domains import narrowed
 from juggleproof.proofs.stability.given import (
     Map,
     atoms,
@@ -26,6 +30,7 @@ from juggleproof.proofs.stability.given import (
 )
 from juggleproof.proofs.stability.norms import is_affine, norm_rules
 from juggleproof.proofs.stability.points import FixedPoint, fixed_points
+from juggleproof.proofs.stability.refuting import escape_rules, instability_rules
 from juggleproof.proofs.stability.samples import (
     Point,
     around,
@@ -44,6 +49,9 @@ from juggleproof.proofs.stability.values import (
 
 PARAMETERS, STATES = 150, 40  # samples
 BUDGET = 300_000  # counted work for a premise
+EFFORTS = (1, 2, SQUARED)
+ROUNDS = (((1,), 20_000), ((1, 2), 100_000), (EFFORTS, BUDGET))  # for all candidates, in turn
+MOST_CANDIDATES = 24
 Report = Callable[[str], None]
 
 
@@ -55,23 +63,41 @@ class Proof:
     certificates: dict[str, Certificate] = field(default_factory=dict)
     known: dict[str, checker.Statement] = field(default_factory=dict)
 
-    def add(self, rule: MapRule, budget: int = BUDGET) -> str:
+    def add(self, rule: MapRule, efforts: Sequence[int] = EFFORTS, budget: int = BUDGET) -> str:
         """Certifies one more statement; the premise that is open, or nothing."""
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         statement = checker.read_statements(text)[rule.name]
+        proofs = {}
         try:
-            found = search_map_rule(statement, self.known, budget)
+            premises = checker.premises_of(statement, self.known)
+            # those first that fail most often
+            for name in sorted(premises, key=lambda name: not name.startswith("falls")):
+                proofs[name] = self.proof_of(premises[name], efforts, budget)
+                if proofs[name] is None:
+                    return f"no proof of the premise {name} was found"
         except checker.Rejected as reason:
             return str(reason)
-        if "certified" not in found:
-            return str(found["unknown"])
-        outcome, reason_ = checker.check_one(statement, found, self.known, self.known)
+        found: Certificate = {"certified": {name: proofs[name] for name in premises}}
+        outcome, why = checker.check_one(statement, found, self.known, self.known)
         if outcome != "certified":
-            return str(reason_)
+            return str(why)
         self.rules.append(rule)
         self.certificates[rule.name] = found
         self.known[rule.name] = statement
         return ""
+
+    def proof_of(
+        self, premise: checker.Statement, efforts: Sequence[int], budget: int
+    ) -> object | None:
+        """A proof of one premise, if one is found."""
+        for effort in efforts:
+            try:
+                proof = search_proof(premise, self.known, Budget(budget), effort=effort)
+            except Exhausted:
+                continue
+            if proof is not None:
+                return proof
+        return None
 
 
 def with_point_licences(domain: str, point: Point) -> str:
@@ -108,52 +134,185 @@ def known_of(system: Map, fixed: FixedPoint, setting: Setting) -> tuple[str, ...
     return tuple(dict.fromkeys(put))
 
 
-def setting_of(system: Map, fixed: FixedPoint) -> Setting:
-    """The samples for a search."""
+def setting_of(system: Map, fixed: FixedPoint, domain: str) -> Setting:
+    """The samples for a search over parameters in a domain."""
     point = fixed.point
-    domain = with_point_licences(system.domain, point)
+    domain = with_point_licences(domain, point)
     parameters = region(domain, system.parameters, PARAMETERS)
+    for name in system.parameters:  # so that constants may divide by it
+        if (parameters[name] > 0).all():
+            domain = conjunction(domain, licence(expression(name), domain))
     states = around(system, point, parameters, STATES)
     bare = Setting(system, point, fixed.piece, (), domain, parameters, states)
     return replace(bare, have=known_of(system, fixed, bare))
 
 
-def search_stability(system: Map, report: Report = lambda text: None) -> tuple[Proof, str]:
-    """A proof that the fixed point is stable and attracts the whole space, if one is found, and
-    what was tried.
+@dataclass
+class Outcome:
+    """What was found: the statements with certificates, what they come to, and what was tried.
+
+    verdict: `exactly` (stable and attracting for these parameters and no others), `stable` (for
+    all, or at least for these parameters), `refuted` or `unknown`.
+    """
+
+    proof: Proof
+    verdict: str
+    sentence: str
+    tried: list[str]
+
+
+def search_stability(system: Map, report: Report = lambda text: None) -> Outcome:
+    """A proof that a fixed point is stable and attracts the whole space, or that none does, or what
+    comes nearest to either.
     """
     system = with_licences(system)
     parameters = region(system.domain, system.parameters, PARAMETERS)
-    every = [p for p in fixed_points(system) if p.exists(system, parameters).all()]
     proof = Proof()
+    lines: list[str] = []
+
+    def log(text: str) -> None:
+        lines.append(text)
+        report(text)
+
     fault = proof.add(system.rule(f"{system.name}/map"))
     if fault:
-        return proof, fault
+        return Outcome(proof, "unknown", f"the map: {fault}", lines)
+    every = fixed_points(system)
+    if system.point:
+        every = [one for one in every if one.is_at(system.point)]
+    for fixed in sorted(every, key=lambda one: -one.stable_share(system, parameters)):
+        if not fixed.stable_share(system, parameters):
+            break
+        split = narrowed(system, fixed, parameters)
+        log(f"fixed point {name_of(fixed)}" + "".join(f", where {one}" for one in split))
+        found = settled(proof, system, fixed, split, log)
+        if found:
+            return Outcome(proof, *found, lines)
     for fixed in every:
-        if fixed.multiplier(system, parameters).max() > 1:
-            continue
-        setting = setting_of(system, fixed)
-        for rule in candidates(setting, system.space, f"{system.name}/lyapunov", report):
-            fault = proof.add(rule)
-            report(f"  {fault or 'certified'}")
-            if not fault:
-                return proof, ""
-    return proof, "no function found"
+        if fixed.exists(system, parameters).all():
+            fault = refuted(proof, setting_of(system, fixed, system.domain), log)
+            if fault:
+                return Outcome(proof, "refuted", f"{name_of(fixed)} {fault}", lines)
+    return Outcome(proof, "unknown", "", lines)
 
 
-def candidates(setting: Setting, on: str, name: str, report: Report) -> Iterator[MapRule]:
-    """Statements `lyapunov` that samples do not refute, the simplest kind first."""
+def name_of(fixed: FixedPoint) -> str:
+    """The point as a person reads it."""
+    terms = ", ".join(fixed.point.terms)
+    return f"({terms})" if len(fixed.point.terms) > 1 or " " in terms else terms
+
+
+def settled(
+    proof: Proof, system: Map, fixed: FixedPoint, split: Sequence[str], log: Report
+) -> tuple[str, str] | None:
+    """Verdict and sentence for one fixed point, where something is certified."""
+    inner = conjunction(system.domain, *split)
+    setting = setting_of(system, fixed, inner)
+    name = name_of(fixed)
+    if not split:
+        fault = refuted(proof, setting, log, STRAY_ONLY)
+        if fault:
+            return "refuted", f"{name} {fault}"
+    if not attracted(proof, setting, log):
+        return None
+    if not split:
+        return "stable", f"{name} is stable and attracts every state"
+    where = " and ".join(split)
+    outer = conjunction(system.domain, f"not ({where})")
+    failing = region(outer, system.parameters, PARAMETERS)
+    if len(failing[system.parameters[0]]) == 0:
+        return "stable", f"{name} is stable and attracts every state at least where {where}"
+    beyond = setting_of(system, fixed, outer)
+    fault = refuted(proof, beyond, log)
+    kind = "escape" if f"{system.name}/escapes" in proof.known else "unstable"
+    if fault and sharp(proof, setting, kind, log):
+        return "exactly", f"{name} is stable and attracts every state if and only if {where}"
+    return "stable", f"{name} is stable and attracts every state at least where {where}"
+
+
+def sharp(proof: Proof, setting: Setting, kind: str, log: Report) -> bool:
+    """Whether stability and attraction on one part of the domain, and their failure on the rest,
+    are put together.
+    """
+    system, name = setting.system, setting.system.name
+    of = "escapes" if kind == "escape" else kind
+    rows: list[tuple[str, tuple[tuple[str, str], ...]]] = [
+        (
+            "descends",
+            (
+                ("map", f"{name}/map"),
+                ("domain", setting.domain),
+                ("rank", "0"),
+                ("stage", system.space),
+            ),
+        ),
+        ("attracts", (("descent", f"{name}/descends"), ("lyapunov", f"{name}/lyapunov"))),
+        ("exactly", (("attraction", f"{name}/attracts"), (kind, f"{name}/{of}"))),
+    ]
+    for label, lines in rows:
+        fault = proof.add(MapRule(f"{name}/{label}", lines))
+        if fault:
+            log(f"{label}: {fault}")
+            return False
+    return True
+
+
+STRAY_ONLY = True
+
+
+def refuted(proof: Proof, setting: Setting, log: Report, stray: bool = False) -> str:
+    """How the point fails to be stable and to attract every state, for all parameters, or nothing;
+    `stray`: by an orbit alone.
+    """
+    name = f"{setting.system.name}/"
+    for rule in escape_rules(setting, name + "escapes"):
+        fault = proof.add(rule)
+        said = dict(rule.rows)
+        log(f"orbit of {said['start']} along {said['word']}: {fault or 'certified'}")
+        if not fault:
+            return f"does not attract ({said['start']}), which is periodic"
+    if stray:
+        return ""
+    for rule in islice(instability_rules(setting, name + "unstable"), 6):
+        fault = proof.add(rule)
+        log(f"instability at rate {dict(rule.rows)['rate']}: {fault or 'certified'}")
+        if not fault:
+            return "is not stable"
+    return ""
+
+
+def attracted(proof: Proof, setting: Setting, log: Report) -> bool:
+    """Whether the point is certified to be stable and to attract every state."""
+    name, space = f"{setting.system.name}/lyapunov", setting.system.space
+    if is_affine(setting.system):
+        for rule in norm_rules(setting, space, name):
+            if not tried(proof, rule, EFFORTS, BUDGET, log):
+                return True
+    found = sorted(candidates(setting, space, name), key=lambda one: one[0])[:MOST_CANDIDATES]
+    for efforts, budget in ROUNDS:
+        for _, rule in found:
+            if not tried(proof, rule, efforts, budget, log):
+                return True
+    return False
+
+
+def tried(proof: Proof, rule: MapRule, efforts: Sequence[int], budget: int, report: Report) -> str:
+    """Tries to certify a candidate."""
+    fault = proof.add(rule, efforts, budget)
+    said = dict(rule.rows)
+    report(f"V = {said['value']}, loss {said['loss']}: {fault or 'certified'}")
+    return fault
+
+
+def candidates(setting: Setting, on: str, name: str) -> Iterator[tuple[float, MapRule]]:
+    """Statements `lyapunov` that samples do not refute, each with a number that is small where it is
+    simple and fits well.
+    """
     system, point = setting.system, setting.point
-    if is_affine(system):
-        for rule in norm_rules(setting, on, name):
-            report("norm of " + " | ".join(t for key, t in rule.rows if key == "value"))
-            yield rule
     tests = around(system, point, region(setting.domain, system.parameters, 500), 20)
     positive = [n for n in system.state if ends_of(system.space, n)[0] == 0]
-    for template in quadratic_templates(system, setting.piece, positive):
+    for kind, template in enumerate(quadratic_templates(system, setting.piece, positive)):
         for terms in lyapunov_functions(template, system, setting.states.points, tests.points):
             function = Function(tuple(terms), template.parts, template.divisor)
-            for rule in lyapunov_rules(setting, function, on, name):
-                said = dict(rule.rows)
-                report(f"V = {' | '.join(terms)}, loss {said['loss']}, radius {said['radius']}")
-                yield rule
+            for rank, rule in lyapunov_rules(setting, function, on, name):
+                yield rank + kind + len(" ".join(terms)) / 40, rule

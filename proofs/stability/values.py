@@ -22,6 +22,7 @@ from juggleproof.proofs.stability.samples import SEED, Arrays, Floats, Point, Sa
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 32, 64, 100, 256, 1000)
 LEAST_MARGIN = 1e-7  # of a sample, as a share of its row's length
 LOSS_POWERS = (0, 1, 2)  # of 1 + V, that the loss is divided by
+SMALLEST = 1e-5  # of a constant
 TURNS = 6  # of adding the samples that are missed
 
 
@@ -255,9 +256,9 @@ def _power(text: str, exponent: int) -> str:
 
 def bounded_below(
     least: Floats, products: Sequence[tuple[str, Floats]], most: int = 2
-) -> list[str]:
+) -> list[tuple[float, str]]:
     """Terms in the parameters that are positive and below what is least at each of these; those
-    first that follow it closely and are simple.
+    first that follow it closely and are simple, which a small number beside each says.
     """
     used = np.isfinite(least)
     if not used.any() or least[used].min() <= 0:
@@ -266,15 +267,14 @@ def bounded_below(
     for text, values in products:
         with np.errstate(all="ignore"):
             shares = np.log(least[used] / values[used])
-        if np.isfinite(shares).all():
-            ranked.append((np.ptp(shares) + len(text) / 16, text, float(np.exp(shares.min()))))
+        if np.isfinite(shares).all() and shares.min() > np.log(SMALLEST):
+            worst = float(shares.min())
+            rank = float(np.ptp(shares)) + len(text) / 16 + max(0.0, -worst) / 2
+            ranked.append((rank, text, float(np.exp(worst))))
     found = []
-    for _, text, number in sorted(ranked)[:most]:
+    for rank, text, number in sorted(ranked)[:most]:
         constant = _floor(number * 0.75)
-        if constant == 1:
-            found.append(text)
-        else:
-            found.append(_times(constant, text))
+        found.append((rank, text if constant == 1 else _times(constant, text)))
     return found
 
 
@@ -362,9 +362,11 @@ class Setting:
         )
 
 
-def lyapunov_rules(setting: Setting, function: Function, on: str, name: str) -> Iterator[MapRule]:
+def lyapunov_rules(
+    setting: Setting, function: Function, on: str, name: str
+) -> Iterator[tuple[float, MapRule]]:
     """The statements that V proves stability and attraction of the set, for candidates of the loss
-    and of the constants.
+    and of the constants, each with a number that is small where these fit well.
     """
     system, samples = setting.system, setting.states
     count = len(samples.which)
@@ -384,7 +386,7 @@ def lyapunov_rules(setting: Setting, function: Function, on: str, name: str) -> 
     for power in LOSS_POWERS:
         shares = ((here - there) / square * (1 + here) ** power)[fits]
         least = samples.least(shares, setting.count)
-        for constant in bounded_below(least, setting.products):
+        for rank, constant in bounded_below(least, setting.products):
             start = (
                 "" if constant == "1" else f"({constant})*" if "/" in constant else f"{constant}*"
             )
@@ -396,7 +398,7 @@ def lyapunov_rules(setting: Setting, function: Function, on: str, name: str) -> 
                 ("upper", upper),
                 ("radius", radius),
             ]
-            yield setting.rule(name, function, rows)
+            yield rank + power / 4, setting.rule(name, function, rows)
 
 
 def small_ball(setting: Setting, function: Function) -> tuple[str, str] | None:
@@ -431,7 +433,7 @@ def small_ball(setting: Setting, function: Function) -> tuple[str, str] | None:
             continue
         shares = (size[which] * reach)[inside] / np.maximum(v, 1e-12)
         least = Samples({}, which[inside]).least(shares, setting.count)
-        for under in bounded_below(least, setting.products, 1):
+        for _, under in bounded_below(least, setting.products, 1):
             return radius, _inverse(under)
     return None
 

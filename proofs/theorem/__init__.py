@@ -5,8 +5,14 @@ premises the checker writes.
     stability      the rules, the written proof, alpha = 1/3, and Proposition 1
     orbits         flights, where stability ends, and bounds that come near the worst case
     quantities     what is certified of one state, in exact numbers
+    coq_terms      terms and formulas as Coq texts
     coq            the texts of the definition for Coq, and Statements.v
     coq_templates  the parts of Statements.v without data
+    coq_readings   premises of any map rule as Coq lemmas in the words of the statements
+    coq_frame      the words in which a file of Coq speaks of any map
+    coq_values     the rules on Lyapunov's and Chetaev's functions for such a file
+    coq_rules      a theorem on the orbits of any map as one file of Coq
+    coq_rule_templates  the parts of such a file without data
 """
 
 SECTIONS = ("definition", "stability", "orbits")

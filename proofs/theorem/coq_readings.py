@@ -18,6 +18,8 @@ from juggleproof.certificates.coq.transfer import Form, Transfer
 from juggleproof.certificates.states import State
 from juggleproof.proofs.theorem.coq_terms import ATOM, formula_of, term_of
 
+AND, OR = "/\\", "\\/"
+
 
 def reading_name(name: str) -> str:
     """The name of the lemma in the words of a statement."""
@@ -30,9 +32,9 @@ def readings(statement: checker.Statement, certificate: Hint, known: Known) -> s
     Raises NotWritten where a certificate has what is not written for Coq.
     """
     written = [lemmas(statement, certificate, known)]
-    roots: dict[str, str] = {}
+    shown: dict[str, str] = {}
     for name, premise in checker.premises_of(statement, known).items():
-        written.append(Reading(premise, certificate["certified"][name], known, roots).text())
+        written.append(Reading(premise, certificate["certified"][name], known, shown).text())
     return "\n".join(written)
 
 
@@ -47,32 +49,37 @@ class _Read(NamedTuple):
 
 
 class _Texts(Transfer):
-    """Atoms about terms as they stand, in which a name may be a `let` of the goal."""
+    """Atoms about terms as they stand, in which a name may be a `let` of the goal, or be given by
+    an equation.
+    """
 
     lets: Sequence[str] = ()
+    sums: Sequence[str] = ()
 
     def equal(self, text: str) -> str:
         unfolded = f"unfold {', '.join(reversed(self.lets))}; " if self.lets else ""
-        return f"{unfolded}field; nonzero" if self.lets or "/" in text else "ring"
+        unfolded += f"rewrite {', '.join(f'?{one}' for one in self.sums)}; " if self.sums else ""
+        return f"{unfolded}field; nonzero" if unfolded or "/" in text else "ring"
 
 
 class Reading:
     """A statement for all, in the words of its lines, as a lemma that its polynomial lemma proves.
 
     A root is written as `sqrt`; that it is one needs the sign of what is under it, which the
-    certificate proves and which has a lemma of its own; roots: {lines before it: this lemma}.
+    certificate proves and which has a lemma of its own, as have the lines `have`; shown: {lines up
+    to such a one: this lemma}.
     """
 
     def __init__(
-        self, statement: checker.Statement, proof: Hint, known: Known, roots: dict[str, str]
+        self, statement: checker.Statement, proof: Hint, known: Known, shown: dict[str, str]
     ) -> None:
         self.statement = statement
         self.proof = proof
         self.known = known
-        self.roots = roots
+        self.shown = shown
         self.form = Form(statement)
-        if self.form.integers or statement.get("have"):
-            raise NotWritten("a premise is about integers, or has a line `have`")
+        if self.form.integers:
+            raise NotWritten("a premise is about integers")
         self.branch = Branch(State(self.form.unfolding.context), known, [0])
         self.walk = checker.Context()  # the values of names, line by line
         self.stated: list[str] = []  # what is stated, up to the line
@@ -81,7 +88,8 @@ class Reading:
         self.assumed: list[str] = []  # names of the lines assumed, as they stand
         self.premises: list[str] = []  # and as polynomial formulas
         self.lets: list[str] = []
-        self.before: list[str] = []  # lemmas on what stands under roots
+        self.sums: list[str] = []  # equations of states around a point
+        self.before: list[str] = []  # lemmas on roots and on lines `have`
 
     def text(self) -> str:
         """The lemmas."""
@@ -98,6 +106,8 @@ class Reading:
                 self._let(*said)
             elif keyword == "root":
                 self._root(count, said[0], said[1][0])
+            elif keyword == "have":
+                self._have(count, said)
         if self.form.existential:
             self._exhibit()
         else:
@@ -111,10 +121,20 @@ class Reading:
             self.walk.declare(name)
 
     def _let(self, name: str, term: ast.expr) -> None:
-        self.stated.append(f"let {coq_name(name)} := {term_of(term, 0)} in")
-        self.rows.append(f"intro {coq_name(name)}.")
+        own, value = coq_name(name), term_of(term, 0)
         self.walk.define(name, self.walk.value(term))
-        self.lets.append(coq_name(name))
+        if ast.unparse(term) == f"{name}_point + {name}_gap":  # so that it can be any state
+            equation = self.branch.fresh()
+            self.stated.append(f"forall {own} : R, {own} = {value} ->")
+            self.rows.append(f"intros {own} {equation}.")
+            if self.lets:
+                self.rows.append(f"unfold {', '.join(reversed(self.lets))} in {equation}.")
+            self.assumed += [own, equation]
+            self.sums.append(equation)
+        else:
+            self.stated.append(f"let {own} := {value} in")
+            self.rows.append(f"intro {own}.")
+            self.lets.append(own)
 
     def _assume(self, node: ast.expr) -> None:
         own, formula = self.branch.fresh(), self.walk.formula(node)
@@ -122,6 +142,12 @@ class Reading:
         self.rows.append(f"intro {own}.")
         self.assumed.append(own)
         self._hold(f"(proj1 {self._same(node, formula)} {own})", formula)
+
+    def _have(self, count: int, node: ast.expr) -> None:
+        """A line that the certificate proves."""
+        proof, formula = self._shown(count, node), self.walk.formula(node)
+        self._hold(f"(proj1 {self._same(node, formula)} {proof})", formula)
+        self.premises.pop()  # the polynomial lemma does not assume it
 
     def _hold(self, proof: str, formula: checker.Formula) -> None:
         """Takes a premise, as a polynomial formula, into the branch."""
@@ -133,7 +159,8 @@ class Reading:
 
     def _root(self, count: int, name: str, under: ast.expr) -> None:
         """A root: it is not negative, and its square is what stands under it."""
-        own, below = coq_name(name), self._under(count, under)
+        own = coq_name(name)
+        below = self._shown(count, ast.Compare(under, [ast.GtE()], [ast.Constant(0)]))
         radicand, value = term_of(under, 0), self.walk.value(under)
         signed, squared = self.branch.fresh(), self.branch.fresh()
         self.stated.append(f"let {own} := sqrt ({radicand}) in")
@@ -142,7 +169,6 @@ class Reading:
             f"assert ({signed} : 0 <= {own}) by apply sqrt_pos.",
             f"assert ({squared} : {own} * {own} = {radicand})"
             f" by exact (sqrt_sqrt _ (Rge_le _ _ {below})).",
-            f"clearbody {own}.",
         ]
         self._declare([name])
         self.universal.append(own)
@@ -153,20 +179,21 @@ class Reading:
         formula = self.walk.atom(root * root, "=", value)
         self._hold(f"(proj1 {self._same(node, formula)} {squared})", formula)
 
-    def _under(self, count: int, under: ast.expr) -> str:
-        """A proof that what stands under a root is not negative; its lemma is written before."""
+    def _shown(self, count: int, node: ast.expr) -> str:
+        """A proof of what the certificate shows before a line; its lemma is written before."""
         lines = self.statement.text().splitlines()[1 : count + 1]
-        text = "\n".join([*lines, f"show {ast.unparse(under).replace('**', '^')} >= 0"])
-        if text not in self.roots:
-            name = f"{self.statement.name}.root-{count}"
+        shown = ast.unparse(node).replace("**", "^").replace("==", "=")
+        text = "\n".join([*lines, f"show {shown}"])
+        if text not in self.shown:
+            name = f"{self.statement.name}.line-{count}"
             part = checker.read_statements(f"statement {name}\n{text}")[name]
-            before = sum(line.startswith("root ") for line in lines)
+            before = sum(line.startswith(("root ", "have ")) for line in lines)
             proof = ["proof", self.proof[1][:before], self.proof[1][before]]
             self.before.append(certified(part, proof, self.known))
-            self.before.append(Reading(part, proof, self.known, self.roots).text())
-            self.roots[text] = reading_name(name)
+            self.before.append(Reading(part, proof, self.known, self.shown).text())
+            self.shown[text] = reading_name(name)
         arguments = [*map(coq_name, self._variables()), *self.assumed]
-        return f"({' '.join([self.roots[text], *arguments])})"
+        return f"({' '.join([self.shown[text], *arguments])})"
 
     def _variables(self) -> list[str]:
         """The variables that are not roots."""
@@ -203,11 +230,11 @@ class Reading:
     def _same(self, node: ast.expr, formula: checker.Formula) -> str:
         """A proof that a formula as it stands is equivalent to its polynomial formula."""
         texts = _Texts(self.branch, {}, {})
-        texts.lets = self.lets
+        texts.lets, texts.sums = self.lets, self.sums
         read = self._read(node, texts)
         self.rows += texts.rows
         target = proposition(self.branch.names, formula)
-        proof = f"(holds _ _ _ {read.proof})"
+        proof = f"(reads_holds _ _ _ {read.proof})"
         if read.holds == target:
             return proof
         same = self.branch.fresh()
@@ -273,23 +300,30 @@ def _numerator(value: checker.Poly, relation: str) -> checker.Poly:
 def _chain(parts: Sequence[_Read], lemma: str) -> _Read:
     """A conjunction or disjunction of several."""
     last = parts[-1]
-    for part in reversed(parts[:-1]):
-        last = _joined(part, last, lemma)
+    for count, part in enumerate(reversed(parts[:-1])):
+        last = _joined(part, last, lemma, count > 0)
     return last
 
 
-def _joined(one: _Read, two: _Read, lemma: str) -> _Read:
-    """Two formulas joined as the lemma of Readings.v says."""
-    yes = f"({one.holds}) {{}} ({two.holds})"
-    no = f"({one.fails}) {{}} ({two.fails})"
-    mixed, other = f"({one.fails}) \\/ ({two.holds})", f"({one.holds}) /\\ ({two.fails})"
+def _joined(one: _Read, two: _Read, lemma: str, is_tail: bool = False) -> _Read:
+    """Two formulas joined as the lemma of Readings.v says; the tail of a chain needs no
+    parentheses.
+    """
+
+    def both(left: str, op: str, right: str) -> str:
+        return f"{_enclosed(left)} {op} {right if is_tail else _enclosed(right)}"
+
     holds, fails = {
-        "reads_and": (yes.format("/\\"), no.format("\\/")),
-        "reads_or": (yes.format("\\/"), no.format("/\\")),
-        "reads_implies": (mixed, other),
+        "reads_and": (both(one.holds, AND, two.holds), both(one.fails, OR, two.fails)),
+        "reads_or": (both(one.holds, OR, two.holds), both(one.fails, AND, two.fails)),
+        "reads_implies": (both(one.fails, OR, two.holds), both(one.holds, AND, two.fails)),
         "reads_iff": (
-            f"({mixed}) /\\ (({one.holds}) \\/ ({two.fails}))",
-            f"({other}) \\/ (({one.fails}) /\\ ({two.holds}))",
+            f"({both(one.fails, OR, two.holds)}) {AND} ({both(one.holds, OR, two.fails)})",
+            f"({both(one.holds, AND, two.fails)}) {OR} ({both(one.fails, AND, two.holds)})",
         ),
     }[lemma]
     return _Read(holds, fails, f"({lemma} _ _ _ _ _ _ {one.proof} {two.proof})")
+
+
+def _enclosed(text: str) -> str:
+    return f"({text})" if "\\" in text else text

@@ -6,22 +6,22 @@ from __future__ import annotations
 
 import doctest
 import importlib.util
-import os
 import re
 import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from juggleproof.certificates.store import DEFAULT
 from tests.docs.pages import PAGES, ROOT, blocks, code, name
+from tests.proofs.command import running
+from tests.proofs.command.running import Done
 
-PROGRAMS = {
-    "juggleproof": [sys.executable, "-m", "juggleproof.proofs.command.main"],
+PROGRAMS = {  # juggleproof itself is run in this process, which has loaded it
     "python": [sys.executable],
     "pytest": [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"],
 }
@@ -34,10 +34,8 @@ SMALLER = {
     "juggleproof simulate part --figure": "--horizon 0.05",
     "juggleproof simulate part --animation": "--horizon 0.05",
     "juggleproof simulate part": "--ensembles 2 --horizon 0.05",
-    "juggleproof bench --question": "--widths 1e-2 --seconds 1",
     "juggleproof bench": "--quick --seconds 1",
     "python -m juggleproof.benchmarks.bounds": "--only Caprasse --runs 1 --width 1e-3",
-    "python -m juggleproof.benchmarks.peers": "--share 400 --seconds 1",
     "python -m juggleproof.benchmarks.speed": "--only smt2 --runs 1",
     "python -m juggleproof.benchmarks.part": "--ensembles 2 --horizon 0.05 --runs 1",
 }
@@ -57,13 +55,36 @@ ELSEWHERE = {
         "tests/proofs/test_pytest_plugin.py",
         'runpytest_subprocess("--juggleproof", "-v", "-s")',
     ),
+    "pytest --juggleproof juggleproof::eq-37": (
+        "tests/proofs/test_pytest_plugin.py",
+        '"--juggleproof", "juggleproof::eq-37"',
+    ),
+    "juggleproof check": ("tests/proofs/command/test_check.py", "check(None)"),
+    "python -I -S certificates/checker": (
+        "tests/proofs/paper/test_claims.py",
+        '"-I", "-S", "certificates/checker"',
+    ),
+    "juggleproof certify --json F --junit G --markdown H": (
+        "tests/proofs/test_register.py",
+        'for option in ("json", "junit", "markdown")',
+    ),
+    "juggleproof bench --question DE-H --widths 1e-3,1e-9 --seconds 5 -o DIR": (
+        "tests/benchmarks/bench/test_bench.py",
+        '"--question",',
+    ),
     "juggleproof bench --quick": ("tests/docs/test_commands.py", '"juggleproof bench": "--quick'),
+    "juggleproof certify --only eq-36": ("tests/proofs/test_register.py", 'command("--only", '),
     "juggleproof certify --only eq-36 --accept": ("tests/proofs/test_register.py", "--accept"),
     "python -m tests.certificates.checker.mutate rules.close_by_sign": (
         "tests/certificates/checker/test_mutants.py",
         "found = dict(judge_all(",
     ),
     "python -m juggleproof.benchmarks.problems": (".ci/run", "-m juggleproof.benchmarks.problems"),
+    "python -m juggleproof.benchmarks.orbits": ("tests/benchmarks/test_orbits.py", "orbits.main()"),
+    "python -m juggleproof.benchmarks.peers": (
+        "tests/benchmarks/test_peers.py",
+        'peers.main(["--share", "400"',
+    ),
 }
 NEEDS = {
     "simulate part": "numba",
@@ -91,8 +112,34 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
-def run(command: str, page: Path, folder: Path) -> subprocess.CompletedProcess[str]:
-    """The command, in a folder with the files that the page shows and a copy of the store."""
+Run = Callable[[str, Path], Done]
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Runs a command in a folder with the files that a page shows and a copy of the store."""
+    for variable, value in {"PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"}.items():
+        monkeypatch.setenv(variable, value)
+
+    def run(command: str, page: Path) -> Done:
+        first, *rest = arguments(command, page, tmp_path)
+        if first == "juggleproof":
+            return running.run(*rest, cwd=tmp_path)
+        done = subprocess.run(
+            [*PROGRAMS[first], *rest],
+            capture_output=True,
+            text=True,
+            cwd=ROOT if first == "python" else tmp_path,
+            timeout=600,
+            check=False,
+        )
+        return Done(done.returncode, done.stdout, done.stderr)
+
+    return run
+
+
+def arguments(command: str, page: Path, folder: Path) -> list[str]:
+    """The words of a command, when the folder has what it reads."""
     for block in [*blocks(ROOT / "docs/your-own.md"), *blocks(page)]:
         if block.title:
             path = folder / block.title
@@ -103,22 +150,13 @@ def run(command: str, page: Path, folder: Path) -> subprocess.CompletedProcess[s
     if paper:  # what is judged here must not write into the store
         shutil.copytree(DEFAULT, folder / "store")
         rest += ["--store", "store"]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "80"}
-    return subprocess.run(
-        [*PROGRAMS[first], *rest],
-        capture_output=True,
-        text=True,
-        cwd=ROOT if first == "python" else folder,
-        env=environment,
-        timeout=600,
-        check=False,
-    )
+    return [first, *rest]
 
 
 @pytest.mark.parametrize(
     ("page", "command"), COMMANDS, ids=[f"{name(page)}: {one}" for page, one in COMMANDS]
 )
-def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path) -> None:
+def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path, run: Run) -> None:
     if command in ELSEWHERE:
         file, text = ELSEWHERE[command]
         assert text in (ROOT / file).read_text(encoding="utf-8")
@@ -131,11 +169,11 @@ def test_a_command_that_is_shown_runs(page: Path, command: str, tmp_path: Path) 
     stored = command.startswith("juggleproof check mine.") or " mean.certificates" in command
     if stored:  # what the line above it has written
         source = "mine.py" if "mine." in command else "mean.smt2"
-        assert run(f"juggleproof certify {source}", page, tmp_path).returncode == 0
+        assert run(f"juggleproof certify {source}", page).returncode == 0
     less = next((more for begin, more in SMALLER.items() if command.startswith(begin)), "")
     if " -o scenes/" in command:
         (tmp_path / "scenes/part").mkdir(parents=True)
-    done = run(f"{command} {less}", page, tmp_path)
+    done = run(f"{command} {less}", page)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
@@ -143,9 +181,9 @@ SESSIONS = [(page, one) for page in PAGES for one in code(page, "console")]
 
 
 @pytest.mark.parametrize(("page", "session"), SESSIONS, ids=[name(page) for page, _ in SESSIONS])
-def test_what_is_shown_of_an_output_is_printed(page: Path, session: str, tmp_path: Path) -> None:
+def test_what_is_shown_of_an_output_is_printed(page: Path, session: str, run: Run) -> None:
     command, _, expected = session.removeprefix("$ ").partition("\n")
-    printed = run(command, page, tmp_path).stdout
+    printed = run(command, page).stdout
     checker = doctest.OutputChecker()
     assert checker.check_output(expected, printed, doctest.ELLIPSIS), printed
 

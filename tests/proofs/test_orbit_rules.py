@@ -18,7 +18,7 @@ from juggleproof.certificates.votes.z3 import vote_and_model
 from juggleproof.proofs.command.main import run
 from juggleproof.proofs.evaluating import is_true_at, value_at
 from juggleproof.proofs.orbit_rules import RULES, conclusion, meaning, why
-from tests.certificates.checker.maps import ASKED, DOUBLE, FLIP, NEST, SUBTRACT, edited, read
+from tests.certificates.checker.maps import ASKED, DOUBLE, FLIP, NEST, PUSH, SUBTRACT, edited, read
 from tests.certificates.checker.test_map_rules import (
     FAILING,
     FAILING_IN_A_SPACE,
@@ -26,7 +26,7 @@ from tests.certificates.checker.test_map_rules import (
     FAILING_WITH_GUARDS,
 )
 
-STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, ASKED)]
+STATEMENTS_OF = [read(text) for text in (SUBTRACT, FLIP, NEST, DOUBLE, PUSH, ASKED)]
 TEXTS = {name: one.text() for statements in STATEMENTS_OF for name, one in statements.items()}
 KINDS = {name: one.kind for statements in STATEMENTS_OF for name, one in statements.items()}
 SUBTRACTING = STATEMENTS_OF[0]
@@ -37,8 +37,8 @@ CONCLUSIONS = {
     " space and every integer N >= rank(s), where rank = x",
     "demo/contracts": "for 0 < a < 1: e = 0 is a fixed point, is stable, and attracts the set"
     " `on` {x < 1}: |f^n(s) - e| <= a^n |s - e| <= a^n for every state s of the space in the set"
-    " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all states"
-    " of the space with |s - e| <= 1/2 are in it",
+    " and every integer n >= 0, where |s - e| = |x - e|; f takes the set into itself, and all"
+    " states of the space with |s - e| <= 1/2 are in it",
     "demo/attracts": "for 0 < a < 1: e = 0 is stable and attracts every state s of the space:"
     " |f^(N + k)(s) - e| <= a^k for all integers k >= 0 and N >= rank(s), where rank = x,"
     " |s - e| = |x - e|",
@@ -60,6 +60,11 @@ CONCLUSIONS = {
     " of the space {x >= 0}",
     "nest/exactly": "for 0 < a <= 1: e = 0 is stable and attracts every state of the space if and"
     " only if 0 < a < 1",
+    "push/relation": "for 0 <= a < 1: each state x of the space {0 = 0} has a next state, and all"
+    " next states are in it: u*x where u >= -a and u <= a and x > -1; -u*x/2 where u >= -a and"
+    " u <= a and x < 1; x/6 where x > 5, for all u",
+    "push/attracts": "for 0 <= a < 1/2: e = 0 is stable and attracts every state of the space;"
+    " f^n(s) is any state that the relation leads to from s in n steps",
     "double/unstable": "e = 0 is not stable: for 0 < distance <= 1 the state s = distance has"
     " |s - e| <= distance, and |f^n(s) - e| > 1 for some integer n >= 0, where |s - e| is the"
     " largest of all |s_j - e_j|",
@@ -355,6 +360,21 @@ def test_an_open_rule_is_explained_with_the_text_of_its_premise_holds(
     assert "psatz" not in out and "proof       docs/theorem.md" in out
 
 
+def test_a_rule_on_the_map_of_another_claim_is_explained_before_it_is_stored_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = file_of(tmp_path)
+    near = [("domain", "0 < a and 2*a < 1") if row[0] == "domain" else row for row in NEAR]
+    with path.open("a", encoding="utf-8") as file:
+        file.write(
+            "\n\n@claim('other', hints={'uses': ['mine/map']})\ndef too():\n"
+            f"    '''It settles.'''\n    return MapRule('near', {tuple(near)!r})\n"
+        )
+    assert run(["explain", "other", str(path)]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert "certified: for 0 < a < 1/2: e = 0 is a fixed point, is stable, and attracts" in out
+
+
 def test_reasons_are_the_same_from_run_to_run_holds(tmp_path: Path) -> None:
     path = file_of(tmp_path, put(NEAR, "rate", "a/2"))
     stored = []
@@ -376,7 +396,10 @@ def test_a_stored_rule_is_open_where_its_map_is_open_now_holds(
     assert certify(path) == 1
 
 
-ORDER = "; the lines of `contracts` are, in this order: map, domain, root (any number), on, point,"
+ORDER = (
+    "; the lines of `contracts` are, in this order: map or relation, domain, root (any number), on,"
+    " point,"
+)
 FAULTS: dict[str, tuple[Rows, str]] = {
     "missing": ((*NEAR[:3], NEAR[4], *NEAR[6:]), f"`point`, `rate` missing{ORDER}"),
     "out of order": (
@@ -393,7 +416,7 @@ FAULTS: dict[str, tuple[Rows, str]] = {
     ),
     "no name": (
         put(NEAR, "map", "other"),
-        "the line `map other` names no rule that stands before it; state it first",
+        "the line `map other` names no rule that stands before it; state it first, in this claim",
     ),
     "itself": (put(NEAR, "map", "mine/near"), "names no rule that stands before it"),
     "no term": (

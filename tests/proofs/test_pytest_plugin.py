@@ -21,9 +21,7 @@ Result = pytest.RunResult
 
 @pytest.fixture
 def inner(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.Pytester:
-    """A folder with a pytest of its own, in another process, that loads the plugin whether it is
-    installed or not.
-    """
+    """A folder with a pytest of its own, which loads the plugin whether it is installed or not."""
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
     monkeypatch.setenv("PYTEST_PLUGINS", "juggleproof.proofs.pytest_plugin")
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
@@ -47,7 +45,7 @@ def test_false_claim_of_a_file_fails_with_counterexample_and_hint_holds(
     inner: pytest.Pytester,
 ) -> None:
     file_with(inner.path, FALSE)
-    result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py", "-v")
+    result = inner.runpytest_inprocess("--juggleproof-claims", "mine.py", "-v")
     result.assert_outcomes(passed=1, failed=2)
     result.stdout.fnmatch_lines(
         [
@@ -62,7 +60,7 @@ def test_false_claim_of_a_file_fails_with_counterexample_and_hint_holds(
 
 def test_unknown_fails_and_is_not_skipped_holds(inner: pytest.Pytester) -> None:
     file_with(inner.path, OPEN)
-    result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py")
+    result = inner.runpytest_inprocess("--juggleproof-claims", "mine.py")
     result.assert_outcomes(passed=1, failed=1, skipped=0, xfailed=0)
     result.stdout.fnmatch_lines(["unknown: neither proved nor refuted"])
 
@@ -76,7 +74,7 @@ def test_names_and_node_ids_select_holds(inner: pytest.Pytester) -> None:
         (["juggleproof"], 1, 2),
         (["juggleproof::squares", "-k", "above"], 0, 0),
     ):
-        inner.runpytest_subprocess("--juggleproof-claims", str(path), *chosen).assert_outcomes(
+        inner.runpytest_inprocess("--juggleproof-claims", str(path), *chosen).assert_outcomes(
             passed=passed,
             failed=failed,
             deselected=(
@@ -91,8 +89,8 @@ def test_names_and_node_ids_select_holds(inner: pytest.Pytester) -> None:
 
 def test_files_named_beside_the_option_are_judged_holds(inner: pytest.Pytester) -> None:
     file_with(inner.path, FALSE)
-    inner.runpytest_subprocess("--juggleproof", "mine.py").assert_outcomes(passed=1, failed=2)
-    result = inner.runpytest_subprocess("--juggleproof", "mine.py::squares", "-v")
+    inner.runpytest_inprocess("--juggleproof", "mine.py").assert_outcomes(passed=1, failed=2)
+    result = inner.runpytest_inprocess("--juggleproof", "mine.py::squares", "-v")
     result.assert_outcomes(passed=1)
     result.stdout.fnmatch_lines(["juggleproof::squares PASSED*"])
 
@@ -100,12 +98,12 @@ def test_files_named_beside_the_option_are_judged_holds(inner: pytest.Pytester) 
 def test_claims_stand_beside_tests_holds(inner: pytest.Pytester) -> None:
     file_with(inner.path, HOLDS)
     inner.makepyfile(test_it="def test_it(): pass\n")
-    result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py", "-v")
+    result = inner.runpytest_inprocess("--juggleproof-claims", "mine.py", "-v")
     result.assert_outcomes(passed=2)
     result.stdout.fnmatch_lines(
         ["*collected 2 items", "test_it.py::test_it PASSED*", "juggleproof::squares PASSED*"]
     )
-    inner.runpytest_subprocess(
+    inner.runpytest_inprocess(
         "--juggleproof-claims", "mine.py", "test_it.py::test_it", "juggleproof::squares"
     ).assert_outcomes(passed=2)
 
@@ -113,7 +111,7 @@ def test_claims_stand_beside_tests_holds(inner: pytest.Pytester) -> None:
 def test_without_the_options_nothing_is_judged_holds(inner: pytest.Pytester) -> None:
     file_with(inner.path, FALSE)
     inner.makepyfile(test_it="def test_it(): pass\n")
-    inner.runpytest_subprocess().assert_outcomes(passed=1)
+    inner.runpytest_inprocess().assert_outcomes(passed=1)
 
 
 @pytest.mark.parametrize(
@@ -133,7 +131,7 @@ def test_without_the_options_nothing_is_judged_holds(inner: pytest.Pytester) -> 
 )
 def test_rejects_file_in_one_line(content: str, reason: str, inner: pytest.Pytester) -> None:
     (inner.path / "mine.py").write_text(content, encoding="utf-8")
-    result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py")
+    result = inner.runpytest_inprocess("--juggleproof-claims", "mine.py")
     assert (
         result.ret != 0
         and any(reason in line for line in lines(result))
@@ -143,7 +141,7 @@ def test_rejects_file_in_one_line(content: str, reason: str, inner: pytest.Pytes
 
 def test_rejects_name_of_no_claim(inner: pytest.Pytester) -> None:
     file_with(inner.path, HOLDS)
-    result = inner.runpytest_subprocess("--juggleproof-claims", "mine.py", "juggleproof::other")
+    result = inner.runpytest_inprocess("--juggleproof-claims", "mine.py", "juggleproof::other")
     assert result.ret != 0 and any(
         line.startswith("juggleproof::other: no such claim") for line in lines(result)
     )
@@ -152,7 +150,7 @@ def test_rejects_name_of_no_claim(inner: pytest.Pytester) -> None:
 def test_rejects_claim_of_a_file_with_a_name_of_the_paper(inner: pytest.Pytester) -> None:
     path = file_with(inner.path, HOLDS)
     path.write_text(path.read_text(encoding="utf-8").replace("squares", "eq-1"), encoding="utf-8")
-    result = inner.runpytest_subprocess(
+    result = inner.runpytest_subprocess(  # in this process the paper's claims would load twice
         "--juggleproof", "--juggleproof-claims", "mine.py", "juggleproof::eq-1"
     )
     assert result.ret != 0 and any(
@@ -209,6 +207,12 @@ def test_paper_passes_as_registered_and_fails_with_before_and_after_holds(
     assert {
         path.name: path.stat().st_mtime_ns for path in (ROOT / "certificates" / "store").iterdir()
     } == store
+
+
+def test_a_node_id_selects_a_claim_of_the_paper_holds(inner: pytest.Pytester) -> None:
+    result = inner.runpytest_subprocess("--juggleproof", "juggleproof::eq-37", "--collect-only")
+    assert result.ret == 0 and "collected 1 item" in result.stdout.str()
+    assert "<ClaimItem eq-37>" in result.stdout.str()
 
 
 def test_plugin_is_registered_and_cheap_to_load_holds() -> None:

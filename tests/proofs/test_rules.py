@@ -4,7 +4,6 @@ where a statement that they rest on changes.
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from juggleproof.proofs.rules import range_of_rule
+from tests.proofs.command.running import ROOT, Done, run
 
-ROOT = Path(__file__).resolve().parents[2]
 CLAIMS = """
 from juggleproof.proofs import MapRule, claim
 
@@ -34,28 +33,10 @@ def it_comes_to_rest():
 """
 
 
-def certify(folder: Path, on: str) -> subprocess.CompletedProcess[str]:
+def certify(folder: Path, on: str) -> Done:
     path = folder / "mine.py"
     path.write_text(CLAIMS.replace("ON", on), encoding="utf-8")
-    return subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "juggleproof.proofs.command.main",
-            "certify",
-            str(path),
-            "--routes",
-            "exact",
-            "--jobs",
-            "1",
-        ],
-        check=False,
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        env={**os.environ, "NO_COLOR": "1"},
-        timeout=240,
-    )
+    return run("certify", str(path), "--routes", "exact", "--jobs", "1")
 
 
 def test_rules_of_ones_own_hold_and_tell_their_range(tmp_path: Path) -> None:

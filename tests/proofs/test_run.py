@@ -26,10 +26,29 @@ from juggleproof.proofs.run import Options, claims_of_file, run
 CHOSEN = ("s2.2.1-B1", "eq-2", "eq-11", "s3.5.1-composite", "sA.3.2-sup3", "sB.1-so-that", "eq-26")
 
 
+def claims() -> list[Claim]:
+    """These, others of their sections, and the theorem."""
+    sections = {one.section for one in paper_claims() if one.id in ("s2.2.1-B1", "eq-26")}
+    return [
+        one
+        for one in paper_claims()
+        if one.id in CHOSEN or one.section in sections or one.id.startswith("theorem")
+    ]
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A store of these claims alone, which is read sooner than the whole."""
+    folder = tmp_path_factory.mktemp("small") / "store"
+    shutil.copytree(DEFAULT, folder)
+    run(claims(), Options(folder, jobs=1))
+    return folder
+
+
 @pytest.fixture
-def options(tmp_path: Path) -> Options:
-    """A copy of the store."""
-    shutil.copytree(DEFAULT, tmp_path / "store")
+def options(tmp_path: Path, small: Path) -> Options:
+    """A copy of it."""
+    shutil.copytree(small, tmp_path / "store")
     return Options(tmp_path / "store", jobs=1, only=CHOSEN)
 
 
@@ -44,13 +63,13 @@ def test_a_run_does_not_depend_on_who_works_and_keeps_the_store_holds(options: O
         assert claim.id == judgement.id
         heard.append(claim.id)
 
-    alone = run(paper_claims(), options, hear)
+    alone = run(claims(), options, hear)
     assert [one.id for one in alone.judgements] == heard and set(heard) == set(CHOSEN)
     assert alone.rejected == [] and alone.outcomes["eq-2/main"] == "refuted"
     assert content(options.store) == before
-    assert run(paper_claims(), replace(options, jobs=2)).judgements == alone.judgements
+    assert run(claims(), replace(options, jobs=2)).judgements == alone.judgements
     with ThreadPoolExecutor(1) as pool:
-        assert run(paper_claims(), options, executor=pool).judgements == alone.judgements
+        assert run(claims(), options, executor=pool).judgements == alone.judgements
     assert content(options.store) == before
 
 
@@ -66,12 +85,12 @@ def test_a_store_that_a_run_changes_is_checked_again_holds(
 
     monkeypatch.setattr(checker, "check_folder", counted)
     options = replace(options, routes=("exact",), only=("s2.2.1-B1",))
-    run(paper_claims(), options)
+    run(claims(), options)
     assert seen == [0]
     path = options.store / CERTIFICATES
     lines = path.read_bytes().splitlines(keepends=True)
     path.write_bytes(b"".join(one for one in lines if not one.startswith(b'["s2.2.1-B1/')))
-    assert run(paper_claims(), options).rejected == []
+    assert run(claims(), options).rejected == []
     assert seen[1] > 0 and seen[2:] == [0]
 
 
@@ -83,11 +102,11 @@ def test_rejects_routes_without_the_exact_one_or_unknown(routes: tuple[str, ...]
 
 def test_rejects_a_claim_that_is_not_there(options: Options) -> None:
     with pytest.raises(ClaimError, match="--only 38000: no such claim"):
-        run(paper_claims(), replace(options, only=("38000",)))
+        run(claims(), replace(options, only=("38000",)))
 
 
 def test_a_claim_is_named_by_the_papers_number_holds(options: Options) -> None:
-    done = run(paper_claims(), replace(options, routes=("exact",), only=("(2)", "eq 11")))
+    done = run(claims(), replace(options, routes=("exact",), only=("(2)", "eq 11")))
     assert [one.id for one in done.claims] == ["eq-2", "eq-11"]
 
 

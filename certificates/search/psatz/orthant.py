@@ -26,7 +26,7 @@ from juggleproof.certificates.algebra.polynomials import (
     total_degree,
 )
 from juggleproof.certificates.nodes import Node
-from juggleproof.certificates.search.psatz.facts import Factors, merge
+from juggleproof.certificates.search.psatz.facts import Factors, merge, power
 from juggleproof.certificates.search.psatz.lifting import MonomialCofactor, lift
 from juggleproof.certificates.search.psatz.linear_program import EXACT, Program, solve
 from juggleproof.certificates.search.psatz.problem import Problem
@@ -40,9 +40,38 @@ SMALL = 8  # terms of a fact that coordinates are chosen by
 MOST_ROOTS = 12
 
 
+Multiple = tuple[Fraction, Factors]  # a positive number times strict facts
+
+
+@dataclass
+class Step:
+    """gen - rest, divided by a factor, in place of a variable, whose generator stands for a fact
+    from then on; the factor is positive, or negative where `sign` is -1, and of this size.
+    """
+
+    fact: int
+    variable: int
+    factor: fmpz_mpoly
+    rest: fmpz_mpoly
+    sign: int
+    size: Multiple
+
+    def apply(self, poly: fmpz_mpoly) -> tuple[fmpz_mpoly, Multiple]:
+        """The polynomial after the step, times the size of the factor to its degree, and that."""
+        degree = int(poly.degrees()[self.variable]) if poly else 0
+        if not degree:
+            return poly, (Fraction(1), ())
+        gen = poly.context().gens()[self.variable]
+        value, size = (gen - self.rest) * self.sign, self.factor * self.sign
+        whole = poly * 0
+        for i, part in enumerate(coefficients_in(poly, self.variable, gen)):
+            whole = whole + part * value**i * size ** (degree - i)
+        return whole, (self.size[0] ** degree, power(self.size[1], degree))
+
+
 class Orthant:
-    """The facts of a problem in coordinates: a generator v of its ring stands for the fact
-    `own[v]`, or else for itself.
+    """Some facts of a problem in coordinates: a generator v of its ring stands for a multiple of
+    the fact `own[v]`, or else for itself.
 
     >>> from juggleproof.certificates import checker
     >>> from juggleproof.certificates.algebra.polynomials import Ring
@@ -53,48 +82,80 @@ class Orthant:
     >>> formula = context.formula(checker.parse("x > 1 and y >= x and y^2 < x^2"))
     >>> orthant = Orthant(Problem(State(context).assume(formula), Ring(("x", "y"))), [0, 1, 2])
     >>> orthant.own, str(orthant.facts[2])
-    ({0: 0, 1: 1}, '-2*x*y - y^2 - 2*y')
+    ({0: 1, 1: 0}, '-x^2 - 2*x*y - 2*x')
     """
 
     def __init__(self, problem: Problem, only: Sequence[int]) -> None:
         self.problem, self.ring, self.only = problem, problem.ring, only
         self.own: dict[int, int] = {}
-        self.steps: list[tuple[int, int, fmpz_mpoly]] = []  # c*v + rest is the new coordinate
+        self.steps: list[Step] = []
         self.facts = [fact.poly for fact in problem.facts]
+        self.multiples: list[Multiple] = [(Fraction(1), ()) for _ in self.facts]
         while step := self._best():
-            k, *rest = step
-            self.own[rest[0]] = k
-            self.steps.append((rest[0], rest[1], rest[2]))
-            self.facts = [substituted(poly, *self.steps[-1])[0] for poly in self.facts]
+            self.own[step.variable] = step.fact
+            self.steps.append(step)
+            for k in set(self.only) - {step.fact}:
+                self.facts[k], more = step.apply(self.facts[k])
+                self.multiples[k] = both(self.multiples[k], more)
+            self.facts[step.fact] = self.ring.gens[step.variable]
 
-    def _best(self) -> tuple[int, int, int, fmpz_mpoly] | None:
-        """The fact, and the variable that it is linear in, after whose step most facts have no
-        negative coefficient; linear facts first.
+    def _best(self) -> Step | None:
+        """The step after which most facts have no negative coefficient; constant factors and linear
+        facts first.
         """
-        best: tuple[tuple[int, ...], tuple[int, int, int, fmpz_mpoly]] | None = None
+        best: tuple[tuple[int, ...], Step] | None = None
         facts = [(k, self.facts[k]) for k in self.only]
         small = [(p, not_negative(p)) for _, p in facts if len(p) <= SMALL]
         for k, poly in facts:
             for v in () if k in self.own.values() else range(self.ring.size):
-                c = constant_of(poly.derivative(v)) if v not in self.own else None
-                if c:
-                    rest = poly - self.ring.gens[v] * c
+                step = self._step(k, v) if v not in self.own and poly.degrees()[v] == 1 else None
+                if step is None:
+                    continue
+                order = -total_degree(step.factor), -total_degree(poly)
+                if best is None or order >= best[0][:2]:
                     count = sum(
-                        not_negative(substituted(p, v, c, rest)[0]) if p.degrees()[v] else now
+                        not_negative(step.apply(p)[0]) if p.degrees()[v] else now
                         for p, now in small
                     )
-                    score = (-total_degree(poly), count, -len(poly), k)
+                    score = (*order, count, -len(poly), k)
                     if best is None or score > best[0]:
-                        best = score, (k, v, c, rest)
+                        best = score, step
         return best[1] if best else None
 
-    def changed(self, poly: fmpz_mpoly) -> tuple[fmpz_mpoly, int]:
-        """A positive multiple of the polynomial in the coordinates, and by how much."""
-        scale = 1
+    def _step(self, k: int, v: int) -> Step | None:
+        """The step that a fact is for a variable that it is linear in, if the variable's factor is
+        a product of strict facts.
+        """
+        factor = self.facts[k].derivative(v)
+        rest, size, found = factor, (Fraction(1), Factors()), self.problem.facts
+        for j in self.only if not factor.is_constant() else ():
+            content, fact = self.facts[j].primitive()
+            while found[j].strict and not fact.is_constant() and not rest.is_constant():
+                quotient, remainder = divmod(rest, fact)
+                if remainder:
+                    break
+                rest = quotient
+                scale, factors = self.multiples[j]
+                size = both(size, (scale / int(content), merge(factors, ((j, 1),))))
+        number = constant_of(rest)
+        if not number:
+            return None
+        size = size[0] * abs(number), size[1]
+        sign = 1 if number > 0 else -1
+        return Step(k, v, factor, self.facts[k] - self.ring.gens[v] * factor, sign, size)
+
+    def changed(self, poly: fmpz_mpoly) -> tuple[fmpz_mpoly, Multiple]:
+        """The polynomial in the coordinates, times a multiple, and that."""
+        multiple: Multiple = (Fraction(1), ())
         for step in self.steps:
-            poly, more = substituted(poly, *step)
-            scale *= more
-        return poly, scale
+            poly, more = step.apply(poly)
+            multiple = both(multiple, more)
+        return poly, multiple
+
+
+def both(a: Multiple, b: Multiple) -> Multiple:
+    """The product of two."""
+    return a[0] * b[0], merge(a[1], b[1])
 
 
 def not_negative(poly: fmpz_mpoly) -> bool:
@@ -102,27 +163,14 @@ def not_negative(poly: fmpz_mpoly) -> bool:
     return all(c > 0 for c in poly.coeffs())
 
 
-def substituted(poly: fmpz_mpoly, v: int, c: int, rest: fmpz_mpoly) -> tuple[fmpz_mpoly, int]:
-    """The polynomial with (v - rest)/c in place of v, times c^degree, and this positive number."""
-    degree = int(poly.degrees()[v]) if poly else 0
-    if not degree:
-        return poly, 1
-    gen = poly.context().gens()[v]
-    value, size = (gen - rest) * (1 if c > 0 else -1), abs(c)
-    parts = coefficients_in(poly, v, gen)
-    whole = sum((p * value**i * size ** (degree - i) for i, p in enumerate(parts)), poly * 0)
-    return whole, size**degree
-
-
 @dataclass
 class Base:
-    """What is multiplied by monomials, in the coordinates: scale * product of facts * root^2, or
-    scale * an equation.
+    """What is multiplied by monomials, in the coordinates: a number times facts times root^2, or
+    times an equation.
     """
 
     poly: fmpz_mpoly
-    scale: int
-    factors: Factors = ()
+    multiple: Multiple
     strict: bool = False
     root: fmpz_mpoly | None = None
     terms: list[tuple[Monomial, int]] = field(init=False)
@@ -146,8 +194,8 @@ def search_orthant(problem: Problem, budget: Budget) -> Node | None:
     own = [k for k in every if not any(problem.facts[k].poly.degrees()[v] for v in others)]
     for only in (own, every) if len(own) < len(every) else (every,):
         leaf = Leaf(Orthant(problem, only))
-        starts = [[k for k, base in enumerate(leaf.bases) if base.factors == ((last, 1),)]]
-        starts += [list(range(leaf.count))] if only is every else []
+        starts = [[k for k, fact in enumerate(leaf.alone) if fact == last]]
+        starts += [list(range(len(leaf.alone)))] if only is every else []
         for start in starts:
             node = leaf.node(start, budget) if start else None
             if node is not None:
@@ -166,21 +214,23 @@ class Leaf:
             for k in orthant.only
             if k not in orthant.own.values() and not not_negative(orthant.facts[k])
         ]
-        self.count = len(rest)
+        self.alone = rest  # of which the first bases are
         groups: list[tuple[int, ...]] = [(k,) for k in rest]
         if len(rest) <= MOST_FOR_PAIRS:
             groups += combinations_with_replacement(rest, 2)
         self.bases = []
         for group in groups:
-            poly, scale = orthant.changed(prod((facts[k].poly for k in group), start=self.ring.one))
-            factors = merge(*(((k, 1),) for k in group))
-            self.bases.append(Base(poly, scale, factors, all(facts[k].strict for k in group)))
+            poly = prod((orthant.facts[k] for k in group), start=self.ring.one)
+            multiple: Multiple = (Fraction(1), merge(*(((k, 1),) for k in group)))
+            for k in group:
+                multiple = both(multiple, orthant.multiples[k])
+            self.bases.append(Base(poly, multiple, all(facts[k].strict for k in group)))
         top = max((b.degree for b in self.bases[: len(rest)]), default=0) + MORE
         self.bases = [base for base in self.bases if base.degree <= top]
         for root in self.problem.candidates("squares", 4 * MOST_ROOTS):
-            poly, scale = orthant.changed(root)
-            if len(poly) > 1 and len(self.bases) < self.count + len(groups) + MOST_ROOTS:
-                self.bases.append(Base(poly * poly, scale * scale, root=root))
+            poly, multiple = orthant.changed(root)
+            if len(poly) > 1 and len(self.bases) < len(rest) + len(groups) + MOST_ROOTS:
+                self.bases.append(Base(poly * poly, both(multiple, multiple), root=root))
         self.equations = [Base(*orthant.changed(e.poly)) for e in self.problem.reduction.left]
         self.top = top
 
@@ -289,36 +339,39 @@ class Leaf:
         used: list[tuple[tuple[int, Monomial], Fraction]],
         free: list[tuple[tuple[int, Monomial], Fraction]],
     ) -> Node | None:
-        ring, own, facts = self.ring, self.orthant.own, self.problem.facts
+        ring, facts = self.ring, self.problem.facts
         roots: list[fmpz_mpoly] = []
         terms: list[tuple[tuple[Factors, int], Fraction]] = []
         for (k, monomial), c in used:
-            factors = tuple((own[v], e) for v, e in enumerate(monomial) if e and v in own)
-            root = ring.one
-            for v, e in enumerate(monomial):
-                root = root * (ring.gens[v] ** (e // 2) if e and v not in own else 1)
+            (scale, factors), root = self._product(monomial)
             if k >= 0:
-                base = self.bases[k]
-                factors, c = merge(factors, base.factors), c * base.scale
-                root = root if base.root is None else root * base.root
+                scale, factors = both((scale, factors), self.bases[k].multiple)
+                root = root * (self.bases[k].root or ring.one)
             if root != ring.one:
                 roots.append(root)
-            terms.append(((factors, -1 if root == ring.one else len(roots) - 1), c))
+            terms.append(((factors, -1 if root == ring.one else len(roots) - 1), c * scale))
         total: dict[MonomialCofactor, Fraction] = {}
         for (k, monomial), c in free:
             place = k - len(self.bases)
-            product = prod(
-                (
-                    (facts[own[v]].poly if v in own else ring.gens[v]) ** e
-                    for v, e in enumerate(monomial)
-                    if e
-                ),
-                start=ring.one,
-            )
+            (scale, factors), root = self._product(monomial, 1)
+            scale, factors = both((scale, factors), self.equations[place].multiple)
+            product = prod((facts[j].poly ** e for j, e in factors), start=root)
             for m, a in zip(product.monoms(), product.coeffs()):
                 key = place, tuple(map(int, m))
-                total[key] = total.get(key, Fraction(0)) + (
-                    c * int(a) * self.equations[place].scale
-                )
+                total[key] = total.get(key, Fraction(0)) + c * scale * int(a)
         cofactors = [(key, c) for key, c in total.items() if c]
         return lift(self.problem, terms, cofactors, roots)
+
+    def _product(self, monomial: Monomial, square: int = 2) -> tuple[Multiple, fmpz_mpoly]:
+        """A monomial as a multiple times the square of a root, or times this itself."""
+        multiple: Multiple = (Fraction(1), ())
+        root = self.ring.one
+        for v, e in enumerate(monomial):
+            if e and v in self.orthant.own:
+                k = self.orthant.own[v]
+                scale, factors = self.orthant.multiples[k]
+                own = scale**e, merge(power(factors, e), ((k, e),))
+                multiple = both(multiple, own)
+            elif e:
+                root = root * self.ring.gens[v] ** (e // square)
+        return multiple, root

@@ -4,7 +4,6 @@ is left half-written.
 
 from __future__ import annotations
 
-import io
 import os
 import shlex
 import signal
@@ -12,13 +11,11 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
-from juggleproof.proofs.command import main
+from tests.proofs.command.running import Done, run, run_anew
 
 ROOT = Path(__file__).resolve().parents[3]
 HEAD = (
@@ -26,39 +23,6 @@ HEAD = (
     "from juggleproof.proofs import always, claim, equal, reals\n"
     "x, y = reals('x y')\n"
 )
-
-
-class Done(NamedTuple):
-    """What a command came to: its exit code and what it wrote."""
-
-    returncode: int
-    stdout: str
-    stderr: str
-
-
-def run(*arguments: str) -> Done:
-    """The command in this process, which has imported all that it needs already."""
-    out, err = io.StringIO(), io.StringIO()
-    with redirect_stdout(out), redirect_stderr(err):
-        try:
-            code = main.run(arguments)
-        except SystemExit as ended:  # argparse rejects arguments so
-            code = ended.code
-    return Done(code, out.getvalue(), err.getvalue())
-
-
-def run_anew(*arguments: str) -> Done:
-    """The command in a process of its own, which has no search behind it."""
-    done = subprocess.run(
-        [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"},
-        timeout=240,
-        check=False,
-    )
-    return Done(done.returncode, done.stdout, done.stderr)
 
 
 def claim_file(folder: Path, body: str, name: str = "mine", more: str = "") -> Path:

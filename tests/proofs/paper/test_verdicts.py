@@ -137,9 +137,7 @@ def test_rejects_a_correction_with_a_name_that_nothing_binds(
 
 def test_sB_3_f2_would_be_certified_with_x_but_is_not_corrected_so_holds() -> None:
     first = claims()["sB.3-f2"]
-    unbound = Claim(
-        **{**vars(first), "mended": first.mended.replace(r"A_T \overline{b}_k", "A_T x")}
-    )
+    unbound = replace(first, mended=first.mended.replace(r"A_T \overline{b}_k", "A_T x"))
     judged = judge(unbound, Resources(("exact",)))
     assert judged.correction is None and judged.verdict.word == "false"
 

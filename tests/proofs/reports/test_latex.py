@@ -63,6 +63,16 @@ def test_every_correction_reads_back_holds() -> None:
     assert prints and all(read(text).names for text in prints)
 
 
+def test_every_change_is_told_in_the_words_of_mathematics_holds() -> None:
+    changes = [tex_words.change(one) for one in contents().entries if one.correction]
+    assert r"dot restored on $\beta$" in changes and r"$>$ replaced by $\ge$" in changes
+    assert not [one for one in changes if re.search(r"\b(put|turned|column|marks)\b", one)]
+
+
+def test_a_function_within_a_sentence_is_set_holds() -> None:
+    assert tex_words.prose("E(t) and the time t_R") == r"$E(t)$ and the time $t_{\jugR}$"
+
+
 def test_every_formula_is_read_with_its_macros_holds() -> None:
     pairs = dict.fromkeys(pair for text in texts() for pair in formulas_of(text))
     changed = [

@@ -5,7 +5,6 @@ as it is.
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
@@ -24,9 +23,9 @@ from juggleproof.proofs.run import Options
 from juggleproof.proofs.run import run as judged
 from juggleproof.proofs.smtlib.answering import Question, answer, answer_files, settled
 from juggleproof.proofs.smtlib.script import problems_of_file
+from tests.proofs.command.running import ROOT, run, run_anew
 from tests.proofs.smtlib.evaluating import truth
 
-ROOT = Path(__file__).resolve().parents[3]
 SET = {
     problem.name: problem
     for path in sorted((ROOT / "benchmarks" / "problems").glob("*.smt2"))
@@ -51,19 +50,6 @@ SEVERAL = """(set-logic QF_NRA)(declare-const x Real)(declare-const b Bool)
 (reset)(set-info :status sat)(check-sat)
 (assert false)(set-info :status unsat)(check-sat)
 """
-
-
-def run(*arguments: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
-    return subprocess.run(
-        [sys.executable, "-m", "juggleproof.proofs.command.main", *arguments],
-        capture_output=True,
-        text=True,
-        cwd=cwd,
-        env=environment,
-        timeout=240,
-        check=False,
-    )
 
 
 def script(folder: Path, text: str, name: str = "mine") -> Path:
@@ -283,7 +269,7 @@ def test_rejects_what_is_neither_a_path_nor_claims() -> None:
 
 def test_the_command_answers_and_keeps_certificates_beside_the_script(tmp_path: Path) -> None:
     path = script(tmp_path, SET["motzkin"].script)
-    done = run("certify", str(path), "--json", str(tmp_path / "out.json"))
+    done = run_anew("certify", str(path), "--json", str(tmp_path / "out.json"))
     assert done.returncode == 0, done.stderr
     assert (
         "mine     unsat   certificate" in done.stdout

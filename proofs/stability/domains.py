@@ -1,0 +1,70 @@
+"""For which parameters a fixed point can be stable: where it exists, and where its multipliers lie
+inside the unit circle (Jury's conditions for one and two variables).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import sympy
+
+from juggleproof.proofs.stability.given import (
+    Expr,
+    Map,
+    atoms,
+    conjunction,
+    expression,
+    symbols,
+    value,
+    written,
+)
+from juggleproof.proofs.stability.points import FixedPoint
+from juggleproof.proofs.stability.samples import Arrays
+
+
+def conditions(system: Map, fixed: FixedPoint) -> list[tuple[Expr, bool]]:
+    """Terms in the parameters that are > 0, or >= 0 where not strict, where the fixed point exists
+    and its multipliers are below 1 in size.
+    """
+    state = symbols(system.state)
+    at = dict(zip(state, fixed.terms))
+    guard, images = system.pieces[fixed.piece]
+    found = [
+        (poly.subs(at, simultaneous=True), strict)
+        for poly, strict in atoms(conjunction(system.space, guard))
+        if poly.free_symbols & set(state)
+    ]
+    matrix = sympy.Matrix(list(map(expression, images))).jacobian(state)
+    matrix = matrix.subs(at, simultaneous=True)
+    if len(state) == 1:
+        found += [(1 - matrix[0, 0], True), (1 + matrix[0, 0], True)]
+    elif len(state) == 2:
+        trace, determinant = matrix.trace(), matrix.det()
+        found += [(1 - determinant, True), (1 - trace + determinant, True)]
+        found += [(1 + trace + determinant, True)]
+    return found
+
+
+def narrowed(system: Map, fixed: FixedPoint, parameters: Arrays) -> list[str]:
+    """The conditions that fail for some of the parameters, as formulas: products of the factors
+    that change their sign there.
+    """
+    rows = []
+    for term, strict in conditions(system, fixed):
+        if not term.free_symbols or any(not p.exp.is_Integer for p in term.atoms(sympy.Pow)):
+            continue
+        above, below = sympy.fraction(sympy.together(term))
+        sign = 1
+        parts: list[Expr] = []
+        for poly, power in [*sympy.factor_list(above)[1], *sympy.factor_list(below)[1]]:
+            with np.errstate(all="ignore"):
+                at = np.asarray(value(written(poly), parameters), float)
+            if (at > 0).all() or (at < 0).all():
+                sign *= 1 if (at > 0).all() or power % 2 == 0 else -1
+            elif power % 2:
+                parts.append(poly)
+        constant = sympy.factor_list(above)[0] / sympy.factor_list(below)[0]
+        sign *= 1 if constant > 0 else -1
+        if parts:
+            product = sympy.expand(sign * sympy.prod(parts))
+            rows.append(f"{written(product)} {'>' if strict else '>='} 0")
+    return list(dict.fromkeys(rows))

@@ -1,0 +1,167 @@
+"""The words in which a file of Coq speaks of its map."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Sequence
+from string import Template
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.coq.branch import Known
+from juggleproof.certificates.coq.text import coq_name, disjunctive
+from juggleproof.proofs.theorem.coq_readings import reading_name
+from juggleproof.proofs.theorem.coq_terms import coq_formula, coq_term, names_in, term_of
+
+
+def theorem_name(name: str) -> str:
+    """The name of the theorem that a statement is."""
+    return "theorem_" + re.sub(r"\W", "_", name)
+
+
+class Frame:
+    """The words in which a file speaks of its map: parameters and state, bound and applied."""
+
+    def __init__(self, own: checker.Statement, known: Known) -> None:
+        (parameters,), (state,) = own.get("over"), own.get("state")
+        self.known = known
+        self.names = state
+        self.state = [*map(coq_name, state)]
+        self.axes = [f"Map.axis_{name}" for name in state]
+        self.pieces = range(1, len(own.get("piece")) + 1)
+        names = " ".join(map(coq_name, parameters))
+        self.bound = f" ({names} : R)" if names else ""
+        self.pattern = f"({self.state[0]} : State)"
+        if len(state) > 1:
+            self.pattern = f"'({self.tuple(self.state)} : State)"
+        self.words = {
+            "a": f" {names}" if names else "",
+            "all": f"forall {names} : R, " if names else "",
+            "open": opened("of_s", self.state),
+            "s": " ".join(self.state) if len(state) > 1 else "of_s",
+        }
+
+    def tuple(self, terms: Sequence[str]) -> str:
+        """A state with these coordinates."""
+        return terms[0] if len(terms) == 1 else f"({', '.join(terms)})"
+
+    def fill(self, text: str, own: checker.Statement, **more: str | int) -> str:
+        """A template with the words of the file, of a statement, and more."""
+        prefix, name = reading_name(own.name), theorem_name(own.name)
+        return Template(text).substitute({**self.words, "P": prefix, "theorem": name, **more})
+
+    def define(
+        self,
+        own: checker.Statement,
+        name: str,
+        returns: str,
+        *parts: str,
+        of_state: bool = True,
+        more: str = "",
+    ) -> str:
+        """A definition over the parameters, of a state, and of more, by the texts of a statement;
+        of several it is the state that they are the coordinates of.
+        """
+        state = (f" {self.pattern}" if of_state else "") + more
+        write = coq_formula if returns == "Prop" else coq_term
+        body = self.lets(own, parts) + self.tuple([write(part) for part in parts])
+        return f"Definition {name}{self.bound}{state} : {returns} :=\n  {body}."
+
+    def lets(self, own: checker.Statement, parts: Sequence[str]) -> str:
+        """What texts name beside parameters and state, in order, as `let` of Coq: roots, and around
+        a point its coordinates, and the state less these.
+        """
+        roots = [(name, f"sqrt ({term_of(under, 0)})", under) for name, (under,) in own.get("root")]
+        entries = roots
+        if own.get("value"):
+            moving, fixed = {*self.names, *(f"{name}_gap" for name in self.names)}, []
+            for root in roots:
+                if names_of(root[2]) & moving:
+                    moving.add(root[0])
+                else:
+                    fixed.append(root)
+            point = [
+                (f"{name}_point", coq_term(text), checker.parse(text))
+                for name, text in zip(self.names, own.get("point")[0])
+            ]
+            gaps = [
+                (f"{name}_gap", coq_term(text), checker.parse(text))
+                for name, text in ((name, f"{name} - {name}_point") for name in self.names)
+            ]
+            entries = [*fixed, *point, *gaps, *(one for one in roots if one not in fixed)]
+        used = set().union(*map(names_in, parts))
+        rows = ""
+        for name, value, node in reversed(entries):
+            if name in used:
+                used |= names_of(node)
+                rows = f"let {coq_name(name)} := {value} in " + rows
+        return rows
+
+    def by_pieces(
+        self,
+        own: checker.Statement,
+        premise: str,
+        known: str,
+        point: str = "$s",
+        places: str = " in of_next |- *",
+        case: str = "exact {}",
+    ) -> str:
+        """Tactics that show something of the next state by a premise for each piece; known: what
+        it assumes; point: the coordinates; places: where the next state occurs.
+        """
+        first, _, last = premise.partition(" ")
+        cases = "|".join(
+            case.format(f"(${{P}}_{first}_{k}{last}$a {point} {known})") for k in self.pieces
+        )
+        opened = self.words["open"].replace(". ", "; ")
+        return self.fill(
+            f"destruct (of_map_moves$a of_s of_map of_there) as {self.one_piece()};\n"
+            f"    rewrite of_same{places}; clear of_same; {opened}[{cases}].",
+            own,
+        )
+
+    def decided(self, own: checker.Statement, k: int) -> str:
+        """That a guard holds or does not."""
+        bound, decided = f"{self.bound} (of_s : State)", "{guard_$k$a of_s} + {~ guard_$k$a of_s}"
+        return self.fill(
+            f"Lemma decided_$k{bound} : {decided}.\n"
+            "Proof. ${open}cbv beta iota zeta delta [guard_$k]. decidable. Qed.",
+            own,
+            k=k,
+        )
+
+    def one_piece(self) -> str:
+        """The pattern for the piece whose guard holds, and for the image by it."""
+        return disjunctive(["[of_g of_same]"] * len(self.pieces))
+
+    def extra_steps(self, descent: checker.Statement) -> int:
+        """The steps from the first stage to the last."""
+        return len(descent.get("stage")) - 1
+
+
+def opened(state: str, names: Sequence[str]) -> str:
+    """The tactic that takes a state apart, where it has several coordinates."""
+    pattern = names[0]
+    for name in names[1:]:
+        pattern = f"[{pattern} {name}]"
+    return f"destruct {state} as {pattern}. " if len(names) > 1 else ""
+
+
+def equal_states(proofs: Sequence[str]) -> str:
+    """A proof that states are equal, from those for the coordinates."""
+    proof = proofs[0]
+    for one in proofs[1:]:
+        proof = f"(f_equal2 pair {proof} {one})"
+    return proof
+
+
+def names_of(node: ast.expr) -> set[str]:
+    """The names that occur in a term."""
+    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
+
+
+def nested(last: str, count: int) -> str:
+    """The pattern for a number that is one of the first few, or more."""
+    for _ in range(count):
+        last = f"[|{last}]"
+    return last

@@ -1,0 +1,455 @@
+"""The parts of a theorem on the orbits of any map that do not depend on its data.
+
+`$a` are the parameters, each after a space, `$all` binds them, `$P` begins the names of the
+premises of the statement, `$open` takes the state `of_s` apart, and `$s` are its coordinates. No
+name of a claim begins with `of_`.
+"""
+
+from __future__ import annotations
+
+HEADER = """\
+(* $name, a theorem on the orbits of a map, for coqc alone.
+
+   A certificate proves each premise, as a lemma on polynomials; the lemma after it is the premise
+   in the words of the rule. The modules Map, Descent and so on, one for each rule, define what the
+   theorem at the end speaks of; Rules and Lyapunov hold for any map. *)
+
+"""
+
+STABLE = """\
+Definition stable (space : State -> Prop) (f : State -> State) (e : State) : Prop :=
+  forall epsilon, 0 < epsilon -> exists delta, 0 < delta /\\
+  forall s, space s -> (forall j, Rabs (coordinate j s - coordinate j e) < delta) ->
+  forall n j, Rabs (coordinate j (Rules.iterate f n s) - coordinate j e) < epsilon.
+Definition attracting (space : State -> Prop) (f : State -> State) (e : State) : Prop :=
+  forall s, space s -> forall epsilon, 0 < epsilon -> exists N, forall n, (N <= n)%nat ->
+  forall j, Rabs (coordinate j (Rules.iterate f n s) - coordinate j e) < epsilon."""
+
+MAP = """\
+Lemma of_map_moves : ${all}forall of_s, Map.domain$a -> Map.space$a of_s ->
+  $moves.
+Proof.
+  intros$a of_s of_map of_there. unfold Map.f.
+  $decided
+  exfalso. ${open}pose proof (${P}_covers$a $s of_map of_there) as $one_guard; [$none].
+Qed.
+
+Lemma of_map_keeps : ${all}forall of_s, Map.domain$a -> Map.space$a of_s ->
+  Map.space$a (Map.f$a of_s).
+Proof.
+  intros$a of_s of_map of_there.
+  $stays
+Qed.
+
+Lemma of_same_state : forall of_s of_t,
+  (forall of_j, Map.coordinate of_j of_s = Map.coordinate of_j of_t) -> of_s = of_t.
+Proof. intros of_s of_t of_same. $open${open_t}exact $equal. Qed.
+"""
+
+PIECE = """\
+Lemma of_map_is_$k : ${all}forall of_s, Map.domain$a -> Map.space$a of_s ->
+  Map.guard_$k$a of_s -> Map.f$a of_s = Map.image_$k$a of_s.
+Proof.
+  intros$a of_s of_map of_there of_here.
+  destruct (of_map_moves$a of_s of_map of_there) as $one_piece.
+  $others
+Qed.
+"""
+
+# For what is shown of the next state, which is in the space.
+NEXT = """\
+assert (of_map : Map.domain$a) by exact (${P}_inside$a of_dom).
+  assert (of_next := of_map_keeps$a of_s of_map of_there)."""
+
+DESCENT = """\
+Lemma of_rank_bounded : ${all}Descent.domain$a ->
+  forall of_s, Map.space$a of_s -> 0 <= Descent.rank$a of_s.
+Proof.
+  intros$a of_dom of_s of_there. ${open}exact (Rge_le _ _ (${P}_bounded$a $s of_dom of_there)).
+Qed.
+
+Lemma of_staged : ${all}forall of_s, {$staged} + {~ ($staged)}.
+Proof. intros$a of_s. ${open}cbv beta iota zeta delta [$stage_names]. decidable. Qed.
+
+Lemma of_rank_falls : ${all}Descent.domain$a -> forall of_s, Map.space$a of_s ->
+  (exists k, Rules.stage (Descent.stages$a) k of_s) \\/
+  Descent.rank$a (Map.f$a of_s) <= Descent.rank$a of_s - 1.
+Proof.
+  intros$a of_dom of_s of_there. $next
+  destruct (of_staged$a of_s) as [of_in|of_out]; [left|right].
+  { $in_a_stage }
+  $falls
+Qed.
+"""
+
+STAGE = """\
+Lemma of_stage_$k : ${all}Descent.domain$a -> forall of_s, Map.space$a of_s ->
+  Descent.stage_$k$a of_s -> Descent.stage_$following$a (Map.f$a of_s).
+Proof.
+  intros$a of_dom of_s of_there of_in. $next
+  $leads
+Qed.
+"""
+
+DESCENDS = """\
+Lemma of_stages_lead_on : ${all}Descent.domain$a ->
+  forall of_k of_s, (S of_k < length (Descent.stages$a))%nat -> Map.space$a of_s ->
+  Rules.stage (Descent.stages$a) of_k of_s ->
+  Rules.stage (Descent.stages$a) (S of_k) (Map.f$a of_s).
+Proof.
+  intros$a of_dom $each_stage of_s of_less of_there of_in; [${lead_on}cbn in of_less; lia].
+Qed.
+
+Lemma of_last_stage_kept : ${all}Descent.domain$a -> forall of_s, Map.space$a of_s ->
+  Rules.last_stage (Descent.stages$a) of_s -> Rules.last_stage (Descent.stages$a) (Map.f$a of_s).
+Proof.
+  intros$a of_dom of_s of_there of_in. exact (of_stage_$last$a of_dom of_s of_there of_in).
+Qed.
+
+Theorem $theorem : ${all}Descent.domain$a -> forall of_s of_n, Map.space$a of_s ->
+  Descent.rank$a of_s + INR $extra <= INR of_n ->
+  Descent.stage_$last$a (Rules.iterate (Map.f$a) of_n of_s).
+Proof.
+  intros$a of_dom of_s of_n of_there of_late.
+  exact (Rules.descent (Map.f$a) (Map.space$a) (Descent.rank$a) (Descent.stages$a)
+    (fun of_t => of_map_keeps$a of_t (${P}_inside$a of_dom))
+    (of_rank_bounded$a of_dom) (of_rank_falls$a of_dom) (of_stages_lead_on$a of_dom)
+    (of_last_stage_kept$a of_dom) of_s of_n of_there of_late).
+Qed.
+"""
+
+NORM = """\
+(Map.f$a) Map.coordinate (fun of_j => Map.coordinate of_j (Contraction.point$a))
+    (fun of_j => Map.coordinate of_j (Contraction.weights$a)) (Contraction.set$a)
+    (Contraction.rate$a)"""
+
+CONSTANTS = """\
+destruct (of_constants$a $known) as (of_rate & of_below_1 & of_radius & of_size & of_low & of_high
+    & of_positive & of_between)."""
+
+CONTRACTS = """\
+Lemma of_near_is : ${all}forall of_c of_s, Contraction.near$a of_c of_s <->
+  $inequalities.
+Proof.
+  intros$a of_c of_s. split.
+  { intro of_close. exact $forth. }
+  { intros $each_axis []; [$back]. }
+Qed.
+
+Lemma of_constants : ${all}Contraction.domain$a ->
+  0 <= Contraction.rate$a /\\ Contraction.rate$a < 1 /\\ 0 < Contraction.radius$a /\\
+  0 < Contraction.size$a /\\ exists low high, 0 < low /\\
+  forall of_j, low <= Map.coordinate of_j (Contraction.weights$a) <= high.
+Proof.
+  intros$a of_dom. destruct (${P}_constants$a of_dom) as $numbers.
+  split; [exact (Rge_le _ _ of_least)|split; [exact of_most|]].
+  split; [exact of_radius|split; [exact of_size|]].
+  apply (bounds_of _ ($axes)%list).
+  { intros []; repeat (first [left; reflexivity|right]). }
+  { intros []; [$positive]. }
+Qed.
+
+Lemma of_closer : ${all}Contraction.domain$a ->
+  forall of_c of_s, 0 <= of_c -> Contraction.set$a of_s -> Contraction.near$a of_c of_s ->
+  Contraction.near$a (Contraction.rate$a * of_c) (Map.f$a of_s).
+Proof.
+  intros$a of_dom of_c of_s of_positive [of_there of_in] of_close. $next
+  apply (of_near_is$a _ _) in of_close. apply (of_near_is$a _ _).
+  pose proof (Rle_ge _ _ of_positive) as of_distance.
+  $closer
+Qed.
+
+Lemma of_set_kept : ${all}Contraction.domain$a ->
+  forall of_s, Contraction.set$a of_s -> Contraction.set$a (Map.f$a of_s).
+Proof.
+  intros$a of_dom of_s [of_there of_in]. $next
+  split; [exact of_next|].
+  $stays
+Qed.
+
+Lemma of_surrounded : ${all}Contraction.domain$a -> forall of_s, Map.space$a of_s ->
+  Contraction.near$a (Contraction.radius$a) of_s -> Contraction.set$a of_s.
+Proof.
+  intros$a of_dom of_s of_there of_in. apply (of_near_is$a _ _) in of_in.
+  split; [exact of_there|]. ${open}exact (${P}_surrounds$a $s of_dom of_there of_in).
+Qed.
+
+Lemma of_small : ${all}Contraction.domain$a -> forall of_s, Contraction.set$a of_s ->
+  Contraction.near$a (Contraction.size$a) of_s.
+Proof.
+  intros$a of_dom of_s [of_there of_in]. apply (of_near_is$a _ _).
+  ${open}exact (${P}_size$a $s of_dom of_there of_in).
+Qed.
+
+Lemma of_fixed : ${all}Contraction.domain$a ->
+  Map.space$a (Contraction.point$a) /\\ Map.f$a (Contraction.point$a) = Contraction.point$a.
+Proof.
+  intros$a of_dom. $constants
+  assert (of_there : Map.space$a (Contraction.point$a)) by exact (${P}_point$a of_dom).
+  split; [exact of_there|]. apply of_same_state.
+  apply (Rules.fixed_point $norm (of_closer$a of_dom)); [|reflexivity].
+  apply (of_surrounded$a of_dom); [exact of_there|].
+  intro of_j. unfold Rminus. rewrite Rplus_opp_r, Rabs_R0.
+  apply Rmult_le_pos; [lra|destruct (of_between of_j); lra].
+Qed.
+
+Lemma of_stable : ${all}Contraction.domain$a ->
+  Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a).
+Proof.
+  intros$a of_dom. $constants
+  exact (Rules.stability $norm
+    (of_set_kept$a of_dom) of_rate (of_closer$a of_dom) (Map.space$a) (Contraction.radius$a)
+    of_low of_high of_below_1 of_positive of_between of_radius (of_surrounded$a of_dom)).
+Qed.
+
+(* The point is fixed, stable, and attracts the set, at the rate. *)
+Theorem $theorem : ${all}Contraction.domain$a ->
+  Map.space$a (Contraction.point$a) /\\ Map.f$a (Contraction.point$a) = Contraction.point$a /\\
+  Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
+  Map.attracting (Contraction.set$a) (Map.f$a) (Contraction.point$a) /\\
+  forall of_n of_c of_s, 0 <= of_c -> Contraction.set$a of_s -> Contraction.near$a of_c of_s ->
+  Contraction.near$a (Contraction.rate$a ^ of_n * of_c) (Rules.iterate (Map.f$a) of_n of_s).
+Proof.
+  intros$a of_dom. $constants
+  split; [exact (proj1 (of_fixed$a of_dom))|split; [exact (proj2 (of_fixed$a of_dom))|]].
+  split; [exact (of_stable$a of_dom)|split].
+  { exact (Rules.convergence $norm
+    (of_set_kept$a of_dom) of_rate (of_closer$a of_dom) (Contraction.set$a) of_low of_high
+    of_below_1 of_positive of_between (fun _ => 0) (Contraction.set$a :: nil)%list
+    (Contraction.size$a) (of_set_kept$a of_dom) (fun _ _ => Rle_refl 0)
+    (fun _ of_in => or_introl (ex_intro _ 0%nat of_in))
+    ltac:(intros of_k of_t of_less; cbn in of_less; lia)
+    (fun of_t _ => of_set_kept$a of_dom of_t) (fun _ _ of_in => of_in) (Rlt_le _ _ of_size)
+    (fun of_t _ => of_small$a of_dom of_t)). }
+  { exact (Rules.contraction $norm
+    (of_set_kept$a of_dom) of_rate (of_closer$a of_dom)). }
+Qed.
+"""
+
+# `$E` are the coordinates of the point, where premises are about all points with what the lines
+# `have` say, `$H` the proofs of these, `$gaps` those of the state less those of the point, `$sums`
+# the state as their sum; `$here` says of of_v that it is at least the value.
+LYAPUNOV = """\
+Lemma of_near_point_is : ${all}forall of_c of_s, LyapunovFunction.near$a of_c of_s <->
+  $inequalities.
+Proof.
+  intros$a of_c of_s. split.
+  { intro of_close. exact $forth. }
+  { intros $each_axis []; [$back]. }
+Qed.
+
+(* The point is fixed, stable, and attracts the set. *)
+Theorem $theorem : ${all}LyapunovFunction.domain$a ->
+  Map.space$a (LyapunovFunction.point$a) /\\
+  Map.f$a (LyapunovFunction.point$a) = LyapunovFunction.point$a /\\
+  Map.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
+  Map.attracting (LyapunovFunction.set$a) (Map.f$a) (LyapunovFunction.point$a).
+Proof.
+  intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
+  assert (of_map : Map.domain$a) by exact (${P}_inside$a$E of_dom$H).
+  destruct (${P}_constants$a$E of_dom$H) as [of_radius of_upper].
+  assert (of_positive : forall of_d of_c, 0 < of_d -> 0 <= of_c ->
+    0 < LyapunovFunction.least$a of_d of_c).
+  { intros of_d of_c of_1 of_2.
+    exact (${P}_positive$a$E of_d of_c of_dom$H of_1 (Rle_ge _ _ of_2) (one_more _ of_2)). }
+  assert (of_surrounded : forall of_s, Map.space$a of_s ->
+    LyapunovFunction.near$a (LyapunovFunction.radius$a) of_s -> LyapunovFunction.set$a of_s).
+  { intros of_s of_there of_close. apply (of_near_point_is$a _ _) in of_close.
+    split; [exact of_there|].
+    ${open}exact (${P}_surrounds$a$E $gaps of_dom$H $sums of_there of_close). }
+  assert (of_small : forall of_i of_s of_d, (of_i < $count)%nat -> Map.space$a of_s -> 0 <= of_d ->
+    LyapunovFunction.near$a of_d of_s -> of_d <= LyapunovFunction.radius$a ->
+    LyapunovFunction.guards$a of_i of_s ->
+    LyapunovFunction.values$a of_i of_s <= LyapunovFunction.upper$a * of_d).
+  { intros $each_value of_s of_d of_less of_there of_1 of_close of_2 of_here;
+      [$small|exfalso; lia]. }
+  assert (of_kept : forall of_s,
+    LyapunovFunction.set$a of_s -> LyapunovFunction.set$a (Map.f$a of_s)).
+  { intros of_s [of_there of_in].
+    assert (of_next := of_map_keeps$a of_s of_map of_there). split; [exact of_next|].
+    $stays }
+  pose (of_above := Lyapunov.above (LyapunovFunction.guards$a) (LyapunovFunction.values$a) $count).
+  assert (of_bounded : forall of_s of_v, LyapunovFunction.set$a of_s -> of_above of_s of_v ->
+    0 <= of_v).
+  { intros of_s of_v [of_there of_in] of_high. $here
+    ${open}exact (Rge_le _ _ (${P}_bounded$a$E $gaps of_v of_dom$H $sums of_there of_in
+      $at_least)). }
+  assert (of_loses : forall of_s of_v, LyapunovFunction.set$a of_s -> of_above of_s of_v ->
+    0 <= of_v -> 0 <= $loss).
+  { intros of_s of_v [of_there of_in] of_high of_1. $own_value$here
+    ${open}exact (Rge_le _ _ (${P}_loss$a$E $gaps$v of_dom$H $sums of_there of_in$given)). }
+  assert (of_least : forall of_s of_v of_d of_c, LyapunovFunction.set$a of_s ->
+    of_above of_s of_v -> 0 <= of_v -> 0 < of_d -> 0 <= of_c ->
+    Lyapunov.far Map.coordinate (fun of_j => Map.coordinate of_j (LyapunovFunction.point$a))
+      of_d of_s -> of_v <= of_c -> LyapunovFunction.least$a of_d of_c <= $loss).
+  { intros of_s of_v of_d of_c [of_there of_in] of_high of_1 of_2 of_3 of_far of_4.
+    assert (of_apart : $far).
+    { destruct of_far as [[] of_far]; apply far_is in of_far; [$each_far]. }
+    $own_value$level$here
+    ${open}exact (Rge_le _ _ (${P}_least$a$E $gaps $value of_d of_c of_dom$H $sums of_there of_in
+      $reached (Rle_ge _ _ of_1) (one_more _ of_1) of_2 (Rle_ge _ _ of_3) (one_more _ of_3)
+      of_apart (Rle_ge _ _ of_4))). }
+  assert (of_falls : forall of_i of_s of_v, (of_i < $count)%nat -> LyapunovFunction.set$a of_s ->
+    of_above of_s of_v -> 0 <= of_v -> LyapunovFunction.guards$a of_i (Map.f$a of_s) ->
+    LyapunovFunction.values$a of_i (Map.f$a of_s) <= of_v - $loss).
+  { intros $each_value of_s of_v of_less [of_there of_in] of_high of_1 of_guard.
+    $falls
+    exfalso; lia. }
+  split; [exact of_at|split; [|split]].
+  { apply of_same_state.
+    exact (Lyapunov.lyapunov_fixed_point $function of_radius of_positive of_surrounded of_small
+      of_kept of_bounded of_loses of_least of_falls (LyapunovFunction.point$a) of_at
+      (fun _ => eq_refl)). }
+  { exact (Lyapunov.lyapunov_stability $function of_radius of_upper of_positive of_surrounded
+      of_small of_kept of_bounded of_loses of_least of_falls). }
+  { exact (Lyapunov.lyapunov_attraction $attraction of_positive of_kept of_bounded of_loses
+      of_least of_falls). }
+Qed.
+"""
+
+# What the least value of a function without guards is, in place of one that is no less.
+OWN_VALUE = """\
+assert (of_own : LyapunovFunction.value_1$a of_s <= of_v) by exact (of_high 0%nat ltac:(lia) I).
+    clear of_1. assert (of_1 : of_above of_s (LyapunovFunction.value_1$a of_s)).
+    { intros [|of_i] of_first _; [apply Rle_refl|exfalso; lia]. }
+    apply (of_bounded of_s _ (conj of_there of_in)) in of_1.
+    """
+
+UNSTABLE = """\
+Lemma of_near_centre_is : ${all}forall of_c of_s, ChetaevFunction.near$a of_c of_s <->
+  $inequalities.
+Proof.
+  intros$a of_c of_s. split.
+  { intro of_close. exact $forth. }
+  { intros $each_axis []; [$back]. }
+Qed.
+
+(* The point is not stable. *)
+Theorem $theorem : ${all}ChetaevFunction.domain$a ->
+  ~ Map.stable (Map.space$a) (Map.f$a) (ChetaevFunction.point$a).
+Proof.
+  intros$a of_dom. pose proof (${P}_point$a of_dom) as $point.
+  assert (of_map : Map.domain$a) by exact (${P}_inside$a$E of_dom$H).
+  destruct (${P}_constants$a$E of_dom$H) as [of_rate [of_radius of_upper]].
+  refine (Lyapunov.chetaev_instability (Map.f$a) Map.coordinate
+    (fun of_j => Map.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
+    (ChetaevFunction.guards$a) (ChetaevFunction.values$a) $count (ChetaevFunction.direction$a)
+    (ChetaevFunction.rate$a) (ChetaevFunction.radius$a) (ChetaevFunction.upper$a)
+    of_rate of_radius (fun of_s => of_map_keeps$a of_s of_map) _ _ _).
+  { intros of_d of_1 of_2. split; [exact (${P}_direction_line_$line$a$E of_d of_dom$H of_1 of_2)|].
+    destruct (${P}_direction$a$E of_d of_dom$H of_1 of_2) as [of_close of_start].
+    split; [apply (of_near_centre_is$a _ _); exact of_close|].
+    revert of_start. intros $values; [$starts]. }
+  { intros $each_value of_s of_less of_there of_close of_here of_1;
+      [$bounded|exfalso; lia]. }
+  { intros $each_value of_s of_less of_there of_close of_here of_1.
+    $grows
+    exfalso; lia. }
+Qed.
+"""
+
+ATTRACTS = """\
+(* The point is stable and attracts every state, within a bound. *)
+Theorem $theorem : ${all}Descent.domain$a ->
+  Map.stable (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
+  Map.attracting (Map.space$a) (Map.f$a) (Contraction.point$a) /\\
+  forall of_s of_n of_k, Map.space$a of_s -> Descent.rank$a of_s + INR $extra <= INR of_n ->
+  Contraction.near$a (Contraction.rate$a ^ of_k * Contraction.size$a)
+    (Rules.iterate (Map.f$a) (of_n + of_k) of_s).
+Proof.
+  intros$a of_dom.
+  assert (of_con : Contraction.domain$a) by exact (${P}_inside$a of_dom). $constants
+  assert (of_into : forall of_s, Map.space$a of_s -> Rules.last_stage (Descent.stages$a) of_s ->
+    Contraction.set$a of_s).
+  { intros of_s of_there of_in. split; [exact of_there|].
+    ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
+  pose (of_kept of_t := of_map_keeps$a of_t (${descent}_inside$a of_dom)).
+  pose (of_near of_t of_there of_in := of_small$a of_con of_t (of_into of_t of_there of_in)).
+  split; [exact (of_stable$a of_con)|split].
+  { exact (Rules.convergence $norm
+    (of_set_kept$a of_con) of_rate (of_closer$a of_con) (Map.space$a) of_low of_high of_below_1
+    of_positive of_between (Descent.rank$a) (Descent.stages$a) (Contraction.size$a) of_kept
+    (of_rank_bounded$a of_dom) (of_rank_falls$a of_dom) (of_stages_lead_on$a of_dom)
+    (of_last_stage_kept$a of_dom) of_into (Rlt_le _ _ of_size) of_near). }
+  { exact (Rules.approach $norm
+    (of_set_kept$a of_con) of_rate (of_closer$a of_con) (Map.space$a) (Descent.rank$a)
+    (Descent.stages$a) (Contraction.size$a) of_kept (of_rank_bounded$a of_dom)
+    (of_rank_falls$a of_dom) (of_stages_lead_on$a of_dom) (of_last_stage_kept$a of_dom) of_into
+    (Rlt_le _ _ of_size) of_near). }
+Qed.
+"""
+
+ATTRACTS_BY_LYAPUNOV = """\
+(* The point is stable and attracts every state. *)
+Theorem $theorem : ${all}Descent.domain$a ->
+  Map.stable (Map.space$a) (Map.f$a) (LyapunovFunction.point$a) /\\
+  Map.attracting (Map.space$a) (Map.f$a) (LyapunovFunction.point$a).
+Proof.
+  intros$a of_dom. destruct ($lyapunov$a (${P}_inside$a of_dom)) as (_ & _ & of_stays & of_tends).
+  assert (of_into : forall of_s, Map.space$a of_s -> Descent.stage_$last$a of_s ->
+    LyapunovFunction.set$a of_s).
+  { intros of_s of_there of_in. split; [exact of_there|].
+    ${open}exact (${P}_enters$a $s of_dom of_there of_in). }
+  split; [exact of_stays|]. refine (Lyapunov.attraction_from_a_set (Map.f$a) Map.coordinate
+    (fun of_j => Map.coordinate of_j (LyapunovFunction.point$a)) (Map.space$a)
+    (LyapunovFunction.set$a) _ of_tends).
+  intros of_s of_there.
+  destruct (Rules.exceeded_by_a_number (Descent.rank$a of_s + INR $extra)) as [of_n of_late].
+  exists of_n. apply of_into; [|exact ($descends$a of_dom of_s of_n of_there of_late)].
+  apply Rules.iterate_keeps; [|exact of_there].
+  intro of_t. exact (of_map_keeps$a of_t (${descent}_inside$a of_dom)).
+Qed.
+"""
+
+ESCAPES = """\
+Theorem $theorem : ${all}Escape.domain$a -> Map.space$a (Escape.start$a) /\\
+  Rules.iterate (Map.f$a) $period (Escape.start$a) = Escape.start$a /\\
+  exists of_j, Map.coordinate of_j (Escape.start$a) <> Map.coordinate of_j (Escape.point$a).
+Proof.
+  intros$a of_dom.
+  assert (of_map : Map.domain$a) by exact (${P}_inside$a of_dom).
+  destruct (${P}_start$a of_dom) as $shown.
+  change (Map.space$a (Escape.start$a)) in of_there_0.
+  $steps
+  split; [exact of_there_0|split; [|$apart]].
+  cbn [Rules.iterate]. rewrite $rewritten. exact $equal.
+Qed.
+"""
+
+EXACTLY = """\
+(* The point is stable and attracts every state just for the parameters of the descent. *)
+Theorem $theorem : ${all}Map.domain$a ->
+  (Descent.domain$a <-> Map.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
+   Map.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
+Proof.
+  intros$a of_map.
+  refine (Rules.exactly (Map.f$a) Map.coordinate
+    (fun of_j => Map.coordinate of_j ($around.point$a))
+    (fun of_j => Map.coordinate of_j (Escape.point$a)) (Map.space$a) $period (Escape.start$a)
+    (Descent.domain$a) (Escape.domain$a) (Map.stable (Map.space$a) (Map.f$a) ($around.point$a))
+    (${P}_covers$a of_map) _ _ _ _).
+  { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
+  { intro of_dom. exact ($tends ($attraction$a of_dom)). }
+  { intro of_out. split; [lia|exact ($escape$a of_out)]. }
+  { intro of_out. pose proof (${P}_same_point$a of_out) as $each_axis. intros []; [$back]. }
+Qed.
+"""
+
+EXACTLY_OR_UNSTABLE = """\
+(* The point is stable and attracts every state just for the parameters of the descent. *)
+Theorem $theorem : ${all}Map.domain$a ->
+  (Descent.domain$a <-> Map.stable (Map.space$a) (Map.f$a) ($around.point$a) /\\
+   Map.attracting (Map.space$a) (Map.f$a) ($around.point$a)).
+Proof.
+  intros$a of_map.
+  refine (Lyapunov.exactly_or_unstable (Map.f$a) Map.coordinate
+    (fun of_j => Map.coordinate of_j ($around.point$a))
+    (fun of_j => Map.coordinate of_j (ChetaevFunction.point$a)) (Map.space$a)
+    (Descent.domain$a) (ChetaevFunction.domain$a) (${P}_covers$a of_map) _ _ _ _).
+  { intro of_dom. exact (proj1 ($attraction$a of_dom)). }
+  { intro of_dom. exact ($tends ($attraction$a of_dom)). }
+  { intro of_out. exact ($unstable$a of_out). }
+  { intro of_out. pose proof ($at_point$a of_out) as $point.
+    pose proof (${P}_same_point$a$E of_out$H) as $each_axis. intros []; [$back]. }
+Qed.
+"""

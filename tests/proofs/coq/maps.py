@@ -1,0 +1,92 @@
+"""Claims on the orbits of maps, as a user's own file has them: with every rule, in one coordinate
+and in two, with square roots of the parameter and of the state.
+"""
+
+from __future__ import annotations
+
+from juggleproof import MapRule, claim
+
+UNIT = "0 <= x and x <= 1"
+BELOW_1 = "0 < a and a < 1"
+SQUARE = "0 <= x and x <= 10 and 0 <= y and y <= 10"
+RANGE = "1 <= a and a <= 4"
+
+
+@claim("scaled")
+def zero_attracts_just_below_1() -> list[MapRule]:
+    """x -> a x on [0, 1], 0 < a <= 1: 0 is stable and attracts every state just for a < 1."""
+    over = (("over", "a"), ("domain", "0 < a and a <= 1"))
+    of = (("map", "scaled/map"), ("domain", BELOW_1))
+    point = (("on", UNIT), ("point", "0"))
+    return [
+        MapRule("map", (*over, ("state", "x"), ("space", UNIT), ("piece", "0 <= x -> a*x"))),
+        MapRule("down", (*of, ("rank", "0"), ("stage", UNIT))),
+        MapRule("near", (*of, *point, *norm("1", rate="a", radius="1", size="1"))),
+        MapRule("all", (("descent", "scaled/down"), ("contraction", "scaled/near"))),
+        MapRule(
+            "away",
+            (of[0], ("domain", "a = 1"), ("point", "0"), ("start", "1"), ("word", "1")),
+        ),
+        MapRule("exactly", (("attraction", "scaled/all"), ("escape", "scaled/away"))),
+    ]
+
+
+@claim("mixed")
+def origin_attracts_the_square() -> list[MapRule]:
+    """Two linear pieces on a square: the origin is stable and attracts every state."""
+    state = (("state", "x y"), ("space", SQUARE))
+    pieces = (("piece", "x >= y -> (x + y)/4, x/4"), ("piece", "not x >= y -> x/4, (x + y)/4"))
+    of = (("map", "mixed/map"), ("domain", RANGE))
+    set_ = (("root", "u = sqrt(a)"), ("on", SQUARE), ("point", "u - u, 0"))
+    rank = (("root", "v = sqrt(x^2 + y^2)"), ("rank", "x + y"), ("stage", "v <= 20"))
+    return [
+        MapRule("map", (("over", "a"), ("domain", RANGE), *state, *pieces)),
+        MapRule("near", (*of, *set_, *norm("1, 1", rate="1/2", radius="u", size="10"))),
+        MapRule("down", (*of, *rank)),
+        MapRule("all", (("descent", "mixed/down"), ("contraction", "mixed/near"))),
+    ]
+
+
+@claim("shifted")
+def a_fixed_point_that_moves_attracts() -> list[MapRule]:
+    """x -> a x + 1 on x >= 0, 0 < a < 1: 1/(1 - a) is stable and attracts every state."""
+    over = (("over", "a"), ("domain", "a > 0 and a != 1"), ("state", "x"), ("space", "x >= 0"))
+    map_, have = ("map", "shifted/map"), ("have", "(1 - a)*x_point = 1")
+    of = (map_, ("domain", "0 < a and a < 1 and 1 - a > 0"))
+    value = (("value", "x_gap >= 0 -> x_gap"), ("value", "-x_gap"))
+    falls = (("loss", "(1 - a)*value"), ("least", "(1 - a)*distance"), ("upper", "1"))
+    return [
+        MapRule("map", (*over, ("piece", "x < 1 -> a*x + 1"), ("piece", "x >= 1 -> 1 + x*a"))),
+        MapRule(
+            "near",
+            (*of, ("on", "x >= 0"), ("point", "1/(1 - a)"), have, *value, *falls, ("radius", "1")),
+        ),
+        MapRule("down", (*of, ("rank", "0"), ("stage", "x >= 0"))),
+        MapRule("all", (("descent", "shifted/down"), ("lyapunov", "shifted/near"))),
+    ]
+
+
+@claim("grown")
+def zero_is_stable_just_below_1() -> list[MapRule]:
+    """x -> a x for all x, a > 0, a != 1: 0 is stable and attracts every state just for a < 1."""
+    line = "x^2 >= 0"
+    over = (("over", "a"), ("domain", "a > 0 and a != 1"), ("state", "x"), ("space", line))
+    map_, point = ("map", "grown/map"), ("point", "0")
+    of = (map_, ("domain", BELOW_1))
+    falls = (("loss", "(1 - a^2)*value"), ("least", "(1 - a^2)*distance^2"))
+    direction = (("direction", "x_point + distance"), ("have", "x_point = 0"))
+    grows = (("value", "x_gap >= 0 -> x_gap"), ("value", "-x"), ("rate", "a"))
+    ends = (("upper", "1"), ("radius", "1"))
+    return [
+        MapRule("map", (*over, ("piece", line + " -> a*x"))),
+        MapRule("near", (*of, ("on", line), point, ("value", "x_gap^2"), *falls, *ends)),
+        MapRule("down", (*of, ("rank", "0"), ("stage", line))),
+        MapRule("all", (("descent", "grown/down"), ("lyapunov", "grown/near"))),
+        MapRule("away", (map_, ("domain", "a > 1"), point, *direction, *grows, *ends[::-1])),
+        MapRule("exactly", (("attraction", "grown/all"), ("unstable", "grown/away"))),
+    ]
+
+
+def norm(weights: str, rate: str, radius: str, size: str) -> tuple[tuple[str, str], ...]:
+    """The numbers of a contraction."""
+    return ("weights", weights), ("rate", rate), ("radius", radius), ("size", size)

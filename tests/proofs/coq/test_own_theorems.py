@@ -1,0 +1,186 @@
+"""Theorems on the orbits of one's own maps as files that coqc accepts by themselves; what is forged
+or changed it refuses.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from juggleproof.certificates import checker
+from juggleproof.certificates.coq import NotWritten
+from juggleproof.certificates.language import ClaimError
+from juggleproof.proofs.command.main import run
+from juggleproof.proofs.command.show import export_coq
+from juggleproof.proofs.run import claims_of_file, judge_some
+from juggleproof.proofs.theorem import coq_rules
+from juggleproof.proofs.theorem.coq_rules import theorem, theorems_in
+from tests.proofs.coq.development import coqc
+from tests.proofs.coq.test_development import REALS
+
+MAPS = Path(__file__).with_name("maps.py")
+SHARP, PLANE, SHIFTED, GROWN = "scaled/exactly", "mixed/all", "shifted/all", "grown/exactly"
+CONCLUSIONS = {
+    SHARP: "forall a : R, Map.domain a -> (Descent.domain a <-> Map.stable (Map.space a) (Map.f a)"
+    " (Contraction.point a) /\\ Map.attracting (Map.space a) (Map.f a) (Contraction.point a)).",
+    PLANE: "forall a : R, Descent.domain a -> Map.stable (Map.space a) (Map.f a)"
+    " (Contraction.point a) /\\ Map.attracting (Map.space a) (Map.f a) (Contraction.point a) /\\",
+    SHIFTED: "forall a : R, Descent.domain a -> Map.stable (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a) /\\ Map.attracting (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a).",
+    GROWN: "forall a : R, Map.domain a -> (Descent.domain a <-> Map.stable (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a) /\\ Map.attracting (Map.space a) (Map.f a)"
+    " (LyapunovFunction.point a)).",
+}
+
+
+@cache
+def judged() -> tuple[dict[str, str], dict[str, Any]]:
+    """The texts of the statements of the maps, and their certificates."""
+    claims = claims_of_file(MAPS)
+    judgements = judge_some(claims, claims, MAPS.with_suffix(".certificates"))
+    assert {word for one in judgements for word in one.outcomes.values()} == {"certified"}
+    texts = {name: text for one in judgements for name, text in one.statements}
+    return texts, {name: entry for one in judgements for name, entry in one.certificates.items()}
+
+
+def written(name: str, texts: dict[str, str], certificates: dict[str, Any]) -> str:
+    return theorem(name, checker.read_statements("\n\n".join(texts.values())), certificates)
+
+
+def taken(folder: Path, text: str) -> subprocess.CompletedProcess[str]:
+    """What coqc says of a file in a folder of its own."""
+    (folder / "Own.v").write_text(text)
+    command = [coqc(), "-q", "Own.v"]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
+
+
+@pytest.mark.parametrize("name", CONCLUSIONS)
+def test_coqc_accepts_a_theorem_alone_holds(name: str, tmp_path: Path) -> None:
+    coqc()
+    text = written(name, *judged())
+    says = " ".join(text.split(f"Theorem {coq_rules.theorem_name(name)} :")[1].split())
+    assert says.startswith(CONCLUSIONS[name])
+    assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture)\b", text)
+    result = taken(tmp_path, text)
+    assert result.returncode == 0, result.stderr
+    head, _, axioms = result.stdout.partition("Axioms:\n")
+    found = re.findall(r"^([\w.]+)\s*:", axioms, flags=re.MULTILINE)
+    assert head == "" and found and set(found) <= REALS
+
+
+def forged(own: str, premise: str, other: str) -> dict[str, Any]:
+    """The certificates, with that of another premise in place of one."""
+    certificates = copy.deepcopy(judged()[1])
+    proofs = certificates[own]["certified"]
+    assert proofs[premise] != proofs[other]
+    proofs[premise] = proofs[other]
+    return certificates
+
+
+@pytest.mark.parametrize(
+    "name, own, premise, other",
+    [
+        (SHARP, "scaled/near", "closer-1", "stays-1"),
+        (SHARP, "scaled/map", "stays-1", "covers"),
+        (PLANE, "mixed/down", "stage-1-1", "falls-1"),
+        (SHIFTED, "shifted/near", "falls-1-1", "falls-2-2"),
+        (GROWN, "grown/away", "grows-1-1", "grows-1-2"),
+    ],
+)
+def test_rejects_a_forged_certificate(
+    name: str, own: str, premise: str, other: str, tmp_path: Path
+) -> None:
+    coqc()
+    result = taken(tmp_path, written(name, judged()[0], forged(own, premise, other)))
+    assert result.returncode != 0 and "yntax" not in result.stderr
+
+
+@pytest.mark.parametrize(
+    "name, old, new",
+    [
+        (SHARP, "State :=\n  a * x.", "State :=\n  a * x / 2."),
+        (SHARP, "domain (a : R) : Prop :=\n  0 < a /\\ a < 1.", "domain (a : R) : Prop := 0 < a."),
+        (SHARP, "then image_1 a of_s\n  else of_s", "then of_s\n  else image_1 a of_s"),
+        (PLANE, "(x / 4, (x + y) / 4)", "(x / 4, (x - y) / 4)"),
+    ],
+)
+def test_rejects_a_changed_map(name: str, old: str, new: str, tmp_path: Path) -> None:
+    text = written(name, *judged())
+    assert old in text
+    result = taken(tmp_path, text.replace(old, new))
+    assert result.returncode != 0 and "yntax" not in result.stderr
+
+
+def test_rejects_a_certificate_of_another_shape() -> None:
+    with pytest.raises(NotWritten, match="a part of its certificate is not understood"):
+        written(PLANE, judged()[0], forged("mixed/down", "falls-1", "bounded"))
+
+
+def test_rejects_another_map_with_the_certificates_of_one(tmp_path: Path) -> None:
+    coqc()
+    texts = {**judged()[0]}
+    texts["scaled/map"] = texts["scaled/map"].replace("a*x", "a*x^2 + a*x/8")
+    result = taken(tmp_path, written(SHARP, texts, judged()[1]))
+    assert result.returncode != 0 and "yntax" not in result.stderr
+
+
+def test_export_writes_a_file_for_each_theorem_holds(tmp_path: Path) -> None:
+    assert run(["export", "coq", str(MAPS), "-o", str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {
+        f"S_{one.replace('/', '_')}.v" for one in CONCLUSIONS
+    }
+    assert (tmp_path / "S_mixed_all.v").read_text() == written(PLANE, *judged())
+
+
+def test_rests_on_decides_what_is_a_theorem_holds() -> None:
+    texts = judged()[0]
+    assert theorems_in(checker.read_statements("\n\n".join(texts.values()))) == [*CONCLUSIONS]
+    del texts[SHARP]
+    assert theorems_in(checker.read_statements("\n\n".join(texts.values()))) == [
+        "scaled/all",
+        *[*CONCLUSIONS][1:],
+    ]
+
+
+def test_rejects_what_cannot_be_written_in_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = shutil.copy(MAPS, tmp_path / "own.py")
+    monkeypatch.delitem(coq_rules.RULES, "escapes")
+    assert run(["export", "coq", str(own), "-o", str(tmp_path / "coq")]) == 1
+    names = {path.name for path in (tmp_path / "coq").iterdir()}
+    assert "S_scaled_exactly.v" not in names and len(names) == len(CONCLUSIONS) - 1
+    assert capsys.readouterr().err == (
+        f"juggleproof: {own}: scaled/exactly: scaled/away is of a rule that is not written for Coq;"
+        " claim it by another\n"
+    )
+    text = MAPS.read_text().replace('rate="1/2"', 'rate="1/9"')
+    own.write_text(text)
+    assert run(["export", "coq", str(own), "-o", str(tmp_path / "coq")]) == 1
+    assert f"{own}: mixed/all: it is unknown; `juggleproof certify {own}` says why" in (
+        capsys.readouterr().err
+    )
+
+
+@pytest.mark.parametrize(
+    "names, says",
+    [
+        (
+            [str(MAPS)],
+            "several theorems, scaled/exactly, mixed/all, shifted/all, grown/exactly; give",
+        ),
+        ([str(MAPS), "eq-37"], "files and claims of the paper together"),
+        (["none.py"], "none.py: no such file"),
+    ],
+)
+def test_rejects_what_is_no_question(names: list[str], says: str) -> None:
+    with pytest.raises(ClaimError, match=re.escape(says)):
+        export_coq(names, None)
