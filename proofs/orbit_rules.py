@@ -84,7 +84,9 @@ class Lines:
 
     def roots(self) -> list[str]:
         """The root lines of this statement, and of those that it rests on."""
-        inner = [root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()]
+        inner = [
+            root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()
+        ]
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
     def point(self) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import sympy
+from numpy.typing import NDArray
 
 from juggleproof.proofs.stability.given import Expr, Map, expression, holds, symbols, written
 from juggleproof.proofs.stability.samples import Arrays, Floats, Point
@@ -22,7 +23,7 @@ class FixedPoint:
     piece: int
     terms: tuple[Expr, ...]  # the same in SymPy, with roots as such
 
-    def exists(self, system: Map, parameters: Arrays) -> NDArrayBool:
+    def exists(self, system: Map, parameters: Arrays) -> NDArray[np.bool_]:
         """For which parameters it is a fixed point of the map."""
         known = self.point.with_roots(parameters)
         states = dict(zip(system.state, self.point.at(parameters)))
@@ -59,9 +60,6 @@ class FixedPoint:
         return found
 
 
-NDArrayBool = Floats  # of 0 and 1, as NumPy takes them
-
-
 def fixed_points(system: Map) -> list[FixedPoint]:
     """The fixed points of all pieces that are written with rational operations and square roots."""
     return list(_found(system))
@@ -89,7 +87,7 @@ def _found(system: Map) -> Iterator[FixedPoint]:
 def as_point(terms: tuple[Expr, ...]) -> Point | None:
     """The terms as text, with square roots named; None where there are others."""
     roots: list[tuple[str, str]] = []
-    names = {}
+    names: dict[Expr, str] = {}
     for root in sorted(set().union(*(t.atoms(sympy.Pow) for t in terms)), key=str):
         if root.exp.is_Integer:
             continue

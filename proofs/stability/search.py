@@ -15,6 +15,7 @@ import sympy
 from juggleproof.certificates import checker
 from juggleproof.certificates.language import MapRule
 from juggleproof.certificates.nodes import Certificate
+from juggleproof.certificates.nodes import Proof as Premise
 from juggleproof.certificates.search.certificate import search_proof
 from juggleproof.certificates.search.closing import SQUARED
 from juggleproof.certificates.work import Budget, Exhausted
@@ -67,14 +68,15 @@ class Proof:
         """Certifies one more statement; the premise that is open, or nothing."""
         text = "\n\n".join(one.text() for one in [*self.rules, rule])
         statement = checker.read_statements(text)[rule.name]
-        proofs = {}
+        proofs: dict[str, Premise] = {}
         try:
             premises = checker.premises_of(statement, self.known)
             # those first that fail most often
             for name in sorted(premises, key=lambda name: not name.startswith("falls")):
-                proofs[name] = self.proof_of(premises[name], efforts, budget)
-                if proofs[name] is None:
+                proof = self.proof_of(premises[name], efforts, budget)
+                if proof is None:
                     return f"no proof of the premise {name} was found"
+                proofs[name] = proof
         except checker.Rejected as reason:
             return str(reason)
         found: Certificate = {"certified": {name: proofs[name] for name in premises}}
@@ -88,7 +90,7 @@ class Proof:
 
     def proof_of(
         self, premise: checker.Statement, efforts: Sequence[int], budget: int
-    ) -> object | None:
+    ) -> Premise | None:
         """A proof of one premise, if one is found."""
         for effort in efforts:
             try:
