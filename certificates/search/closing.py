@@ -45,7 +45,7 @@ DEPTH = 2  # of cases by sign below one another
 CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
-FEW, MANY = 600, 25_000  # units of work for quadratic forms, before cases by sign and after
+FEW, MANY = 8000, 25_000  # units of work for quadratic forms, before cases by sign and after
 MOST_FOR_BOTH = 9  # facts
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
@@ -208,9 +208,9 @@ class Closing:
             node = (
                 (self.by_factors(inside, factors, depth) if factors else None)
                 or self.usual(problem, False)
-                or (None if depth else self.forms(inside, FEW))
+                or (None if depth else self.forms(inside, False))
                 or self.with_lemmas(inside, problem, depth)
-                or (None if depth or self.effort == 1 else self.forms(inside, MANY))
+                or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
 
@@ -238,8 +238,12 @@ class Closing:
 
     def forms(self, state: State, units: int) -> Node | None:
         """Quadratic forms with parameters in a box, within this work."""
+
+    def forms(self, state: State, coupled: bool) -> Node | None:
+        """Quadratic forms with parameters in a box, with little work where not `coupled`."""
+        part, ring = self.budget.part(MANY if coupled else FEW), self.problem(state).ring
         try:
-            return search_forms(state, self.problem(state).ring, self.budget.part(units))
+            return search_forms(state, ring, part, coupled)
         except Exhausted:
             if self.budget.left < 0:
                 raise

@@ -35,7 +35,8 @@ FOREIGN = {
     "symbolic": {"sympy"},
     "certificates": {"z3", "flint", "highspy", "mpmath", "numpy"},
     "scenes": {"matplotlib", "sympy", "flint", "mpmath", "numba", "numpy"},
-    "proofs": {"sympy", "numpy", "highspy", "rich", "pytest", "matplotlib", "jinja2", "latex2mathml"},
+    "proofs": {"sympy", "numpy", "highspy", "rich", "pytest", "matplotlib", "jinja2"}
+    | {"latex2mathml"},
     "benchmarks": {
         "sympy",
         "numpy",

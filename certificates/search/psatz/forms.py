@@ -20,6 +20,7 @@ from itertools import combinations
 from itertools import product as choices
 from math import gcd, lcm, prod
 
+import numpy as np
 from flint import fmpz_mpoly
 
 from juggleproof.certificates.algebra.numbers import polynomial_text
@@ -47,13 +48,15 @@ from juggleproof.certificates.search.psatz.sums_of_squares import (
     SquaresProgram,
 )
 from juggleproof.certificates.states import State
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, Exhausted
 
 MOST_PARTS = 100  # Bernstein polynomials of one box
 MOST_COUPLED = 40  # the same, where all are parts of one program
 MOST_GUARDS = 6  # facts of degree 1 or 2 in z
 MOST_GOALS = 3
 RAISED = 3  # by how much a degree is raised
+EACH = 1500  # units of work for one coefficient
+SAMPLES, MARGIN = 1000, 1e-3
 HALVINGS = 3  # of a box, one inside another
 DENOMINATORS = (1, 4, 12, 1 << 6, 1 << 8, 1 << 12, 1 << 18)
 MIDDLES = ((1e-4, 1e-5), (1e-6, 1e-6))  # as `sums_of_squares.GOALS`, but in the middle of the cone
@@ -139,15 +142,17 @@ class QuadraticForm:
 
     # -------------------------------------------------------- nodes
 
-    def node(self, budget: Budget) -> Node | None:
-        """The node of the whole box; where None was found, `halving` may say how to halve it."""
+    def node(self, budget: Budget, coupled: bool) -> Node | None:
+        """The node of the whole box; where None was found, `halving` may say how to halve it.
+        `coupled`: also by facts with parameters.
+        """
         if not self.fits:
             return None
         for linear, quadratic in self._choices(True):
             node = self._apart(linear, quadratic, budget)
             if node is not None:
                 return node
-        for more in range(RAISED):
+        for more in range(RAISED if coupled else 0):
             for linear, quadratic in self._choices(False):
                 node = self._coupled(linear, quadratic, more, budget)
                 if node is not None:
@@ -302,8 +307,8 @@ class QuadraticForm:
         budget: Budget,
     ) -> Found | None:
         """A form without parameters as squares and products of facts, with the roots."""
-        budget.spend(20)
-        if not blocks or not form:
+        budget.spend(100)
+        if not blocks or not form or is_negative(form, basis, blocks):
             return None
         below = lcm(*(c.denominator for c in form.values()))
         whole = {m: int(c * below) for m, c in form.items()}
@@ -330,8 +335,13 @@ class QuadraticForm:
         inside = InnerProgram(
             self.ring, [goal, squares, *blocks], [], kept, total, count=1, completed=completed
         )
-        if inside.node(budget) is None and inside.solved:
-            SquaresProgram(self.ring, inside.blocks, [], kept, total).node(budget)
+        part = budget.part(EACH)
+        try:
+            if inside.node(part) is None and inside.solved:
+                SquaresProgram(self.ring, inside.blocks, [], kept, total).node(part)
+        except Exhausted:
+            if budget.left < 0:
+                raise
         return result[0] if result else None
 
     def _halving(self, axes: Sequence[Axis]) -> str:
@@ -452,6 +462,31 @@ def joined(one: Found, other: Found) -> Found:
     return [*one[0], *moved], [*one[1], *other[1]]
 
 
+def is_negative(form: Form, basis: Sequence[fmpz_mpoly], blocks: Sequence[FactBlock]) -> bool:
+    """Whether floats see a point at which no product of facts is negative, but the form is: then no
+    program leads to squares.
+    """
+    exponents = [tuple(map(int, b.monoms()[0])) for b in basis]
+    place = {
+        tuple(map(sum, zip(exponents[i], exponents[j]))): (i, j)
+        for i in range(len(basis))
+        for j in range(i + 1)
+    }
+    random, size = np.random.default_rng(11), (SAMPLES, len(basis))
+    points = random.normal(size=size) * np.exp(random.normal(size=size))
+    points /= np.abs(points).max(axis=1, keepdims=True)
+    if basis[0] == 1:
+        points[:, 0] = np.abs(points[:, 0])
+    kept = np.ones(SAMPLES, dtype=bool)
+    for terms in (*(terms_of(block.poly, Fraction(1)) for block in blocks), form):
+        top, values = max(map(abs, terms.values())), np.zeros(SAMPLES)
+        for m, c in terms.items():
+            i, j = place[m]
+            values += float(c / top) * points[:, i] * points[:, j]
+        kept &= values >= 0 if terms is not form else values < -MARGIN
+    return bool(kept.any())
+
+
 @dataclass
 class InnerProgram(SquaresProgram):
     """A program whose matrices are all definite: those of its first `count` blocks after the goal
@@ -518,9 +553,14 @@ def is_vertex(place: Sequence[int], degrees: Sequence[int]) -> bool:
     return all(k in (0, n) for k, n in zip(place, degrees))
 
 
-def search_forms(state: State, ring: Ring, budget: Budget, halvings: int = HALVINGS) -> Node | None:
+def search_forms(
+    state: State, ring: Ring, budget: Budget, coupled: bool = True, halvings: int = HALVINGS
+) -> Node | None:
     """A node for a state one of whose strict facts is -Q > 0, with a quadratic form Q >= 0 in a box
-    of parameters; None where none was found.
+    of parameters; None where none was found.  Not `coupled`: of the last such fact alone, by facts
+    without parameters.
+
+    Raises Exhausted where the budget ends.
     """
     if state.closed:
         return ("close",)
@@ -532,15 +572,15 @@ def search_forms(state: State, ring: Ring, budget: Budget, halvings: int = HALVI
         for k, f in enumerate(problem.facts)
         if f.strict and (k == last or total_degree(f.poly) > 1)
     ]
-    for goal in goals[: -MOST_GOALS - 1 : -1]:
+    for goal in goals[::-1][: MOST_GOALS if coupled else 1]:
         form = QuadraticForm(problem, goal)
-        node = form.node(budget)
+        node = form.node(budget, coupled)
         if node is not None:
             return node
         if form.halving and halvings:
             nodes = list[Node]()
             for case in state.by_sign(form.halving):
-                part = search_forms(case, ring, budget, halvings - 1)
+                part = search_forms(case, ring, budget, coupled, halvings - 1)
                 if part is None:
                     break
                 nodes.append(part)
