@@ -313,10 +313,11 @@ def search_map_rule(
             return {"unknown": f"it rests on {name}, which is not certified"}
     for name, premise in checker.premises_of(statement, known).items():
         proof = None
-        for effort in (1, 2, SQUARED):
+        for effort, share in ((1, 4), (2, 1), (SQUARED, 1)):
+            part = Budget(budget // share)
             try:
                 proof = proof or search_proof(
-                    premise, known, Budget(budget), effort=effort, hints=(hints or {}).get(name)
+                    premise, known, part, effort=effort, hints=(hints or {}).get(name)
                 )
             except Exhausted:
                 continue

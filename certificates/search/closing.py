@@ -45,6 +45,8 @@ CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
 MOST_FOR_BOTH = 9  # facts
+FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
+AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
 
@@ -191,9 +193,10 @@ class Closing:
             return ("close",)
         rounded, inside = self.rounded(state)
         problem = self.problem(inside)
-        node = close_by_equations(problem) or search(
-            problem, FIRST if self.effort else QUICK, self.budget
-        )
+        node = close_by_equations(problem)
+        factors = two_factors(problem) if 1 < self.effort < SQUARED and node is None else []
+        node = node or (self.by_factors(inside, factors, depth) if factors else None)
+        node = node or search(problem, FIRST if self.effort else QUICK, self.budget)
         if node is None and self.effort == SQUARED:
             programs = programs_of_facts(self.problem(inside, True), self.budget)
             node = search_squares(programs, self.budget)
@@ -202,9 +205,7 @@ class Closing:
             and self.effort
             and (state.context.integers or not has_interior_point(problem, self.budget))
         ):
-            factors = two_factors(problem)
-            node = self.by_factors(inside, factors, depth) if factors else None
-            node = node or self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
+            node = self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
         return wrapped(rounded, node)
 
     def by_factors(self, state: State, factors: Sequence[str], depth: int) -> Node | None:
@@ -243,7 +244,7 @@ class Closing:
         cases by sign.
         """
         lemmas: list[Lemma] = []
-        node = search_orthant(problem, self.budget)
+        node = search_orthant(problem, FEW, self.budget) if self.effort > 1 else None
         if node is not None:
             return node
         for kind in ("integers", "factors", "", "variables")[: 3 + (self.effort > 1)]:
@@ -265,14 +266,12 @@ class Closing:
                     break
                 problem = self.problem(state)
             if len(lemmas) > before:
-                node = (
-                    close_by_equations(problem)
-                    or self.usual(problem, True)
-                    or search_orthant(problem, self.budget)
-                )
+                node = close_by_equations(problem) or self.usual(problem, True)
                 if node is not None:
                     return under(lemmas, node)
         node = search(problem, TRIPLES, self.budget) if self.effort > 1 and depth < DEPTH else None
+        if node is None and self.effort > 1 and self.budget.left > AMPLE:
+            node = search_orthant(problem, MANY, self.budget)
         if node is None and self.effort > 1 and depth < DEPTH:
             node = self.split(state, problem, depth)
         if node is None and self.effort > 1 and depth == 0:
