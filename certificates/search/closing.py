@@ -45,6 +45,7 @@ CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
 MOST_FOR_BOTH = 9  # facts
+MOST_SIGNS = 15  # of factors of equations below one another
 FEW, MANY = 150, 1200  # columns of a program in coordinates, before and after signs are sought
 AMPLE = 500_000  # units of work, with which the larger of them is solved
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
@@ -208,10 +209,14 @@ class Closing:
             node = self.usual(problem, False) or self.with_lemmas(inside, problem, depth)
         return wrapped(rounded, node)
 
-    def by_factors(self, state: State, factors: Sequence[str], depth: int) -> Node | None:
+    def by_factors(
+        self, state: State, factors: Sequence[str], depth: int, level: int = 0
+    ) -> Node | None:
         """Cases by the signs of the two factors of an equation, as of that of sqrt(term^2): in each
         of them one is 0, and the same for the next equation.
         """
+        if level > MOST_SIGNS:
+            return None
         first, *rest = factors
         nodes: list[Node | None] = []
         for place, case in enumerate(state.by_sign(first)):
@@ -221,10 +226,14 @@ class Closing:
                 problem.divide()
                 node = close_by_equations(problem) or search(problem, QUICK, self.budget)
                 if node is None and place != 1 and rest:
-                    node = self.by_factors(case, rest, depth)
+                    node = self.by_factors(case, rest, depth, level + 1)
                 elif node is None:
                     more = two_factors(problem)
-                    node = self.by_factors(case, more, depth) if more else self.leaf(case, depth)
+                    node = (
+                        self.by_factors(case, more, depth, level + 1)
+                        if more
+                        else self.leaf(case, depth)
+                    )
             if node is None:
                 return None
             nodes.append(node)

@@ -81,9 +81,9 @@ def power(factors: Factors, exponent: int) -> Factors:
 
 
 def implies(equation: fmpz_mpoly, other: fmpz_mpoly) -> bool:
-    """Whether the other one is a multiple with more terms."""
+    """Whether the other one is a multiple of higher degree."""
     return (
-        len(equation) < len(other)
+        total_degree(equation) < total_degree(other)
         and all(map(le, equation.degrees(), other.degrees()))
         and not divmod(other, equation)[1]
     )
