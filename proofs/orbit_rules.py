@@ -17,7 +17,6 @@ from juggleproof.certificates import checker
 from juggleproof.certificates.algebra.numbers import AlgebraicNumber
 from juggleproof.certificates.definitions import formula_of, term_of
 from juggleproof.certificates.language import (
-    RESTING,
     ClaimError,
     MapRule,
     bounds_of,
@@ -85,7 +84,9 @@ class Lines:
 
     def roots(self) -> list[str]:
         """The root lines of this statement, and of those that it rests on."""
-        inner = [root for key, _ in self.rows if key in RESTING for root in self.named(key).roots()]
+        inner = [
+            root for key, _ in self.rows if key in checker.NAMED for root in self.named(key).roots()
+        ]
         return [*dict.fromkeys([*inner, *self.all("root")])]
 
     def point(self) -> str:
@@ -468,7 +469,7 @@ def premises_of(
     Raises ClaimError for a name that is not stated before it, or is that of another kind of rule;
     and for lines of which the checker makes no premises.
     """
-    for keyword, name in ((key, text) for key, text in rule.lines if key in RESTING):
+    for keyword, name in ((key, text) for key, text in rule.lines if key in checker.NAMED):
         if name not in stated:
             similar = get_close_matches(name, stated, 1)
             hint = f"did you mean {similar[0]}?" if similar else "state it first, in this claim"

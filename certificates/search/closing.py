@@ -35,7 +35,7 @@ from juggleproof.certificates.search.psatz.orthant import search_orthant
 from juggleproof.certificates.search.psatz.problem import Problem, has_interior_point
 from juggleproof.certificates.search.psatz.sums_of_squares import programs_of_facts, search_squares
 from juggleproof.certificates.states import State
-from juggleproof.certificates.work import Budget
+from juggleproof.certificates.work import Budget, Exhausted
 
 # -------------------------------------------------------------------------------------------------
 # Closing a state: leaves by positive combinations, disjunctions by cases, integers by rounding,
@@ -45,6 +45,7 @@ DEPTH = 2  # of cases by sign below one another
 CANDIDATES = 6
 BRANCHES = 3  # candidates that are followed further at the first level; one less at the next
 SQUARED = 3  # the effort at which leaves are closed by sums of squares, without cases by sign
+FEW, MANY = 8000, 25_000  # units of work for quadratic forms, before cases by sign and after
 MOST_FOR_BOTH = 9  # facts
 BOTH: tuple[Stage, ...] = (*FIRST, (2, 2, ""))
 
@@ -207,8 +208,9 @@ class Closing:
             node = (
                 (self.by_factors(inside, factors, depth) if factors else None)
                 or self.usual(problem, False)
-                or (None if depth else search_forms(inside, problem.ring, self.budget))
+                or (None if depth else self.forms(inside, False))
                 or self.with_lemmas(inside, problem, depth)
+                or (None if depth or self.effort == 1 else self.forms(inside, True))
             )
         return wrapped(rounded, node)
 
@@ -233,6 +235,19 @@ class Closing:
                 return None
             nodes.append(node)
         return sign_node(first, nodes)
+
+    def forms(self, state: State, units: int) -> Node | None:
+        """Quadratic forms with parameters in a box, within this work."""
+
+    def forms(self, state: State, coupled: bool) -> Node | None:
+        """Quadratic forms with parameters in a box, with little work where not `coupled`."""
+        part, ring = self.budget.part(MANY if coupled else FEW), self.problem(state).ring
+        try:
+            return search_forms(state, ring, part, coupled)
+        except Exhausted:
+            if self.budget.left < 0:
+                raise
+            return None
 
     def usual(self, problem: Problem, again: bool) -> Node | None:
         """Products of two facts, and single facts times squares; then the same with facts divided

@@ -22,6 +22,7 @@ MODULES = {
     "explain": "juggleproof.proofs.command.explain",
     "errata": "juggleproof.proofs.command.show",
     "bound": "juggleproof.proofs.command.bound",
+    "stability": "juggleproof.proofs.command.stability",
     "export": "juggleproof.proofs.command.show",
     "report": "juggleproof.proofs.command.report",
     "simulate": "juggleproof.proofs.command.simulate",
@@ -215,6 +216,24 @@ def build_parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="write statements and certificates there, as `check` reads them",
     )
+    stability = commands.add_parser(
+        "stability", help="of a map that is given alone: find and prove stability, or refute it"
+    )
+    stability.add_argument(
+        "file",
+        type=Path,
+        metavar="FILE",
+        help="lines state, space, piece, with over and domain of its parameters; or a file of"
+        " claims (.py), each of whose maps is settled",
+    )
+    stability.add_argument("--tried", action="store_true", help="also tell what was tried")
+    stability.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="write the statements as claims (.py), and their certificates, there",
+    )
     export = commands.add_parser("export", help="statements for other tools")
     export.add_argument("format", choices=["smt2", "coq", "latex"])
     export.add_argument(
@@ -326,7 +345,7 @@ def _leave_standard_output() -> None:
 
 def _dispatch(parsed: argparse.Namespace) -> int:
     """Loads the module of the command, and no other, and runs it."""
-    if parsed.command == "bound":
+    if parsed.command in ("bound", "stability"):
         # before numpy: the matrices are small, and sums in one order repeat
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if parsed.command == "certify":  # to load what makes reports takes a second

@@ -89,7 +89,8 @@ def theorem_line(
             if decided
             else ""
         )
-        + "\n         `make coq` in a checkout proves the same from the definition of the map alone"
+        + "\n         `make coq` in a checkout proves the same from the definition of the map"
+        "\n         alone, and from flight and impact that ball and table settle in continuous time"
     )
 
 

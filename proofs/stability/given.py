@@ -302,9 +302,9 @@ def _never(guard: str) -> bool:
     )
 
 
-def of_rule(rule: MapRule) -> Map:
-    """The map of a map rule."""
-    return read_rows(rule.name.rpartition("/")[2], rule.rows)
+def of_rule(rule: MapRule, name: str = "") -> Map:
+    """The map of a map rule, under its own name or this one."""
+    return read_rows(name or rule.name.rpartition("/")[2], rule.rows)
 
 
 def _readable(text: str) -> str:

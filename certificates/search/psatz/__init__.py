@@ -10,4 +10,6 @@ Annalen 207 (1974).  The files, each after those that it imports:
 - `lifting`: identities between them as nodes over the facts of the state
 - `linear`: products of facts, by a linear program
 - `sums_of_squares`: facts times sums of squares, by a semidefinite program
+- `parameters`: which variables of a goal are parameters, and products of their bounds
+- `forms`: quadratic forms with parameters in a box, by Bernstein coefficients
 """

@@ -1,0 +1,95 @@
+"""`juggleproof stability`: the map alone is given; what its orbits do is found and certified."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from juggleproof.certificates.language import ClaimError, MapRule
+from juggleproof.certificates.store import certificate_lines, comment, write_file, write_store
+from juggleproof.proofs.command.outputs import busy
+from juggleproof.proofs.orbit_rules import conclusion
+from juggleproof.proofs.run import claims_of_file
+from juggleproof.proofs.stability.claiming import as_claims
+from juggleproof.proofs.stability.given import Map, of_rule, read_file
+from juggleproof.proofs.stability.search import Outcome, search_stability
+
+HEADS = {
+    "exactly": "proved",
+    "stable": "proved",
+    "refuted": "refuted",
+    "unknown": "unknown",
+}
+
+
+def command(parsed: argparse.Namespace) -> int:
+    """Settles every map of the file; 0 where each has a fixed point that is certified to be stable
+    and to attract every state, else 1.
+
+    Raises ClaimError, one line, for what cannot be read or written.
+    """
+    code = 0
+    for count, system in enumerate(maps_of(parsed.file)):
+        if count:
+            print()
+        with busy("searching"):
+            found = search_stability(system)
+        print("\n".join(lines_of(system, found, parsed.tried)))
+        if parsed.output is not None:
+            write(parsed.output, system.name, found)
+        code = max(code, int(HEADS[found.verdict] != "proved"))
+    return code
+
+
+def maps_of(path: Path) -> list[Map]:
+    """The maps of a text file, or of the claims of a Python file."""
+    if path.suffix != ".py":
+        return [read_file(path)]
+    maps = []
+    for one in claims_of_file(path):
+        for rule in map_rules(one.read):
+            maps.append(of_rule(rule, one.id))
+    if not maps:
+        raise ClaimError(
+            f"{path}: no claim returns a map; return a MapRule with `state` and `piece`"
+        )
+    return maps
+
+
+def map_rules(read: Callable[..., object]) -> Iterator[MapRule]:
+    """The maps among the statements that a claim returns."""
+    body = read()
+    for one in body if isinstance(body, list) else [body]:
+        if isinstance(one, MapRule) and "piece" in dict(one.rows):
+            yield one
+
+
+def lines_of(system: Map, found: Outcome, tried: bool) -> Iterator[str]:
+    """What was found, as lines."""
+    name = system.name
+    texts = {rule.name: MapRule(rule.name, rule.rows).text() for rule in found.proof.rules}
+    sentence = found.sentence or "no fixed point was certified to be stable, or not to be"
+    yield f"{HEADS[found.verdict]:8} {name}: {sentence}"
+    for rule in found.proof.rules:
+        kind = found.proof.known[rule.name].kind
+        yield f"  {rule.name.rpartition('/')[2]}: {conclusion(kind, rule.name, texts)}"
+    if tried or found.verdict == "unknown":
+        yield "tried"
+        yield from (f"  {line}" for line in found.tried)
+    size = len(certificate_lines(found.proof.certificates))
+    yield f"checked  {len(texts)} statements, {size} bytes of certificates"
+
+
+def write(folder: Path, name: str, found: Outcome) -> None:
+    """Writes the statements as a file of claims, and the certificates beside it as `certify` does.
+
+    Raises ClaimError where the folder cannot be written.
+    """
+    path = folder / f"{name.replace('-', '_')}.py"
+    write_file(path, as_claims(name, found).encode())
+    blocks = [comment(found.sentence), *(rule.text() for rule in found.proof.rules)]
+    statements = "\n\n".join(block for block in blocks if block) + "\n"
+    store = path.with_suffix(".certificates")
+    write_store(store, statements, {name: found.proof.certificates})
+    print(f"written  {path}, {store}; `juggleproof explain {name} {path}` tells it whole")

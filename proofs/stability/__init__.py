@@ -1,0 +1,16 @@
+"""Stability of a map that is given alone: its fixed point, a function that falls, and for which
+parameters, or an orbit that stays away; nothing here has to be believed, since all that is said is
+certified by the checker.
+
+In reading order, each importing those before it only:
+
+- `given`: the map, read from a file or a map rule; text evaluated in floats, rationals and SymPy.
+- `samples`: samples of parameters and states; points that move with the parameters.
+- `points`: fixed points by elimination, and their multipliers.
+- `domains`: for which parameters a fixed point can be stable.
+- `values`: Lyapunov functions by linear programs on samples, and the constants of their rule.
+- `norms`: polytope norms that piecewise affine maps contract.
+- `refuting`: periodic orbits in exact terms, and functions that grow.
+- `search`: all of it, in order, and the outcome.
+- `claiming`: the same as a claim of one's own.
+"""

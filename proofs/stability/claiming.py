@@ -1,0 +1,55 @@
+"""Stability as a claim of one's own, and as a file of claims."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from juggleproof.certificates.language import ClaimError, MapRule
+from juggleproof.proofs.stability.given import of_rule
+from juggleproof.proofs.stability.search import Outcome, search_stability
+
+
+def stability(rule: MapRule, point: Sequence[str] = ()) -> list[MapRule]:
+    """The statements that the map's fixed point is stable and attracts every state, as they are
+    found: what a claim returns whose map alone is given.
+
+    `point` names the fixed point by its terms, where there are several.  Raises ClaimError, one
+    line, where the point is not found to be stable.
+
+    >>> from juggleproof.proofs.stability.claiming import stability
+    >>> tent = MapRule("map", (("over", "a"), ("domain", "0 < a and a < 1"), ("state", "x"),
+    ...                        ("space", "0 <= x and x <= 1"), ("piece", "a*min(x, 1 - x)")))
+    >>> [one.name for one in stability(tent)]
+    ['map', 'lyapunov']
+    """
+    system = of_rule(rule)
+    found = search_stability(replace(system, point=tuple(point)) if point else system)
+    if found.verdict not in ("exactly", "stable"):
+        what = found.sentence or "no fixed point was found to be stable"
+        raise ClaimError(f"{rule.name}: {what}; `juggleproof stability` tells what was tried")
+    return [replace(one, name=one.name.rpartition("/")[2]) for one in found.proof.rules]
+
+
+def as_claims(name: str, found: Outcome) -> str:
+    """The statements as a file of claims, which `certify`, `explain` and `export` take."""
+    rows = []
+    for rule in found.proof.rules:
+        rows += [f'        MapRule("{rule.name.rpartition("/")[2]}", (']
+        rows += [f"            {line!r}," for line in rule.rows]
+        rows += ["        )),"]
+    says = found.sentence.replace('"', "'") or "What is known of the map."
+    return "\n".join(
+        [
+            "from juggleproof import MapRule, claim",
+            "",
+            "",
+            f'@claim("{name}")',
+            f"def {name.replace('-', '_')}_is_settled():",
+            f'    """{says[:1].upper() + says[1:]}."""',
+            "    return [",
+            *rows,
+            "    ]",
+            "",
+        ]
+    )
